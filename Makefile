@@ -1,0 +1,43 @@
+# Acus. `make demo` and `make test` do everything on a fresh Debian or Ubuntu machine.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+
+.PHONY: setup demo run test check bench docs-pictures wheel clean
+
+setup: $(STAMP)  ## make .venv and install what the system lacks
+
+$(STAMP): pyproject.toml constraints.txt tools/install-system
+	./tools/install-system
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
+	touch $(STAMP)
+
+demo: setup  ## the trainer on the built-in patient; with no display a whole exercise, written to out/demo
+	$(BIN)/acus demo $(DEMO)
+
+run: setup  ## the trainer
+	$(BIN)/acus run
+
+test: setup  ## the tests (no display and no network needed)
+	./tools/with-display $(BIN)/python -m pytest -q $(TEST)
+
+check: setup  ## style, types, structure
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+bench: setup  ## every figure against its peer, in one run
+	./tools/with-display $(BIN)/python -m tests.bench $(BENCH)
+
+docs-pictures: setup  ## the pictures of README and docs
+	./tools/with-display $(BIN)/python -m tools.docs_pictures
+
+wheel: setup  ## a wheel that runs anywhere
+	$(BIN)/python -m build --wheel
+
+clean:
+	rm -rf $(VENV) build dist out

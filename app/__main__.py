@@ -1,0 +1,35 @@
+"""The command line: `acus …` and `python -m app …` are the same thing."""
+
+import sys
+
+import typer
+
+from app.commands import build
+from app.core.errors import AcusError
+
+
+def main() -> None:
+    """Run the command line; a bad input is one line on stderr and exit code 2."""
+    try:
+        build()(standalone_mode=False)
+    except typer.Exit as stop:
+        sys.exit(stop.exit_code)
+    except AcusError as error:
+        fail(str(error))
+    except KeyboardInterrupt:
+        sys.exit(130)
+    except Exception as error:  # typer raises click's usage errors; click is typer's own part
+        message = getattr(error, "format_message", None)
+        if message is None:
+            raise
+        fail(message())
+
+
+def fail(message: str) -> None:
+    """End with one line on stderr and exit code 2."""
+    sys.stderr.write(f"acus: {' '.join(message.split())}\n")
+    sys.exit(2)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""Rigid transforms, frames, units, clock, latest value, state vector, errors, configuration."""

@@ -1,0 +1,53 @@
+"""Array types and the few checks that every room needs on arrays it publishes or receives."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.core.errors import NumericalError
+
+FloatArray = NDArray[np.float64]
+"""Double precision array; shapes stand in the docstrings."""
+
+
+def frozen(values: ArrayLike, shape: tuple[int, ...] | None = None, name: str = "array") -> FloatArray:
+    """Return a read-only double precision copy.
+
+    Raises:
+        NumericalError: if the shape is not `shape`, or a value is NaN or infinite.
+    """
+    array = np.array(values, dtype=np.float64)
+    if shape is not None and array.shape != shape:
+        raise NumericalError(f"{name} has shape {array.shape}; {shape} is needed")
+    if not np.isfinite(array).all():
+        raise NumericalError(f"{name} is not finite: {array.tolist()}")
+    array.setflags(write=False)
+    return array
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """Mark an array read-only and hand it back (no copy)."""
+    array.setflags(write=False)
+    return array
+
+
+def unit(vector: ArrayLike, name: str = "vector") -> FloatArray:
+    """Return `vector` at length one.
+
+    Raises:
+        NumericalError: if it is not finite or too short to have a direction.
+    """
+    array = np.asarray(vector, dtype=np.float64)
+    scale = float(np.abs(array).max(initial=0.0))
+    if not np.isfinite(scale) or scale < 1e-300:
+        raise NumericalError(f"{name} {array.tolist()} has no direction")
+    array = array / scale  # first by the largest entry: the norm neither overflows nor underflows
+    result: FloatArray = array / np.linalg.norm(array)
+    return result
+
+
+def angle_between(a: ArrayLike, b: ArrayLike) -> float:
+    """Angle between two 3-vectors [rad], accurate near 0 and π (atan2, never acos)."""
+    u, v = unit(a), unit(b)
+    return float(np.arctan2(np.linalg.norm(np.cross(u, v)), np.dot(u, v)))

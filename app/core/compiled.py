@@ -1,0 +1,65 @@
+"""Compiled kernels: where they are cached and the one signature of everything in a tick.
+
+Import `njit` from here, never from numba: the cache folder must be set before numba is loaded.
+Numba's own cache looks at the file of a kernel only, not at the files it calls; the folder
+therefore carries a digest of all rooms that hold kernels, so that an edit anywhere in them is
+never run from a stale build.
+"""
+
+import hashlib
+import os
+import shutil
+from pathlib import Path
+from typing import Any
+
+from app.core import paths
+
+_ROOMS = ("core", "mechanisms", "imaging", "simulation", "tracking", "device")
+_KEPT_BUILDS = 4
+
+
+def _digest() -> str:
+    app = Path(__file__).resolve().parents[1]
+    digest = hashlib.sha256()
+    for room in _ROOMS:
+        for file in sorted((app / room).rglob("*.py")):
+            digest.update(str(file.relative_to(app)).encode() + file.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _cache_folder() -> Path:
+    kernels = paths.cache() / "kernels"
+    folder = kernels / _digest()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        os.utime(folder)
+        old = sorted(kernels.iterdir(), key=lambda path: path.stat().st_mtime)[:-_KEPT_BUILDS]
+        for path in old:
+            shutil.rmtree(path, ignore_errors=True)
+    except OSError:
+        pass  # a read-only home: numba falls back to compiling in memory
+    return folder
+
+
+os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
+
+import numba  # noqa: E402  (after the cache folder is set)
+from numba import types  # noqa: E402
+
+STAGE_SIGNATURE = types.void(types.float64[::1], types.float64[::1])
+"""`void(state[::1], parameters[::1])`: every stage of a tick. Memory of a stage lives in its own
+parameters array."""
+
+STAGE_TYPE = types.FunctionType(STAGE_SIGNATURE)
+"""Type of a stage as a first-class function, for the loop's table."""
+
+
+def njit(*args: Any, **options: Any) -> Any:
+    """`numba.njit` that releases the interpreter lock, caches, and divides as C does (no raising)."""
+    options = {"nogil": True, "cache": True, "error_model": "numpy"} | options
+    return numba.njit(*args, **options)
+
+
+def stage(function: Any) -> Any:
+    """Compile a function of (state, parameters) as a stage of the tick, cached on disk."""
+    return njit(STAGE_SIGNATURE)(function)

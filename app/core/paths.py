@@ -1,0 +1,43 @@
+"""Where things live: resources in the package, everything written in per-user folders."""
+
+import os
+from pathlib import Path
+
+import platformdirs
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+
+
+def resources() -> Path:
+    """Folder of the shipped resources: inside the wheel, or beside `app/` in a checkout."""
+    inside = _PACKAGE / "resources"
+    return inside if inside.is_dir() else _PACKAGE.parent / "resources"
+
+
+def in_checkout() -> bool:
+    """Whether the program runs from a source tree."""
+    return (_PACKAGE.parent / "pyproject.toml").is_file()
+
+
+def sessions() -> Path:
+    """Folder of recorded attempts: `ACUS_SESSIONS`, else `sessions/` of a checkout, else the user's."""
+    if chosen := os.environ.get("ACUS_SESSIONS"):
+        return Path(chosen)
+    return _PACKAGE.parent / "sessions" if in_checkout() else data() / "sessions"
+
+
+def data() -> Path:
+    """Per-user data folder (`ACUS_DATA` overrides)."""
+    return Path(os.environ.get("ACUS_DATA") or platformdirs.user_data_dir("acus", appauthor=False))
+
+
+def cache() -> Path:
+    """Per-user cache folder for what can be made again (`ACUS_CACHE` overrides)."""
+    return Path(os.environ.get("ACUS_CACHE") or platformdirs.user_cache_dir("acus", appauthor=False))
+
+
+def settings() -> Path:
+    """Per-user settings folder (`ACUS_SETTINGS` overrides)."""
+    return Path(
+        os.environ.get("ACUS_SETTINGS") or platformdirs.user_config_dir("acus", appauthor=False)
+    )

@@ -1,0 +1,136 @@
+"""Rigid transforms: frozen values that compose and apply with `@`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from app.core.arrays import FloatArray, frozen, unit
+from app.core.errors import NumericalError
+from app.core.rotation import rotation_exp, rotation_log, skew
+
+_ORTHONORMAL_TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RigidTransform:
+    """Element of SE(3): `p_to = rotation @ p_from + translation`.
+
+    Attributes:
+        rotation: rotation matrix, shape (3, 3), read-only.
+        translation: origin of the source frame in the target frame [m], shape (3,), read-only.
+
+    Raises:
+        NumericalError: if the matrix is not a rotation to 1e-6, or a value is not finite.
+    """
+
+    rotation: FloatArray
+    translation: FloatArray
+
+    def __post_init__(self) -> None:
+        rotation = frozen(self.rotation, (3, 3), "rotation")
+        if np.abs(rotation @ rotation.T - np.eye(3)).max() > _ORTHONORMAL_TOLERANCE:
+            raise NumericalError(f"rotation {rotation.tolist()} is not orthonormal")
+        if np.linalg.det(rotation) < 0.0:
+            raise NumericalError(f"rotation {rotation.tolist()} is a reflection")
+        object.__setattr__(self, "rotation", rotation)
+        object.__setattr__(self, "translation", frozen(self.translation, (3,), "translation"))
+
+    @classmethod
+    def identity(cls) -> RigidTransform:
+        """Return the transform that changes nothing."""
+        return cls(np.eye(3), np.zeros(3))
+
+    @classmethod
+    def from_rotation(cls, rotation: ArrayLike) -> RigidTransform:
+        """Rotate about the origin."""
+        return cls(np.asarray(rotation), np.zeros(3))
+
+    @classmethod
+    def from_translation(cls, translation: ArrayLike) -> RigidTransform:
+        """Shift without rotating."""
+        return cls(np.eye(3), np.asarray(translation))
+
+    @classmethod
+    def from_matrix(cls, matrix: ArrayLike) -> RigidTransform:
+        """Read a homogeneous matrix, shape (4, 4).
+
+        Raises:
+            NumericalError: if the last row is not (0, 0, 0, 1) or the block is not a rotation.
+        """
+        array = frozen(matrix, (4, 4), "matrix")
+        if np.abs(array[3] - (0.0, 0.0, 0.0, 1.0)).max() > _ORTHONORMAL_TOLERANCE:
+            raise NumericalError(f"last row of a rigid transform is {array[3].tolist()}")
+        return cls(array[:3, :3], array[:3, 3])
+
+    @classmethod
+    def exp(cls, twist: ArrayLike) -> RigidTransform:
+        """Exponential map of a twist (translational part first), shape (6,)."""
+        xi = frozen(twist, (6,), "twist")
+        return cls(rotation_exp(xi[3:]), _left_jacobian(xi[3:]) @ xi[:3])
+
+    def log(self) -> FloatArray:
+        """Twist whose exponential this is, shape (6,); the rotation angle lies in [0, π]."""
+        omega = rotation_log(self.rotation)
+        rho = np.linalg.solve(_left_jacobian(omega), self.translation)
+        return np.concatenate([rho, omega])
+
+    def matrix(self) -> FloatArray:
+        """Homogeneous matrix, shape (4, 4)."""
+        matrix = np.eye(4)
+        matrix[:3, :3] = self.rotation
+        matrix[:3, 3] = self.translation
+        return matrix
+
+    def inverse(self) -> RigidTransform:
+        """Return the transform back."""
+        return RigidTransform(self.rotation.T, -self.rotation.T @ self.translation)
+
+    def rotate(self, vectors: ArrayLike) -> FloatArray:
+        """Turn directions, shape (3,) or (n, 3), without shifting them."""
+        result: FloatArray = np.asarray(vectors, dtype=np.float64) @ self.rotation.T
+        return result
+
+    @overload
+    def __matmul__(self, other: RigidTransform) -> RigidTransform: ...
+    @overload
+    def __matmul__(self, other: ArrayLike) -> FloatArray: ...
+    def __matmul__(self, other: RigidTransform | ArrayLike) -> RigidTransform | FloatArray:
+        """Compose with a transform, or apply to points of shape (3,) or (n, 3)."""
+        if isinstance(other, RigidTransform):
+            return RigidTransform(
+                self.rotation @ other.rotation,
+                self.rotation @ other.translation + self.translation,
+            )
+        return self.rotate(other) + self.translation
+
+
+def rotation_between(start: ArrayLike, end: ArrayLike) -> FloatArray:
+    """Smallest rotation that turns direction `start` onto `end`, shape (3, 3).
+
+    For opposite directions, where the axis is free, any axis perpendicular to `start` serves.
+    """
+    u, v = unit(start), unit(end)
+    if np.dot(u, v) < 0.0:  # via the mirrored end: the half turn first, so that 1 + u·v never nears 0
+        axis = _any_perpendicular(u)
+        half_turn = 2.0 * np.outer(axis, axis) - np.eye(3)
+        return rotation_between(-u, v) @ half_turn
+    w = skew(np.cross(u, v))
+    return np.eye(3) + w + w @ w / (1.0 + float(np.dot(u, v)))
+
+
+def _any_perpendicular(u: FloatArray) -> FloatArray:
+    return unit(np.cross(u, np.eye(3)[int(np.argmin(np.abs(u)))]))
+
+
+def _left_jacobian(omega: FloatArray) -> FloatArray:
+    angle = float(np.linalg.norm(omega))
+    w = skew(omega)
+    if angle < 1e-4:  # Taylor: the closed form loses digits as 1 - cos and angle - sin cancel
+        return np.eye(3) + w * (0.5 - angle**2 / 24.0) + w @ w * (1.0 / 6.0 - angle**2 / 120.0)
+    b = 2.0 * np.sin(0.5 * angle) ** 2 / angle**2
+    c = (angle - np.sin(angle)) / angle**3
+    return np.eye(3) + b * w + c * (w @ w)

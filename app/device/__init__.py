@@ -1,0 +1,1 @@
+"""The haptic robot: control and links."""

@@ -1,0 +1,1 @@
+"""Virtual fixtures, force limits, safety and the real-time loop."""

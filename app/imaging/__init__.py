@@ -1,0 +1,1 @@
+"""CT in: series reading, volumes, slicing, windowing and the phantom patient."""

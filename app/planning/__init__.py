@@ -1,0 +1,1 @@
+"""Plans, placement of the patient in the robot frame, reach."""

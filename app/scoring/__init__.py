@@ -1,0 +1,1 @@
+"""Metrics, tolerance bands and the score of an attempt."""

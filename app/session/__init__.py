@@ -1,0 +1,1 @@
+"""The attempt: state machine, recorder, replay and store."""

@@ -1,0 +1,1 @@
+"""Scene compiler, effects, the simulated robot and the scripted trainee."""

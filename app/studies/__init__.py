@@ -1,0 +1,1 @@
+"""Accuracy against time: one study per file, one runner, one plot."""

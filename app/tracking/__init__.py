@@ -1,0 +1,1 @@
+"""Cameras, marker extraction, stereo and the tracker thread."""

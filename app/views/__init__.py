@@ -1,0 +1,1 @@
+"""Everything Qt, VTK and pyqtgraph."""
