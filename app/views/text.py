@@ -1,0 +1,40 @@
+"""Every string the user sees passes through here to Qt's translation."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QCoreApplication, QLocale, QTranslator
+
+from app.core import paths
+
+CONTEXT = "Acus"
+"""The one translation context: the same English text has the same meaning everywhere."""
+
+
+def tr(text: str, **values: object) -> str:
+    """Return `text` in the user's language, its `{names}` filled with `values`.
+
+    Called when the string is needed, never at import: the translation is loaded after the modules.
+    `pyside6-lupdate -tr-function-alias tr` finds the calls; the text must therefore be a literal.
+    """
+    translated = QCoreApplication.translate(CONTEXT, text)
+    return translated.format(**values) if values else translated
+
+
+def translations_folder() -> Path:
+    """Folder of the shipped `acus_<language>.qm` files."""
+    return paths.resources() / "translations"
+
+
+def install_translation(
+    application: QCoreApplication, locale: QLocale | None = None, folder: Path | None = None
+) -> bool:
+    """Load the translation of a locale (the system's by default) into the application.
+
+    Returns:
+        Whether one was found; English, the language of the source, needs none.
+    """
+    translator = QTranslator(application)
+    found = translator.load(
+        locale or QLocale.system(), "acus", "_", str(folder or translations_folder())
+    )
+    return found and application.installTranslator(translator)
