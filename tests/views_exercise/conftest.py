@@ -1,0 +1,18 @@
+"""One Qt application without a display for all tests of the exercise and debrief views."""
+
+import os
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtWidgets import QApplication
+
+
+@pytest.fixture(scope="session")
+def qt() -> Iterator[QApplication]:
+    """The one application of the process."""
+    application = QApplication.instance() or QApplication([])
+    assert isinstance(application, QApplication)
+    yield application
