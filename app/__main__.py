@@ -2,8 +2,6 @@
 
 import sys
 
-import typer
-
 from app.commands import build
 from app.core.errors import AcusError
 
@@ -11,9 +9,8 @@ from app.core.errors import AcusError
 def main() -> None:
     """Run the command line; a bad input is one line on stderr and exit code 2."""
     try:
-        build()(standalone_mode=False)
-    except typer.Exit as stop:
-        sys.exit(stop.exit_code)
+        code = build()(standalone_mode=False)
+        sys.exit(code if isinstance(code, int) else 0)
     except AcusError as error:
         fail(str(error))
     except KeyboardInterrupt:

@@ -1,0 +1,61 @@
+import pytest
+
+from app.core.configuration import Strict, load
+from app.core.errors import ConfigurationError
+from app.core.files import write_atomically
+
+
+class Probe(Strict):
+    rate_hz: float
+    name: str = "probe"
+
+
+def written(tmp_path, text):
+    path = tmp_path / "probe.yaml"
+    path.write_text(text)
+    return path
+
+
+def test_a_good_file_is_read(tmp_path):
+    assert load(written(tmp_path, "rate_hz: 1000\n"), Probe) == Probe(rate_hz=1000)
+
+
+@pytest.mark.parametrize(
+    ("text", "parts"),
+    [
+        ("rate_hz: fast\n", ["rate_hz", "'fast'", "number"]),
+        ("rate_hz: .nan\n", ["rate_hz", "finite"]),
+        ("rate_hz: 1\nrat: 2\n", ["rat", "not permitted"]),
+        ("rate_hz: 1\nrate_hz: 2\n", ["twice", "line 2"]),
+        ("rate_hz: [1\n", ["not valid YAML"]),
+        ("", ["(document)"]),
+        ("name: x\n", ["rate_hz", "required"]),
+        ("!!python/object/apply:os.system [ls]\n", ["not valid YAML"]),
+    ],
+)
+def test_a_bad_file_is_refused_naming_file_field_and_value(tmp_path, text, parts):
+    with pytest.raises(ConfigurationError) as caught:
+        load(written(tmp_path, text), Probe)
+    message = str(caught.value)
+    for part in ["probe.yaml", *parts]:
+        assert part.lower() in message.lower()
+    assert "\n" not in message
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(ConfigurationError, match=r"nothing\.yaml"):
+        load(tmp_path / "nothing.yaml", Probe)
+
+
+def test_a_failed_write_leaves_the_old_file_and_no_rubbish(tmp_path, monkeypatch):
+    path = tmp_path / "plan.json"
+    write_atomically(path, "old")
+    monkeypatch.setattr("os.fsync", _no_space)
+    with pytest.raises(OSError, match="no space"):
+        write_atomically(path, "new")
+    assert path.read_text() == "old"
+    assert [item.name for item in tmp_path.iterdir()] == ["plan.json"]
+
+
+def _no_space(_):
+    raise OSError("no space left")
