@@ -1,0 +1,23 @@
+"""What can go wrong with an attempt and its record."""
+
+from app.core.errors import AcusError
+
+
+class SessionError(AcusError):
+    """Root of the errors of an attempt, its record and its store."""
+
+
+class IllegalTransition(SessionError):
+    """An event that the attempt's state does not know; the message names the legal ones."""
+
+
+class RecordingError(SessionError):
+    """A record cannot be written (disk full, folder not writable, name already taken)."""
+
+
+class BrokenRecording(SessionError):
+    """A file that is not a readable record of an attempt; the message says why."""
+
+
+class SessionNotFound(SessionError):
+    """No session, or more than one, has this id."""

@@ -1,0 +1,136 @@
+"""The attempt as an explicit state machine: a table, a value and one pure function."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from math import isfinite
+from types import MappingProxyType
+from typing import Final
+
+from app.core.errors import NumericalError
+from app.session.errors import IllegalTransition
+
+
+class State(StrEnum):
+    """Where an attempt is."""
+
+    READY = "ready"
+    ALIGNING = "aligning"
+    INSERTING = "inserting"
+    HOLDING = "holding"
+    ENDED = "ended"
+    ABORTED = "aborted"
+
+
+class Event(StrEnum):
+    """What moves an attempt."""
+
+    BEGIN = "begin"
+    INSERT = "insert"
+    HOLD = "hold"
+    WITHDRAW = "withdraw"
+    END = "end"
+    ABORT = "abort"
+
+
+TABLE: Final[Mapping[tuple[State, Event], State]] = MappingProxyType(
+    {
+        (State.READY, Event.BEGIN): State.ALIGNING,
+        (State.READY, Event.ABORT): State.ABORTED,
+        (State.ALIGNING, Event.INSERT): State.INSERTING,
+        (State.ALIGNING, Event.END): State.ENDED,
+        (State.ALIGNING, Event.ABORT): State.ABORTED,
+        (State.INSERTING, Event.HOLD): State.HOLDING,
+        (State.INSERTING, Event.WITHDRAW): State.ALIGNING,
+        (State.INSERTING, Event.END): State.ENDED,
+        (State.INSERTING, Event.ABORT): State.ABORTED,
+        (State.HOLDING, Event.INSERT): State.INSERTING,
+        (State.HOLDING, Event.WITHDRAW): State.ALIGNING,
+        (State.HOLDING, Event.END): State.ENDED,
+        (State.HOLDING, Event.ABORT): State.ABORTED,
+    }
+)
+"""Every legal transition; nothing else is legal."""
+
+RUNNING: Final = frozenset({State.ALIGNING, State.INSERTING, State.HOLDING})
+"""States in which the attempt is being recorded."""
+
+FINAL: Final = frozenset({State.ENDED, State.ABORTED})
+"""States that nothing leaves."""
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """One attempt at one moment.
+
+    Attributes:
+        state: where it is.
+        since: when it came into this state [s].
+        began: when it began [s]; None while ready.
+        elapsed: completed time per state [s]; the present visit is not in it yet.
+        reason: why it was aborted; empty otherwise.
+    """
+
+    state: State = State.READY
+    since: float = 0.0
+    began: float | None = None
+    elapsed: Mapping[State, float] = field(default_factory=lambda: MappingProxyType({}))
+    reason: str = ""
+
+    @property
+    def running(self) -> bool:
+        """Whether it has begun and not finished."""
+        return self.state in RUNNING
+
+    @property
+    def finished(self) -> bool:
+        """Whether nothing can happen to it any more."""
+        return self.state in FINAL
+
+    def phases(self, now: float) -> dict[State, float]:
+        """Time spent in each running state up to `now` [s]."""
+        times = dict(self.elapsed)
+        if self.running:
+            times[self.state] = times.get(self.state, 0.0) + max(0.0, now - self.since)
+        return times
+
+    def duration(self, now: float) -> float:
+        """Time since the beginning [s]; stands still once finished, 0 before."""
+        if self.began is None:
+            return 0.0
+        return (self.since if self.finished else max(self.since, now)) - self.began
+
+
+def legal(state: State) -> tuple[Event, ...]:
+    """Return the events that `state` knows."""
+    return tuple(event for (origin, event) in TABLE if origin is state)
+
+
+def advance(attempt: Attempt, event: Event, time: float, reason: str = "") -> Attempt:
+    """Apply one event.
+
+    Args:
+        attempt: the attempt before.
+        event: what happens.
+        time: when [s]; may equal the last transition's time.
+        reason: why, for an abort.
+
+    Raises:
+        IllegalTransition: if the state does not know the event.
+        NumericalError: if the time is not finite or lies before the last transition.
+    """
+    target = TABLE.get((attempt.state, event))
+    if target is None:
+        names = ", ".join(legal(attempt.state)) or "none (the attempt is over: start a new one)"
+        raise IllegalTransition(f"'{event}' is not possible while {attempt.state}; possible: {names}")
+    first = attempt.state is State.READY
+    if not isfinite(time) or (not first and time < attempt.since):
+        raise NumericalError(f"'{event}' at {time} s lies before the last change at {attempt.since} s")
+    return replace(
+        attempt,
+        state=target,
+        since=time,
+        began=time if event is Event.BEGIN else attempt.began,
+        elapsed=MappingProxyType(attempt.phases(time)),
+        reason=reason if event is Event.ABORT else attempt.reason,
+    )

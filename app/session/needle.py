@@ -1,0 +1,184 @@
+"""The needle's pose from both of its sources: direction from the robot, depth from the cameras.
+
+tip = P_I + depth·d̂. The robot gives d̂ every tick; the cameras give the tip, whose component along
+d̂ from the fulcrum is the depth. Each source has its own clock, so the pose carries both ages.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray, read_only
+from app.session.ports import DeviceStatePort, FixPort
+
+ENCODER_LIMIT: Final = 0.1
+"""Age of the encoder values [s] from which the pose is not valid: the force is zero by then."""
+
+FRESH_LIMIT: Final = 0.1
+"""Age of a fix [s] up to which the depth counts as tracked (camera period and latency)."""
+
+HOLD_LIMIT: Final = 0.2
+"""Age of a fix [s] up to which its depth is held; then the model's depth takes over."""
+
+ORIENTATION_SIGMA: Final = 1.0e-4
+"""Standard deviation of the direction [rad]: one encoder count is 0.02° of needle, / √12."""
+
+RATE_SIGMA: Final = 0.02
+"""Unknown axial speed while a fix ages [m/s]: an ordinary insertion speed."""
+
+MODEL_SIGMA: Final = 0.03
+"""Standard deviation of the model's depth [m]: the needle slides freely in its tube, so the
+model only says where it would be (declared, not measured)."""
+
+DOWN: Final = read_only(np.array([0.0, 0.0, -1.0]))
+"""Direction of the vertical needle, hub to tip."""
+
+
+class DepthSource(StrEnum):
+    """Where the depth of a pose comes from."""
+
+    TRACKED = "tracked"
+    HELD = "held"
+    MODEL = "model"
+    NONE = "none"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NeedlePose:
+    """Pose of the needle in `world`, SI, always finite.
+
+    Attributes:
+        p_tip: tip [m], shape (3,), read-only.
+        axis: unit direction from hub to tip, shape (3,), read-only.
+        depth: tip beyond the fulcrum along the axis [m].
+        time: moment the pose stands for [s].
+        orientation_age: age of the encoder values [s].
+        depth_age: age of the depth [s]; the state's own age where the model gives it.
+        depth_source: where the depth comes from.
+        valid: whether direction and depth may be used; the depth is measured only if
+            `measured` says so too.
+        covariance: of the tip [m²], shape (3, 3), read-only.
+        reason: why the pose is not valid, one line; empty if it is.
+    """
+
+    p_tip: FloatArray
+    axis: FloatArray
+    depth: float
+    time: float
+    orientation_age: float
+    depth_age: float
+    depth_source: DepthSource
+    valid: bool
+    covariance: FloatArray
+    reason: str = ""
+
+    @property
+    def measured(self) -> bool:
+        """Whether the cameras vouch for the depth."""
+        return self.valid and self.depth_source in (DepthSource.TRACKED, DepthSource.HELD)
+
+
+def fuse(device: DeviceStatePort, fix: FixPort | None, now: float, last: NeedlePose | None = None) -> NeedlePose:
+    """Fuse the robot's direction and the cameras' depth into one pose; never NaN.
+
+    Args:
+        device: newest state of the loop.
+        fix: newest *valid* fix of the tracker, or None before the first. A fix with another
+            status is not used.
+        now: present time [s].
+        last: pose before this one; its numbers are repeated, marked invalid, where the robot
+            gives nothing usable.
+    """
+    axis = np.asarray(device.axis, dtype=np.float64)
+    fault = _device_fault(device, axis, now)
+    if fault:
+        return _invalid(last, now, fault, _age(device.q_time, now))
+    axis = axis / np.linalg.norm(axis)
+    fulcrum = np.asarray(device.tip) - device.depth * np.asarray(device.axis)
+    depth, variance, age, source = _depth(device, fix, fulcrum, axis, now)
+    return NeedlePose(
+        p_tip=read_only(fulcrum + depth * axis),
+        axis=read_only(axis),
+        depth=depth,
+        time=now,
+        orientation_age=_age(device.q_time, now),
+        depth_age=age,
+        depth_source=source,
+        valid=True,
+        covariance=read_only(tip_covariance(axis, depth, variance)),
+    )
+
+
+def tip_covariance(axis: FloatArray, depth: float, depth_variance: float) -> FloatArray:
+    """Covariance of tip = P_I + depth·d̂ [m²], shape (3, 3).
+
+    σ_depth² along the needle and (depth·σ_direction)² across it, to first order.
+    """
+    along = np.outer(axis, axis)
+    across = (depth * ORIENTATION_SIGMA) ** 2
+    result: FloatArray = depth_variance * along + across * (np.eye(3) - along)
+    return result
+
+
+def _device_fault(device: DeviceStatePort, axis: FloatArray, now: float) -> str:
+    if not (np.isfinite(axis).all() and 0.5 < float(np.linalg.norm(axis)) < 2.0):
+        return "the robot gives no needle direction"
+    if not (np.isfinite(device.tip).all() and np.isfinite(device.depth)):
+        return "the robot gives no needle position"
+    age = now - device.q_time
+    if not np.isfinite(age) or age > ENCODER_LIMIT:
+        return f"the encoder values are {_text_ms(age)} old, the limit is {ENCODER_LIMIT * 1e3:.0f} ms"
+    return ""
+
+
+def _depth(
+    device: DeviceStatePort, fix: FixPort | None, fulcrum: FloatArray, axis: FloatArray, now: float
+) -> tuple[float, float, float, DepthSource]:
+    """Depth [m], its variance [m²], its age [s] and its source."""
+    if fix is not None and is_usable(fix):
+        age = _age(fix.time, now)
+        if age <= HOLD_LIMIT:
+            # Projected on the present axis, not the distance from P_I: that is never negative and
+            # biased by the noise across the needle when the tip is at the skin.
+            depth = float((np.asarray(fix.p_tip_world) - fulcrum) @ axis)
+            variance = max(0.0, float(axis @ np.asarray(fix.covariance) @ axis))
+            source = DepthSource.TRACKED if age <= FRESH_LIMIT else DepthSource.HELD
+            return depth, variance + (RATE_SIGMA * age) ** 2, age, source
+    return float(device.depth), MODEL_SIGMA**2, _age(device.time, now), DepthSource.MODEL
+
+
+def is_usable(fix: FixPort) -> bool:
+    """Whether a fix is valid and all its numbers are finite."""
+    return bool(
+        str(fix.status) == "valid"
+        and np.isfinite(fix.time)
+        and np.isfinite(fix.p_tip_world).all()
+        and np.isfinite(fix.covariance).all()
+    )
+
+
+def _invalid(last: NeedlePose | None, now: float, reason: str, age: float) -> NeedlePose:
+    return NeedlePose(
+        p_tip=last.p_tip if last else read_only(np.zeros(3)),
+        axis=last.axis if last else DOWN,
+        depth=last.depth if last else 0.0,
+        time=now,
+        orientation_age=age,
+        depth_age=last.depth_age + max(0.0, now - last.time) if last else age,
+        depth_source=DepthSource.NONE,
+        valid=False,
+        covariance=last.covariance if last else read_only(MODEL_SIGMA**2 * np.eye(3)),
+        reason=reason,
+    )
+
+
+def _age(time: float, now: float) -> float:
+    """Age [s], never negative; the largest float where the time is not a number."""
+    age = now - time
+    return max(0.0, age) if np.isfinite(age) else float(np.finfo(np.float64).max)
+
+
+def _text_ms(age: float) -> str:
+    return f"{age * 1e3:.0f} ms" if np.isfinite(age) else "an unknown time"

@@ -1,0 +1,265 @@
+"""What an attempt needs of device, tracking and planning, and nothing more.
+
+`device.control.Loop`, `tracking.Tracker`, `planning.PlacedPlan` and `exercises.Exercise` satisfy
+these protocols; tests satisfy them with small fakes.
+"""
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from app.core.arrays import FloatArray
+from app.core.latest import Stamped
+from app.core.transform import RigidTransform
+
+
+class DeviceStatePort(Protocol):
+    """One row of the loop as a value (`device.control.DeviceState`); SI, world."""
+
+    @property
+    def time(self) -> float:
+        """Monotonic time of the tick [s]."""
+        ...
+
+    @property
+    def tick(self) -> int:
+        """Number of the tick."""
+        ...
+
+    @property
+    def q(self) -> FloatArray:
+        """Joint angles [rad], shape (2,)."""
+        ...
+
+    @property
+    def q_time(self) -> float:
+        """When the encoders were read [s]."""
+        ...
+
+    @property
+    def qd(self) -> FloatArray:
+        """Joint velocities [rad/s], shape (2,)."""
+        ...
+
+    @property
+    def axis(self) -> FloatArray:
+        """Needle direction, hub to tip, shape (3,)."""
+        ...
+
+    @property
+    def tip(self) -> FloatArray:
+        """Tip [m], shape (3,)."""
+        ...
+
+    @property
+    def depth(self) -> float:
+        """Depth of the tip beyond the fulcrum [m]."""
+        ...
+
+    @property
+    def force(self) -> FloatArray:
+        """Wanted force at the hub point [N], shape (3,)."""
+        ...
+
+    @property
+    def felt(self) -> FloatArray:
+        """Force at the hub point after all limits [N], shape (3,)."""
+        ...
+
+    @property
+    def torque(self) -> FloatArray:
+        """Joint torques sent [N·m], shape (2,)."""
+        ...
+
+    @property
+    def limit_scale(self) -> float:
+        """1 where no limit acts, else the factor on both torques."""
+        ...
+
+    @property
+    def safety_scale(self) -> float:
+        """Fade for stale encoders and arming, 0...1."""
+        ...
+
+    @property
+    def fault(self) -> int:
+        """Code of the fault that holds the force at zero; 0 none."""
+        ...
+
+    @property
+    def target_shift(self) -> FloatArray:
+        """Displacement of the target now [m], shape (3,)."""
+        ...
+
+
+class InboxPort(Protocol):
+    """Where other threads write the loop's inputs."""
+
+    def write(self, **inputs: float) -> None:
+        """Write input slots by their lower-case names."""
+        ...
+
+
+class LoopPort(Protocol):
+    """The real-time loop (`device.control.Loop`)."""
+
+    @property
+    def inbox(self) -> InboxPort:
+        """The loop's inputs."""
+        ...
+
+    def open(self) -> None:
+        """Start the kernel in its thread."""
+        ...
+
+    def close(self) -> None:
+        """End at zero force."""
+        ...
+
+    def latest(self) -> DeviceStatePort:
+        """Return the newest state."""
+        ...
+
+    def rows(self, since_tick: int) -> FloatArray:
+        """Rows of the history ring after tick `since_tick`, shape (n, SLOTS)."""
+        ...
+
+    def timing(self) -> Any:
+        """Lateness of the loop and deadlines missed."""
+        ...
+
+    def step(self, n: int) -> Any:
+        """Run `n` ticks on the virtual clock, without sleeping."""
+        ...
+
+
+class FixPort(Protocol):
+    """What the cameras say about the tip (`tracking.NeedleFix`)."""
+
+    @property
+    def p_tip_world(self) -> FloatArray:
+        """Tip [m], shape (3,)."""
+        ...
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Covariance of the tip [m²], shape (3, 3)."""
+        ...
+
+    @property
+    def time(self) -> float:
+        """Capture time [s]."""
+        ...
+
+    @property
+    def status(self) -> str:
+        """`valid`, `out_of_view`, `one_camera` or `inconsistent`."""
+        ...
+
+    @property
+    def residual_px(self) -> float:
+        """Reprojection residual [px]."""
+        ...
+
+
+class LatestFixPort(Protocol):
+    """Holder of the newest fix (`core.latest.Latest[NeedleFix]`)."""
+
+    def read(self) -> Stamped[Any] | None:
+        """Return the newest fix, or None before the first."""
+        ...
+
+
+class TrackerPort(Protocol):
+    """The tracker (`tracking.Tracker`)."""
+
+    @property
+    def latest(self) -> LatestFixPort:
+        """Newest fix."""
+        ...
+
+    def open(self) -> None:
+        """Open the cameras and start the thread."""
+        ...
+
+    def close(self) -> None:
+        """Stop the thread and the cameras."""
+        ...
+
+    def statistics(self) -> Any:
+        """Rates, latency and shares of the statuses."""
+        ...
+
+
+class PlanPort(Protocol):
+    """Entry and target in the patient (`planning.Plan`)."""
+
+    @property
+    def name(self) -> str:
+        """Name of the plan."""
+        ...
+
+    @property
+    def entry_mm(self) -> FloatArray:
+        """Entry, LPS [mm], shape (3,)."""
+        ...
+
+    @property
+    def target_mm(self) -> FloatArray:
+        """Target, LPS [mm], shape (3,)."""
+        ...
+
+
+class PlacedPlanPort(Protocol):
+    """The plan in the robot's frame (`planning.PlacedPlan`)."""
+
+    @property
+    def plan(self) -> PlanPort:
+        """The plan in the patient."""
+        ...
+
+    @property
+    def T_world_patient(self) -> RigidTransform:
+        """Patient to world [m]."""
+        ...
+
+    @property
+    def p_entry(self) -> FloatArray:
+        """Entry [m], shape (3,): the fulcrum."""
+        ...
+
+    @property
+    def p_target(self) -> FloatArray:
+        """Target at rest [m], shape (3,)."""
+        ...
+
+    @property
+    def axis(self) -> FloatArray:
+        """Wanted needle direction, shape (3,)."""
+        ...
+
+
+class ExercisePort(Protocol):
+    """The exercise (`exercises.Exercise`, a pydantic model)."""
+
+    @property
+    def id(self) -> str:
+        """Identifier."""
+        ...
+
+    @property
+    def title(self) -> str:
+        """Title for people."""
+        ...
+
+    @property
+    def assistance(self) -> float:
+        """Assistance at the start, 0...1."""
+        ...
+
+    def model_dump(self, *, mode: str = "python") -> dict[str, Any]:
+        """Return the exercise as a JSON-ready mapping."""
+        ...
+
+
+Metadata = Mapping[str, str]
+"""Names and values of one metadata record."""
