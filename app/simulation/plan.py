@@ -1,0 +1,81 @@
+"""The result of compiling a scene: what is simulated, with which model, and why."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.compiled import stage
+from app.simulation.declaration import Declaration, class_name
+from app.simulation.registry import implementation
+from app.simulation.scene import Scene
+
+Stage = tuple[str, Any, FloatArray]
+"""Name, compiled `void(state, parameters)`, its parameters array."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """An effect that is simulated: with which model, which parameters, for whom, and why."""
+
+    declaration: Declaration
+    model: str
+    parameters: dict[str, float]
+    consumers: tuple[str, ...]
+    why: str
+
+    @property
+    def name(self) -> str:
+        """Name of the effect."""
+        return self.declaration.name
+
+
+@dataclass(frozen=True, slots=True)
+class Dropped:
+    """An effect that was asked for and is not simulated, and why."""
+
+    name: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class SimulationPlan:
+    """What is simulated, in the order in which it runs, and what is not.
+
+    Attributes:
+        scene: what was compiled.
+        kept: effects in running order.
+        dropped: effects without a consumer, in the scene's order.
+        depth_slot: slot that effects along the needle take the depth from.
+    """
+
+    scene: Scene
+    kept: tuple[Kept, ...]
+    dropped: tuple[Dropped, ...]
+    depth_slot: int
+
+    def stages(self) -> list[Stage]:
+        """Import what is kept and return its stages, each with fresh memory.
+
+        They add to FORCE_*, which the device's table clears, and to AXIAL_FORCE and
+        TARGET_SHIFT_*, which the first of these stages clears. Nothing kept: no stages.
+        """
+        if not self.kept:
+            return []
+        return [("clear_effects", clear, np.zeros(1)), *(self._stage(kept) for kept in self.kept)]
+
+    def _stage(self, kept: Kept) -> Stage:
+        module = implementation(kept.name)
+        effect = getattr(module, class_name(kept.name))(**kept.parameters)
+        return kept.name, module.step, effect.parameters(self.scene, self.depth_slot)
+
+
+@stage
+def clear(state: FloatArray, parameters: FloatArray) -> None:
+    """Zero what only effects add to."""
+    state[sv.AXIAL_FORCE] = 0.0
+    state[sv.TARGET_SHIFT_X] = 0.0
+    state[sv.TARGET_SHIFT_Y] = 0.0
+    state[sv.TARGET_SHIFT_Z] = 0.0
