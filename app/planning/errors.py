@@ -1,0 +1,7 @@
+"""Errors of planning."""
+
+from app.core.errors import AcusError
+
+
+class PlanError(AcusError, ValueError):
+    """A plan that cannot be used: incomplete, not finite, or entry and target too close."""

@@ -1,0 +1,58 @@
+"""Undo and redo as an immutable value: the window keeps one and replaces it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Generic, TypeVar
+
+V = TypeVar("V")
+
+DEPTH = 200
+"""Steps that can be undone; older ones are forgotten."""
+
+
+@dataclass(frozen=True, slots=True)
+class History(Generic[V]):
+    """The present value between those that can be undone and redone.
+
+    Attributes:
+        present: what is shown now.
+        past: what `undo` goes back to, oldest first.
+        future: what `redo` goes forward to, next first.
+    """
+
+    present: V
+    past: tuple[V, ...] = ()
+    future: tuple[V, ...] = ()
+
+    def do(self, value: V) -> History[V]:
+        """Make `value` the present; what could be redone is forgotten. Equal values add no step."""
+        if value == self.present:
+            return self
+        return History(value, (*self.past, self.present)[-DEPTH:])
+
+    def amend(self, value: V) -> History[V]:
+        """Replace the present without a new step: the moves of one drag are one step."""
+        return replace(self, present=value, future=())
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is something to go back to."""
+        return bool(self.past)
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is something to go forward to."""
+        return bool(self.future)
+
+    def undo(self) -> History[V]:
+        """Go one step back; at the beginning, the same history."""
+        if not self.past:
+            return self
+        return History(self.past[-1], self.past[:-1], (self.present, *self.future))
+
+    def redo(self) -> History[V]:
+        """Go one step forward; at the end, the same history."""
+        if not self.future:
+            return self
+        return History(self.future[0], (*self.past, self.present), self.future[1:])

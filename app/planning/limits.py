@@ -1,0 +1,64 @@
+"""What reach asks of a device: a few numbers and one question."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class ReachLimits:
+    """The part of a device profile that decides whether a path can be followed.
+
+    Attributes:
+        fulcrum: P_I in world [m], shape (3,).
+        tilt_limit: largest angle between needle and vertical [rad].
+        depth_limit: deepest position of the tip beyond the fulcrum [m].
+        in_workspace: whether the mechanism can hold its tool point P_3 at (x, y) [m] in its plane.
+    """
+
+    fulcrum: FloatArray
+    tilt_limit: float
+    depth_limit: float
+    in_workspace: Callable[[float, float], bool]
+
+    def tool_point(self, axis: FloatArray) -> tuple[float, float] | None:
+        """Where the needle crosses the mechanism's plane z = 0 [m]; None if it never does.
+
+        Args:
+            axis: needle direction, hub to tip, unit vector.
+        """
+        if axis[2] >= -1e-9:
+            return None
+        x, y, _ = self.fulcrum - axis * (self.fulcrum[2] / axis[2])
+        return float(x), float(y)
+
+    def holds(self, axis: FloatArray, margin: float = 0.0) -> bool:
+        """Whether the needle can point along `axis`, and `margin` [rad] around it."""
+        if tilt_of(axis) > self.tilt_limit - margin + 1e-9:
+            return False
+        around = cone(axis, margin) if margin > 0.0 else [axis]
+        points = [self.tool_point(direction) for direction in around]
+        return all(point is not None and self.in_workspace(*point) for point in points)
+
+
+def tilt_of(axis: FloatArray) -> float:
+    """Angle between a direction and straight down [rad], 0 ... π."""
+    return float(np.arctan2(np.hypot(axis[0], axis[1]), -axis[2]))
+
+
+def cone(axis: FloatArray, angle: float, count: int = 8) -> list[FloatArray]:
+    """Directions at `angle` [rad] around `axis`, evenly spaced, and `axis` itself."""
+    first = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+    first /= np.linalg.norm(first)
+    second = np.cross(axis, first)
+    turns = np.arange(count) * (2.0 * np.pi / count)
+    ring = [
+        np.cos(angle) * axis + np.sin(angle) * (np.cos(turn) * first + np.sin(turn) * second)
+        for turn in turns
+    ]
+    return [axis, *ring]
