@@ -2,8 +2,8 @@
 
 Import `njit` from here, never from numba: the cache folder must be set before numba is loaded.
 Numba's own cache looks at the file of a kernel only, not at the files it calls; the folder
-therefore carries a digest of all rooms that hold kernels, so that an edit anywhere in them is
-never run from a stale build.
+therefore carries a digest of every file that holds kernels or the constants they are built with
+(`Final`), so that an edit in any of them is never run from a stale build.
 """
 
 import hashlib
@@ -15,7 +15,8 @@ from typing import Any
 from app.core import paths
 
 _ROOMS = ("core", "mechanisms", "imaging", "simulation", "tracking", "device")
-_KEPT_BUILDS = 4
+_MARKS = (b"app.core.compiled", b": Final")
+_KEPT_BUILDS = 12
 
 
 def _digest() -> str:
@@ -23,7 +24,9 @@ def _digest() -> str:
     digest = hashlib.sha256()
     for room in _ROOMS:
         for file in sorted((app / room).rglob("*.py")):
-            digest.update(str(file.relative_to(app)).encode() + file.read_bytes())
+            content = file.read_bytes()
+            if any(mark in content for mark in _MARKS):
+                digest.update(str(file.relative_to(app)).encode() + content)
     return digest.hexdigest()[:16]
 
 
