@@ -1,0 +1,46 @@
+"""The needle pantograph: a planar five-bar under a fulcrum that points a sliding needle."""
+
+from app.mechanisms.pantograph.dynamics import LumpedInertia, mass_matrix, velocity_terms
+from app.mechanisms.pantograph.geometry import Geometry
+from app.mechanisms.pantograph.kinematics import WORKING_MODE, forward, inverse, jacobian
+from app.mechanisms.pantograph.statics import (
+    ForceLaw,
+    felt_force,
+    force_map,
+    joint_torques,
+    lever_map,
+    printed_force,
+    tool_force,
+)
+from app.mechanisms.pantograph.status import Status
+from app.mechanisms.pantograph.system import (
+    LengthMode,
+    NeedleState,
+    needle_at,
+    system_forward,
+    system_inverse,
+)
+
+__all__ = [
+    "WORKING_MODE",
+    "ForceLaw",
+    "Geometry",
+    "LengthMode",
+    "LumpedInertia",
+    "NeedleState",
+    "Status",
+    "felt_force",
+    "force_map",
+    "forward",
+    "inverse",
+    "jacobian",
+    "joint_torques",
+    "lever_map",
+    "mass_matrix",
+    "needle_at",
+    "printed_force",
+    "system_forward",
+    "system_inverse",
+    "tool_force",
+    "velocity_terms",
+]
