@@ -11,7 +11,9 @@ FloatArray = NDArray[np.float64]
 """Double precision array; shapes stand in the docstrings."""
 
 
-def frozen(values: ArrayLike, shape: tuple[int, ...] | None = None, name: str = "array") -> FloatArray:
+def frozen(
+    values: ArrayLike, shape: tuple[int, ...] | None = None, name: str = "array"
+) -> FloatArray:
     """Return a read-only double precision copy.
 
     Raises:

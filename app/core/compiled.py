@@ -58,7 +58,7 @@ STAGE_TYPE = types.FunctionType(STAGE_SIGNATURE)
 
 
 def njit(*args: Any, **options: Any) -> Any:
-    """`numba.njit` that releases the interpreter lock, caches, and divides as C does (no raising)."""
+    """`numba.njit` that releases the interpreter lock, caches, and divides as C does."""
     options = {"nogil": True, "cache": True, "error_model": "numpy"} | options
     return numba.njit(*args, **options)
 

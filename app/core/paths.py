@@ -20,7 +20,7 @@ def in_checkout() -> bool:
 
 
 def sessions() -> Path:
-    """Folder of recorded attempts: `ACUS_SESSIONS`, else `sessions/` of a checkout, else the user's."""
+    """Folder of recordings: `ACUS_SESSIONS`, else `sessions/` of a checkout, else the user's."""
     if chosen := os.environ.get("ACUS_SESSIONS"):
         return Path(chosen)
     return _PACKAGE.parent / "sessions" if in_checkout() else data() / "sessions"
@@ -33,7 +33,9 @@ def data() -> Path:
 
 def cache() -> Path:
     """Per-user cache folder for what can be made again (`ACUS_CACHE` overrides)."""
-    return Path(os.environ.get("ACUS_CACHE") or platformdirs.user_cache_dir("acus", appauthor=False))
+    return Path(
+        os.environ.get("ACUS_CACHE") or platformdirs.user_cache_dir("acus", appauthor=False)
+    )
 
 
 def settings() -> Path:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from app.core.errors import AcusError
 
 
-class Cancelled(AcusError):
+class Cancelled(AcusError):  # noqa: N818  (a request, not an error)
     """The user asked to stop; nothing was kept half-done."""
 
 

@@ -1,4 +1,4 @@
-"""The slots of the loop's state: one flat float64 array that every stage of a tick reads and writes.
+"""The slots of the loop's state: one flat float64 array that every stage of a tick shares.
 
 Device and simulation both build on these names, and only on these; a stage is
 `void(state[::1], parameters[::1])` (see `core.compiled`). The first `INPUTS` slots are copied at
@@ -115,7 +115,10 @@ SLOTS: Final = next(_next)
 INDEX: Final[dict[str, int]] = {
     name.lower(): value
     for name, value in list(globals().items())
-    if name.isupper() and not name.startswith("_") and isinstance(value, int) and name not in ("SLOTS", "INPUTS")
+    if name.isupper()
+    and not name.startswith("_")
+    and isinstance(value, int)
+    and name not in ("SLOTS", "INPUTS")
 }
 """Slot name in lower case -> index."""
 

@@ -114,7 +114,9 @@ def rotation_between(start: ArrayLike, end: ArrayLike) -> FloatArray:
     For opposite directions, where the axis is free, any axis perpendicular to `start` serves.
     """
     u, v = unit(start), unit(end)
-    if np.dot(u, v) < 0.0:  # via the mirrored end: the half turn first, so that 1 + u·v never nears 0
+    if (
+        np.dot(u, v) < 0.0
+    ):  # via the mirrored end: the half turn first, so that 1 + u·v never nears 0
         axis = _any_perpendicular(u)
         half_turn = 2.0 * np.outer(axis, axis) - np.eye(3)
         return rotation_between(-u, v) @ half_turn

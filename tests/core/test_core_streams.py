@@ -33,13 +33,19 @@ def test_cancelling_from_another_thread_stops_the_work_and_its_parts():
     progress = Progress()
     threading.Thread(target=progress.cancel).start()
     with pytest.raises(Cancelled):
-        while True:
-            progress.part(0.2, 0.4).report(0.5)
+        _work_for_ever(progress)
+
+
+def _work_for_ever(progress):
+    while True:
+        progress.part(0.2, 0.4).report(0.5)
 
 
 def test_a_part_maps_onto_its_share():
     seen = []
-    Progress(lambda fraction, text: seen.append((fraction, text))).part(0.5, 1.0).report(0.5, "half")
+    Progress(lambda fraction, text: seen.append((fraction, text))).part(0.5, 1.0).report(
+        0.5, "half"
+    )
     assert seen == [(0.75, "half")]
 
 
@@ -72,7 +78,9 @@ def test_directions_of_any_size_become_unit(scale):
 def test_small_and_flat_angles_keep_their_digits(angle):
     import numpy as np
 
-    assert angle_between([1, 0, 0], [np.cos(angle), np.sin(angle), 0]) == pytest.approx(angle, rel=1e-9)
+    assert angle_between([1, 0, 0], [np.cos(angle), np.sin(angle), 0]) == pytest.approx(
+        angle, rel=1e-9
+    )
 
 
 def test_frozen_arrays_are_copies_that_cannot_be_written():

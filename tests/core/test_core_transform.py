@@ -43,7 +43,9 @@ def test_a_rotation_vector_survives_the_round_trip_at_every_scale(angle):
 
 
 @pytest.mark.parametrize("gap", [1e-3, 1e-6, 1e-9, 1e-12, 0.0])
-@pytest.mark.parametrize("axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (0.6, 0.0, -0.8), (-0.48, 0.6, 0.64)])
+@pytest.mark.parametrize(
+    "axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (0.6, 0.0, -0.8), (-0.48, 0.6, 0.64)]
+)
 def test_near_a_half_turn_the_axis_keeps_full_precision(gap, axis):
     omega = (np.pi - gap) * np.array(axis, dtype=float)
     back = rotation_log(rotation_exp(omega))
@@ -66,7 +68,10 @@ def test_the_translation_part_agrees_with_sixty_digits(angle):
 
 
 @EXAMPLES
-@given(vector.filter(lambda v: np.linalg.norm(v) > 1e-3), vector.filter(lambda v: np.linalg.norm(v) > 1e-3))
+@given(
+    vector.filter(lambda v: np.linalg.norm(v) > 1e-3),
+    vector.filter(lambda v: np.linalg.norm(v) > 1e-3),
+)
 def test_the_smallest_rotation_turns_one_direction_onto_the_other(a, b):
     R = rotation_between(a, b)
     assert R @ a / np.linalg.norm(a) == pytest.approx(b / np.linalg.norm(b), abs=1e-12)
@@ -79,7 +84,9 @@ def test_opposite_directions_are_joined_by_a_rotation_and_not_by_noise(direction
     end = -direction + offset * np.roll(direction, 1)
     R = rotation_between(direction, end)
     assert np.linalg.det(R) == pytest.approx(1.0)
-    assert R @ direction == pytest.approx(end / np.linalg.norm(end) * np.linalg.norm(direction), abs=1e-12)
+    assert R @ direction == pytest.approx(
+        end / np.linalg.norm(end) * np.linalg.norm(direction), abs=1e-12
+    )
 
 
 def test_arrays_of_points_are_transformed_row_by_row():
