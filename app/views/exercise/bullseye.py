@@ -1,0 +1,166 @@
+"""The bull's-eye: pad, depth bar, corrections in words, and the simulated hand behind the mouse."""
+
+from collections.abc import Callable
+from typing import Final
+
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from app.views import theme
+from app.views.exercise.depth_bar import DepthBar
+from app.views.exercise.hand import GAINS, Hand, HandPose
+from app.views.exercise.pad_canvas import PadCanvas
+from app.views.exercise.pad_view import PadScene, PadView
+from app.views.exercise.words import corrections, remaining
+from app.views.text import tr
+
+INTENT_MS: Final = 10
+"""Shortest time between two hand intents: 100 Hz."""
+
+
+class Bullseye(QWidget):
+    """Shows where the needle is against the path, and moves the simulated hand.
+
+    Signals:
+        hand_moved(HandPose): where the hand wants the needle; at most every `INTENT_MS`.
+    """
+
+    hand_moved = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._scene: PadScene | None = None
+        self._view: PadView | None = None
+        self._hand: Hand | None = None
+        self._interactive = False
+        self.pad = PadCanvas(self)
+        self.depth_bar = DepthBar(self)
+        self._remaining = _label(theme.FONT_PX + 6)
+        self._in_plane = _label(theme.FONT_PX + 1)
+        self._out_of_plane = _label(theme.FONT_PX + 1)
+        self._source = _label(theme.SMALL_PX, theme.WARNING)
+        self._gain = _gain_box()
+        self._intent = QTimer(self, interval=INTENT_MS, singleShot=True)
+        self._intent.timeout.connect(self._emit_hand)
+        self._lay_out()
+        self._connect_pad()
+
+    # --- what the controller calls ----------------------------------------------------------------
+    def set_scene(self, scene: PadScene | None, interactive: bool) -> None:
+        """Take a new path; `interactive` says whether the mouse moves a simulated hand."""
+        self._scene, self._view, self._hand = scene, None, None
+        self._interactive = interactive
+        self._intent.stop()
+        self.pad.set_scene(scene)
+        self.depth_bar.set_scene(scene)
+        self._help.setVisible(interactive)
+        self._gain.setEnabled(interactive)
+        for label in (self._remaining, self._in_plane, self._out_of_plane, self._source):
+            label.clear()
+
+    def show_view(self, view: PadView) -> None:
+        """Draw a new moment. The first one gives the hand the needle, without a jump."""
+        if self._scene is None:
+            return
+        self._view = view
+        if self._interactive and self._hand is None:
+            pose = HandPose(view.direction, view.depth, True)
+            self._hand = Hand(self._scene.frame, self._scene.scale, self._scene.limits, pose)
+            self._intent.start()
+        self._show(self._scene, view)
+
+    @property
+    def hand(self) -> HandPose | None:
+        """Where the simulated hand wants the needle; None without one."""
+        return self._hand.pose if self._hand else None
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _show(self, scene: PadScene, view: PadView) -> None:
+        hand = self._hand
+        self.pad.show_view(view, hand.tilts if hand else None)
+        self.depth_bar.show_depth(view.depth, view.measured, hand.pose.depth if hand else None)
+        in_plane, out_of_plane = corrections(scene.frame, scene.frame.tilts(view.direction))
+        self._in_plane.setText(in_plane)
+        self._out_of_plane.setText(out_of_plane)
+        self._remaining.setText(remaining(view.depth, scene.target_depth, scene.depth_tolerance))
+        self._source.setText("" if view.measured else tr("◇ depth not measured now"))
+
+    def _connect_pad(self) -> None:
+        self.pad.dragged.connect(self._drag)
+        self.pad.tilted.connect(lambda right, up: self._move(lambda h: h.tilt(right, up)))
+        self.pad.advanced.connect(lambda step: self._move(lambda h: h.advance(step)))
+        self.pad.homed.connect(self._home)
+
+    def _drag(self, right: float, up: float) -> None:
+        gain = GAINS[self._gain.currentData()]
+        self._move(lambda hand: hand.drag((gain * right, gain * up)))
+
+    def _home(self) -> None:
+        view = self._view
+        if view is not None:
+            self._move(lambda hand: hand.follow(view.direction, view.depth))
+
+    def _move(self, change: Callable[[Hand], None]) -> None:
+        if self._hand is None or self._scene is None or self._view is None:
+            return
+        change(self._hand)
+        self._show(self._scene, self._view)
+        if not self._intent.isActive():
+            self._intent.start()
+
+    def _emit_hand(self) -> None:
+        if self._hand is not None:
+            self.hand_moved.emit(self._hand.pose)
+
+    def _lay_out(self) -> None:
+        self._help = _label(theme.SMALL_PX, theme.TEXT_DIM)
+        self._help.setWordWrap(True)
+        self._help.setText(help_text())
+        words = QVBoxLayout()
+        words.setSpacing(2)
+        for label in (self._in_plane, self._out_of_plane):
+            words.addWidget(label)
+        gain = QHBoxLayout()
+        title = _label(theme.SMALL_PX, theme.TEXT_DIM)
+        title.setText(tr("Mouse"))
+        gain.addWidget(title)
+        gain.addWidget(self._gain)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
+        grid.addWidget(self.pad, 0, 0)
+        grid.addWidget(self.depth_bar, 0, 1)
+        grid.addLayout(words, 1, 0)
+        side = QVBoxLayout()
+        side.addWidget(self._remaining)
+        side.addWidget(self._source)
+        grid.addLayout(side, 1, 1)
+        grid.addWidget(self._help, 2, 0)
+        grid.addLayout(gain, 2, 1)
+        grid.setRowStretch(0, 1)
+        grid.setColumnStretch(0, 1)
+
+
+def help_text() -> str:
+    """The pad's help line."""
+    return tr(
+        "Drag: tilt  ·  wheel or Page keys: depth 1 mm  ·  arrows: 0.2°  ·  "
+        "Shift: finer  ·  Home: hand to needle"
+    )
+
+
+def _label(pixels: int, colour: str = theme.TEXT) -> QLabel:
+    label = QLabel()
+    label.setStyleSheet(f"font-size: {pixels}px; color: {colour};")
+    label.setTextFormat(Qt.TextFormat.PlainText)
+    return label
+
+
+def _gain_box() -> QComboBox:
+    box = QComboBox()
+    names = {"fine": tr("fine"), "normal": tr("normal"), "direct": tr("direct")}
+    for key in GAINS:
+        box.addItem(f"{names[key]} ×{GAINS[key]:g}", key)
+    box.setCurrentIndex(list(GAINS).index("normal"))
+    box.setToolTip(tr("How far the hand moves when the mouse moves on the pad"))
+    box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+    return box

@@ -1,0 +1,75 @@
+"""A bar for the force felt at the hand, with the device's limit marked."""
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from app.views import theme
+from app.views.text import tr
+
+_HEADROOM = 1.15
+"""Length of the bar over the limit: the mark stands inside it."""
+
+
+class ForceBar(QWidget):
+    """Force [N] as a bar and a number; the limit as a line with its value."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._force, self._limit = 0.0, 5.0
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setMinimumHeight(38)
+        self.setToolTip(tr(
+            "Force at the hand, estimated from the motor torques that are sent (there is no force "
+            "sensor). The line is the largest force the device may give."
+        ))  # fmt: skip
+
+    def sizeHint(self) -> QSize:
+        """Preferred size."""
+        return QSize(200, 38)
+
+    def show_force(self, force: float, limit: float) -> None:
+        """Show a force and the limit [N]; not finite counts as zero."""
+        force = force if 0.0 <= force < 1e6 else 0.0
+        if (force, limit) != (self._force, self._limit):
+            self._force, self._limit = force, limit
+            self.setAccessibleName(tr("Force {force:.1f} N", force=force))
+            self.update()
+
+    @property
+    def verdict(self) -> str:
+        """`good`, from 80 % of the limit `warning`, at the limit `bad`."""
+        share = self._force / self._limit if self._limit > 0.0 else 1.0
+        return "good" if share < 0.8 else "warning" if share < 0.999 else "bad"
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw bar, number and limit."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        colour, symbol = theme.VERDICTS[self.verdict]
+        bar = QRectF(1, 2, self.width() - 2, 14)
+        painter.setPen(QPen(QColor(theme.BORDER), 1.0))
+        painter.setBrush(QColor("#0e1114"))
+        painter.drawRoundedRect(bar, 3, 3)
+        full = _HEADROOM * self._limit if self._limit > 0.0 else 1.0
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(colour))
+        filled = bar.adjusted(1, 1, -1, -1)
+        filled.setWidth(filled.width() * min(1.0, self._force / full))
+        painter.drawRoundedRect(filled, 2, 2)
+        limit_x = bar.left() + bar.width() * self._limit / full
+        painter.setPen(QPen(QColor(theme.TEXT), 2.0))
+        painter.drawLine(QPointF(limit_x, 0), QPointF(limit_x, 18))
+        self._paint_texts(painter, symbol)
+
+    def _paint_texts(self, painter: QPainter, symbol: str) -> None:
+        font = QFont(painter.font())
+        font.setPixelSize(theme.SMALL_PX)
+        painter.setFont(font)
+        below = QRectF(0, 19, self.width(), 19)
+        painter.setPen(QColor(theme.TEXT))
+        number = tr("{symbol} {force:.1f} N (estimated)", symbol=symbol, force=self._force)
+        painter.drawText(below, Qt.AlignmentFlag.AlignLeft, number)
+        painter.setPen(QColor(theme.TEXT_DIM))
+        limit = tr("limit {limit:g} N", limit=self._limit)
+        painter.drawText(below, Qt.AlignmentFlag.AlignRight, limit)

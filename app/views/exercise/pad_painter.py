@@ -1,0 +1,177 @@
+"""Draws the bull's-eye pad with a QPainter: rings, letters, needle, aim, hand and its spring."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import atan2, degrees, hypot, radians
+from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QPainter, QPen, QPolygonF
+
+from app.views import theme
+from app.views.exercise.pad_view import PadScene, PadView
+from app.views.text import tr
+
+_ANGLES_DEG: Final = (10, 30)
+_LETTERS: Final = theme.FONT_PX + 3
+HAND_COLOUR: Final = "#ffffff"
+_LEAD: Final = radians(0.15)
+"""Below this angle between hand and needle no spring is drawn [rad]."""
+
+
+@dataclass(frozen=True, slots=True)
+class PadArea:
+    """Where the pad lies in its widget: centre and radius [px]."""
+
+    centre: QPointF
+    radius: float
+
+    @classmethod
+    def inside(cls, width: float, height: float, margin: float) -> "PadArea":
+        """Largest pad in a rectangle, leaving `margin` [px] for the letters."""
+        return cls(QPointF(width / 2, height / 2), max(10.0, min(width, height) / 2 - margin))
+
+    def point(self, place: ArrayLike) -> QPointF:
+        """Pixel of a place on the pad; places beyond the rim are drawn on it."""
+        x, y = np.asarray(place, dtype=np.float64)
+        shrink = self.radius / max(1.0, hypot(x, y))
+        return self.centre + QPointF(shrink * x, -shrink * y)
+
+
+def paint_background(painter: QPainter, area: PadArea, scene: PadScene) -> None:
+    """Rim, rings with their sizes, cross, letters, target."""
+    painter.setPen(QPen(QColor(theme.BORDER), 1.5))
+    painter.setBrush(QColor("#0e1114"))
+    painter.drawEllipse(area.centre, area.radius, area.radius)
+    _cross(painter, area)
+    for angle_deg in _ANGLES_DEG:
+        radius = scene.scale.radius(radians(angle_deg))
+        _ring(painter, area, radius, theme.BORDER, 1.0, f"{angle_deg}°")
+    for i, ring in enumerate(scene.rings):
+        radius = scene.scale.radius(atan2(ring, scene.scale.length))
+        width = 2.5 if i == 0 else 1.6
+        _ring(painter, area, radius, theme.TARGET.colour, width, tr("{mm:g} mm", mm=1e3 * ring))
+    _letters(painter, area, scene.frame.letters)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(theme.TARGET.qcolor())
+    painter.drawEllipse(area.centre, 3.5, 3.5)
+
+
+def paint_needle(painter: QPainter, area: PadArea, scene: PadScene, view: PadView) -> None:
+    """Needle from hub to tip, and where it is heading: a dashed line to the aim's cross."""
+    tip, hub = (
+        area.point(scene.scale.place_of_offset(scene.frame.offset(p, scene.p_entry)))
+        for p in (view.p_tip, view.p_hub)
+    )
+    aim = area.point(scene.scale.place(scene.frame.tilts(view.direction)))
+    painter.setPen(theme.NEEDLE.pen(1.5, 0.9))
+    dashed = painter.pen()
+    dashed.setDashPattern([4.0, 3.0])
+    painter.setPen(dashed)
+    painter.drawLine(tip, aim)
+    _cross_mark(painter, aim)
+    painter.setPen(theme.NEEDLE.pen(4.0))
+    painter.drawLine(hub, tip)
+    _hub_mark(painter, hub)
+    _tip_mark(painter, tip, view.measured)
+
+
+def paint_hand(
+    painter: QPainter, area: PadArea, scene: PadScene, view: PadView, hand_tilts: ArrayLike
+) -> None:
+    """The hand's ghost, and the spring to the needle while the hand leads it.
+
+    The spring is as long as the lead, and the thicker and wider the stronger it pulls.
+    """
+    needle = scene.frame.tilts(view.direction)
+    tilts = np.asarray(hand_tilts, dtype=np.float64)
+    ghost = area.point(scene.scale.place(tilts))
+    if hypot(*(tilts - needle)) > _LEAD:
+        share = min(1.0, view.force / view.force_limit) if view.force_limit > 0.0 else 0.0
+        aim = area.point(scene.scale.place(needle))
+        painter.setPen(QPen(QColor(HAND_COLOUR), 1.4 + 3.0 * share))
+        painter.drawPolyline(spring(aim, ghost, 5.0 + 6.0 * share))
+    pen = QPen(QColor(HAND_COLOUR), 2.0)
+    painter.setPen(pen)
+    painter.setBrush(QColor(255, 255, 255, 40))
+    painter.drawEllipse(ghost, 11.0, 11.0)
+
+
+def spring(start: QPointF, end: QPointF, amplitude: float, coils: int = 6) -> QPolygonF:
+    """Zigzag line [px] between two points; straight ends, `coils` teeth between."""
+    along = end - start
+    length = hypot(along.x(), along.y())
+    if length < 1e-6:
+        return QPolygonF([start, end])
+    across = QPointF(-along.y(), along.x()) * (min(amplitude, length / 4) / length)
+    points = [start, start + along * 0.1]
+    for i in range(2 * coils):
+        side = 1 if i % 2 == 0 else -1
+        points.append(start + along * (0.1 + 0.8 * (i + 0.5) / (2 * coils)) + across * side)
+    return QPolygonF([*points, start + along * 0.9, end])
+
+
+def _cross(painter: QPainter, area: PadArea) -> None:
+    painter.setPen(QPen(QColor(theme.BORDER), 1.0))
+    for x, y in ((1.0, 0.0), (0.0, 1.0)):
+        painter.drawLine(area.point((-x, -y)), area.point((x, y)))
+
+
+def _ring(
+    painter: QPainter, area: PadArea, radius: float, colour: str, width: float, label: str
+) -> None:
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(QPen(QColor(colour), width))
+    size = radius * area.radius
+    painter.drawEllipse(area.centre, size, size)
+    corner = area.centre + QPointF(0.7071 * size, -0.7071 * size)
+    painter.setFont(_font(painter, theme.SMALL_PX))
+    metrics = painter.fontMetrics()
+    box = QRectF(corner.x() + 3, corner.y() - 15, metrics.horizontalAdvance(label) + 4, 16)
+    painter.fillRect(box, QColor(theme.BACKGROUND))
+    painter.setPen(QColor(colour if colour != theme.BORDER else theme.TEXT_DIM))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, label)
+
+
+def _letters(painter: QPainter, area: PadArea, letters: Sequence[str]) -> None:
+    painter.setFont(_font(painter, _LETTERS, bold=True))
+    painter.setPen(QColor(theme.TEXT))
+    reach = area.radius + 14
+    for text, (x, y) in zip(letters, ((-1, 0), (1, 0), (0, -1), (0, 1)), strict=True):
+        centre = area.centre + QPointF(reach * x, reach * y)
+        box = QRectF(centre.x() - 24, centre.y() - 12, 48, 24)
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+
+def _cross_mark(painter: QPainter, at: QPointF) -> None:
+    painter.setPen(theme.NEEDLE.pen(2.0))
+    painter.drawLine(at + QPointF(-7, -7), at + QPointF(7, 7))
+    painter.drawLine(at + QPointF(-7, 7), at + QPointF(7, -7))
+
+
+def _hub_mark(painter: QPainter, at: QPointF) -> None:
+    painter.setPen(theme.NEEDLE.pen(2.0))
+    painter.setBrush(QColor(theme.BACKGROUND))
+    painter.drawRect(QRectF(at.x() - 6, at.y() - 6, 12, 12))
+
+
+def _tip_mark(painter: QPainter, at: QPointF, measured: bool) -> None:
+    """Diamond; hollow while the depth is not measured."""
+    painter.setPen(theme.NEEDLE_TIP.pen(2.0))
+    painter.setBrush(theme.NEEDLE_TIP.qcolor() if measured else QColor(theme.BACKGROUND))
+    corners = ((0, -9), (9, 0), (0, 9), (-9, 0))
+    painter.drawPolygon(QPolygonF([at + QPointF(x, y) for x, y in corners]))
+
+
+def _font(painter: QPainter, pixels: int, bold: bool = False) -> QFont:
+    font = QFont(painter.font())
+    font.setPixelSize(pixels)
+    font.setBold(bold)
+    return font
+
+
+def angle_text(angle: float) -> str:
+    """An angle [rad] in degrees for the screen."""
+    return f"{degrees(angle):.1f}°"

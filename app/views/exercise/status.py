@@ -1,0 +1,73 @@
+"""The status strip: each part's health as symbol, words and colour."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from app.views import theme
+from app.views.exercise.status_items import StatusItem
+from app.views.text import tr
+
+
+class StatusStrip(QWidget):
+    """Cells beside each other; their tooltips say what the value means and what to do."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._cells: list[StatusCell] = []
+        self._row = QHBoxLayout(self)
+        self._row.setContentsMargins(theme.MARGIN, 3, theme.MARGIN, 3)
+        self._row.setSpacing(2 * theme.SPACING)
+        self._row.addStretch(1)
+        self.setAccessibleName(tr("Status"))
+
+    def show_items(self, items: Sequence[StatusItem]) -> None:
+        """Show these items in this order."""
+        while len(self._cells) < len(items):
+            cell = StatusCell(self)
+            self._row.insertWidget(len(self._cells), cell)
+            self._cells.append(cell)
+        for i, cell in enumerate(self._cells):
+            cell.setVisible(i < len(items))
+            if i < len(items):
+                cell.show_item(items[i])
+
+
+class StatusCell(QWidget):
+    """Symbol and title above the value."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._item: StatusItem | None = None
+        self._title, self._text = QLabel(self), QLabel(self)
+        for label in (self._title, self._text):
+            label.setTextFormat(Qt.TextFormat.PlainText)
+        self._text.setStyleSheet(f"font-size: {theme.SMALL_PX}px;")
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self._title)
+        column.addWidget(self._text)
+
+    def show_item(self, item: StatusItem) -> None:
+        """Show an item; does nothing when it is the one shown."""
+        if item == self._item:
+            return
+        colour, symbol = item.verdict.look
+        if self._item is None or self._item.verdict is not item.verdict:
+            self._title.setStyleSheet(
+                f"color: {colour}; font-size: {theme.SMALL_PX}px; font-weight: 600;"
+            )
+        self._item = item
+        self._title.setText(f"{symbol} {item.title}")
+        self._text.setText(item.text)
+        # The cell only ever grows, so that its neighbours do not dance with the digits.
+        self._text.setMinimumWidth(max(self._text.minimumWidth(), self._text.sizeHint().width()))
+        self.setToolTip(f"{item.title}: {item.text}\n\n{item.help}")
+        self.setAccessibleName(f"{item.title}: {item.text}")
+
+    @property
+    def item(self) -> StatusItem | None:
+        """What is shown."""
+        return self._item

@@ -1,0 +1,143 @@
+"""Health of every part as words: a verdict, what it is, and what to do about it. Pure."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import inf
+from typing import Final
+
+from app.views import theme
+from app.views.text import tr
+
+LATE_WARNING: Final = 0.2e-3
+"""Median lateness [s] from which the loop is called late: the figure the loop has to keep."""
+ENCODER_FADE: Final = 0.02
+ENCODER_ZERO: Final = 0.1
+TRACKER_FRESH: Final = 0.1
+TRACKER_HOLD: Final = 0.2
+HEARTBEAT_LIMIT: Final = 1.0
+SHARE_WARNING: Final = 0.9
+
+
+class Verdict(StrEnum):
+    """How a part is."""
+
+    GOOD = "good"
+    WARNING = "warning"
+    BAD = "bad"
+    IDLE = "idle"
+
+    @property
+    def look(self) -> tuple[str, str]:
+        """Colour and symbol."""
+        return theme.VERDICTS.get(self.value, (theme.TEXT_DIM, "–"))
+
+
+@dataclass(frozen=True, slots=True)
+class StatusItem:
+    """One line of the status strip: verdict, title, value in words, and help."""
+
+    verdict: Verdict
+    title: str
+    text: str
+    help: str
+
+
+def loop_item(rate: float, median: float, p99: float, missed: int, ticks: int) -> StatusItem:
+    """Loop: rate [Hz], lateness [s], deadlines missed of `ticks` so far."""
+    share = missed / ticks if ticks > 0 else 0.0
+    verdict = Verdict.GOOD
+    if median > LATE_WARNING or share > 0.001:
+        verdict = Verdict.WARNING
+    if share > 0.05:
+        verdict = Verdict.BAD
+    text = tr(
+        "{rate:.0f} Hz · late {median:.2f} / {p99:.2f} ms · {missed} missed",
+        rate=rate, median=1e3 * median, p99=1e3 * p99, missed=missed,
+    )  # fmt: skip
+    return StatusItem(verdict, tr("Robot loop"), text, tr(
+        "Rate of the force loop, its lateness (median / 99th percentile) and the deadlines it "
+        "missed. If it is late, close other programs; forces stay limited either way."
+    ))  # fmt: skip
+
+
+def encoder_item(age: float, fault: int, fault_text: str = "") -> StatusItem:
+    """Encoders: age [s], and the fault that holds the force at zero."""
+    if fault:
+        text = fault_text or tr("fault {code}: force is zero", code=fault)
+        verdict = Verdict.BAD
+    else:
+        verdict = _by_age(age, ENCODER_FADE, ENCODER_ZERO)
+        text = age_text(age)
+    return StatusItem(verdict, tr("Encoders"), text, tr(
+        "Age of the robot's joint angles. The force fades from 20 ms and is zero from 100 ms. "
+        "If it stays old, check the robot's cable and power, then start the attempt again."
+    ))  # fmt: skip
+
+
+def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> StatusItem:
+    """Cameras: pictures per second, share of valid fixes 0…1, age of the last one [s], problem."""
+    verdict = _by_age(age, TRACKER_FRESH, TRACKER_HOLD)
+    if verdict is Verdict.GOOD and (problem or valid_share < SHARE_WARNING):
+        verdict = Verdict.WARNING
+    text = problem or tr(
+        "{rate:.0f} Hz · {share:.0f} % valid · {age}",
+        rate=rate, share=100 * valid_share, age=age_text(age),
+    )  # fmt: skip
+    return StatusItem(verdict, tr("Cameras"), text, tr(
+        "Rate of the tracker, share of pictures in which both cameras saw the marker, age of the "
+        "last such fix. If the marker is out of view, bring it back between the cameras; look at "
+        "the camera pictures for dirt, light or something in the way."
+    ))  # fmt: skip
+
+
+def depth_item(source: str, age: float) -> StatusItem:
+    """Where the shown depth comes from: `tracked`, `held`, `model` or `none`."""
+    known = {
+        "tracked": (Verdict.GOOD, tr("from the cameras")),
+        "held": (Verdict.WARNING, tr("held, {age} old", age=age_text(age))),
+        "model": (Verdict.BAD, tr("model only, not measured")),
+        "none": (Verdict.BAD, tr("unknown")),
+    }
+    verdict, text = known.get(source, known["none"])
+    return StatusItem(verdict, tr("Depth"), text, tr(
+        "The depth is measured by the cameras. Without a fix it is held for 200 ms; after that the "
+        "model's depth is shown, which is a guess: wait until the cameras see the marker again."
+    ))  # fmt: skip
+
+
+def heartbeat_item(age: float) -> StatusItem:
+    """Sign of life of this window to the loop: age [s]."""
+    verdict = _by_age(age, 0.5 * HEARTBEAT_LIMIT, HEARTBEAT_LIMIT)
+    return StatusItem(verdict, tr("Heartbeat"), age_text(age), tr(
+        "The window's sign of life to the robot. After 1 s without one the force goes to zero. If "
+        "it stops, the window is frozen: wait, or end the program."
+    ))  # fmt: skip
+
+
+def recorder_item(recording: bool, lost: int = 0) -> StatusItem:
+    """Recorder: whether it writes, and how many rows it lost."""
+    verdict, text = Verdict.IDLE, tr("not recording")
+    if recording:
+        verdict, text = Verdict.GOOD, tr("recording")
+    if lost:
+        verdict, text = Verdict.WARNING, tr("{lost} samples lost", lost=lost)
+    return StatusItem(verdict, tr("Recorder"), text, tr(
+        "Every attempt is written to disk, flushed each second. If samples are lost, the disk is "
+        "too slow or full: free some space."
+    ))  # fmt: skip
+
+
+def age_text(age: float) -> str:
+    """An age [s] in milliseconds or seconds."""
+    if not age < inf or age > 1e6:
+        return tr("never")
+    if age < 1.0:
+        return tr("{ms:.0f} ms", ms=1e3 * age)
+    return tr("{s:.1f} s", s=age)
+
+
+def _by_age(age: float, warning: float, bad: float) -> Verdict:
+    """NaN counts as too old."""
+    if not age < bad:
+        return Verdict.BAD
+    return Verdict.GOOD if age <= warning else Verdict.WARNING

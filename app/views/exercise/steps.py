@@ -1,0 +1,90 @@
+"""The attempt's states as a row of steps: done, present, to come."""
+
+from typing import Final
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from app.session.machine import State
+from app.views import theme
+from app.views.text import tr
+
+ORDER: Final = (State.READY, State.ALIGNING, State.INSERTING, State.HOLDING, State.ENDED)
+
+
+def state_text(state: State) -> str:
+    """Name of a state for people."""
+    return {
+        State.READY: tr("Ready"),
+        State.ALIGNING: tr("Aligning"),
+        State.INSERTING: tr("Inserting"),
+        State.HOLDING: tr("Holding"),
+        State.ENDED: tr("Ended"),
+        State.ABORTED: tr("Aborted"),
+    }[state]
+
+
+class Steps(QWidget):
+    """Filled discs with ✔ for what is done, a ring for now, hollow for what comes."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._state: State | None = None
+        self._reached = 0
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setMinimumSize(300, 48)
+
+    def sizeHint(self) -> QSize:
+        """Preferred size."""
+        return QSize(330, 48)
+
+    def show_state(self, state: State | None) -> None:
+        """Show a state; None before there is an attempt."""
+        if state is self._state:
+            return
+        if state in ORDER:
+            self._reached = ORDER.index(state)
+        elif state is None:
+            self._reached = 0
+        self._state = state
+        self.setAccessibleName(state_text(state) if state else tr("No attempt"))
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the row."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        step = self.width() / len(ORDER)
+        painter.setPen(QPen(QColor(theme.BORDER), 2.0))
+        painter.drawLine(QPointF(step / 2, 14), QPointF(self.width() - step / 2, 14))
+        for i, state in enumerate(ORDER):
+            self._paint_step(painter, i, state, QRectF(i * step, 0, step, self.height()))
+
+    def _paint_step(self, painter: QPainter, i: int, state: State, box: QRectF) -> None:
+        aborted = self._state is State.ABORTED
+        here = self._state is not None and i == self._reached
+        done = self._state is not None and (i < self._reached or self._state is State.ENDED)
+        colour = theme.BAD if here and aborted else theme.ACCENT if here or done else theme.BORDER
+        sign = "✖" if here and aborted else "✔" if done else "●" if here else ""
+        centre = QPointF(box.center().x(), 14)
+        painter.setPen(QPen(QColor(colour), 2.5))
+        painter.setBrush(QColor(theme.BACKGROUND))
+        painter.drawEllipse(centre, 10, 10)
+        painter.setFont(_font(painter, 11, True))
+        painter.setPen(QColor(colour))
+        disc = QRectF(centre.x() - 10, 4, 20, 20)
+        painter.drawText(disc, Qt.AlignmentFlag.AlignCenter, sign)
+        painter.setFont(_font(painter, theme.SMALL_PX, here))
+        painter.setPen(QColor(theme.TEXT if here else theme.TEXT_DIM))
+        name = state_text(State.ABORTED) if here and aborted else state_text(state)
+        painter.drawText(
+            box.adjusted(0, 26, 0, 0), Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop, name
+        )
+
+
+def _font(painter: QPainter, pixels: int, bold: bool) -> QFont:
+    font = QFont(painter.font())
+    font.setPixelSize(pixels)
+    font.setBold(bold)
+    return font
