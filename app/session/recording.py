@@ -1,0 +1,179 @@
+"""A record read back: metadata, plan, events and arrays."""
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from app.core.arrays import FloatArray, read_only
+from app.core.events import Event
+from app.planning.placement import PlacedPlan
+from app.session import blocks
+from app.session.errors import BrokenRecording
+from app.session.facts import PLAN, placed_plan
+from app.session.samples import Samples, floats, vectors, words
+from app.session.scan import Scan, scan
+from app.session.schemas import CHANNELS
+
+Metadata = MappingProxyType[str, dict[str, str]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Inputs:
+    """The loop's inputs and encoder values at the loop's rate.
+
+    Attributes:
+        columns: slot names.
+        values: shape (n, len(columns)), read-only.
+        lost: rows that were overwritten before they could be recorded.
+    """
+
+    columns: tuple[str, ...]
+    values: FloatArray
+    lost: int
+
+    def column(self, name: str) -> FloatArray:
+        """Return one slot over time, shape (n,).
+
+        Raises:
+            BrokenRecording: if the record has no such slot.
+        """
+        if name not in self.columns:
+            raise BrokenRecording(f"no slot {name!r} in this record; it has {', '.join(self.columns)}")
+        result: FloatArray = self.values[:, self.columns.index(name)]
+        return result
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Recording:
+    """One record.
+
+    Attributes:
+        path: the file.
+        complete: whether the file was finished; if not, it holds all up to its last second.
+        problems: what is cut off, damaged or lost, one line each.
+        metadata: metadata records by name.
+        attachments: attached files by name.
+        events: events in order.
+        samples: the attempt over time.
+        inputs: the loop's inputs.
+    """
+
+    path: Path
+    complete: bool
+    problems: tuple[str, ...]
+    metadata: Metadata
+    attachments: MappingProxyType[str, bytes]
+    events: tuple[Event, ...]
+    samples: Samples
+    inputs: Inputs = field(repr=False)
+
+    @property
+    def id(self) -> str:
+        """Session id."""
+        return self.metadata.get("session", {}).get("id", self.path.stem)
+
+    def placed_plan(self) -> PlacedPlan:
+        """Plan in the robot's frame.
+
+        Raises:
+            BrokenRecording: if the record holds no usable plan.
+        """
+        if PLAN not in self.metadata:
+            raise BrokenRecording(f"{self.path.name} holds no plan: it was cut off at its beginning")
+        return placed_plan(self.metadata[PLAN])
+
+
+def read_recording(path: Path) -> Recording:
+    """Read a record, finished or not.
+
+    Raises:
+        BrokenRecording: if the file is not an MCAP file, or holds nothing of an attempt.
+    """
+    content = scan(path)
+    if "session" not in content.metadata:
+        raise BrokenRecording(f"{path.name} holds no session: " + "; ".join(content.problems or ["not ours"]))
+    problems = content.problems
+    samples = _samples(content, problems)
+    inputs = _inputs(content, problems)
+    if inputs.lost:
+        problems.append(f"{inputs.lost} ticks of the loop were lost while recording")
+    return Recording(
+        path=path,
+        complete=content.complete,
+        problems=tuple(problems),
+        metadata=MappingProxyType(content.metadata),
+        attachments=MappingProxyType(content.attachments),
+        events=tuple(_event(document) for document in _documents(content, "/events", problems)),
+        samples=samples,
+        inputs=inputs,
+    )
+
+
+def _documents(content: Scan, topic: str, problems: list[str]) -> list[dict[str, Any]]:
+    """Messages of a JSON channel that have all that its schema requires."""
+    required = set((CHANNELS[topic].schema or {})["required"])
+    documents = []
+    for data in content.messages.get(topic, []):
+        try:
+            document = json.loads(data)
+        except ValueError as error:
+            problems.append(f"a message of {topic} is not JSON and left out: {error}")
+            continue
+        if isinstance(document, dict) and required <= document.keys():
+            documents.append(document)
+        else:
+            problems.append(f"a message of {topic} lacks a required field and is left out")
+    return documents
+
+
+def _event(document: dict[str, Any]) -> Event:
+    data = dict(document.get("data", {}))
+    time = float(data.pop("time", 0.0) or 0.0)
+    return Event(time, str(document.get("kind", "")), str(document.get("message", "")), data)
+
+
+def _samples(content: Scan, problems: list[str]) -> Samples:
+    rows = _documents(content, "/attempt", problems)
+    return Samples(
+        time=floats([row["time"] for row in rows]),
+        state=words([row["state"] for row in rows]),
+        valid=read_only(np.array([row["valid"] for row in rows], dtype=np.bool_)),
+        depth_source=words([row["depth_source"] for row in rows]),
+        depth=floats([row["depth"] for row in rows]),
+        tip=vectors([row["tip"] for row in rows]),
+        axis=vectors([row["axis"] for row in rows]),
+        target=vectors([row["target"] for row in rows]),
+        felt=_felt(content, rows, problems),
+    )
+
+
+def _felt(content: Scan, rows: list[dict[str, Any]], problems: list[str]) -> FloatArray:
+    """Felt force at each sample: matched by the stamp, which both channels share."""
+    by_stamp = {_stamp(d): d["felt"] for d in _documents(content, "/haptic/wrench", problems)}
+    zero = dict.fromkeys("xyz", 0.0)
+    return vectors([by_stamp.get(_stamp(row)) or zero for row in rows])
+
+
+def _stamp(document: dict[str, Any]) -> int:
+    stamp = document["timestamp"]
+    return int(stamp["sec"]) * 1_000_000_000 + int(stamp["nsec"])
+
+
+def _inputs(content: Scan, problems: list[str]) -> Inputs:
+    names = content.channels.get("/loop/inputs", {}).get("slots", "")
+    columns = tuple(names.split(",")) if names else blocks.COLUMNS
+    parts, lost = [], 0
+    for data in content.messages.get("/loop/inputs", []):
+        try:
+            block = blocks.unpack(data)
+        except BrokenRecording as error:
+            problems.append(str(error))
+            continue
+        lost += block.lost
+        parts.append(block.values)
+    values = np.concatenate(parts) if parts else np.empty((0, len(columns)))
+    return Inputs(columns, read_only(values), lost)

@@ -1,0 +1,98 @@
+"""The attempt over time as arrays: gathered while it runs, or read back from its record."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray, read_only
+from app.session.sample import Sample
+
+SAMPLE_PERIOD: Final = 0.01
+"""Samples are kept at most this often [s]: 100 Hz."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Samples:
+    """The attempt over time at the recorder's rate; n samples, SI, world, read-only.
+
+    Where `valid` is False, tip, axis and depth are NaN.
+
+    Attributes:
+        time: monotonic time [s], shape (n,).
+        state: state of the attempt, shape (n,), text.
+        valid: whether the pose is valid, shape (n,).
+        depth_source: `tracked`, `held`, `model` or `none`, shape (n,), text.
+        depth: depth of the tip [m], shape (n,).
+        tip: tip [m], shape (n, 3).
+        axis: needle direction, shape (n, 3).
+        target: target with its motion [m], shape (n, 3).
+        felt: force at the hub point [N], shape (n, 3); zero where the robot said nothing.
+    """
+
+    time: FloatArray
+    state: NDArray[np.str_]
+    valid: NDArray[np.bool_]
+    depth_source: NDArray[np.str_]
+    depth: FloatArray
+    tip: FloatArray
+    axis: FloatArray
+    target: FloatArray
+    felt: FloatArray
+
+
+class History:
+    """Samples of a running attempt, at most one per `SAMPLE_PERIOD`."""
+
+    def __init__(self) -> None:
+        self._samples: list[Sample] = []
+
+    def add(self, sample: Sample) -> bool:
+        """Keep a sample unless it follows too closely; tell whether it was kept."""
+        previous = self._samples[-1].time if self._samples else -np.inf
+        if sample.time - previous < SAMPLE_PERIOD * (1.0 - 1e-6):
+            return False
+        self._samples.append(sample)
+        return True
+
+    def arrays(self) -> Samples:
+        """All samples so far."""
+        kept = tuple(self._samples)
+        poses = [s.pose for s in kept]
+        return Samples(
+            time=floats([s.time for s in kept]),
+            state=words([s.state.value for s in kept]),
+            valid=read_only(np.array([p.valid for p in poses], dtype=np.bool_)),
+            depth_source=words([p.depth_source.value for p in poses]),
+            depth=floats([p.depth if p.valid else None for p in poses]),
+            tip=vectors([xyz(p.p_tip) if p.valid else None for p in poses]),
+            axis=vectors([xyz(p.axis) if p.valid else None for p in poses]),
+            target=vectors([xyz(s.p_target) for s in kept]),
+            felt=vectors([xyz(s.device.felt if s.device else np.zeros(3)) for s in kept]),
+        )
+
+
+def xyz(values: FloatArray) -> dict[str, float]:
+    """Three numbers as a mapping, as they stand in JSON."""
+    x, y, z = np.asarray(values, dtype=np.float64).tolist()
+    return {"x": x, "y": y, "z": z}
+
+
+def floats(values: Sequence[float | None]) -> FloatArray:
+    """Read-only array, shape (n,), NaN for None."""
+    return read_only(np.array([np.nan if v is None else v for v in values], dtype=np.float64))
+
+
+def words(values: Sequence[str]) -> NDArray[np.str_]:
+    """Read-only array of text, shape (n,)."""
+    return read_only(np.array(values, dtype=np.str_))
+
+
+def vectors(values: Sequence[Mapping[str, float | None] | None]) -> FloatArray:
+    """Read-only array, shape (n, 3), NaN for None."""
+    missing: Mapping[str, float | None] = dict.fromkeys("xyz", None)
+    rows = [[(v or missing)[key] for key in "xyz"] for v in values]
+    array = np.array([[np.nan if x is None else x for x in row] for row in rows], dtype=np.float64)
+    return read_only(array.reshape(len(rows), 3))

@@ -1,0 +1,135 @@
+"""Channels of a record and their JSON schemas.
+
+The `foxglove.*` schemas are the published ones of github.com/foxglove/foxglove-sdk
+(schemas/jsonschema), without their prose; the `acus.*` ones are our own. Metres, radians, newtons.
+"""
+
+from dataclasses import dataclass
+from typing import Any, Final
+
+Schema = dict[str, Any]
+
+
+def _object(title: str, properties: Schema, optional: tuple[str, ...] = ()) -> Schema:
+    required = [name for name in properties if name not in optional]
+    return {"title": title, "type": "object", "properties": properties, "required": required}
+
+
+def _array(items: Schema) -> Schema:
+    return {"type": "array", "items": items}
+
+
+_NUMBER: Final[Schema] = {"type": "number"}
+_NUMBER_OR_NULL: Final[Schema] = {"type": ["number", "null"]}
+_TEXT: Final[Schema] = {"type": "string"}
+_FLAG: Final[Schema] = {"type": "boolean"}
+_COUNT: Final[Schema] = {"type": "integer", "minimum": 0}
+_TIME: Final = _object(
+    "time",
+    {
+        "sec": {"type": "integer", "minimum": 0},
+        "nsec": {"type": "integer", "minimum": 0, "maximum": 999999999},
+    },
+)
+_VECTOR: Final = _object("foxglove.Vector3", dict.fromkeys("xyz", _NUMBER))
+_VECTOR_OR_NULL: Final[Schema] = _VECTOR | {
+    "type": ["object", "null"],
+    "properties": dict.fromkeys("xyz", _NUMBER_OR_NULL),
+}
+_QUATERNION: Final = _object("foxglove.Quaternion", dict.fromkeys("xyzw", _NUMBER))
+_POSE: Final = _object("foxglove.Pose", {"position": _VECTOR, "orientation": _QUATERNION})
+
+FRAME_TRANSFORM: Final = _object(
+    "foxglove.FrameTransform",
+    {
+        "timestamp": _TIME,
+        "parent_frame_id": _TEXT,
+        "child_frame_id": _TEXT,
+        "translation": _VECTOR,
+        "rotation": _QUATERNION,
+    },
+)
+POSE_IN_FRAME: Final = _object(
+    "foxglove.PoseInFrame", {"timestamp": _TIME, "frame_id": _TEXT, "pose": _POSE}
+)
+_JOINT: Final = _object(
+    "foxglove.JointState",
+    {"name": _TEXT, "position": _NUMBER, "velocity": _NUMBER, "effort": _NUMBER},
+    optional=("position", "velocity", "effort"),
+)
+JOINT_STATES: Final = _object("foxglove.JointStates", {"timestamp": _TIME, "joints": _array(_JOINT)})
+LOG: Final = _object(
+    "foxglove.Log",
+    {
+        "timestamp": _TIME,
+        "level": {"oneOf": [{"const": value} for value in range(6)]},
+        "message": _TEXT,
+        "name": _TEXT,
+        "file": _TEXT,
+        "line": _COUNT,
+        "kind": _TEXT,
+        "data": {"type": "object"},
+    },
+    optional=("kind", "data"),
+)
+ATTEMPT: Final = _object(
+    "acus.Attempt",
+    {
+        "timestamp": _TIME,
+        "time": _NUMBER,
+        "state": _TEXT,
+        "valid": _FLAG,
+        "depth_source": _TEXT,
+        "depth": _NUMBER_OR_NULL,
+        "tip": _VECTOR_OR_NULL,
+        "axis": _VECTOR_OR_NULL,
+        "target": _VECTOR_OR_NULL,
+    },
+)
+WRENCH: Final = _object(
+    "acus.Wrench",
+    {
+        "timestamp": _TIME,
+        "wanted": _VECTOR_OR_NULL,
+        "felt": _VECTOR_OR_NULL,
+        "clamped": _FLAG,
+        "enabled": _FLAG,
+        "assistance": _NUMBER_OR_NULL,
+        "fault": _COUNT,
+    },
+)
+QUALITY: Final = _object(
+    "acus.TrackingQuality",
+    {
+        "timestamp": _TIME,
+        "status": _TEXT,
+        "residual_px": _NUMBER_OR_NULL,
+        "orientation_age": _NUMBER_OR_NULL,
+        "depth_age": _NUMBER_OR_NULL,
+        "sigma_along": _NUMBER_OR_NULL,
+    },
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """A channel: its topic and schema (None for the binary one)."""
+
+    topic: str
+    schema: Schema | None
+
+
+CHANNELS: Final = {
+    channel.topic: channel
+    for channel in (
+        Channel("/tf", FRAME_TRANSFORM),
+        Channel("/needle/tip", POSE_IN_FRAME),
+        Channel("/haptic/joints", JOINT_STATES),
+        Channel("/haptic/wrench", WRENCH),
+        Channel("/tracking/quality", QUALITY),
+        Channel("/attempt", ATTEMPT),
+        Channel("/events", LOG),
+        Channel("/loop/inputs", None),
+    )
+}
+"""Every channel of a record by topic."""

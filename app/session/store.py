@@ -1,0 +1,86 @@
+"""The folder of recorded attempts: list, find, delete to a trash folder and bring back."""
+
+import os
+from pathlib import Path
+from typing import Final
+
+from app.session.errors import SessionError, SessionNotFound
+from app.session.summary import Summary, read_summary, sidecar
+
+SUFFIX: Final = ".mcap"
+TRASH: Final = ".trash"
+"""Folder inside the store that holds what was deleted, until somebody empties it."""
+
+_SHOWN: Final = 5
+
+
+def list_sessions(folder: Path) -> list[Summary]:
+    """All sessions, newest first; unreadable files are in the list, with the reason.
+
+    A folder that does not exist holds none.
+
+    Raises:
+        SessionError: if the folder cannot be read.
+    """
+    summaries = [read_summary(path) for path in _records(folder)]
+    return sorted(summaries, key=lambda summary: (summary.started, summary.id), reverse=True)
+
+
+def find(folder: Path, session_id: str) -> Path:
+    """Return the record of a session; the beginning of an id is enough if only one fits.
+
+    Raises:
+        SessionNotFound: if none or several fit; names some that exist.
+    """
+    names = {path.stem: path for path in _records(folder)}
+    fitting = [session_id] if session_id in names else [n for n in names if n.startswith(session_id)]
+    if len(fitting) == 1 and session_id:
+        return names[fitting[0]]
+    shown = sorted(fitting or names, reverse=True)
+    text = ", ".join(shown[:_SHOWN]) + (", ..." if len(shown) > _SHOWN else "") or "none"
+    what = "fits several sessions" if fitting and session_id else "is no session"
+    raise SessionNotFound(f"{session_id!r} {what} in {folder}; there: {text}")
+
+
+def delete(folder: Path, session_id: str) -> Path:
+    """Move a session to the trash folder; `restore` undoes it.
+
+    Raises:
+        SessionNotFound: if there is no such session.
+        SessionError: if it cannot be moved.
+    """
+    return _move(find(folder, session_id), folder / TRASH)
+
+
+def restore(folder: Path, session_id: str) -> Path:
+    """Bring a deleted session back.
+
+    Raises:
+        SessionNotFound: if the trash does not hold it.
+        SessionError: if it cannot be moved.
+    """
+    return _move(find(folder / TRASH, session_id), folder)
+
+
+def _records(folder: Path) -> list[Path]:
+    try:
+        return sorted(path for path in folder.iterdir() if path.suffix == SUFFIX and path.is_file())
+    except FileNotFoundError:
+        return []
+    except OSError as error:
+        raise SessionError(f"cannot read the folder {folder}: {error.strerror or error}") from error
+
+
+def _move(path: Path, folder: Path) -> Path:
+    """Move record and sidecar; the record last, so that a session is never without its record."""
+    target = folder / path.name
+    if target.exists():
+        raise SessionError(f"{target} exists already: move it away first")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if sidecar(path).exists():
+            os.replace(sidecar(path), sidecar(target))
+        os.replace(path, target)
+    except OSError as error:
+        raise SessionError(f"cannot move {path} to {folder}: {error.strerror or error}") from error
+    return target
