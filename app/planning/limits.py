@@ -7,7 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.core.arrays import FloatArray
+from app.core.arrays import FloatArray, frozen
+from app.mechanisms.errors import MechanismError
+from app.mechanisms.pantograph import Geometry, forward, inverse
+from app.mechanisms.profile import DeviceProfile
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +28,17 @@ class ReachLimits:
     tilt_limit: float
     depth_limit: float
     in_workspace: Callable[[float, float], bool]
+
+    @classmethod
+    def of(cls, profile: DeviceProfile) -> ReachLimits:
+        """Take the limits out of a device profile."""
+        geometry = profile.pantograph
+        return cls(
+            fulcrum=frozen(geometry.fulcrum, (3,), "fulcrum"),
+            tilt_limit=profile.tilt_limit,
+            depth_limit=profile.depth_range[1],
+            in_workspace=lambda x, y: in_workspace(geometry, x, y),
+        )
 
     def tool_point(self, axis: FloatArray) -> tuple[float, float] | None:
         """Where the needle crosses the mechanism's plane z = 0 [m]; None if it never does.
@@ -44,6 +58,19 @@ class ReachLimits:
         around = cone(axis, margin) if margin > 0.0 else [axis]
         points = [self.tool_point(direction) for direction in around]
         return all(point is not None and self.in_workspace(*point) for point in points)
+
+
+def in_workspace(geometry: Geometry, x: float, y: float) -> bool:
+    """Whether the pantograph, elbows outwards, closes at (x, y) [m] in the assembly it is built in.
+
+    Where both arms reach but the links would have to pass through each other, forward kinematics
+    of the joint angles gives another point back: that counts as outside.
+    """
+    try:
+        back = forward(geometry, inverse(geometry, (x, y)))
+    except MechanismError:
+        return False
+    return bool(np.hypot(back[0] - x, back[1] - y) < 1e-9)
 
 
 def tilt_of(axis: FloatArray) -> float:

@@ -7,6 +7,7 @@ from enum import StrEnum
 
 from app.core.arrays import FloatArray
 from app.core.units import DEGREE, MILLIMETRE
+from app.mechanisms.profile import DeviceProfile
 from app.planning.limits import ReachLimits, tilt_of
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
@@ -69,14 +70,19 @@ class Reach:
         return f"{text}. Remedy: {self.remedy.words}" if self.remedy else text
 
 
-def reach(plan: Plan, placement: Placement, limits: ReachLimits) -> Reach:
-    """Tell whether the path can be followed from the fulcrum to the target.
+def reach(plan: Plan, placement: Placement, profile: DeviceProfile) -> Reach:
+    """Tell whether a device can follow the path from its fulcrum to the target.
 
     Args:
         plan: entry and target in the patient.
         placement: how the patient lies.
-        limits: of the device.
+        profile: the device.
     """
+    return reach_within(plan, placement, ReachLimits.of(profile))
+
+
+def reach_within(plan: Plan, placement: Placement, limits: ReachLimits) -> Reach:
+    """`reach` for limits that do not come from a profile."""
     placed = PlacedPlan.of(plan, placement, limits.fulcrum)
     reasons = _direction_reasons(placed.axis, limits) + _depth_reasons(placed.length, limits)
     curable = bool(reasons) and all(r.obstacle is not Obstacle.DEPTH for r in reasons)

@@ -1,0 +1,30 @@
+"""Errors of scoring."""
+
+from app.core.errors import AcusError
+
+
+class ScoringError(AcusError):
+    """Root of the scoring errors."""
+
+
+class TrajectoryError(ScoringError, ValueError):
+    """Samples that cannot be an attempt: wrong shape, not finite, or time that does not rise."""
+
+
+class MetricUnavailableError(ScoringError):
+    """A metric that this attempt does not allow to compute; the message says why."""
+
+
+class MetricError(ScoringError, TypeError):
+    """A file in `scoring/metrics` that is not a metric."""
+
+
+class UnknownMetricError(ScoringError, KeyError):
+    """A tolerance for a metric that does not exist; the message lists those that do."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class ScoreFormatError(ScoringError, ValueError):
+    """A stored score that cannot be read back."""

@@ -1,0 +1,16 @@
+"""Time in the phase aligning: the needle is outside the body."""
+
+from app.scoring.errors import MetricUnavailableError
+from app.scoring.trajectory import Phase, Trajectory
+
+NAME = "aligning_time"
+LABEL = "Aligning time"
+UNIT = "s"
+HIGHER_IS_BETTER = False
+
+
+def compute(trajectory: Trajectory) -> float:
+    """Return the time [s]; 0 if an attempt that ran never was in this phase."""
+    if not trajectory.running.any():
+        raise MetricUnavailableError("the attempt was never begun")
+    return trajectory.duration(trajectory.phase == Phase.ALIGNING)

@@ -1,0 +1,28 @@
+"""Work of the virtual fixture on the needle in the body: ∫ F_guide · dx at the hub point.
+
+Positive: the fixture moved the needle, so it did part of the student's task; negative: the hand
+worked against it. Off its path a spring gives back what it took, so the sum over a detour is small.
+"""
+
+import numpy as np
+
+from app.scoring.errors import MetricUnavailableError
+from app.scoring.trajectory import Trajectory
+
+NAME = "guidance_work"
+LABEL = "Guidance work"
+UNIT = "mJ"
+HIGHER_IS_BETTER = False
+READS = ("guide_x", "guide_y", "guide_z")
+
+
+def compute(trajectory: Trajectory) -> float:
+    """Return the work [mJ], by the trapezoidal rule."""
+    guide, hub = trajectory.guide, trajectory.hub
+    if guide is None or hub is None:
+        raise MetricUnavailableError("the force of the guidance was not recorded")
+    work = 0.0
+    for part in trajectory.insertions():
+        force = 0.5 * (guide[part][1:] + guide[part][:-1])
+        work += float(np.einsum("ij,ij->", force, np.diff(hub[part], axis=0)))
+    return work * 1e3

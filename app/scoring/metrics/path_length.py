@@ -1,0 +1,20 @@
+"""Length of the tip's path in the body, over all insertions, without the jitter of the tracking.
+
+Positions are averaged over blocks of half a second first (`scoring.paths`): the plain sum over
+samples grows with noise and sampling rate. `path_length_raw` is that plain sum.
+"""
+
+from app.core.units import MILLIMETRE
+from app.scoring.paths import smooth_length
+from app.scoring.trajectory import Trajectory
+
+NAME = "path_length"
+LABEL = "Path length"
+UNIT = "mm"
+HIGHER_IS_BETTER = False
+
+
+def compute(trajectory: Trajectory) -> float:
+    """Return the length [mm]."""
+    time, tip = trajectory.time, trajectory.tip
+    return sum(smooth_length(time[s], tip[s]) for s in trajectory.insertions()) / MILLIMETRE

@@ -1,0 +1,27 @@
+"""Length of the tip's path in the last insertion over the straight line between its two ends."""
+
+import numpy as np
+
+from app.core.units import MILLIMETRE
+from app.scoring.errors import MetricUnavailableError
+from app.scoring.paths import smooth_length
+from app.scoring.trajectory import Trajectory
+
+NAME = "path_ratio"
+LABEL = "Path ratio"
+UNIT = ""
+HIGHER_IS_BETTER = False
+SHORTEST = 1.0 * MILLIMETRE
+
+
+def compute(trajectory: Trajectory) -> float:
+    """Return the ratio, 1 for a straight insertion; the length is that of `path_length`."""
+    last = trajectory.insertions()[-1]
+    tip = trajectory.tip[last]
+    straight = float(np.linalg.norm(tip[-1] - tip[0]))
+    if straight < SHORTEST:
+        raise MetricUnavailableError(
+            f"the tip ended {straight / MILLIMETRE:.2f} mm from where it entered; "
+            "a ratio needs at least 1 mm"
+        )
+    return smooth_length(trajectory.time[last], tip) / straight

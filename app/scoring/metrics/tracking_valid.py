@@ -1,0 +1,18 @@
+"""Share of the time in the body during which the depth of the tip was measured."""
+
+from app.scoring.trajectory import Trajectory
+
+NAME = "tracking_valid"
+LABEL = "Tracking valid"
+UNIT = "%"
+HIGHER_IS_BETTER = True
+
+
+def compute(trajectory: Trajectory) -> float:
+    """Return the share [%]; of a single sample, 0 or 100."""
+    trajectory.insertions()
+    inserted = trajectory.inserted
+    whole = trajectory.duration(inserted)
+    if whole > 0.0:
+        return 100.0 * trajectory.duration(inserted & trajectory.depth_valid) / whole
+    return 100.0 * float(trajectory.depth_valid[inserted].mean())

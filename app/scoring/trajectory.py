@@ -1,0 +1,210 @@
+"""The attempt as arrays over time: everything that metrics may look at."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.core.arrays import FloatArray, read_only
+from app.planning.placement import PlacedPlan
+from app.scoring.errors import MetricUnavailableError, TrajectoryError
+
+LAST_SEEN = 1.0
+"""The tip counts as known at the end if the cameras saw it within this time before [s]."""
+
+
+class Phase(IntEnum):
+    """State of the attempt at a sample; the lower-case names are those of the state machine."""
+
+    READY = 0
+    ALIGNING = 1
+    INSERTING = 2
+    HOLDING = 3
+    ENDED = 4
+    ABORTED = 5
+
+
+_CODES = {phase.name.lower(): phase.value for phase in Phase}
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Trajectory:
+    """One attempt, n samples, all in `world`, SI; arrays are read-only copies.
+
+    Attributes:
+        placed: the plan in world.
+        time: monotonic time, strictly rising [s], shape (n,).
+        tip: needle tip [m], shape (n, 3).
+        axis: needle direction, hub to tip, unit vectors, shape (n, 3).
+        depth: tip beyond the fulcrum along the axis [m], shape (n,).
+        felt: force at the hub point after all limits [N], shape (n, 3).
+        phase: state of the attempt, given as names (`aligning`, ...) or as `Phase`, shape (n,).
+        depth_valid: whether the depth was measured (not held or modelled), shape (n,).
+        hub: hub point P_u, where the hand is [m], shape (n, 3); None if not recorded.
+        guide: share of the virtual fixture in the force at the hub point [N], shape (n, 3); None if
+            not recorded.
+        target_shift: displacement of the target from its place at rest [m], shape (n, 3); None if
+            it does not move.
+        aborted: why the attempt was aborted; empty if it was not.
+
+    Raises:
+        TrajectoryError: naming the array and the first bad sample.
+    """
+
+    placed: PlacedPlan
+    time: FloatArray
+    tip: FloatArray
+    axis: FloatArray
+    depth: FloatArray
+    felt: FloatArray
+    phase: NDArray[np.int8]
+    depth_valid: NDArray[np.bool_]
+    hub: FloatArray | None = None
+    guide: FloatArray | None = None
+    target_shift: FloatArray | None = None
+    aborted: str = ""
+
+    def __post_init__(self) -> None:
+        time = _samples(self.time, "time", None, ())
+        n = len(time)
+        _check_time(time)
+        values: dict[str, Any] = {"time": time, "depth": _samples(self.depth, "depth", n, ())}
+        for name in ("tip", "axis", "felt", "hub", "guide", "target_shift"):
+            if getattr(self, name) is not None:
+                values[name] = _samples(getattr(self, name), name, n, (3,))
+        _check_axis(values["axis"])
+        values["phase"] = _phases(self.phase, n)
+        values["depth_valid"] = _flags(self.depth_valid, n)
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    @property
+    def running(self) -> NDArray[np.bool_]:
+        """Samples between begin and end, shape (n,)."""
+        return (self.phase >= Phase.ALIGNING) & (self.phase <= Phase.HOLDING)
+
+    @property
+    def inserted(self) -> NDArray[np.bool_]:
+        """Samples with the needle in the body (inserting or holding), shape (n,)."""
+        return (self.phase == Phase.INSERTING) | (self.phase == Phase.HOLDING)
+
+    @property
+    def was_aborted(self) -> bool:
+        """Whether the attempt was broken off."""
+        return bool(self.aborted) or bool((self.phase == Phase.ABORTED).any())
+
+    def insertions(self) -> list[slice]:
+        """Uninterrupted stays in the body, in order.
+
+        Raises:
+            MetricUnavailableError: if there is none.
+        """
+        found = runs(self.inserted)
+        if not found:
+            raise MetricUnavailableError("the needle was never inserted")
+        return found
+
+    def final(self) -> int:
+        """Index of the sample that the result is read from: the last one with a measured depth.
+
+        Raises:
+            MetricUnavailableError: if the needle was not in the body at the end, or not seen for more
+                than `LAST_SEEN` before it.
+        """
+        self.insertions()
+        end = int(np.flatnonzero(self.running)[-1])
+        if not self.inserted[end]:
+            raise MetricUnavailableError("the needle was out of the body at the end")
+        seen = np.flatnonzero(self.depth_valid & self.inserted)
+        if len(seen) == 0:
+            raise MetricUnavailableError("the depth of the tip was never measured")
+        age = float(self.time[end] - self.time[seen[-1]])
+        if age > LAST_SEEN:
+            raise MetricUnavailableError(f"the tip was last seen {age:.1f} s before the end")
+        return int(seen[-1])
+
+    def target(self, index: int) -> FloatArray:
+        """Where the target is at a sample [m], shape (3,): at rest plus its displacement."""
+        if self.target_shift is None:
+            return self.placed.p_target
+        return self.placed.p_target + self.target_shift[index]
+
+    def duration(self, mask: NDArray[np.bool_]) -> float:
+        """Time [s] covered by the samples in `mask`: each counts until the next one."""
+        return float(np.diff(self.time)[mask[:-1]].sum())
+
+
+def runs(mask: NDArray[np.bool_]) -> list[slice]:
+    """Stretches of True, in order."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
+    return [slice(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _samples(values: ArrayLike, name: str, n: int | None, shape: tuple[int, ...]) -> FloatArray:
+    array = np.array(values, dtype=np.float64)
+    if array.size == 0:
+        array = array.reshape(0, *shape)
+    wanted = (len(array) if n is None and array.ndim else n, *shape)
+    if array.shape != wanted:
+        raise TrajectoryError(f"{name} has shape {array.shape}; {wanted} is needed, as time has it")
+    bad = ~np.isfinite(array.reshape(len(array), -1)).all(axis=1)
+    if bad.any():
+        first = int(np.argmax(bad))
+        raise TrajectoryError(
+            f"{name} is not finite in {int(bad.sum())} of {len(array)} samples, first at sample "
+            f"{first}: {array[first].tolist()}; leave such samples out or mark the depth as invalid"
+        )
+    return read_only(array)
+
+
+def _check_time(time: FloatArray) -> None:
+    steps = np.diff(time)
+    if (steps <= 0.0).any():
+        first = int(np.argmax(steps <= 0.0))
+        what = "stands still" if steps[first] == 0.0 else "goes backwards"
+        raise TrajectoryError(
+            f"time {what} at sample {first + 1}: {time[first + 1]} s after {time[first]} s"
+        )
+
+
+def _check_axis(axis: FloatArray) -> None:
+    off = np.abs(np.einsum("ij,ij->i", axis, axis) - 1.0)
+    if (off > 1e-6).any():
+        first = int(np.argmax(off > 1e-6))
+        raise TrajectoryError(f"axis {axis[first].tolist()} at sample {first} is no unit vector")
+
+
+def _phases(values: Sequence[Any] | NDArray[Any], n: int) -> NDArray[np.int8]:
+    given = np.asarray(values)
+    if given.size == 0:
+        codes = np.zeros(0, dtype=np.int8)
+    elif given.dtype.kind in "US":
+        names, index = np.unique(given.astype(str), return_inverse=True)
+        unknown = [name for name in names if name not in _CODES]
+        if unknown:
+            raise TrajectoryError(f"unknown phase {unknown[0]!r}; phases are {', '.join(_CODES)}")
+        codes = np.array([_CODES[name] for name in names], dtype=np.int8)[index]
+    elif given.dtype.kind in "iu" and given.min() >= 0 and given.max() < len(_CODES):
+        codes = given.astype(np.int8)
+    else:
+        raise TrajectoryError(f"phase must be names or codes of Phase 0 ... {len(_CODES) - 1}")
+    if codes.shape != (n,):
+        raise TrajectoryError(f"phase has shape {codes.shape}; ({n},) is needed, as time has it")
+    return read_only(codes)
+
+
+def _flags(values: ArrayLike, n: int) -> NDArray[np.bool_]:
+    flags = np.array(values, dtype=np.bool_)
+    if flags.size == 0:
+        flags = flags.reshape(0)
+    if flags.shape != (n,):
+        raise TrajectoryError(f"depth_valid has shape {flags.shape}; ({n},) is needed")
+    return read_only(flags)
