@@ -4,15 +4,13 @@ import os
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
-from collections.abc import Iterator
-
 import pytest
 from PySide6.QtWidgets import QApplication
 
 
 @pytest.fixture(scope="session")
-def qt() -> Iterator[QApplication]:
+def qt() -> QApplication:
     """The one application of the process."""
     application = QApplication.instance() or QApplication([])
     assert isinstance(application, QApplication)
-    yield application
+    return application

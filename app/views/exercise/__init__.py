@@ -1,1 +1,1 @@
-"""Everything the student sees while inserting: the pad, the panel, the status strip, the cameras."""
+"""What the student sees while inserting: pad, panel, status strip, camera pictures."""

@@ -141,7 +141,7 @@ class Bullseye(QWidget):
 
 
 def help_text() -> str:
-    """The pad's help line."""
+    """Return the pad's help line."""
     return tr(
         "Drag: tilt  ·  wheel or Page keys: depth 1 mm  ·  arrows: 0.2°  ·  "
         "Shift: finer  ·  Home: hand to needle"

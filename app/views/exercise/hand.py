@@ -1,4 +1,4 @@
-"""The simulated hand as the mouse and the keys move it: two tilts, a depth, and whether it holds."""
+"""The simulated hand as mouse and keys move it: two tilts, a depth, and whether it holds."""
 
 from dataclasses import dataclass, replace
 from math import hypot, pi
@@ -17,7 +17,7 @@ GAINS: Final = {"fine": 0.25, "normal": 0.5, "direct": 1.0}
 
 @dataclass(frozen=True, slots=True)
 class HandLimits:
-    """What the device lets the hand do: tilt from straight down [rad] and depth beyond the skin [m]."""
+    """How far the hand may go: tilt from straight down [rad] and depth beyond the skin [m]."""
 
     tilt: float
     shallowest: float
@@ -52,7 +52,9 @@ class Hand:
     what was dragged beyond it.
     """
 
-    def __init__(self, frame: PathFrame, scale: PadScale, limits: HandLimits, pose: HandPose) -> None:
+    def __init__(
+        self, frame: PathFrame, scale: PadScale, limits: HandLimits, pose: HandPose
+    ) -> None:
         self._frame = frame
         self._scale = scale
         self._limits = limits

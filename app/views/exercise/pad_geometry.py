@@ -6,8 +6,8 @@ sideways on the pad is a tilt within the axial plane ("in plane") and up is a ti
 ("out of plane").
 
 Tilts are the azimuthal equidistant coordinates of the direction about the path: the vector of
-length θ (the angle to the path) that points where the tip goes. They are regular on the path itself, where
-an azimuth would not exist, and one-to-one up to θ = π.
+length θ (the angle to the path) that points where the tip goes. They are regular on the path
+itself, where an azimuth would not exist, and one-to-one up to θ = π.
 """
 
 from collections.abc import Callable
@@ -30,7 +30,7 @@ _ALONG_THE_BODY: Final = 0.95
 
 @dataclass(frozen=True, slots=True)
 class PathFrame:
-    """Right-handed frame of the pad in world: `right × up = -axis` (the path leads into the screen).
+    """Right-handed frame of the pad in world; `right × up = -axis`: the path leads into the screen.
 
     Attributes:
         axis: wanted needle direction, hub to tip, unit, shape (3,).
@@ -94,7 +94,7 @@ def path_frame(axis_world: ArrayLike, R_world_patient: ArrayLike) -> PathFrame:
 
 
 def direction_letters(direction_lps: ArrayLike) -> str:
-    """Patient letters of a direction, by falling share: `L`, `AS`, ... (shares below 0.35 are left out)."""
+    """Patient letters of a direction by falling share, those above 0.35: `L`, `AS`, ..."""
     shares = unit(direction_lps, "patient direction")
     pairs = ("RL", "AP", "IS")
     order = np.argsort(-np.abs(shares), kind="stable")
@@ -119,7 +119,8 @@ class PadScale:
     def __post_init__(self) -> None:
         if not (0.0 < self.length < 10.0 and 0.0 < self.tolerance < 10.0):
             raise NumericalError(
-                f"pad scale needs a path length and a tolerance between 0 and 10 m, got {self.length} and {self.tolerance}"
+                "pad scale needs a path length and a tolerance between 0 and 10 m, "
+                f"got {self.length} and {self.tolerance}"
             )
 
     @property
@@ -145,15 +146,16 @@ class PadScale:
         return _scaled(place, self.angle)
 
     def place_of_offset(self, offset: ArrayLike) -> FloatArray:
-        """Place on the pad of a lateral offset [m] in the target's plane, (2,) -> (2,); inside the rim.
+        """Place on the pad of a lateral offset [m] in the target's plane, (2,) -> (2,).
 
         The angle of an offset r is atan(r / length): the direction from the entry that pierces the
-        target's plane there. So tip and direction share one scale and meet at the target.
+        target's plane there. So tip and direction share one scale and meet at the target, and
+        every offset stays inside the rim.
         """
         return _scaled(offset, lambda r: self.radius(atan2(r, self.length)))
 
     def offset_of_angle(self, angle: float) -> float:
-        """Where a needle at this angle [rad] pierces the target's plane [m]; infinite from π/2 on."""
+        """Offset [m] where a needle at this angle [rad] meets the target's plane; inf from π/2."""
         return self.length * tan(angle) if angle < 0.5 * pi else float("inf")
 
 
@@ -182,5 +184,5 @@ def clamp_to_cone(direction: ArrayLike, limit: float) -> FloatArray:
 
 
 def downward(x: float, y: float) -> FloatArray:
-    """Unit direction with these horizontal components that points down, shape (3,)."""
+    """Return the unit direction with these horizontal components that points down, shape (3,)."""
     return np.array([x, y, -sqrt(max(0.0, 1.0 - x * x - y * y))])

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, degrees, hypot, radians
+from math import atan2, hypot, radians
 from typing import Final
 
 import numpy as np
@@ -81,7 +81,7 @@ def paint_needle(painter: QPainter, area: PadArea, scene: PadScene, view: PadVie
 def paint_hand(
     painter: QPainter, area: PadArea, scene: PadScene, view: PadView, hand_tilts: ArrayLike
 ) -> None:
-    """The hand's ghost, and the spring to the needle while the hand leads it.
+    """Draw the hand's ghost, and the spring to the needle while the hand leads it.
 
     The spring is as long as the lead, and the thicker and wider the stronger it pulls.
     """
@@ -170,8 +170,3 @@ def _font(painter: QPainter, pixels: int, bold: bool = False) -> QFont:
     font.setPixelSize(pixels)
     font.setBold(bold)
     return font
-
-
-def angle_text(angle: float) -> str:
-    """An angle [rad] in degrees for the screen."""
-    return f"{degrees(angle):.1f}°"

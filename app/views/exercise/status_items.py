@@ -43,7 +43,7 @@ class StatusItem:
 
 
 def loop_item(rate: float, median: float, p99: float, missed: int, ticks: int) -> StatusItem:
-    """Loop: rate [Hz], lateness [s], deadlines missed of `ticks` so far."""
+    """Return the loop's health: rate [Hz], lateness [s], deadlines missed of `ticks` so far."""
     share = missed / ticks if ticks > 0 else 0.0
     verdict = Verdict.GOOD
     if median > LATE_WARNING or share > 0.001:
@@ -61,7 +61,7 @@ def loop_item(rate: float, median: float, p99: float, missed: int, ticks: int) -
 
 
 def encoder_item(age: float, fault: int, fault_text: str = "") -> StatusItem:
-    """Encoders: age [s], and the fault that holds the force at zero."""
+    """Return the encoders' health: age [s], and the fault that holds the force at zero."""
     if fault:
         text = fault_text or tr("fault {code}: force is zero", code=fault)
         verdict = Verdict.BAD
@@ -75,7 +75,7 @@ def encoder_item(age: float, fault: int, fault_text: str = "") -> StatusItem:
 
 
 def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> StatusItem:
-    """Cameras: pictures per second, share of valid fixes 0…1, age of the last one [s], problem."""
+    """Return the cameras' health: rate [Hz], valid share 0…1, age of the last fix [s], problem."""
     verdict = _by_age(age, TRACKER_FRESH, TRACKER_HOLD)
     if verdict is Verdict.GOOD and (problem or valid_share < SHARE_WARNING):
         verdict = Verdict.WARNING
@@ -91,7 +91,7 @@ def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> S
 
 
 def depth_item(source: str, age: float) -> StatusItem:
-    """Where the shown depth comes from: `tracked`, `held`, `model` or `none`."""
+    """Say where the shown depth comes from: `tracked`, `held`, `model` or `none`."""
     known = {
         "tracked": (Verdict.GOOD, tr("from the cameras")),
         "held": (Verdict.WARNING, tr("held, {age} old", age=age_text(age))),
@@ -106,7 +106,7 @@ def depth_item(source: str, age: float) -> StatusItem:
 
 
 def heartbeat_item(age: float) -> StatusItem:
-    """Sign of life of this window to the loop: age [s]."""
+    """Return the age [s] of this window's sign of life to the loop."""
     verdict = _by_age(age, 0.5 * HEARTBEAT_LIMIT, HEARTBEAT_LIMIT)
     return StatusItem(verdict, tr("Heartbeat"), age_text(age), tr(
         "The window's sign of life to the robot. After 1 s without one the force goes to zero. If "
@@ -115,7 +115,7 @@ def heartbeat_item(age: float) -> StatusItem:
 
 
 def recorder_item(recording: bool, lost: int = 0) -> StatusItem:
-    """Recorder: whether it writes, and how many rows it lost."""
+    """Return the recorder's health: whether it writes, and how many rows it lost."""
     verdict, text = Verdict.IDLE, tr("not recording")
     if recording:
         verdict, text = Verdict.GOOD, tr("recording")
@@ -128,7 +128,7 @@ def recorder_item(recording: bool, lost: int = 0) -> StatusItem:
 
 
 def age_text(age: float) -> str:
-    """An age [s] in milliseconds or seconds."""
+    """Say an age [s] in milliseconds or seconds."""
     if not age < inf or age > 1e6:
         return tr("never")
     if age < 1.0:

@@ -78,9 +78,8 @@ class Steps(QWidget):
         painter.setFont(_font(painter, theme.SMALL_PX, here))
         painter.setPen(QColor(theme.TEXT if here else theme.TEXT_DIM))
         name = state_text(State.ABORTED) if here and aborted else state_text(state)
-        painter.drawText(
-            box.adjusted(0, 26, 0, 0), Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop, name
-        )
+        top = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
+        painter.drawText(box.adjusted(0, 26, 0, 0), top, name)
 
 
 def _font(painter: QPainter, pixels: int, bold: bool) -> QFont:

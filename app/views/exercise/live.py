@@ -1,0 +1,34 @@
+"""The live figures of an attempt, as the panel shows them."""
+
+from dataclasses import dataclass
+
+from app.session.machine import State
+
+
+@dataclass(frozen=True, slots=True)
+class LiveFigures:
+    """One moment of an attempt; SI.
+
+    Attributes:
+        state: state of the attempt; None without one.
+        elapsed: time since it began [s].
+        depth: tip beyond the entry [m].
+        measured: whether the cameras vouch for the depth now.
+        angle_error: between needle and planned path [rad].
+        lateral: tip from the line of the path [m].
+        to_target: depth of the target minus depth of the tip, along the path [m].
+        force: felt at the hand, estimated [N].
+        force_limit: the device's [N].
+        scans: control scans so far.
+    """
+
+    state: State | None
+    elapsed: float
+    depth: float
+    measured: bool
+    angle_error: float
+    lateral: float
+    to_target: float
+    force: float
+    force_limit: float
+    scans: int

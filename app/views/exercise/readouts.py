@@ -1,0 +1,89 @@
+"""The panel's live read-outs: large numbers that do not move their neighbours."""
+
+from math import degrees
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QFontDatabase
+from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
+
+from app.views import theme
+from app.views.exercise.force_bar import ForceBar
+from app.views.exercise.live import LiveFigures
+from app.views.text import tr
+
+_EMPTY = "–"
+
+
+class Readouts(QWidget):
+    """Time, depth, angle, distances, scans and force."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._values: dict[str, QLabel] = {}
+        self.force = ForceBar(self)
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setVerticalSpacing(3)
+        self._grid.setColumnStretch(0, 1)
+        for key, (name, help_text) in _rows().items():
+            self._add(key, name, help_text)
+        row = self._grid.rowCount()
+        self._grid.addWidget(QLabel(tr("Force felt"), self), row, 0, 1, 2)
+        self._grid.addWidget(self.force, row + 1, 0, 1, 2)
+
+    def show_figures(self, figures: LiveFigures | None) -> None:
+        """Show a moment; None empties the read-outs."""
+        texts = dict.fromkeys(self._values, _EMPTY) if figures is None else _texts(figures)
+        for key, text in texts.items():
+            if self._values[key].text() != text:
+                self._values[key].setText(text)
+        self.force.show_force(
+            figures.force if figures else 0.0, figures.force_limit if figures else 5.0
+        )
+
+    def text(self, key: str) -> str:
+        """Text of one read-out: `elapsed`, `depth`, `angle`, `lateral`, `to_target`, `scans`."""
+        return self._values[key].text()
+
+    def _add(self, key: str, name: str, help_text: str) -> None:
+        row = self._grid.rowCount()
+        title, value = QLabel(name, self), QLabel(_EMPTY, self)
+        value.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
+        value.setStyleSheet(f"font-size: {theme.FONT_PX + 3}px; font-weight: 600;")
+        value.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+        for label in (title, value):
+            label.setToolTip(help_text)
+        self._grid.addWidget(title, row, 0)
+        self._grid.addWidget(value, row, 1)
+        self._values[key] = value
+
+
+def _rows() -> dict[str, tuple[str, str]]:
+    return {
+        "elapsed": (tr("Time"), tr("Since the start of the attempt")),
+        "depth": (
+            tr("Depth"),
+            tr("Tip beyond the entry, along the needle; ◇ when it is not measured now"),
+        ),
+        "angle": (tr("Angle error"), tr("Between the needle and the planned path")),
+        "lateral": (tr("Off the path"), tr("Tip from the line of the planned path")),
+        "to_target": (tr("To target"), tr("Along the path; negative when the tip is too deep")),
+        "scans": (tr("Control scans"), tr("Scans taken in this attempt")),
+    }
+
+
+def _texts(figures: LiveFigures) -> dict[str, str]:
+    return {
+        "elapsed": clock_text(figures.elapsed),
+        "depth": tr("{mm:.1f} mm", mm=1e3 * figures.depth) + ("" if figures.measured else " ◇"),
+        "angle": tr("{deg:.1f}°", deg=degrees(figures.angle_error)),
+        "lateral": tr("{mm:.1f} mm", mm=1e3 * figures.lateral),
+        "to_target": tr("{mm:.1f} mm", mm=1e3 * figures.to_target),
+        "scans": str(figures.scans),
+    }
+
+
+def clock_text(seconds: float) -> str:
+    """Seconds as minutes and seconds: `1:07`."""
+    whole = int(max(0.0, seconds))
+    return f"{whole // 60}:{whole % 60:02d}"
