@@ -1,0 +1,130 @@
+"""Read-outs over a pane: text with a dark rim in the corners, letters on the edges, the ruler."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF, QRect, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QWidget
+
+from app.views import theme
+from app.views.slices.camera import ruler
+from app.views.text import tr
+
+PADDING = 6
+RULER_PX = 110.0
+
+
+class Overlay(QWidget):
+    """Lines of text that lie over the image and let the mouse through."""
+
+    def __init__(
+        self,
+        parent: QWidget,
+        alignment: Qt.AlignmentFlag,
+        pixel_size: int = theme.SMALL_PX,
+        colour: str = theme.TEXT,
+        bold: bool = False,
+    ) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.setAttribute(Qt.WidgetAttribute.WA_NoSystemBackground)
+        self._alignment, self._colour = alignment, QColor(colour)
+        self._font = QFont(self.font())
+        self._font.setPixelSize(pixel_size)
+        self._font.setBold(bold)
+        self._lines: tuple[str, ...] = ()
+        self._first: QColor | None = None
+
+    def set_lines(self, *lines: str, first: str = "") -> None:
+        """Show these lines, the first of them in the colour `first` if given."""
+        if lines == self._lines:
+            return
+        self._lines = lines
+        self._first = QColor(first) if first else self._first
+        self.update()
+        self.resize(self.sizeHint())
+        self.place()
+
+    @property
+    def text(self) -> str:
+        """What is shown."""
+        return "\n".join(self._lines)
+
+    def sizeHint(self) -> QSize:
+        """Return the room that the lines take."""
+        metrics = QFontMetrics(self._font)
+        width = max((metrics.horizontalAdvance(line) for line in self._lines), default=0)
+        return QSize(width + 4, metrics.height() * len(self._lines) + 2)
+
+    def place(self) -> None:
+        """Stand at one's corner or edge of the parent."""
+        outer = self.parentWidget().rect().adjusted(PADDING, PADDING, -PADDING, -PADDING)
+        size = self.size()
+        x, y = outer.center().x() - size.width() // 2, outer.center().y() - size.height() // 2
+        if self._alignment & Qt.AlignmentFlag.AlignLeft:
+            x = outer.left()
+        elif self._alignment & Qt.AlignmentFlag.AlignRight:
+            x = outer.right() - size.width() + 1
+        if self._alignment & Qt.AlignmentFlag.AlignTop:
+            y = outer.top()
+        elif self._alignment & Qt.AlignmentFlag.AlignBottom:
+            y = outer.bottom() - size.height() + 1
+        self.move(x, y)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw every line twice: a dark rim, then the text."""
+        painter = QPainter(self)
+        painter.setFont(self._font)
+        height = QFontMetrics(self._font).height()
+        flags = self._alignment & Qt.AlignmentFlag.AlignHorizontal_Mask
+        for number, line in enumerate(self._lines):
+            box = QRect(1, 1 + number * height, self.width() - 2, height)
+            painter.setPen(QColor(0, 0, 0, 220))
+            for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+                painter.drawText(box.translated(dx, dy), flags, line)
+            first = self._first if number == 0 and self._first is not None else self._colour
+            painter.setPen(first)
+            painter.drawText(box, flags, line)
+
+
+class Ruler(QWidget):
+    """A scale bar of a round length, with its length written above."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self._scale, self._length = 1.0, 0.0
+        self.resize(int(RULER_PX) + 8, 26)
+
+    def set_scale(self, scale: float) -> None:
+        """Fit the ruler to this zoom [px/mm]."""
+        if scale != self._scale:
+            self._scale, self._length = scale, ruler(scale, RULER_PX)
+            self.update()
+
+    @property
+    def text(self) -> str:
+        """Length of the ruler."""
+        if self._length >= 10.0:
+            return tr("{length:g} cm", length=self._length / 10.0)
+        return tr("{length:g} mm", length=self._length)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the bar between two ticks, light on dark."""
+        painter = QPainter(self)
+        right, base = self.width() - 3.0, self.height() - 4.0
+        left = right - self._length * self._scale
+        for colour, width in (("#000000", 4.0), (theme.TEXT, 1.5)):
+            painter.setPen(QPen(QColor(colour), width))
+            painter.drawLine(QPointF(left, base), QPointF(right, base))
+            for x in (left, right):
+                painter.drawLine(QPointF(x, base - 5), QPointF(x, base))
+        font = QFont(painter.font())
+        font.setPixelSize(theme.SMALL_PX)
+        painter.setFont(font)
+        box = self.rect().adjusted(0, 0, -4, -8)
+        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop
+        painter.setPen(QColor("#000000"))
+        painter.drawText(box.translated(1, 1), flags, self.text)
+        painter.setPen(QColor(theme.TEXT))
+        painter.drawText(box, flags, self.text)

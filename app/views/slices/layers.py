@@ -1,0 +1,131 @@
+"""Layers over the image: crosshair, plan and needle, each placed anew when what it shows changes."""
+
+from __future__ import annotations
+
+from PySide6.QtGui import QPen
+from PySide6.QtWidgets import QGraphicsScene
+
+from app.imaging.orthogonal import View
+from app.planning.draft import DraftPlan
+from app.views import theme
+from app.views.needle_overlay import NeedleOverlay
+from app.views.slices.items import CrossLine, MarkItem, SegmentItem
+from app.views.slices.plane import SlicePlane
+from app.views.slices.slab import PlanePoint, pieces
+from app.views.text import tr
+from app.views.theme import Mark
+
+FADED = 0.55
+PLANE_MARKS = {
+    View.AXIAL: theme.AXIAL,
+    View.SAGITTAL: theme.SAGITTAL,
+    View.CORONAL: theme.CORONAL,
+}
+_LINES = {
+    View.AXIAL: (View.SAGITTAL, View.CORONAL),
+    View.SAGITTAL: (View.CORONAL, View.AXIAL),
+    View.CORONAL: (View.SAGITTAL, View.AXIAL),
+}
+"""Planes whose traces stand upright and lie flat in each view."""
+
+
+class CrosshairLayer:
+    """The traces of the other two planes, in their colours."""
+
+    def __init__(self, scene: QGraphicsScene, view: View) -> None:
+        upright, flat = (PLANE_MARKS[other] for other in _LINES[view])
+        self._upright, self._flat = CrossLine(upright, True), CrossLine(flat, False)
+        scene.addItem(self._upright)
+        scene.addItem(self._flat)
+
+    def place(self, point: PlanePoint, extent_mm: tuple[float, float], scale: float) -> None:
+        """Cross at `point`."""
+        self._upright.place(point.x, point.y, extent_mm[1], scale)
+        self._flat.place(point.y, point.x, extent_mm[0], scale)
+
+
+class SegmentLayer:
+    """A segment in space: solid where it lies in the slab, dashed and faded outside."""
+
+    def __init__(self, scene: QGraphicsScene, mark: Mark, z: float) -> None:
+        self._mark = mark
+        self._items = [SegmentItem(z) for _ in range(3)]
+        for item in self._items:
+            item.setVisible(False)
+            scene.addItem(item)
+
+    def place(self, start: PlanePoint, end: PlanePoint, half_mm: float, scale: float) -> None:
+        """Run from `start` to `end`."""
+        parts = pieces(start, end, half_mm)
+        for item, part in zip(self._items, parts, strict=False):
+            item.place(part.start, part.end, self._pen(part.inside), scale)
+        for number, item in enumerate(self._items):
+            item.setVisible(number < len(parts))
+
+    def hide(self) -> None:
+        """Show nothing."""
+        for item in self._items:
+            item.setVisible(False)
+
+    def _pen(self, inside: bool) -> QPen:
+        pen = self._mark.pen(alpha=1.0 if inside else FADED)
+        if not inside:
+            pen.setDashPattern([4.0, 3.0])
+        return pen
+
+
+class PlanLayer:
+    """Entry ring, target disc and the path between them."""
+
+    def __init__(self, scene: QGraphicsScene) -> None:
+        self._path = SegmentLayer(scene, theme.PATH, 2)
+        self._entry, self._target = MarkItem(theme.ENTRY, 4), MarkItem(theme.TARGET, 4)
+        for item in (self._entry, self._target):
+            item.setVisible(False)
+            scene.addItem(item)
+
+    def place(self, draft: DraftPlan, plane: SlicePlane, index: int, scale: float) -> None:
+        """Show what the draft has."""
+        entry = None if draft.entry_mm is None else plane.point(draft.entry_mm, index)
+        target = None if draft.target_mm is None else plane.point(draft.target_mm, index)
+        _place_mark(self._entry, entry, tr("Entry"), plane)
+        _place_mark(self._target, target, tr("Target"), plane)
+        if entry is None or target is None:
+            self._path.hide()
+        else:
+            self._path.place(entry, target, plane.half_slab_mm, scale)
+
+
+class NeedleLayer:
+    """Shaft and tip of the live needle."""
+
+    def __init__(self, scene: QGraphicsScene) -> None:
+        self._shaft = SegmentLayer(scene, theme.NEEDLE, 3)
+        self._doubtful = SegmentLayer(scene, Mark(theme.TEXT_DIM, width=2.0), 3)
+        self._tip = MarkItem(theme.NEEDLE_TIP, 5)
+        self._tip.setVisible(False)
+        scene.addItem(self._tip)
+
+    def place(
+        self, needle: NeedleOverlay | None, plane: SlicePlane, index: int, scale: float
+    ) -> None:
+        """Show the needle, grey where its pose is not valid."""
+        self._shaft.hide()
+        self._doubtful.hide()
+        self._tip.setVisible(needle is not None)
+        if needle is None:
+            return
+        start, tip = plane.point(needle.start_mm, index), plane.point(needle.tip_mm, index)
+        shaft = self._shaft if needle.valid else self._doubtful
+        shaft.place(start, tip, plane.half_slab_mm, scale)
+        _place_mark(self._tip, tip, "" if needle.valid else tr("not tracked"), plane)
+
+
+def _place_mark(item: MarkItem, at: PlanePoint | None, name: str, plane: SlicePlane) -> None:
+    item.setVisible(at is not None)
+    if at is None:
+        return
+    near = abs(at.distance) <= plane.half_slab_mm
+    side = plane.towards(at.distance)
+    distance = "" if near else tr("{distance:.0f} mm {side}", distance=abs(at.distance), side=side)
+    item.place(at.x, at.y, f"{name} {distance}".strip(), near)

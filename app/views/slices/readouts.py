@@ -1,0 +1,110 @@
+"""Where the numbers of a pane stand and what they say."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QEvent, QObject, Qt
+
+from app.core.arrays import FloatArray
+from app.imaging.orthogonal import View
+from app.views import theme
+from app.views.slices.canvas import SliceCanvas
+from app.views.slices.corners import PADDING, Overlay, Ruler
+from app.views.slices.layers import PLANE_MARKS
+from app.views.text import tr
+
+_A = Qt.AlignmentFlag
+
+
+def view_name(view: View) -> str:
+    """Name of a view for people."""
+    names = {View.AXIAL: tr("Axial"), View.SAGITTAL: tr("Sagittal"), View.CORONAL: tr("Coronal")}
+    return names[view]
+
+
+class Readouts(QObject):
+    """Corner texts, edge letters and ruler of one canvas, kept up to date."""
+
+    def __init__(self, canvas: SliceCanvas) -> None:
+        super().__init__(canvas)
+        self._canvas = canvas
+        port = canvas.viewport()
+        self.title = Overlay(port, _A.AlignLeft | _A.AlignTop)
+        self.window = Overlay(port, _A.AlignRight | _A.AlignTop)
+        self.cursor = Overlay(port, _A.AlignLeft | _A.AlignBottom)
+        self.slice = Overlay(port, _A.AlignRight | _A.AlignBottom)
+        edges = (_A.AlignLeft | _A.AlignVCenter, _A.AlignRight | _A.AlignVCenter,
+                 _A.AlignHCenter | _A.AlignTop, _A.AlignHCenter | _A.AlignBottom)  # fmt: skip
+        self.letters = tuple(Overlay(port, edge, 16, theme.WARNING, bold=True) for edge in edges)
+        self.ruler = Ruler(port)
+        port.installEventFilter(self)
+        canvas.changed.connect(self.refresh)
+        canvas.left.connect(self.clear_cursor)
+        canvas.viewing.volume_changed.connect(self.show_volume)
+
+    def show_volume(self) -> None:
+        """Write what stays the same for a volume."""
+        plane, volume = self._canvas.plane, self._canvas.viewing.volume
+        if plane is None or volume is None:
+            return
+        series = volume.series
+        thickness = tr("{step:.2f} mm slices", step=plane.step_mm)
+        colour = PLANE_MARKS[self._canvas.view].colour
+        self.title.set_lines(
+            view_name(self._canvas.view), f"{series.pseudonym}", thickness, first=colour
+        )
+        for overlay, letter in zip(self.letters, plane.letters(), strict=True):
+            overlay.set_lines(letter)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Write slice, window and zoom."""
+        plane = self._canvas.plane
+        if plane is None:
+            return
+        window, index = self._canvas.viewing.window, self._canvas.index
+        self.window.set_lines(
+            tr("W {width:.0f}  L {level:.0f}", width=window.width, level=window.level),
+            tr("Zoom {zoom:.1f} px/mm", zoom=self._canvas.camera.scale),
+        )
+        self.slice.set_lines(
+            tr("{position} mm", position=self._position()),
+            tr("Slice {number} / {count}", number=index + 1, count=plane.count),
+        )
+        self.ruler.set_scale(self._canvas.camera.scale)
+        self._place()
+
+    def show_cursor(self, lps_mm: FloatArray) -> None:
+        """Write the point under the mouse and its Hounsfield units."""
+        volume = self._canvas.viewing.volume
+        hu = None if volume is None else volume.hu_at(lps_mm, "nearest")
+        x, y, z = lps_mm
+        self.cursor.set_lines(
+            tr("outside the image") if hu is None else tr("{hu:.0f} HU", hu=hu),
+            tr("L {x:.1f}  P {y:.1f}  S {z:.1f} mm", x=x, y=y, z=z),
+        )
+
+    def clear_cursor(self) -> None:
+        """Forget the mouse."""
+        self.cursor.set_lines()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Keep everything at its corner when the pane is resized."""
+        if event.type() is QEvent.Type.Resize:
+            self._place()
+        return False
+
+    def _position(self) -> str:
+        """Patient coordinate of the slice along its own axis, with the axis' letter."""
+        plane, cursor = self._canvas.plane, self._canvas.viewing.cursor_mm
+        if plane is None:
+            return ""
+        axis = plane.normal_axis
+        value = float(cursor[axis])
+        return f"{'RLAPIS'[2 * axis + (value >= 0)]} {abs(value):.1f}"
+
+    def _place(self) -> None:
+        for overlay in (self.title, self.window, self.cursor, self.slice, *self.letters):
+            overlay.place()
+        port = self._canvas.viewport()
+        above = self.slice.y() - self.ruler.height() - 2
+        self.ruler.move(port.width() - PADDING - self.ruler.width(), above)
