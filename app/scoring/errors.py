@@ -26,5 +26,9 @@ class UnknownMetricError(ScoringError, KeyError):
         return str(self.args[0])
 
 
+class ToleranceError(ScoringError, ValueError):
+    """Bands that run against the direction of their metric."""
+
+
 class ScoreFormatError(ScoringError, ValueError):
     """A stored score that cannot be read back."""

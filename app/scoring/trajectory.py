@@ -116,8 +116,8 @@ class Trajectory:
         """Index of the sample that the result is read from: the last one with a measured depth.
 
         Raises:
-            MetricUnavailableError: if the needle was not in the body at the end, or not seen for more
-                than `LAST_SEEN` before it.
+            MetricUnavailableError: if the needle was not in the body at the end, or not seen for
+                more than `LAST_SEEN` before it.
         """
         self.insertions()
         end = int(np.flatnonzero(self.running)[-1])

@@ -1,0 +1,28 @@
+"""Tolerances where an exercise gives none.
+
+Sources: allowable error of 153 interventional radiologists 2.7 mm (de Jong 2018), free-hand CT
+guidance 6.3 ± 3.6 mm and 3.4 ± 3.1° against 4.0 mm and 1.3° with a laser (Gruber-Rouh 2015),
+204 ... 277 s (Weigel 2023). The limits themselves are this project's engineering defaults.
+"""
+
+from types import MappingProxyType
+from typing import Final
+
+from app.scoring.tolerance import Tolerance
+
+
+def _tolerance(expert: float, good: float, passing: float, **options: object) -> Tolerance:
+    limits = {"expert": expert, "good": good, "pass": passing}
+    return Tolerance.model_validate(limits | options)
+
+
+DEFAULT_TOLERANCES: Final = MappingProxyType(
+    {
+        "lateral_error": _tolerance(2.0, 3.0, 5.0, weight=3.0, required=True),
+        "depth_error": _tolerance(2.0, 3.0, 5.0, weight=2.0, required=True),
+        "angle_error": _tolerance(1.0, 2.0, 3.0, weight=2.0),
+        "path_ratio": _tolerance(1.1, 1.3, 1.6, weight=1.0),
+        "total_time": _tolerance(120.0, 200.0, 300.0, weight=1.0),
+    }
+)
+"""Metric name -> tolerance."""

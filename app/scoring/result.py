@@ -1,0 +1,132 @@
+"""The score as a value: it can be stored, read back and computed again."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from pydantic import ValidationError
+
+from app.scoring.errors import ScoreFormatError, UnknownMetricError
+from app.scoring.rows import Row, Rules
+from app.scoring.tolerance import Tolerance
+
+FORMAT = "acus-score/1"
+"""Name and version of the stored form."""
+
+TRACKING = "tracking_valid"
+"""Metric that decides whether a score is void."""
+
+
+@dataclass(frozen=True, slots=True)
+class Score:
+    """Result of an attempt.
+
+    Attributes:
+        rows: every metric: first the ones that count, in the exercise's order, then the others.
+        total: 0 ... 100; None if the score is void.
+        passed: total at or above the pass mark and no required metric beyond its pass limit.
+        void_reason: why there is no score; empty if there is one.
+        rules: what it was judged by.
+        attempt_void: the part of `void_reason` that comes from the course of the attempt.
+    """
+
+    rows: tuple[Row, ...]
+    total: float | None
+    passed: bool
+    void_reason: str
+    rules: Rules
+    attempt_void: str = ""
+
+    @property
+    def failures(self) -> tuple[Row, ...]:
+        """Required metrics beyond their pass limit."""
+        return tuple(row for row in self.rows if row.failed)
+
+    def row(self, name: str) -> Row:
+        """Return one row by the name of its metric.
+
+        Raises:
+            UnknownMetricError: listing the rows that there are.
+        """
+        for row in self.rows:
+            if row.name == name:
+                return row
+        names = ", ".join(row.name for row in self.rows)
+        raise UnknownMetricError(f"the score has no row {name!r}; it has {names}")
+
+    def recomputed(
+        self, tolerances: Mapping[str, Tolerance] | None = None, rules: Rules | None = None
+    ) -> Score:
+        """Judge the stored values again, with the stored or with other tolerances and rules."""
+        rows = self.rows
+        if tolerances is not None:
+            rows = tuple(replace(row, tolerance=tolerances.get(row.name)) for row in rows)
+        return judge(rows, rules or self.rules, self.attempt_void)
+
+    def to_json(self, indent: int | None = None) -> str:
+        """Write the score with all its parameters; never NaN."""
+        document = {
+            "format": FORMAT,
+            "total": self.total,
+            "passed": self.passed,
+            "void_reason": self.void_reason,
+            "attempt_void": self.attempt_void,
+            "rules": self.rules.model_dump(),
+            "rows": [row.document() for row in self.rows],
+        }
+        return json.dumps(document, indent=indent, allow_nan=False, ensure_ascii=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Score:
+        """Read a stored score back.
+
+        Raises:
+            ScoreFormatError: if it is no score, or of another format; says what is wrong.
+        """
+        try:
+            document = json.loads(text, parse_constant=_refuse)
+            if document["format"] != FORMAT:
+                raise ScoreFormatError(f"format {document['format']!r}; only {FORMAT} is known")
+            return cls(
+                rows=tuple(Row.of(row) for row in document["rows"]),
+                total=document["total"],
+                passed=document["passed"],
+                void_reason=document["void_reason"],
+                rules=Rules.model_validate(document["rules"]),
+                attempt_void=document["attempt_void"],
+            )
+        except (KeyError, TypeError, AttributeError, ValueError, ValidationError) as error:
+            reason = f"{type(error).__name__}: {' '.join(str(error).split())}"
+            raise ScoreFormatError(f"not a stored score ({reason})") from error
+
+
+def judge(rows: tuple[Row, ...], rules: Rules, attempt_void: str = "") -> Score:
+    """Make a score of rows whose values are known: the weighted mean of the utilities times 100."""
+    void = attempt_void or _rows_void(rows, rules)
+    weight = sum(row.weight for row in rows)
+    if not void and weight <= 0.0:
+        void = "no metric with a weight could be computed"
+    if void:
+        return Score(rows, None, False, void, rules, attempt_void)
+    total = 100.0 * sum(row.weight * (row.utility or 0.0) for row in rows) / weight
+    passed = total >= rules.pass_mark and not any(row.failed for row in rows)
+    return Score(rows, total, passed, "", rules, attempt_void)
+
+
+def _rows_void(rows: tuple[Row, ...], rules: Rules) -> str:
+    for row in rows:
+        if row.name == TRACKING and row.value is not None and row.value < rules.minimum_tracking:
+            return (
+                f"the tip was tracked for {row.value:.0f} % of the insertion; "
+                f"{rules.minimum_tracking:g} % are needed"
+            )
+    for row in rows:
+        if row.tolerance and row.tolerance.required and row.value is None:
+            return f"{row.label.lower()} is required and cannot be computed: {row.note}"
+    return ""
+
+
+def _refuse(constant: str) -> float:
+    raise ScoreFormatError(f"it holds {constant}")

@@ -1,0 +1,97 @@
+"""Rows of a score: one metric of an attempt each, and the rules that hold for all of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from app.core.configuration import Strict
+from app.scoring.tolerance import Band, Tolerance, band, tolerance
+
+
+class Rules(Strict):
+    """What holds for the score as a whole.
+
+    Attributes:
+        pass_mark: total needed to pass, 0 ... 100.
+        minimum_tracking: least share of the insertion with a measured depth [%]; below it the
+            score is void.
+    """
+
+    pass_mark: Annotated[float, Field(ge=0.0, le=100.0)] = 60.0
+    minimum_tracking: Annotated[float, Field(ge=0.0, le=100.0)] = 70.0
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One metric of an attempt.
+
+    Attributes:
+        name: of the metric.
+        label: for display.
+        unit: of the value.
+        value: what the attempt reached; None if it could not be computed.
+        note: why there is no value; empty otherwise.
+        tolerance: bands, weight and whether it is required; None if it is only shown.
+    """
+
+    name: str
+    label: str
+    unit: str
+    value: float | None
+    note: str = ""
+    tolerance: Tolerance | None = None
+
+    @property
+    def utility(self) -> float | None:
+        """How good the value is, 0 ... 1; None if there is no value or no tolerance."""
+        if self.value is None or self.tolerance is None:
+            return None
+        return tolerance(self.value, self.tolerance)
+
+    @property
+    def band(self) -> Band | None:
+        """Band of the value; None if there is no value or no tolerance."""
+        if self.value is None or self.tolerance is None:
+            return None
+        return band(self.value, self.tolerance)
+
+    @property
+    def weight(self) -> float:
+        """Weight in the total; 0 if it is only shown or could not be computed."""
+        return self.tolerance.weight if self.tolerance and self.value is not None else 0.0
+
+    @property
+    def failed(self) -> bool:
+        """Whether a required value lies beyond its pass limit."""
+        return bool(self.tolerance and self.tolerance.required and self.band is Band.FAIL)
+
+    def document(self) -> dict[str, Any]:
+        """Return the row as JSON-ready values; utility and band are there for readers only."""
+        limits = self.tolerance.model_dump(by_alias=True) if self.tolerance else None
+        return {
+            "name": self.name,
+            "label": self.label,
+            "unit": self.unit,
+            "value": self.value if self.value is not None and isfinite(self.value) else None,
+            "note": self.note,
+            "tolerance": limits,
+            "utility": self.utility,
+            "band": self.band,
+        }
+
+    @classmethod
+    def of(cls, document: dict[str, Any]) -> Row:
+        """Read what `document` wrote."""
+        limits, value = document["tolerance"], document["value"]
+        return cls(
+            name=document["name"],
+            label=document["label"],
+            unit=document["unit"],
+            value=None if value is None else float(value),
+            note=document["note"],
+            tolerance=None if limits is None else Tolerance.model_validate(limits),
+        )

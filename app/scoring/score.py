@@ -1,0 +1,73 @@
+"""Scoring an attempt: every metric, judged by the exercise's tolerances."""
+
+from collections.abc import Mapping
+from math import isfinite
+
+from app.scoring.defaults import DEFAULT_TOLERANCES
+from app.scoring.errors import MetricUnavailableError, ToleranceError, UnknownMetricError
+from app.scoring.metrics import Metric, available
+from app.scoring.result import Score, judge
+from app.scoring.rows import Row, Rules
+from app.scoring.tolerance import Tolerance
+from app.scoring.trajectory import Trajectory
+
+__all__ = ["DEFAULT_TOLERANCES", "Row", "Rules", "Score", "check_names", "score"]
+
+
+def score(
+    trajectory: Trajectory,
+    tolerances: Mapping[str, Tolerance] = DEFAULT_TOLERANCES,
+    rules: Rules | None = None,
+) -> Score:
+    """Compute every metric of an attempt and judge it.
+
+    Raises:
+        UnknownMetricError: for a tolerance of a metric that does not exist; lists those that do.
+    """
+    metrics = available()
+    check_names(tolerances, metrics)
+    names = [*tolerances, *(name for name in metrics if name not in tolerances)]
+    rows = tuple(_row(metrics[name], trajectory, tolerances.get(name)) for name in names)
+    return judge(rows, rules or Rules(), _attempt_void(trajectory))
+
+
+def check_names(
+    tolerances: Mapping[str, Tolerance], metrics: Mapping[str, Metric] | None = None
+) -> None:
+    """Refuse tolerances of unknown metrics, and bands against a metric's direction.
+
+    Raises:
+        UnknownMetricError: naming the metrics that exist.
+        ToleranceError: naming the bands and the direction.
+    """
+    metrics = available() if metrics is None else metrics
+    for name, limits in tolerances.items():
+        if name not in metrics:
+            raise UnknownMetricError(f"no metric {name!r}; there are {', '.join(metrics)}")
+        if limits.higher_is_better != metrics[name].higher_is_better:
+            way = "higher" if metrics[name].higher_is_better else "lower"
+            raise ToleranceError(
+                f"{name}: bands {limits.knots[:3]} (expert, good, pass) run against the metric, "
+                f"of which {way} is better"
+            )
+
+
+def _row(metric: Metric, trajectory: Trajectory, limits: Tolerance | None) -> Row:
+    note = ""
+    try:
+        value: float | None = float(metric.compute(trajectory))
+    except MetricUnavailableError as error:
+        value, note = None, str(error)
+    if value is not None and not isfinite(value):
+        value, note = None, "the value is too large to be written as a number"
+    return Row(metric.name, metric.label, metric.unit, value, note, limits)
+
+
+def _attempt_void(trajectory: Trajectory) -> str:
+    if trajectory.was_aborted:
+        return f"the attempt was aborted: {trajectory.aborted or 'no reason recorded'}"
+    if not trajectory.running.any():
+        return "the attempt was never begun"
+    if not trajectory.inserted.any():
+        return "the needle was never inserted"
+    return ""
