@@ -1,0 +1,77 @@
+"""What the simulated cameras see behind the needle: the trainer's housing, traced once per camera."""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from app.core.arrays import FloatArray, unit
+from app.tracking.camera import Image
+from app.tracking.camera_model import CameraModel
+from app.tracking.rendering import sample_pattern, trace_boxes
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """An axis-aligned block in world: two corners [m] and its colour (blue, green, red)."""
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+    colour: tuple[float, float, float]
+
+
+_SKIN = (168.0, 186.0, 214.0)
+_PLASTIC = (150.0, 146.0, 140.0)
+_DARK = (74.0, 70.0, 66.0)
+_PLATE = (128.0, 126.0, 122.0)
+
+HOUSING = (
+    Box((-0.60, -0.30, -0.115), (0.60, 0.34, -0.105), _PLATE),  # ground plate
+    Box(
+        (-0.125, -0.02, 0.086), (0.125, 0.118, 0.094), _SKIN
+    ),  # fake skin, cut free round the needle
+    Box((-0.128, -0.022, 0.078), (0.128, 0.120, 0.086), _PLASTIC),  # its frame
+    Box((-0.128, 0.00, -0.105), (-0.112, 0.03, 0.078), _PLASTIC),  # posts
+    Box((0.112, 0.00, -0.105), (0.128, 0.03, 0.078), _PLASTIC),
+    Box((-0.062, -0.02, -0.105), (-0.023, 0.02, -0.010), _DARK),  # motors
+    Box((0.023, -0.02, -0.105), (0.062, 0.02, -0.010), _DARK),
+    Box((-0.082, -0.04, -0.010), (-0.003, 0.04, 0.004), _PLASTIC),  # capstan drums
+    Box((0.003, -0.04, -0.010), (0.082, 0.04, 0.004), _PLASTIC),
+    Box((-0.70, -0.36, -0.40), (0.70, -0.34, 0.60), (176.0, 178.0, 180.0)),  # wall behind
+)
+
+LIGHT_WORLD: FloatArray = np.array([*unit([0.35, 0.75, 0.85]), 0.45, 0.50])
+"""Towards the lamp (above and behind the cameras), ambient and diffuse share."""
+
+
+def paint_background(model: CameraModel, rays: FloatArray, blur_px: float, seed: int) -> Image:
+    """Picture of the housing without the needle, uint8 (height, width, 3)."""
+    width, height = model.image_size
+    image = np.full((height, width, 3), 96.0)
+    trace_boxes(
+        image,
+        rays,
+        sample_pattern(blur_px),
+        np.ascontiguousarray(model.T_world_camera.rotation),
+        np.ascontiguousarray(model.centre),
+        np.array([(*box.low, *box.high) for box in HOUSING]),
+        np.array([box.colour for box in HOUSING]),
+        LIGHT_WORLD,
+    )
+    image *= _vignette(width, height)[..., None]
+    image += _mottling(width, height, seed)[..., None]
+    return np.clip(image + 0.5, 0.0, 255.0).astype(np.uint8)
+
+
+def _vignette(width: int, height: int) -> FloatArray:
+    """Fall-off of light towards the corners, one in the middle."""
+    y, x = np.mgrid[:height, :width]
+    r2 = ((x - width / 2) ** 2 + (y - height / 2) ** 2) / (width / 2) ** 2
+    return np.asarray(1.0 - 0.10 * r2)
+
+
+def _mottling(width: int, height: int, seed: int) -> FloatArray:
+    """Slow unevenness of surfaces, a few grey levels."""
+    coarse = np.random.default_rng(seed).normal(0.0, 1.0, (height // 24, width // 24))
+    fine = cv2.resize(coarse.astype(np.float32), (width, height), interpolation=cv2.INTER_CUBIC)
+    return np.asarray(fine, dtype=np.float64)

@@ -1,0 +1,60 @@
+"""What a camera is to the tracker, and what a picture is."""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.tracking.errors import CameraError
+
+Image = NDArray[np.uint8]
+"""Picture, shape (height, width, 3), blue green red as OpenCV has them."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Frame:
+    """One picture.
+
+    Attributes:
+        image: blue, green, red, shape (height, width, 3), read-only.
+        time: monotonic time of the capture [s], not of the delivery.
+
+    Raises:
+        CameraError: if the image is not of that shape and type.
+    """
+
+    image: Image
+    time: float
+
+    def __post_init__(self) -> None:
+        if self.image.dtype != np.uint8 or self.image.ndim != 3 or self.image.shape[2] != 3:
+            raise CameraError(
+                f"a picture has shape {self.image.shape} and type {self.image.dtype}; "
+                "(height, width, 3) and uint8 are needed: set the camera to colour"
+            )
+        self.image.setflags(write=False)
+
+
+class Camera(ABC):
+    """A camera that hands out pictures one after the other."""
+
+    @abstractmethod
+    def open(self) -> None:
+        """Start the stream.
+
+        Raises:
+            CameraError: if the camera is not there or refuses its settings.
+        """
+
+    @abstractmethod
+    def read(self) -> Frame:
+        """Wait for the next picture; returns or raises within about half a second.
+
+        Raises:
+            CameraError: if no picture comes, or the camera is not open.
+        """
+
+    @abstractmethod
+    def close(self) -> None:
+        """End the stream; closing twice is fine."""

@@ -1,0 +1,311 @@
+"""Ray tracing of the needle and its surroundings into camera pictures (compiled).
+
+Every pixel is the mean over `SAMPLES` rays spread as the lens spreads a point (a Gaussian, lattice
+points of which no two share a row or a column), so edges are sub-pixel exact, and the distortion is
+that of the camera, since the rays come from its inverse.
+
+Conventions of the kernels: camera frame; colours blue, green, red in 0..255; `light` holds the unit
+vector towards the light (3), the ambient and the diffuse share.
+"""
+
+from typing import Any
+
+import numpy as np
+from scipy.special import ndtri
+
+from app.core.arrays import FloatArray
+from app.core.compiled import njit
+
+SAMPLES = 16
+_HIGHLIGHT = 0.35
+
+
+def sample_pattern(blur_px: float, samples: int = SAMPLES) -> FloatArray:
+    """Offsets of the rays of one pixel [px], shape (samples, 2), of mean 0 and SD `blur_px`.
+
+    `samples` must have no factor in common with 7.
+    """
+    i = np.arange(samples)
+    levels = ndtri((i + 0.5) / samples)
+    pattern = np.column_stack([levels, levels[(i * 7 + 3) % samples]])
+    scaled: FloatArray = blur_px * pattern / pattern.std(axis=0)
+    return scaled
+
+
+@njit
+def _shaft_hit(dx: float, dy: float, a: Any, c: Any, shape: Any) -> Any:
+    """Ray (dx, dy, 1) against the shaft: (distance, position behind or before the band, hit)."""
+    dd = dx * dx + dy * dy + 1.0
+    da = dx * a[0] + dy * a[1] + a[2]
+    dc = dx * c[0] + dy * c[1] + c[2]
+    ac = a[0] * c[0] + a[1] * c[1] + a[2] * c[2]
+    square = dd - da * da  # squared length of the ray's part across the axis
+    if square < 1e-9:
+        return 0.0, 0.0, False
+    t = (dc - da * ac) / square
+    s = t * da - ac
+    gap = (
+        (t * dx - c[0] - s * a[0]) ** 2
+        + (t * dy - c[1] - s * a[1]) ** 2
+        + (t - c[2] - s * a[2]) ** 2
+    )
+    radius = shape[0] * min(1.0, max(0.0, (shape[3] - s) / (3.0 * shape[0])))  # tapered point
+    if gap >= radius * radius or t <= 0.0:
+        return 0.0, 0.0, False
+    t -= np.sqrt((radius * radius - gap) / square)
+    s = t * da - ac
+    return t, s, shape[4] < s < shape[3]
+
+
+@njit
+def _band_hit(dx: float, dy: float, a: Any, c: Any, shape: Any) -> Any:
+    """Ray against the band, a finite cylinder with end faces: (distance, face, hit).
+
+    `face` is 0 for the side, +1 for the end towards the tip, -1 for the other end.
+    """
+    radius, half = shape[1], shape[2]
+    da = dx * a[0] + dy * a[1] + a[2]
+    ac = a[0] * c[0] + a[1] * c[1] + a[2] * c[2]
+    mx, my, mz = dx - da * a[0], dy - da * a[1], 1.0 - da * a[2]
+    cx, cy, cz = c[0] - ac * a[0], c[1] - ac * a[1], c[2] - ac * a[2]
+    mm = mx * mx + my * my + mz * mz
+    mc = mx * cx + my * cy + mz * cz
+    discriminant = mc * mc - mm * (cx * cx + cy * cy + cz * cz - radius * radius)
+    if discriminant < 0.0:
+        return 0.0, 0, False
+    if mm > 1e-12:
+        t = (mc - np.sqrt(discriminant)) / mm
+        if t > 0.0 and abs(t * da - ac) <= half:
+            return t, 0, True
+    if abs(da) < 1e-12:
+        return 0.0, 0, False
+    face = -1 if da > 0.0 else 1
+    t = (ac + face * half) / da
+    gap = (t * mx - cx) ** 2 + (t * my - cy) ** 2 + (t * mz - cz) ** 2
+    return t, face, t > 0.0 and gap <= radius * radius
+
+
+@njit
+def _side_normal(t: float, dx: float, dy: float, a: Any, c: Any) -> Any:
+    x, y, z = t * dx - c[0], t * dy - c[1], t - c[2]
+    s = x * a[0] + y * a[1] + z * a[2]
+    x, y, z = x - s * a[0], y - s * a[1], z - s * a[2]
+    n = 1.0 / np.sqrt(x * x + y * y + z * z + 1e-30)
+    return x * n, y * n, z * n
+
+
+@njit
+def _needle_colour(
+    dx: float, dy: float, near_band: bool, a: Any, c: Any, shape: Any, colours: Any, light: Any
+) -> Any:
+    """Colour of the needle where the ray meets it: (blue, green, red, hit)."""
+    t_shaft, s, shaft = _shaft_hit(dx, dy, a, c, shape)
+    t_band, face, band = 0.0, 0, False
+    if near_band:
+        t_band, face, band = _band_hit(dx, dy, a, c, shape)
+    if shaft and abs(s) < shape[2]:
+        shaft = False  # inside the band
+    if not shaft and not band:
+        return 0.0, 0.0, 0.0, False
+    if band and (not shaft or t_band < t_shaft):
+        if face == 0:
+            nx, ny, nz = _side_normal(t_band, dx, dy, a, c)
+        else:
+            nx, ny, nz = face * a[0], face * a[1], face * a[2]
+        glow = light[3] + light[4] * max(0.0, nx * light[0] + ny * light[1] + nz * light[2])
+        return colours[1, 0] * glow, colours[1, 1] * glow, colours[1, 2] * glow, True  # matte
+    nx, ny, nz = _side_normal(t_shaft, dx, dy, a, c)
+    facing = nx * light[0] + ny * light[1] + nz * light[2]
+    glow = light[3] + light[4] * max(0.0, facing)
+    mirror = -(
+        (2.0 * facing * nx - light[0]) * dx
+        + (2.0 * facing * ny - light[1]) * dy
+        + (2.0 * facing * nz - light[2])
+    )
+    shine = max(0.0, mirror) if facing > 0.0 else 0.0
+    shine = shine * shine / (dx * dx + dy * dy + 1.0)
+    shine = shine * shine
+    shine = shine * shine
+    shine = shine * shine
+    shine = 255.0 * _HIGHLIGHT * shine * shine  # cosine to the power of 32: polished steel
+    return (
+        min(255.0, colours[0, 0] * glow + shine),
+        min(255.0, colours[0, 1] * glow + shine),
+        min(255.0, colours[0, 2] * glow + shine),
+        True,
+    )
+
+
+@njit
+def _nearness(dx: float, dy: float, a: Any, c: Any, shape: Any, margin: float) -> int:
+    """0: the pixel sees nothing of the needle; 1: perhaps the shaft; 2: perhaps the band;
+    3: nothing but one smooth part of either, so that one ray will do."""
+    dd = dx * dx + dy * dy + 1.0
+    da = dx * a[0] + dy * a[1] + a[2]
+    dc = dx * c[0] + dy * c[1] + c[2]
+    ac = a[0] * c[0] + a[1] * c[1] + a[2] * c[2]
+    square = dd - da * da
+    if square < 1e-9:
+        return 2
+    t = (dc - da * ac) / square
+    s = t * da - ac
+    x, y, z = t * dx - c[0] - s * a[0], t * dy - c[1] - s * a[1], t - c[2] - s * a[2]
+    blurred = margin * max(t, 1e-3)
+    gap = np.sqrt(x * x + y * y + z * z)
+    slack = (shape[1] + 2.0 * blurred) / np.sqrt(square)  # an oblique ray: s changes faster
+    if t <= 0.0 or not shape[4] - slack < s < shape[3] + slack:
+        return 0
+    if abs(s) < shape[2] + slack and gap < shape[1] + blurred:
+        inside = gap < shape[1] - blurred and abs(s) < shape[2] - slack
+        return 3 if inside else 2
+    if gap < shape[0] - blurred and s < shape[3] - slack - 4.0 * shape[0]:
+        return 3
+    return 1 if gap < shape[0] + blurred else 0
+
+
+@njit
+def row_spans(uv: Any, ok: Any, reach: float, width: int, height: int) -> Any:
+    """Columns that a line through the pixels `uv`, (n, 2), widened by `reach`, touches per row.
+
+    Pieces with an end that is not `ok`, (n,), are left out. Returns the
+    first column and last column + 1, shape (height, 2); equal where the row is not touched.
+    """
+    spans = np.empty((height, 2), dtype=np.int64)
+    spans[:, 0], spans[:, 1] = width, 0
+    for i in range(uv.shape[0] - 1):
+        if not (ok[i] and ok[i + 1]):
+            continue
+        left, right = min(uv[i, 0], uv[i + 1, 0]) - reach, max(uv[i, 0], uv[i + 1, 0]) + reach
+        top, bottom = min(uv[i, 1], uv[i + 1, 1]) - reach, max(uv[i, 1], uv[i + 1, 1]) + reach
+        if right < 0.0 or left > width or bottom < 0.0 or top > height:
+            continue
+        for v in range(int(max(0.0, top)), int(min(height - 1.0, bottom)) + 1):
+            spans[v, 0] = min(spans[v, 0], int(max(0.0, left)))
+            spans[v, 1] = max(spans[v, 1], int(min(width - 1.0, right)) + 1)
+    return spans
+
+
+@njit
+def _five(v: Any) -> Any:
+    """As a tuple, which the kernels keep in registers (an array would be read for every ray)."""
+    return v[0], v[1], v[2], v[3], v[4]
+
+
+@njit
+def draw_needle(
+    image: Any,
+    rays: Any,
+    spans: Any,
+    fine: Any,
+    coarse: Any,
+    a: Any,
+    c: Any,
+    shape: Any,
+    colours: Any,
+    light: Any,
+    margin: float,
+) -> None:
+    """Draw the needle over the picture, in place.
+
+    Args:
+        image: uint8 (H, W, 3).
+        rays: normalised coordinates of the pixels, (H + 2, W + 2, 2): one pixel more on each side.
+        spans: first column and last column + 1 of what may change in each row, (H, 2).
+        fine: offsets of the rays of a pixel at the band [px], (n, 2).
+        coarse: the same elsewhere on the shaft.
+        a: unit vector from hub to tip.
+        c: centre of the band [m].
+        shape: radius of the shaft, radius and half length of the band, tip and hub on the axis
+            measured from the band's centre towards the tip [m], (5,).
+        colours: of shaft and band, (2, 3).
+        light: see the module.
+        margin: half width of what one pixel sees, in normalised coordinates.
+    """
+    axis, centre = (a[0], a[1], a[2]), (c[0], c[1], c[2])
+    lamp, form = _five(light), _five(shape)
+    for v in range(image.shape[0]):
+        for u in range(spans[v, 0], spans[v, 1]):
+            x, y = rays[v + 1, u + 1, 0], rays[v + 1, u + 1, 1]
+            near = _nearness(x, y, axis, centre, form, margin)
+            if near == 0:
+                continue
+            xu = 0.5 * (rays[v + 1, u + 2, 0] - rays[v + 1, u, 0])
+            yu = 0.5 * (rays[v + 1, u + 2, 1] - rays[v + 1, u, 1])
+            xv = 0.5 * (rays[v + 2, u + 1, 0] - rays[v, u + 1, 0])
+            yv = 0.5 * (rays[v + 2, u + 1, 1] - rays[v, u + 1, 1])
+            pattern = fine if near == 2 else coarse
+            n = 1 if near == 3 else pattern.shape[0]
+            hits, blue, green, red = 0, 0.0, 0.0, 0.0
+            for i in range(n):
+                p, q = (0.0, 0.0) if near == 3 else (pattern[i, 0], pattern[i, 1])
+                b, g, r, hit = _needle_colour(
+                    x + p * xu + q * xv,
+                    y + p * yu + q * yv,
+                    near >= 2,
+                    axis,
+                    centre,
+                    form,
+                    colours,
+                    lamp,
+                )
+                hits += hit
+                blue, green, red = blue + b, green + g, red + r
+            if hits:
+                rest = n - hits
+                image[v, u, 0] = np.uint8((blue + rest * image[v, u, 0]) / n + 0.5)
+                image[v, u, 1] = np.uint8((green + rest * image[v, u, 1]) / n + 0.5)
+                image[v, u, 2] = np.uint8((red + rest * image[v, u, 2]) / n + 0.5)
+
+
+@njit
+def _box_hit(o: Any, d: Any, box: Any) -> Any:
+    """Ray against an axis-aligned box (slab test): (distance, axis of the face), or (inf, 0)."""
+    near, far, axis = -np.inf, np.inf, 0
+    for k in range(3):
+        inverse = 1.0 / (d[k] if abs(d[k]) > 1e-12 else 1e-12)
+        first, second = (box[k] - o[k]) * inverse, (box[k + 3] - o[k]) * inverse
+        if first > second:
+            first, second = second, first
+        if first > near:
+            near, axis = first, k
+        far = min(far, second)
+    return (near, axis) if 0.0 < near <= far else (np.inf, 0)
+
+
+@njit
+def trace_boxes(
+    image: Any, rays: Any, pattern: Any, rotation: Any, o: Any, boxes: Any, colours: Any, light: Any
+) -> None:
+    """Paint axis-aligned boxes of the world into a float picture (H, W, 3), in place.
+
+    `rotation` and `o` are the camera's pose; `boxes` (n, 6) low and high corners [m]; `light` and
+    the shading as in `draw_needle`, but in world. Between boxes the picture stays as it was.
+    """
+    d, one = np.empty(3), np.empty(3)
+    n = pattern.shape[0]
+    for v in range(image.shape[0]):
+        for u in range(image.shape[1]):
+            one[:] = 0.0
+            x, y = rays[v + 1, u + 1, 0], rays[v + 1, u + 1, 1]
+            xu = rays[v + 1, u + 2, 0] - x
+            yv = rays[v + 2, u + 1, 1] - y
+            for i in range(n):
+                dx, dy = x + pattern[i, 0] * xu, y + pattern[i, 1] * yv
+                for k in range(3):
+                    d[k] = rotation[k, 0] * dx + rotation[k, 1] * dy + rotation[k, 2]
+                best, which, face = np.inf, -1, 0
+                for b in range(boxes.shape[0]):
+                    t, axis = _box_hit(o, d, boxes[b])
+                    if t < best:
+                        best, which, face = t, b, axis
+                if which < 0:
+                    for k in range(3):
+                        one[k] += image[v, u, k]
+                    continue
+                facing = -light[face] if d[face] > 0.0 else light[face]
+                haze = 1.0 / (1.0 + (best / 1.2) ** 2)  # less light further back
+                glow = (light[3] + light[4] * max(0.0, facing)) * (0.35 + 0.65 * haze)
+                for k in range(3):
+                    one[k] += colours[which, k] * glow
+            for k in range(3):
+                image[v, u, k] = one[k] / n
