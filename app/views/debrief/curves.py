@@ -1,0 +1,221 @@
+"""Curves of an attempt: depth, distance from the path, angle and force over one time axis."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from app.core.arrays import FloatArray
+from app.views import theme
+from app.views.debrief.review import Review, Span
+from app.views.text import tr
+
+PHASE_SHADES: Final = {
+    "ready": "#1b1f23",
+    "aligning": "#1d2a38",
+    "inserting": "#33291b",
+    "holding": "#1d3127",
+    "ended": "#1b1f23",
+    "aborted": "#3a1f1f",
+}
+"""Background of each state, dark enough for any curve on it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Curve:
+    """One plot.
+
+    Attributes:
+        title: what it shows, with the unit.
+        values: shape (n,), in the unit of the title.
+        colour: of the line.
+        line: level drawn across the plot; None for none.
+        line_name: what that level is.
+        unit: for the read-out.
+        name: for the read-out.
+    """
+
+    title: str
+    values: FloatArray
+    colour: str
+    line: float | None
+    line_name: str
+    unit: str
+    name: str
+
+
+def curves_of(review: Review) -> tuple[Curve, ...]:
+    """Return the four plots of an attempt."""
+    c = review.curves
+    target_mm = 1e3 * review.placed.length
+    return (
+        Curve(
+            tr("Depth [mm]"), 1e3 * c.depth, theme.NEEDLE.colour, target_mm,
+            tr("target {mm:.0f} mm", mm=target_mm), "mm", tr("depth"),
+        ),
+        Curve(
+            tr("Off the path [mm]"), 1e3 * c.lateral, theme.NEEDLE_TIP.colour, None, "", "mm",
+            tr("off the path"),
+        ),
+        Curve(
+            tr("Angle error [°]"), np.degrees(c.angle), theme.PATH.colour, None, "", "°",
+            tr("angle"),
+        ),
+        Curve(
+            tr("Force felt, estimated [N]"), c.felt, "#f0e442", review.force_limit,
+            tr("limit {n:g} N", n=review.force_limit), "N", tr("force"),
+        ),
+    )  # fmt: skip
+
+
+def state_word(state: str) -> str:
+    """Name of a recorded state for people; unknown ones as they stand."""
+    return {
+        "ready": tr("Ready"),
+        "aligning": tr("Aligning"),
+        "inserting": tr("Inserting"),
+        "holding": tr("Holding"),
+        "ended": tr("Ended"),
+        "aborted": tr("Aborted"),
+        "unfinished": tr("Unfinished"),
+        "broken": tr("Broken"),
+    }.get(state, state)
+
+
+class CurvesView(QWidget):
+    """Four plots under each other with one time axis; the pointer reads all of them at once."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._review: Review | None = None
+        self._curves: tuple[Curve, ...] = ()
+        self._cursors: list[pg.InfiniteLine] = []
+        self.readout = QLabel(self)
+        self.readout.setProperty("role", "dim")
+        self.graphics = pg.GraphicsLayoutWidget(self)
+        self.graphics.setBackground(theme.BACKGROUND)
+        self.graphics.ci.layout.setSpacing(2)
+        self.graphics.scene().sigMouseMoved.connect(self._hover)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.readout)
+        column.addWidget(self.graphics, 1)
+
+    def show_review(self, review: Review) -> None:
+        """Draw an attempt."""
+        self._review, self._curves = review, curves_of(review)
+        self._cursors = []
+        self.graphics.clear()
+        first: pg.PlotItem | None = None
+        for row, curve in enumerate(self._curves):
+            plot = self.graphics.addPlot(row=row, col=0)
+            _prepare(plot, curve, last=row == len(self._curves) - 1)
+            _shade(plot, review, names=row == 0)
+            _draw(plot, review, curve)
+            self._cursors.append(_cursor(plot))
+            plot.setXLink(first) if first is not None else None
+            first = first or plot
+        self.readout.setText(tr("Point at the curves to read them."))
+
+    def read_out(self, time: float) -> str:
+        """Say all figures at a time [s]."""
+        review = self._review
+        if review is None or len(review.curves.time) == 0:
+            return ""
+        i = int(np.argmin(np.abs(review.curves.time - time)))
+        parts = [f"{review.curves.time[i]:.1f} s", _state_at(review.spans, time)]
+        for curve in self._curves:
+            value = curve.values[i]
+            text = f"{value:.1f} {curve.unit}" if np.isfinite(value) else "–"
+            parts.append(f"{curve.name} {text}")
+        return "   ·   ".join(part for part in parts if part)
+
+    def _hover(self, at: QPointF) -> None:
+        if not self._cursors:
+            return
+        time = self._cursors[0].getViewBox().mapSceneToView(at).x()
+        for cursor in self._cursors:
+            cursor.setPos(time)
+            cursor.show()
+        self.readout.setText(self.read_out(time))
+
+
+def _prepare(plot: pg.PlotItem, curve: Curve, last: bool) -> None:
+    plot.setTitle(None)
+    plot.hideButtons()
+    plot.setMenuEnabled(False)
+    plot.setMouseEnabled(x=True, y=False)
+    left = plot.getAxis("left")
+    left.setWidth(52)
+    for axis in (left, plot.getAxis("bottom")):
+        axis.setPen(theme.BORDER)
+        axis.setTextPen(theme.TEXT_DIM)
+    plot.showGrid(x=True, y=True, alpha=0.15)
+    plot.getAxis("bottom").setStyle(showValues=last)
+    if last:
+        plot.setLabel("bottom", tr("Time [s]"), color=theme.TEXT_DIM)
+    title = pg.TextItem(curve.title, color=curve.colour, anchor=(0, 0))
+    title.setParentItem(plot.getViewBox())
+    title.setPos(6, 2)
+
+
+def _draw(plot: pg.PlotItem, review: Review, curve: Curve) -> None:
+    if curve.line is not None:
+        pen = pg.mkPen(theme.TARGET.colour, width=1.5, style=Qt.PenStyle.DashLine)
+        options = {"position": 0.9, "color": theme.TARGET.colour, "anchors": [(1, 1), (1, 1)]}
+        line = pg.InfiniteLine(
+            curve.line, angle=0, pen=pen, label=curve.line_name, labelOpts=options
+        )  # fmt: skip
+        plot.addItem(line)
+    plot.plot(
+        review.curves.time, curve.values, pen=pg.mkPen(curve.colour, width=2), connect="finite"
+    )  # fmt: skip
+    for mark in review.marks:
+        pen = pg.mkPen(theme.TEXT, width=1.2, style=Qt.PenStyle.DotLine)
+        plot.addItem(pg.InfiniteLine(mark.time, angle=90, pen=pen))
+    low, high = value_range(curve)
+    plot.setYRange(low, high, padding=0.0)
+    if len(review.curves.time):
+        plot.setXRange(0.0, max(1.0, float(review.curves.time[-1])), padding=0.01)
+
+
+def value_range(curve: Curve) -> tuple[float, float]:
+    """Range of a plot: all values and the line, with room for the title above."""
+    values = curve.values[np.isfinite(curve.values)]
+    low = min(0.0, float(values.min(initial=0.0)))
+    high = max(float(values.max(initial=0.0)), curve.line or 0.0, low + 1e-3)
+    return low - 0.05 * (high - low), high + 0.28 * (high - low)
+
+
+def _shade(plot: pg.PlotItem, review: Review, names: bool) -> None:
+    for span in review.spans:
+        region = pg.LinearRegionItem(
+            (span.start, span.end), movable=False, pen=pg.mkPen(None),
+            brush=QColor(PHASE_SHADES.get(span.state, theme.BACKGROUND)),
+        )  # fmt: skip
+        region.setZValue(-20)
+        plot.addItem(region)
+    if names:
+        for mark in review.marks:
+            sign = "▼" if mark.kind == "scan" else "!"
+            text = pg.TextItem(f"{sign} {mark.label}", color=theme.TEXT, anchor=(0.5, 0))
+            text.setPos(mark.time, 0.0)
+            plot.addItem(text, ignoreBounds=True)
+
+
+def _cursor(plot: pg.PlotItem) -> pg.InfiniteLine:
+    cursor = pg.InfiniteLine(0.0, angle=90, pen=pg.mkPen(theme.ACCENT, width=1.0))
+    cursor.hide()
+    plot.addItem(cursor, ignoreBounds=True)
+    return cursor
+
+
+def _state_at(spans: tuple[Span, ...], time: float) -> str:
+    for span in spans:
+        if span.start <= time <= span.end:
+            return state_word(span.state)
+    return ""

@@ -1,0 +1,140 @@
+"""The debrief page: verdict, score, the tip's track and the curves of one attempt."""
+
+from datetime import datetime
+
+from PySide6.QtCore import Qt, Signal, SignalInstance
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
+
+from app.core.disclaimer import DISCLAIMER
+from app.views import theme
+from app.views.debrief.curves import CurvesView, state_word
+from app.views.debrief.path_view import PathView
+from app.views.debrief.review import Review
+from app.views.debrief.score_table import ScoreTable
+from app.views.debrief.score_words import total_text, verdict
+from app.views.exercise.readouts import clock_text
+from app.views.text import tr
+
+
+class DebriefPage(QWidget):
+    """Shows one attempt; what its buttons do is up to whoever listens.
+
+    Signals:
+        report_requested(Review), export_requested(Review): of the attempt shown.
+        retry_requested(), sessions_requested().
+    """
+
+    report_requested = Signal(object)
+    export_requested = Signal(object)
+    retry_requested = Signal()
+    sessions_requested = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._review: Review | None = None
+        self._title, self._facts = QLabel(self), QLabel(self)
+        self._verdict, self._total, self._reason = QLabel(self), QLabel(self), QLabel(self)
+        self._problems = QLabel(self)
+        self.table = ScoreTable(self)
+        self.path = PathView(self)
+        self.curves = CurvesView(self)
+        self.report = QPushButton(tr("Save report (PDF)"), self)
+        self.export = QPushButton(tr("Export CSV"), self)
+        self.retry = QPushButton(tr("Try again"), self)
+        self.sessions = QPushButton(tr("Sessions"), self)
+        self._style()
+        self._lay_out()
+        self._connect()
+
+    def show_review(self, review: Review) -> None:
+        """Show an attempt."""
+        self._review = review
+        self._title.setText(review.exercise)
+        self._facts.setText(facts(review))
+        colour, word, reason = verdict(review)
+        self._verdict.setText(word)
+        self._verdict.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX + 6}px;")
+        self._total.setText(total_text(review.score))
+        self._reason.setText(reason)
+        self._reason.setVisible(bool(reason))
+        self._problems.setText("\n".join(f"▲ {problem}" for problem in review.problems))
+        self._problems.setVisible(bool(review.problems))
+        self.table.show_score(review.score)
+        self.path.show_review(review)
+        self.curves.show_review(review)
+
+    @property
+    def review(self) -> Review | None:
+        """The attempt shown."""
+        return self._review
+
+    def _style(self) -> None:
+        self._title.setProperty("role", "title")
+        self._facts.setProperty("role", "dim")
+        self._total.setStyleSheet(f"font-size: {theme.TITLE_PX}px; font-weight: 600;")
+        self._problems.setStyleSheet(f"color: {theme.WARNING}; font-size: {theme.SMALL_PX}px;")
+        self.retry.setProperty("role", "primary")
+        for label in (self._title, self._facts, self._reason, self._problems):
+            label.setTextFormat(Qt.TextFormat.PlainText)
+            label.setWordWrap(True)
+
+    def _lay_out(self) -> None:
+        left = QWidget(self)
+        column = QVBoxLayout(left)
+        column.setContentsMargins(0, 0, theme.SPACING, 0)
+        headline = QHBoxLayout()
+        headline.addWidget(self._verdict)
+        headline.addWidget(self._total, 1, Qt.AlignmentFlag.AlignRight)
+        column.addWidget(self._title)
+        column.addWidget(self._facts)
+        column.addLayout(headline)
+        for widget in (self._reason, self._problems):
+            column.addWidget(widget)
+        column.addWidget(self.table, 3)
+        column.addWidget(self.path, 4)
+        splitter = QSplitter(Qt.Orientation.Horizontal, self)
+        splitter.addWidget(left)
+        splitter.addWidget(self.curves)
+        splitter.setStretchFactor(1, 1)
+        splitter.setSizes([500, 900])
+        buttons = QHBoxLayout()
+        disclaimer = QLabel(tr(DISCLAIMER), self)
+        disclaimer.setProperty("role", "disclaimer")
+        buttons.addWidget(disclaimer, 1)
+        for button in (self.sessions, self.export, self.report, self.retry):
+            buttons.addWidget(button)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
+        page.addWidget(splitter, 1)
+        page.addLayout(buttons)
+
+    def _connect(self) -> None:
+        self.report.clicked.connect(lambda: self._emit(self.report_requested))
+        self.export.clicked.connect(lambda: self._emit(self.export_requested))
+        self.retry.clicked.connect(self.retry_requested)
+        self.sessions.clicked.connect(self.sessions_requested)
+
+    def _emit(self, signal: SignalInstance) -> None:
+        if self._review is not None:
+            signal.emit(self._review)
+
+
+def facts(review: Review) -> str:
+    """Who, when, how long, in one line."""
+    return "  ·  ".join(
+        (
+            review.student,
+            date_text(review.started),
+            state_word(review.state),
+            clock_text(review.duration),
+            tr("{n} control scans", n=review.scans),
+        )
+    )
+
+
+def date_text(started: str) -> str:
+    """Say a wall-clock time (ISO 8601) in local time; as it stands if it is no time."""
+    try:
+        return f"{datetime.fromisoformat(started).astimezone():%Y-%m-%d %H:%M}"
+    except ValueError:
+        return started

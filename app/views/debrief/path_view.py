@@ -1,0 +1,75 @@
+"""The tip's track in the bull's-eye plane, from the entry to where it ended."""
+
+import numpy as np
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from app.core.arrays import FloatArray
+from app.views import theme
+from app.views.debrief.review import RINGS, Review
+from app.views.exercise.hand import HandLimits
+from app.views.exercise.pad_painter import PadArea, paint_background
+from app.views.exercise.pad_view import PadScene
+from app.views.text import tr
+
+
+class PathView(QWidget):
+    """Pad with the tip's track: a square where it began, a diamond where it ended."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._review: Review | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setMinimumSize(200, 200)
+        self.setToolTip(
+            tr("Track of the tip, seen along the planned path; a square where it began, a diamond "
+               "where it ended")
+        )  # fmt: skip
+
+    def show_review(self, review: Review) -> None:
+        """Draw an attempt."""
+        self._review = review
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw pad and track."""
+        if self._review is None:
+            return
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        area = PadArea.inside(self.width(), self.height(), margin=28)
+        paint_background(painter, area, pad_scene(self._review))
+        paint_track(painter, area, self._review.track(), theme.NEEDLE_TIP.colour, 1.8)
+
+
+def pad_scene(review: Review) -> PadScene:
+    """Return the pad of an attempt that is over."""
+    placed = review.placed
+    limits = HandLimits(1.5, -0.03, 2.0 * placed.length)
+    return PadScene(
+        frame=review.frame, scale=review.scale, rings=RINGS, limits=limits,
+        p_entry=placed.p_entry, target_depth=placed.length, depth_tolerance=RINGS[0],
+        stop_depth=placed.length + RINGS[1],
+    )  # fmt: skip
+
+
+def paint_track(
+    painter: QPainter, area: PadArea, places: FloatArray, colour: str, width: float
+) -> None:
+    """Draw a track of pad places, shape (n, 2); gaps where there is no number."""
+    known = np.asarray(np.isfinite(places).all(axis=1))
+    if not known.any():
+        return
+    painter.setPen(QPen(QColor(colour), width))
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    breaks = np.flatnonzero(np.diff(known.astype(np.int8))) + 1
+    for part in np.split(np.arange(len(places)), breaks):
+        if known[part[0]]:
+            painter.drawPolyline(QPolygonF([area.point(places[i]) for i in part]))
+    first, last = area.point(places[known][0]), area.point(places[known][-1])
+    painter.setBrush(QColor(theme.BACKGROUND))
+    painter.drawRect(int(first.x()) - 4, int(first.y()) - 4, 8, 8)
+    painter.setBrush(QColor(colour))
+    corners = ((0, -8), (8, 0), (0, 8), (-8, 0))
+    painter.drawPolygon(QPolygonF([last + QPointF(x, y) for x, y in corners]))

@@ -1,0 +1,187 @@
+"""What the debrief shows of one attempt, as values; page and report draw the same ones."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import atan2
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray
+from app.core.events import Event
+from app.planning.placement import PlacedPlan
+from app.scoring.errors import ScoreFormatError
+from app.scoring.result import Score
+from app.session.curves import Curves, curves
+from app.session.recording import Recording
+from app.session.summary import SCORE_FILE, derive
+from app.views.exercise.pad_geometry import PadScale, PathFrame, path_frame
+
+SHOWN_EVENTS: Final = ("scan", "fault", "abort")
+"""Kinds of events that are marked on the curves."""
+
+FORCE_LIMIT: Final = 5.0
+"""Limit of the force at the hand [N] where the record names none."""
+
+RINGS: Final = (0.002, 0.005)
+"""Rings of the pad and the path view where the exercise's tolerances name none [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A stretch of time in one state of the attempt [s since the beginning]."""
+
+    state: str
+    start: float
+    end: float
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """An event on the time axis [s since the beginning]."""
+
+    time: float
+    kind: str
+    label: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Review:
+    """One attempt.
+
+    Attributes:
+        id: of the session.
+        student: pseudonym.
+        exercise: title.
+        started: wall-clock time, ISO 8601.
+        state: `ended`, `aborted`, `unfinished`.
+        reason: why it was aborted.
+        duration: [s].
+        scans: control scans taken.
+        software: version that recorded it.
+        problems: what the record lacks, one line each.
+        score: None if there is none.
+        curves: figures over time.
+        spans: states over time.
+        marks: events over time.
+        placed: the plan.
+        tip: tip [m], shape (n, 3), NaN where not valid.
+        force_limit: of the device [N].
+    """
+
+    id: str
+    student: str
+    exercise: str
+    started: str
+    state: str
+    reason: str
+    duration: float
+    scans: int
+    software: str
+    problems: tuple[str, ...]
+    score: Score | None
+    curves: Curves
+    spans: tuple[Span, ...]
+    marks: tuple[Mark, ...]
+    placed: PlacedPlan
+    tip: FloatArray
+    force_limit: float
+
+    @property
+    def frame(self) -> PathFrame:
+        """Frame of the pad in which the tip's track is drawn."""
+        return path_frame(self.placed.axis, self.placed.T_world_patient.rotation)
+
+    @property
+    def scale(self) -> PadScale:
+        """Scale of the pad."""
+        return PadScale(self.placed.length, RINGS[0])
+
+    def track(self) -> FloatArray:
+        """Place of the tip on the pad, shape (n, 2), NaN where not valid."""
+        frame, scale = self.frame, self.scale
+        offsets = np.column_stack(
+            [(self.tip - self.placed.p_entry) @ axis for axis in (frame.right, frame.up)]
+        )
+        lengths = np.hypot(offsets[:, 0], offsets[:, 1])
+        radii = np.array([scale.radius(atan2(r, scale.length)) for r in lengths])
+        with np.errstate(invalid="ignore", divide="ignore"):
+            ratio = np.where(lengths > 1e-12, radii / lengths, 0.0)
+        result: FloatArray = offsets * np.where(np.isnan(lengths), np.nan, ratio)[:, None]
+        return result
+
+
+def spans(time: FloatArray, state: NDArray[np.str_]) -> tuple[Span, ...]:
+    """Stretches of equal state; each ends where the next one begins."""
+    if len(time) == 0:
+        return ()
+    starts = [0, *(np.flatnonzero(state[1:] != state[:-1]) + 1).tolist()]
+    ends = [*starts[1:], len(time) - 1]
+    return tuple(
+        Span(str(state[a]), float(time[a]), float(time[b]))
+        for a, b in zip(starts, ends, strict=True)
+    )
+
+
+def marks(events: Sequence[Event], origin: float, kinds: Sequence[str]) -> tuple[Mark, ...]:
+    """Events of some kinds on the time axis; scans are numbered."""
+    found, counts = [], dict.fromkeys(kinds, 0)
+    for event in events:
+        if event.kind in counts:
+            counts[event.kind] += 1
+            label = str(counts[event.kind]) if event.kind == "scan" else event.message
+            found.append(Mark(event.time - origin, event.kind, label))
+    return tuple(found)
+
+
+def review(recording: Recording) -> Review:
+    """Gather what the debrief shows of a record.
+
+    A stored score that cannot be read is no reason to show nothing: it becomes a problem line.
+
+    Raises:
+        BrokenRecording: if the record holds no plan.
+    """
+    summary, placed = derive(recording), recording.placed_plan()
+    samples = recording.samples
+    figures = curves(samples, placed)
+    origin = float(samples.time[0]) if len(samples.time) else 0.0
+    score, problem = _score(recording)
+    return Review(
+        id=summary.id,
+        student=summary.student,
+        exercise=summary.exercise_title or summary.exercise_id,
+        started=summary.started,
+        state=summary.state,
+        reason=summary.reason,
+        duration=summary.duration,
+        scans=summary.scans,
+        software=summary.software,
+        problems=(*summary.problems, *problem),
+        score=score,
+        curves=figures,
+        spans=spans(figures.time, samples.state),
+        marks=marks(recording.events, origin, SHOWN_EVENTS),
+        placed=placed,
+        tip=samples.tip,
+        force_limit=_force_limit(recording),
+    )
+
+
+def _score(recording: Recording) -> tuple[Score | None, tuple[str, ...]]:
+    stored = recording.attachments.get(SCORE_FILE)
+    if stored is None:
+        return None, ()
+    try:
+        return Score.from_json(stored.decode()), ()
+    except (ScoreFormatError, UnicodeDecodeError) as error:
+        return None, (str(error),)
+
+
+def _force_limit(recording: Recording) -> float:
+    text = recording.metadata.get("device", {}).get("force_limit_n", "")
+    try:
+        return float(text) if text else FORCE_LIMIT
+    except ValueError:
+        return FORCE_LIMIT

@@ -1,0 +1,116 @@
+"""A score in words: bands, points, verdict; the same on the page and in the report."""
+
+from dataclasses import dataclass
+
+from app.scoring.result import Score
+from app.scoring.rows import Row
+from app.scoring.tolerance import Band
+from app.views import theme
+from app.views.debrief.review import Review
+from app.views.text import tr
+
+BAND_LOOKS = {
+    Band.EXPERT: (theme.GOOD, "★"),
+    Band.GOOD: (theme.GOOD, "✔"),
+    Band.PASS: (theme.WARNING, "▲"),
+    Band.FAIL: (theme.BAD, "✖"),
+}
+"""Colour and symbol of a band, so that neither stands alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class RowTexts:
+    """One line of the score table as text; `colour` belongs to the band."""
+
+    label: str
+    value: str
+    band: str
+    points: str
+    weight: str
+    colour: str
+    help: str
+
+
+def band_word(band: Band) -> str:
+    """Name of a band for people."""
+    return {
+        Band.EXPERT: tr("expert"),
+        Band.GOOD: tr("good"),
+        Band.PASS: tr("pass"),
+        Band.FAIL: tr("fail"),
+    }[band]
+
+
+def counting(score: Score) -> tuple[Row, ...]:
+    """Rows that count in the total or could fail it."""
+    return tuple(row for row in score.rows if row.tolerance is not None)
+
+
+def shown_only(score: Score) -> tuple[Row, ...]:
+    """Rows without a tolerance, for information."""
+    return tuple(row for row in score.rows if row.tolerance is None)
+
+
+def row_texts(row: Row, score: Score) -> RowTexts:
+    """Texts of one row."""
+    colour, symbol = BAND_LOOKS[row.band] if row.band else (theme.TEXT_DIM, "–")
+    band = f"{symbol} {band_word(row.band)}" if row.band else "–"
+    return RowTexts(
+        label=row.label + (" *" if row.tolerance and row.tolerance.required else ""),
+        value=tr("not available") if row.value is None else f"{number(row.value)} {row.unit}",
+        band=band,
+        points=_points(row, score),
+        weight=f"{row.tolerance.weight:g}" if row.tolerance else "–",
+        colour=colour,
+        help=row.note or _limits(row),
+    )
+
+
+def number(value: float) -> str:
+    """Three significant digits, never in exponents."""
+    size = abs(value)
+    return f"{value:.0f}" if size >= 100 else f"{value:.1f}" if size >= 10 else f"{value:.2f}"
+
+
+def total_text(score: Score | None) -> str:
+    """Say the total, or that there is none."""
+    if score is None or score.total is None:
+        return tr("no score")
+    return tr("{total:.0f} of 100 points", total=score.total)
+
+
+def verdict(review: Review) -> tuple[str, str, str]:
+    """Colour, symbol with word, and the reason in one line."""
+    score = review.score
+    if score is None:
+        return theme.TEXT_DIM, "–", review.reason or tr("This attempt was not scored.")
+    if score.void_reason:
+        return theme.WARNING, tr("▲ Void"), score.void_reason
+    if score.passed:
+        return theme.GOOD, tr("✔ Passed"), ""
+    failures = ", ".join(row.label for row in score.failures)
+    reason = (
+        tr("Required and not met: {names}", names=failures)
+        if failures
+        else tr("{mark:g} points are needed", mark=score.rules.pass_mark)
+    )
+    return theme.BAD, tr("✖ Not passed"), reason
+
+
+def _points(row: Row, score: Score) -> str:
+    weight = sum(other.weight for other in score.rows)
+    if row.utility is None or weight <= 0.0 or row.weight <= 0.0:
+        return "–"
+    most = 100.0 * row.weight / weight
+    return f"{most * row.utility:.1f} / {most:.1f}"
+
+
+def _limits(row: Row) -> str:
+    if row.tolerance is None:
+        return tr("Shown for information; it does not count.")
+    expert, good, passing, _ = row.tolerance.knots
+    text = tr(
+        "expert {expert:g}, good {good:g}, pass {passing:g} {unit}",
+        expert=expert, good=good, passing=passing, unit=row.unit,
+    )  # fmt: skip
+    return text + ("; " + tr("* required to pass") if row.tolerance.required else "")
