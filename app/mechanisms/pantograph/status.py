@@ -1,6 +1,7 @@
 """What a kinematic kernel says about its answer: integers for compiled code, names for people."""
 
 from enum import IntEnum
+from typing import Final
 
 from app.mechanisms.errors import (
     DegenerateError,
@@ -24,12 +25,12 @@ class Status(IntEnum):
 
 
 # Compiled code takes module-level integers as constants; an enumeration member would be an object.
-OK = int(Status.OK)
-UNREACHABLE = int(Status.UNREACHABLE)
-SINGULAR = int(Status.SINGULAR)
-NO_GRIP = int(Status.NO_GRIP)
-DEGENERATE = int(Status.DEGENERATE)
-NOT_FINITE = int(Status.NOT_FINITE)
+OK: Final = int(Status.OK)
+UNREACHABLE: Final = int(Status.UNREACHABLE)
+SINGULAR: Final = int(Status.SINGULAR)
+NO_GRIP: Final = int(Status.NO_GRIP)
+DEGENERATE: Final = int(Status.DEGENERATE)
+NOT_FINITE: Final = int(Status.NOT_FINITE)
 
 _ERRORS: dict[Status, type[MechanismError]] = {
     Status.UNREACHABLE: UnreachableError,

@@ -1,0 +1,73 @@
+"""From the wanted force at the hand to joint torques, within the limits of both."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.compiled import stage
+from app.device.control.vectors import shrink_kernel
+from app.mechanisms.pantograph import ForceLaw
+from app.mechanisms.pantograph.kernels import (
+    force_map_kernel,
+    printed_force_kernel,
+    torque_kernel,
+)
+from app.mechanisms.profile import DeviceProfile
+
+_HAND_LIMIT, _TORQUE_LIMIT, _PRINTED = range(3)
+
+
+@stage
+def transmission_stage(state: FloatArray, p: FloatArray) -> None:
+    """Write TORQUE_* and LIMIT_SCALE from FORCE_*.
+
+    Only the part of the force across the needle can be delivered; that part is limited to the
+    hand's limit, and both torques are scaled together to the joints', so that its direction stays.
+    """
+    fx, fy, fz = state[sv.FORCE_X], state[sv.FORCE_Y], state[sv.FORCE_Z]
+    dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
+    along = fx * dx + fy * dy + fz * dz
+    fx, fy, fz = fx - along * dx, fy - along * dy, fz - along * dz
+    scale = shrink_kernel(fx, fy, fz, p[_HAND_LIMIT])
+    fx, fy, fz = scale * fx, scale * fy, scale * fz
+    l_in, l_out = state[sv.L_IN], state[sv.L_OUT]
+    if p[_PRINTED] != 0.0:
+        gx, gy = printed_force_kernel(fx, fy, fz, dx, dy, dz, l_in, l_out)
+    else:
+        gx, gy = force_map_kernel(fx, fy, fz, dx, dy, dz, l_in, l_out)
+    left, right = torque_kernel(
+        gx, gy, state[sv.J_XL], state[sv.J_XR], state[sv.J_YL], state[sv.J_YR]
+    )
+    largest = max(abs(left), abs(right))
+    factor = p[_TORQUE_LIMIT] / largest if largest > p[_TORQUE_LIMIT] else 1.0
+    state[sv.LIMIT_SCALE] = scale * factor
+    state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = factor * left, factor * right
+
+
+@dataclass(frozen=True, slots=True)
+class Transmission:
+    """Force to torque with both limits.
+
+    Attributes:
+        hand_limit: largest force asked for at the hand [N].
+        torque_limit: largest joint torque [N·m].
+        law: virtual work, or the printed law for comparison.
+    """
+
+    hand_limit: float
+    torque_limit: float
+    law: ForceLaw = ForceLaw.VIRTUAL_WORK
+
+    @classmethod
+    def of(cls, profile: DeviceProfile, law: ForceLaw = ForceLaw.VIRTUAL_WORK) -> "Transmission":
+        """Transmission with the limits of a device profile."""
+        return cls(profile.limits.hand_force, profile.limits.joint_torque, law)
+
+    def stage(self) -> tuple[str, Any, FloatArray]:
+        """Return the stage for a loop's table."""
+        printed = 1.0 if self.law is ForceLaw.PRINTED else 0.0
+        parameters = np.array([self.hand_limit, self.torque_limit, printed])
+        return "transmission", transmission_stage, parameters

@@ -1,0 +1,56 @@
+"""The simulated robot's link: encoder readings of the plant, torques to the plant."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import floor, pi
+from typing import Any
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.compiled import stage
+from app.device.links.link import Link, Triple
+from app.mechanisms.profile import DeviceProfile
+
+_COUNT, _HOME_LEFT, _HOME_RIGHT = range(3)
+
+
+@stage
+def encoder_stage(state: FloatArray, p: FloatArray) -> None:
+    """Copy PLANT_Q_* into Q_*, as whole counts from the home offsets, and stamp Q_TIME."""
+    count = p[_COUNT]
+    left = floor((state[sv.PLANT_Q_LEFT] - p[_HOME_LEFT]) / count + 0.5)
+    right = floor((state[sv.PLANT_Q_RIGHT] - p[_HOME_RIGHT]) / count + 0.5)
+    state[sv.Q_LEFT] = p[_HOME_LEFT] + left * count
+    state[sv.Q_RIGHT] = p[_HOME_RIGHT] + right * count
+    state[sv.Q_TIME] = state[sv.TIME]
+
+
+@dataclass(frozen=True, slots=True)
+class SimulatedEncoders:
+    """Encoders of the simulated robot.
+
+    Attributes:
+        counts_per_turn: counts per turn of the joint.
+        home_offsets: joint angles at zero counts [rad], (left, right).
+    """
+
+    counts_per_turn: int
+    home_offsets: tuple[float, float]
+
+    def stage(self) -> tuple[str, Any, FloatArray]:
+        """Return the stage for a loop's table."""
+        parameters = np.array([2.0 * pi / self.counts_per_turn, *self.home_offsets])
+        return "encoders", encoder_stage, parameters
+
+
+def simulated_link(profile: DeviceProfile, plant: Iterable[Triple]) -> Link:
+    """Link to a simulated plant.
+
+    Args:
+        profile: gives the encoders' resolution.
+        plant: stages that read TORQUE_* and write PLANT_*, run after safety.
+    """
+    encoders = SimulatedEncoders(profile.encoder.counts_per_turn, profile.encoder.home_offsets)
+    return Link.of([encoders.stage()], plant)
