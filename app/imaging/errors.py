@@ -1,0 +1,56 @@
+"""What can be wrong with a folder, a series, a file or a point."""
+
+from typing import TYPE_CHECKING
+
+from app.core.errors import AcusError
+
+if TYPE_CHECKING:
+    from app.imaging.series import Series
+
+
+class ImagingError(AcusError):
+    """Root of this room's errors."""
+
+
+class FolderError(ImagingError, OSError):
+    """The path does not exist, is not a folder, cannot be read, or holds no DICOM file."""
+
+
+class FileDamagedError(ImagingError, ValueError):
+    """A file cannot be read as the DICOM image that it claims to be."""
+
+
+class SeriesRefusedError(ImagingError, ValueError):
+    """The series cannot be made into a volume; the message says why."""
+
+
+class SeriesUnknownError(ImagingError, LookupError):
+    """No series, or no file, of that identifier is in the folder."""
+
+
+class SeriesAmbiguousError(ImagingError, LookupError):
+    """Several usable CT series and none was named.
+
+    Attributes:
+        series: the usable ones, to choose from.
+    """
+
+    def __init__(self, message: str, series: "tuple[Series, ...]" = ()) -> None:
+        super().__init__(message)
+        self.series = series
+
+
+class OutsideImageError(ImagingError, IndexError):
+    """A voxel, pixel, slice or point lies outside the image."""
+
+
+class InvalidEntryError(ImagingError, ValueError):
+    """An entry that does not lie on the skin.
+
+    Attributes:
+        distance_mm: how far the nearest skin is [mm].
+    """
+
+    def __init__(self, message: str, distance_mm: float) -> None:
+        super().__init__(message)
+        self.distance_mm = distance_mm

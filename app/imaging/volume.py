@@ -1,0 +1,102 @@
+"""A CT volume: Hounsfield values on a grid, and where each voxel lies in the patient."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.core.arrays import FloatArray, frozen
+from app.core.errors import NumericalError
+from app.core.units import MILLIMETRE
+from app.imaging.interpolation import Interpolation, interpolate
+from app.imaging.series import Series
+
+
+@dataclass(frozen=True, eq=False)
+class Volume:
+    """Hounsfield values and their geometry. Voxel (i, j, k) = (column, row, slice).
+
+    Attributes:
+        hu: shape (K, J, I), int16 or float32, read-only; k ascends along the slice normal.
+        affine_mm: voxel (i, j, k) -> patient LPS [mm], shape (4, 4), read-only. Integer indices
+            are voxel centres.
+        series: where it comes from.
+
+    Raises:
+        NumericalError: if the affine is not finite or cannot be inverted.
+    """
+
+    hu: NDArray[Any]
+    affine_mm: FloatArray
+    series: Series
+
+    def __post_init__(self) -> None:
+        affine = frozen(self.affine_mm, (4, 4), "affine_mm")
+        if abs(np.linalg.det(affine[:3, :3])) < 1e-12:
+            raise NumericalError(f"affine_mm {affine.tolist()} is singular")
+        self.hu.setflags(write=False)
+        object.__setattr__(self, "affine_mm", affine)
+
+    @property
+    def size(self) -> tuple[int, int, int]:
+        """Number of columns, rows and slices (I, J, K)."""
+        k, j, i = self.hu.shape
+        return i, j, k
+
+    @cached_property
+    def spacing_mm(self) -> FloatArray:
+        """Distance between voxels along i, j and k, shape (3,)."""
+        return frozen(np.linalg.norm(self.affine_mm[:3, :3], axis=0))
+
+    @cached_property
+    def direction(self) -> FloatArray:
+        """Unit vectors of i, j and k in LPS as columns, shape (3, 3)."""
+        return frozen(self.affine_mm[:3, :3] / self.spacing_mm)
+
+    @property
+    def origin_mm(self) -> FloatArray:
+        """Centre of voxel (0, 0, 0) in LPS, shape (3,)."""
+        origin: FloatArray = self.affine_mm[:3, 3]
+        return origin
+
+    @cached_property
+    def inverse_mm(self) -> FloatArray:
+        """Patient LPS [mm] -> voxel (i, j, k), shape (4, 4)."""
+        return frozen(np.linalg.inv(self.affine_mm))
+
+    def lps_mm(self, ijk: ArrayLike) -> FloatArray:
+        """Patient points of voxel indices, shape (3,) or (n, 3) -> the same [mm]."""
+        result: FloatArray = np.asarray(ijk, np.float64) @ self.affine_mm[:3, :3].T
+        return result + self.affine_mm[:3, 3]
+
+    def points_m(self, ijk: ArrayLike) -> FloatArray:
+        """Patient points of voxel indices in metres, shape (3,) or (n, 3) -> the same."""
+        return self.lps_mm(ijk) * MILLIMETRE
+
+    def voxel(self, lps_mm: ArrayLike) -> FloatArray:
+        """Voxel indices, as floats, of patient points [mm], shape (3,) or (n, 3) -> the same."""
+        offset = np.asarray(lps_mm, np.float64) - self.affine_mm[:3, 3]
+        result: FloatArray = offset @ self.inverse_mm[:3, :3].T
+        return result
+
+    def contains(self, lps_mm: ArrayLike) -> bool:
+        """Whether a patient point [mm], shape (3,), lies in the volume, voxel edges included."""
+        ijk = self.voxel(lps_mm)
+        return bool(((ijk >= -0.5) & (ijk <= np.array(self.size) - 0.5)).all())
+
+    def hu_at(
+        self, lps_mm: ArrayLike, interpolation: str = Interpolation.TRILINEAR
+    ) -> float | None:
+        """Hounsfield value at a patient point [mm], shape (3,); None outside the volume.
+
+        Args:
+            lps_mm: the point.
+            interpolation: one of `Interpolation`.
+        """
+        if not self.contains(lps_mm):
+            return None
+        return float(
+            interpolate(self.hu, self.voxel(lps_mm)[None], Interpolation(interpolation))[0]
+        )
