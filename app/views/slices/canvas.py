@@ -139,8 +139,10 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         self._show_needle()
         self.changed.emit()
 
-    def resizeEvent(self, event: QResizeEvent) -> None:
+    def resizeEvent(self, event: QResizeEvent | None) -> None:
         """Keep the image fitted, or its middle in the middle."""
+        if event is None:  # pyqtgraph calls it so while it constructs
+            return
         QGraphicsView.resizeEvent(self, event)
         if self._fitted:
             self.fit()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from enum import Enum, auto
 from math import hypot
 
-import numpy as np
 from PySide6.QtCore import QObject, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QMouseEvent, QWheelEvent
 
@@ -153,9 +152,7 @@ class SliceGestures(QObject):
     def _windowed(self, step: QPointF) -> WindowLevel:
         window = self._canvas.viewing.window
         gain = max(1.0, window.width * WINDOW_GAIN)
-        width = float(np.clip(window.width + gain * step.x(), 1.0, 20000.0))
-        level = window.level + self._level_sign * gain * step.y()
-        return WindowLevel(width, float(np.clip(level, -10000.0, 20000.0)))
+        return window.dragged(gain * step.x(), self._level_sign * gain * step.y())
 
     def _lps(self, position: QPointF) -> FloatArray:
         return self._canvas.lps_at(position)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QImage, QPainter, QPen
+from PySide6.QtGui import QFont, QFontMetrics, QImage, QPainter, QPen
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
 from app.views import theme
@@ -132,9 +132,10 @@ class MarkItem(QGraphicsItem):
 
     RADIUS = 7.0
 
-    def __init__(self, mark: Mark, z: float) -> None:
+    def __init__(self, mark: Mark, z: float, label_at: tuple[float, float]) -> None:
         super().__init__()
         self._mark = mark
+        self._label_at = QPointF(*label_at)
         self._label = ""
         self._near = True
         self.setFlag(QGraphicsItem.GraphicsItemFlag.ItemIgnoresTransformations)
@@ -149,20 +150,20 @@ class MarkItem(QGraphicsItem):
 
     def boundingRect(self) -> QRectF:
         """Return symbol and label [px]."""
-        return QRectF(-10.0, -18.0, 190.0, 36.0)
+        return QRectF(-150.0, -26.0, 300.0, 52.0)
 
     def paint(
         self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
     ) -> None:
         """Draw the symbol, then the label with a dark shadow."""
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        alpha = 1.0 if self._near else 0.6
+        alpha = 1.0 if self._near else 0.75
         for colour, width in ((Qt.GlobalColor.black, self._mark.width + 2.0), (None, 0.0)):
             pen = self._mark.pen(width or None, alpha)
             if colour is not None:
                 pen.setColor(colour)
-            if not self._near:
-                pen.setDashPattern([1.5, 1.5])
+            elif not self._near:
+                pen.setDashPattern([1.2, 1.2])
             painter.setPen(pen)
             self._draw_symbol(painter, alpha, fill=colour is None)
         self._draw_label(painter, alpha)
@@ -186,7 +187,9 @@ class MarkItem(QGraphicsItem):
         font = QFont(painter.font())
         font.setPixelSize(theme.SMALL_PX)
         painter.setFont(font)
-        place = QPointF(self.RADIUS + 5.0, 5.0)
+        place = QPointF(self._label_at)
+        if place.x() < 0:
+            place -= QPointF(QFontMetrics(font).horizontalAdvance(self._label), 0.0)
         painter.setPen(Qt.GlobalColor.black)
         painter.drawText(place + QPointF(1.0, 1.0), self._label)
         painter.setPen(self._mark.qcolor(min(1.0, alpha + 0.2)))

@@ -15,7 +15,7 @@ from app.views.slices.slab import PlanePoint, pieces
 from app.views.text import tr
 from app.views.theme import Mark
 
-FADED = 0.55
+FADED = 0.75
 PLANE_MARKS = {
     View.AXIAL: theme.AXIAL,
     View.SAGITTAL: theme.SAGITTAL,
@@ -79,7 +79,8 @@ class PlanLayer:
 
     def __init__(self, scene: QGraphicsScene) -> None:
         self._path = SegmentLayer(scene, theme.PATH, 2)
-        self._entry, self._target = MarkItem(theme.ENTRY, 4), MarkItem(theme.TARGET, 4)
+        self._entry = MarkItem(theme.ENTRY, 4, label_at=(11.0, -6.0))
+        self._target = MarkItem(theme.TARGET, 4, label_at=(11.0, 17.0))
         for item in (self._entry, self._target):
             item.setVisible(False)
             scene.addItem(item)
@@ -102,7 +103,7 @@ class NeedleLayer:
     def __init__(self, scene: QGraphicsScene) -> None:
         self._shaft = SegmentLayer(scene, theme.NEEDLE, 3)
         self._doubtful = SegmentLayer(scene, Mark(theme.TEXT_DIM, width=2.0), 3)
-        self._tip = MarkItem(theme.NEEDLE_TIP, 5)
+        self._tip = MarkItem(theme.NEEDLE_TIP, 5, label_at=(-9.0, 16.0))
         self._tip.setVisible(False)
         scene.addItem(self._tip)
 

@@ -10,7 +10,7 @@ from app.imaging.orthogonal import View
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.gestures import SliceGestures
 from app.views.slices.layers import PLANE_MARKS
-from app.views.slices.presets import preset_windows
+from app.views.slices.presets import default_window, keyed_window, menu_windows
 from app.views.slices.readouts import Readouts
 from app.views.slices.viewing import Tool, Viewing
 from app.views.text import tr
@@ -61,13 +61,15 @@ class SlicePane(QFrame):
             self.reset()
         elif key is _K.Key_Escape and self.viewing.tool is not Tool.NAVIGATE:
             self.viewing.set_tool(Tool.NAVIGATE)
+        elif window := keyed_window(key - _K.Key_0):
+            self.viewing.set_window(window)
         else:
             super().keyPressEvent(event)
 
     def reset(self) -> None:
-        """Fit the image and go back to the first preset's window."""
+        """Fit the image and go back to the window that was there at first."""
         self.canvas.fit()
-        self.viewing.set_window(preset_windows(self.viewing.volume)[0][1])
+        self.viewing.set_window(default_window())
 
     def show_menu(self, place: QPoint) -> None:
         """Open the context menu at a point of the screen."""
@@ -78,9 +80,8 @@ class SlicePane(QFrame):
     def build_menu(self) -> QMenu:
         """Return the presets and what else the mouse's place offers."""
         menu = QMenu(self)
-        for number, (name, window) in enumerate(preset_windows(self.viewing.volume)):
-            text = f"{name}\t{window.width:g} / {window.level:g}"
-            action = menu.addAction(text if number else text)
+        for name, key, window in menu_windows(self.viewing.volume):
+            action = menu.addAction(f"{name}  {window.width:g} / {window.level:g}\t{key}")
             action.triggered.connect(lambda _=False, w=window: self.viewing.set_window(w))
         menu.addSeparator()
         menu.addAction(tr("Fit to pane") + "\t=").triggered.connect(self.canvas.fit)

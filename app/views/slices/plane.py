@@ -29,10 +29,10 @@ class SlicePlane:
         self.view = view
         self.count = slicer.count(view)
         self._pixel = np.asarray(slicer.pixel_size_mm(view), dtype=np.float64)  # width, height
-        rows, columns = slicer.image(view, 0).shape
+        rows, columns = slicer.shape(view)
         self.extent_mm = (float(columns * self._pixel[0]), float(rows * self._pixel[1]))
-        origin, ahead = (slicer.to_lps_mm(view, index, 0.0, 0.0) for index in (0, 1))
-        self.step_mm = float(np.linalg.norm(np.asarray(ahead) - origin))
+        origin, ahead = (slicer.to_lps_mm(view, index, 0.0, 0.0) for index in (0.0, 1.0))
+        self.step_mm = slicer.slice_spacing_mm(view)
         self.half_slab_mm = max(HALF_SLAB_MM, self.step_mm / 2)
         self._normal = np.asarray(ahead) - origin
 

@@ -75,10 +75,7 @@ class Viewing(QObject):
 
     def index(self, view: View) -> int:
         """Slice shown in `view`: the one nearest to the crosshair."""
-        if self.slicer is None:
-            return 0
-        index = self.slicer.from_lps_mm(view, self.cursor_mm)[0]
-        return int(np.clip(round(index), 0, self.slicer.count(view) - 1))
+        return 0 if self.slicer is None else self.slicer.nearest_index(view, self.cursor_mm)
 
     def show_slice(self, view: View, index: int) -> None:
         """Move the crosshair along the normal of `view` onto slice `index`, kept in range."""

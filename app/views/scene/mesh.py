@@ -1,0 +1,138 @@
+"""Triangle meshes as plain arrays, and the two that a patient gives: skin and bone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.vtkFiltersCore import (
+    vtkBinnedDecimation,
+    vtkFlyingEdges3D,
+    vtkPolyDataNormals,
+    vtkQuadricDecimation,
+    vtkWindowedSincPolyDataFilter,
+)
+from vtkmodules.vtkCommonCore import vtkPoints
+
+from app.core.arrays import FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Mesh:
+    """Triangles with outward normals.
+
+    Attributes:
+        points: float32, shape (n, 3).
+        triangles: int32 indices, shape (m, 3).
+        normals: float32 unit vectors, shape (n, 3).
+    """
+
+    points: NDArray[np.float32]
+    triangles: NDArray[np.int32]
+    normals: NDArray[np.float32]
+
+    @property
+    def count(self) -> int:
+        """Number of triangles."""
+        return len(self.triangles)
+
+
+def isosurface(values: NDArray[Any], affine_mm: FloatArray, level: float, most: int) -> Mesh:
+    """Surface of `values` at `level`, smoothed and thinned to at most `most` triangles.
+
+    Flying edges (Schroeder et al. 2015), windowed-sinc smoothing (Taubin et al. 1996), quadric
+    decimation (Garland and Heckbert 1997).
+
+    Args:
+        values: shape (K, J, I).
+        affine_mm: voxel (i, j, k) → LPS [mm], shape (4, 4).
+        level: value on the surface.
+        most: bound of the number of triangles.
+    """
+    edges = vtkFlyingEdges3D()
+    edges.SetInputData(_image(values))
+    edges.SetValue(0, level)
+    edges.ComputeNormalsOff()
+    smooth = vtkWindowedSincPolyDataFilter()
+    smooth.SetInputConnection(edges.GetOutputPort())
+    smooth.SetNumberOfIterations(12)
+    smooth.SetPassBand(0.08)
+    smooth.Update()
+    return _to_mesh(_thin(smooth.GetOutput(), most), affine_mm)
+
+
+def coarser(mesh: Mesh, most: int) -> Mesh:
+    """Version of `mesh` with at most `most` triangles, made in one pass: for while it moves."""
+    if mesh.count <= most:
+        return mesh
+    decimate = vtkBinnedDecimation()
+    decimate.SetInputData(to_polydata(mesh))
+    divisions = max(4, int((most / 3.0) ** 0.5))  # a surface crosses about 1.5 d² of d³ bins
+    for _ in range(8):
+        decimate.SetNumberOfDivisions(divisions, divisions, divisions)
+        decimate.Update()
+        if decimate.GetOutput().GetNumberOfPolys() <= most:
+            break
+        divisions = max(2, int(divisions * 0.8))
+    return _to_mesh(decimate.GetOutput(), np.eye(4))
+
+
+def to_polydata(mesh: Mesh) -> vtkPolyData:
+    """Return the mesh as VTK's, sharing no memory with it."""
+    points = vtkPoints()
+    points.SetData(numpy_to_vtk(mesh.points, deep=True))
+    cells = vtkCellArray()
+    offsets = np.arange(0, 3 * mesh.count + 1, 3, dtype=np.int64)
+    connectivity = np.ascontiguousarray(mesh.triangles, dtype=np.int64).ravel()
+    cells.SetData(numpy_to_vtk(offsets, deep=True), numpy_to_vtk(connectivity, deep=True))
+    result = vtkPolyData()
+    result.SetPoints(points)
+    result.SetPolys(cells)
+    result.GetPointData().SetNormals(numpy_to_vtk(mesh.normals, deep=True))
+    return result
+
+
+def _image(values: NDArray[Any]) -> vtkImageData:
+    image = vtkImageData()
+    depth, height, width = values.shape
+    image.SetDimensions(width, height, depth)
+    image.GetPointData().SetScalars(numpy_to_vtk(np.ascontiguousarray(values).ravel(), deep=True))
+    return image
+
+
+def _thin(surface: vtkPolyData, most: int) -> vtkPolyData:
+    count = surface.GetNumberOfPolys()
+    if count <= most:
+        return surface
+    decimate = vtkQuadricDecimation()
+    decimate.SetInputData(surface)
+    decimate.SetTargetReduction(1.0 - 0.98 * most / count)
+    decimate.Update()
+    return decimate.GetOutput()
+
+
+def _to_mesh(surface: vtkPolyData, affine_mm: FloatArray) -> Mesh:
+    if surface.GetNumberOfPolys() == 0:
+        empty = np.zeros((0, 3), np.float32)
+        return Mesh(empty, np.zeros((0, 3), np.int32), empty)
+    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(np.float64)
+    placed = (points @ affine_mm[:3, :3].T + affine_mm[:3, 3]).astype(np.float32)
+    triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    if np.linalg.det(affine_mm[:3, :3]) < 0.0:  # a mirrored grid turns the triangles inside out
+        triangles = triangles[:, ::-1]
+    plain = Mesh(placed, triangles.astype(np.int32), np.zeros_like(placed))
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(to_polydata(plain))
+    normals.SplittingOff()
+    normals.ConsistencyOff()
+    normals.Update()
+    result = normals.GetOutput()
+    return Mesh(
+        vtk_to_numpy(result.GetPoints().GetData()).copy(),
+        vtk_to_numpy(result.GetPolys().GetConnectivityArray()).reshape(-1, 3).astype(np.int32),
+        vtk_to_numpy(result.GetPointData().GetNormals()).copy(),
+    )

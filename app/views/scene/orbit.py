@@ -1,0 +1,85 @@
+"""The eye of the 3D view: where it looks from, turned by the mouse or by a letter."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import radians
+
+import numpy as np
+
+from app.core.arrays import FloatArray, frozen, unit
+from app.core.rotation import rotation_exp
+
+TURN_PER_PX = radians(0.5)
+SMALLEST_MM, LARGEST_MM = 5.0, 5000.0
+
+# Directions from which one looks, and what is up then (LPS).
+_FROM = {
+    "A": ((0, -1, 0), (0, 0, 1)),
+    "P": ((0, 1, 0), (0, 0, 1)),
+    "L": ((1, 0, 0), (0, 0, 1)),
+    "R": ((-1, 0, 0), (0, 0, 1)),
+    "S": ((0, 0, 1), (0, -1, 0)),
+    "I": ((0, 0, -1), (0, -1, 0)),
+}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Orbit:
+    """An orthographic-like eye on a sphere around a focus.
+
+    Attributes:
+        focus_mm: what is in the middle, LPS, shape (3,).
+        backwards: unit vector from the focus to the eye, shape (3,).
+        up: unit vector that is up on the screen, perpendicular to `backwards`, shape (3,).
+        half_height_mm: half of what the view shows from top to bottom at the focus.
+    """
+
+    focus_mm: FloatArray
+    backwards: FloatArray
+    up: FloatArray
+    half_height_mm: float
+
+    @classmethod
+    def look_from(cls, letter: str, focus_mm: FloatArray, half_height_mm: float) -> Orbit:
+        """Look from the patient's A, P, L, R, S or I side."""
+        backwards, up = _FROM[letter]
+        return cls(frozen(focus_mm), frozen(backwards), frozen(up), half_height_mm)
+
+    @property
+    def right(self) -> FloatArray:
+        """Unit vector to the right on the screen, shape (3,)."""
+        return np.cross(self.up, self.backwards)
+
+    def seen_from(self, letter: str) -> Orbit:
+        """Keep focus and size, look from another side."""
+        return Orbit.look_from(letter, self.focus_mm, self.half_height_mm)
+
+    def turned(self, right_px: float, down_px: float) -> Orbit:
+        """Turn the patient with the mouse as on a ball."""
+        turn = rotation_exp(
+            (-right_px * TURN_PER_PX) * np.asarray(self.up)
+            + (-down_px * TURN_PER_PX) * self.right
+        )
+        backwards = unit(turn @ self.backwards)
+        up = turn @ self.up
+        up = unit(up - (up @ backwards) * backwards)
+        return replace(self, backwards=frozen(backwards), up=frozen(up))
+
+    def panned(self, right_px: float, down_px: float, height_px: int) -> Orbit:
+        """Move the patient with the mouse."""
+        mm = 2.0 * self.half_height_mm / max(1, height_px)
+        shift = -right_px * mm * self.right + down_px * mm * np.asarray(self.up)
+        return replace(self, focus_mm=frozen(self.focus_mm + shift))
+
+    def zoomed(self, factor: float) -> Orbit:
+        """Make everything `factor` times larger."""
+        half = min(max(self.half_height_mm / factor, SMALLEST_MM), LARGEST_MM)
+        return replace(self, half_height_mm=half)
+
+    def ray(self, x_px: float, y_px: float, size_px: tuple[int, int]) -> tuple[FloatArray, FloatArray]:
+        """Line of sight through a pixel: a point on it at the focus' depth, and its direction."""
+        width, height = size_px
+        mm = 2.0 * self.half_height_mm / max(1, height)
+        across = (x_px - width / 2) * mm * self.right
+        return self.focus_mm + across - (y_px - height / 2) * mm * self.up, -self.backwards
