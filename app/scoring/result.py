@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -65,9 +66,9 @@ class Score:
             rows = tuple(replace(row, tolerance=tolerances.get(row.name)) for row in rows)
         return judge(rows, rules or self.rules, self.attempt_void)
 
-    def to_json(self, indent: int | None = None) -> str:
-        """Write the score with all its parameters; never NaN."""
-        document = {
+    def document(self) -> dict[str, Any]:
+        """Return the score with all its parameters as JSON-ready values; never NaN."""
+        return {
             "format": FORMAT,
             "total": self.total,
             "passed": self.passed,
@@ -76,7 +77,10 @@ class Score:
             "rules": self.rules.model_dump(),
             "rows": [row.document() for row in self.rows],
         }
-        return json.dumps(document, indent=indent, allow_nan=False, ensure_ascii=False)
+
+    def to_json(self, indent: int | None = None) -> str:
+        """Write `document` as JSON."""
+        return json.dumps(self.document(), indent=indent, allow_nan=False, ensure_ascii=False)
 
     @classmethod
     def from_json(cls, text: str) -> Score:

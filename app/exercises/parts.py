@@ -1,0 +1,145 @@
+"""Parts of an exercise file: CT, plan, placement, effects, tissue."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from app.core.configuration import Strict
+from app.core.units import MILLIMETRE
+from app.planning.placement import PatientOrientation, Placement
+from app.planning.plan import Plan
+
+Triple = tuple[float, float, float]
+NotNegative = Annotated[float, Field(ge=0.0)]
+KILOPASCAL = 1e3
+
+PHANTOM_DEFAULT = "phantom_default"
+"""Plan that the phantom itself proposes: from the skin to the lesion."""
+
+
+class View(StrEnum):
+    """What an exercise shows beside the CT."""
+
+    LIVE_OVERLAY = "live_overlay"
+    """The needle, live, on the slices."""
+    BULLSEYE = "bullseye"
+    """Offsets and angles against the planned path."""
+    THREE_D = "three_d"
+    """Robot, skin and bone in space."""
+    CAMERAS = "cameras"
+    """The pictures of the tracking cameras."""
+    FORCE_GAUGE = "force_gauge"
+    """Force along the needle."""
+    TARGET_MOTION = "target_motion"
+    """Where breathing moves the target."""
+
+
+class PhantomCt(Strict):
+    """The procedural torso: one patient for each seed."""
+
+    seed: Annotated[int, Field(ge=0)] = 1
+
+
+class Ct(Strict):
+    """Which CT: either the phantom or a folder with a DICOM series.
+
+    Attributes:
+        phantom: the procedural patient.
+        folder: a folder; relative to the exercise file.
+        series: SeriesInstanceUID, where the folder holds several.
+    """
+
+    phantom: PhantomCt | None = None
+    folder: Path | None = None
+    series: str | None = None
+
+    @model_validator(mode="after")
+    def _one_of_two(self) -> "Ct":
+        if (self.phantom is None) == (self.folder is None):
+            raise ValueError("give either phantom: {seed: ...} or folder: ..., one of the two")
+        if self.series is not None and self.folder is None:
+            raise ValueError("series goes with folder; the phantom has one series only")
+        return self
+
+
+class PlanPoints(Strict):
+    """A plan by its two points, DICOM LPS [mm]."""
+
+    entry_mm: Triple
+    target_mm: Triple
+    name: str = "plan"
+
+    @model_validator(mode="after")
+    def _is_a_plan(self) -> "PlanPoints":
+        self.plan()
+        return self
+
+    def plan(self) -> Plan:
+        """Return it as the value that planning uses."""
+        return Plan(self.entry_mm, self.target_mm, self.name)  # type: ignore[arg-type]
+
+
+PlanChoice = PlanPoints | Literal["phantom_default"]
+
+
+class PlacementPart(Strict):
+    """How the patient lies: orientation, then a free rotation vector about world x, y, z [°]."""
+
+    orientation: PatientOrientation = PatientOrientation.SUPINE
+    rotation_deg: Triple = (0.0, 0.0, 0.0)
+
+    @model_validator(mode="after")
+    def _is_a_placement(self) -> "PlacementPart":
+        if max(abs(angle) for angle in self.rotation_deg) > 360.0:
+            raise ValueError("rotation_deg must be within ±360°")
+        return self
+
+    def placement(self) -> Placement:
+        """Return it as the value that planning uses."""
+        return Placement(self.orientation, self.rotation_deg)
+
+
+class EffectPart(Strict):
+    """One named effect; its presence is the switch. The simulation knows the valid parameters.
+
+    Attributes:
+        parameters: SI values that replace the effect's defaults.
+        model: which of the effect's ways to compute it; empty chooses its first.
+        organ: what it acts on; empty means everything.
+    """
+
+    parameters: dict[str, Annotated[float, Field(strict=True)]] = Field(default_factory=dict)
+    model: str = ""
+    organ: str = ""
+
+
+class LayerPart(Strict):
+    """A slab of tissue along the path, counted from the skin.
+
+    Attributes:
+        name: for display.
+        thickness_mm: along the path.
+        side_stiffness_kpa: lateral foundation stiffness [kPa = kN/m²].
+        friction: kinetic shaft friction per inserted length [N/m].
+        static_friction: break-away friction per inserted length [N/m].
+        viscous_friction: per inserted length [N·s/m²].
+    """
+
+    name: str
+    thickness_mm: NotNegative
+    side_stiffness_kpa: NotNegative = 20.0
+    friction: NotNegative = 10.57
+    static_friction: NotNegative = 18.45
+    viscous_friction: NotNegative = 250.0
+
+    @property
+    def thickness(self) -> float:
+        """Thickness [m]."""
+        return self.thickness_mm * MILLIMETRE
+
+    @property
+    def side_stiffness(self) -> float:
+        """Lateral foundation stiffness [N/m²]."""
+        return self.side_stiffness_kpa * KILOPASCAL

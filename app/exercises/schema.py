@@ -1,0 +1,101 @@
+"""The exercise: everything that makes one attempt like another."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated
+
+from pydantic import Field, field_validator, model_validator
+
+from app.core.configuration import Strict
+from app.exercises.parts import (
+    Ct,
+    EffectPart,
+    LayerPart,
+    PhantomCt,
+    PlacementPart,
+    PlanChoice,
+    PlanPoints,
+    View,
+)
+from app.scoring.defaults import DEFAULT_TOLERANCES
+from app.scoring.errors import ScoringError
+from app.scoring.rows import Rules
+from app.scoring.score import check_names
+from app.scoring.tolerance import Tolerance
+
+
+class Exercise(Strict):
+    """An exercise as it stands in its YAML file; `docs/exercises.md` explains every field.
+
+    Attributes:
+        id: name for files and commands: lower-case letters, digits and hyphens.
+        version: of the exercise; only attempts of one version are compared.
+        level: difficulty, 1 easiest; the library is in this order.
+        title: one line for people.
+        description: what the student is to do.
+        ct: which patient.
+        plan: two points, or `phantom_default`.
+        placement: how the patient lies.
+        device: name or path of a device profile.
+        joint: ball joint mounted on the device; empty for the profile's own.
+        rig: name or path of a camera rig profile.
+        assistance: guidance at the start, 0 off ... 1 full.
+        effects: name -> parameters of what is asked for; the scene compiler keeps what somebody
+            consumes.
+        layers: tissue along the path, from the skin inwards; empty for the simulation's own.
+        target_organ: where the target lies; an effect on another organ is dropped.
+        tolerances: metric -> bands and weight.
+        rules: pass mark, and when a score is void.
+        views: what is shown.
+        seed: of everything random in the attempt.
+    """
+
+    id: Annotated[str, Field(pattern=r"^[a-z0-9]+(-[a-z0-9]+)*$", max_length=64)]
+    version: Annotated[int, Field(ge=1)] = 1
+    level: Annotated[int, Field(ge=1, le=9)] = 1
+    title: Annotated[str, Field(min_length=1, max_length=120)]
+    description: str = ""
+    ct: Ct = Ct(phantom=PhantomCt())
+    plan: PlanChoice = "phantom_default"
+    placement: PlacementPart = PlacementPart()
+    device: str = "icube"
+    joint: str = ""
+    rig: str = "wide"
+    assistance: Annotated[float, Field(ge=0.0, le=1.0)] = 0.7
+    effects: Mapping[str, EffectPart] = Field(default_factory=dict)
+    layers: tuple[LayerPart, ...] = ()
+    target_organ: str = ""
+    tolerances: Mapping[str, Tolerance] = Field(default_factory=lambda: dict(DEFAULT_TOLERANCES))
+    rules: Rules = Rules()
+    views: tuple[View, ...] = (View.LIVE_OVERLAY, View.BULLSEYE, View.THREE_D)
+    seed: Annotated[int, Field(ge=0)] = 1
+
+    @field_validator("effects", mode="before")
+    @classmethod
+    def _bare_names(cls, effects: object) -> object:
+        """Let `breathing:` alone, or a list of names, stand for an effect with its defaults."""
+        if isinstance(effects, list):
+            effects = dict.fromkeys(effects)
+        if isinstance(effects, Mapping):
+            return {name: {} if part is None else part for name, part in effects.items()}
+        return effects
+
+    @field_validator("tolerances")
+    @classmethod
+    def _known_metrics(cls, tolerances: Mapping[str, Tolerance]) -> Mapping[str, Tolerance]:
+        try:
+            check_names(tolerances)
+        except ScoringError as error:
+            raise ValueError(str(error)) from error
+        if not any(limits.weight > 0.0 for limits in tolerances.values()):
+            raise ValueError("at least one metric needs a weight above 0")
+        return tolerances
+
+    @model_validator(mode="after")
+    def _plan_fits_ct(self) -> Exercise:
+        if not isinstance(self.plan, PlanPoints) and self.ct.phantom is None:
+            raise ValueError(
+                "plan phantom_default needs ct: {phantom: ...}; give entry_mm and target_mm"
+            )
+        return self
