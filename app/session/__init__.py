@@ -1,1 +1,1 @@
-"""The attempt: state machine, recorder, replay and store."""
+"""The attempt: state machine, recorder, records read back, store."""

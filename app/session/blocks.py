@@ -13,14 +13,16 @@ import numpy as np
 
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
-from app.session.errors import BrokenRecording
+from app.session.errors import BrokenRecordingError
 
 MAGIC: Final = b"ACUB"
 VERSION: Final = 1
 _HEADER: Final = struct.Struct("<4sHHIIQ")
 
 _INPUT_NAMES: Final = tuple(
-    name for name, index in sorted(slots.INDEX.items(), key=lambda item: item[1]) if index < slots.INPUTS
+    name
+    for name, index in sorted(slots.INDEX.items(), key=lambda item: item[1])
+    if index < slots.INPUTS
 )
 _MEASURED: Final = ("time", "dt", "tick", "q_left", "q_right", "q_time")
 COLUMNS: Final = (*_INPUT_NAMES, *_MEASURED)
@@ -56,14 +58,16 @@ def unpack(data: bytes) -> Block:
     """Read a block.
 
     Raises:
-        BrokenRecording: if magic, version or length are not those of a block.
+        BrokenRecordingError: if magic, version or length are not those of a block.
     """
     if len(data) < _HEADER.size or data[:4] != MAGIC:
-        raise BrokenRecording(f"a block of {len(data)} bytes does not begin with {MAGIC.decode()}")
+        raise BrokenRecordingError(
+            f"a block of {len(data)} bytes does not begin with {MAGIC.decode()}"
+        )
     _, version, columns, rows, lost, first = _HEADER.unpack_from(data)
     if version != VERSION:
-        raise BrokenRecording(f"block version {version}; this program reads version {VERSION}")
+        raise BrokenRecordingError(f"block version {version}; this program reads version {VERSION}")
     if len(data) != _HEADER.size + 8 * columns * rows:
-        raise BrokenRecording(f"a block of {rows} rows has {len(data)} bytes")
+        raise BrokenRecordingError(f"a block of {rows} rows has {len(data)} bytes")
     values = np.frombuffer(data, dtype="<f8", offset=_HEADER.size).reshape(columns, rows).T
     return Block(read_only(np.ascontiguousarray(values, dtype=np.float64)), first, lost)

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only
+from app.planning.placement import PlacedPlan
 from app.session.needle import NeedlePose
-from app.session.ports import PlacedPlanPort
 from app.session.samples import Samples
 
 
@@ -52,10 +52,12 @@ def offset(pose: NeedlePose, p_target: FloatArray, path: FloatArray) -> Offset:
     """Offset of one pose from a target [m] on a path (unit vector)."""
     lateral, remaining = _split(pose.p_tip - p_target, path)
     angle = _angles(pose.axis, path)
-    return Offset(float(lateral), float(remaining), float(np.hypot(lateral, remaining)), float(angle))
+    return Offset(
+        float(lateral), float(remaining), float(np.hypot(lateral, remaining)), float(angle)
+    )
 
 
-def curves(samples: Samples, placed: PlacedPlanPort) -> Curves:
+def curves(samples: Samples, placed: PlacedPlan) -> Curves:
     """Curves of an attempt; the target is the moving one."""
     lateral, remaining = _split(samples.tip - samples.target, placed.axis)
     start = samples.time[0] if len(samples.time) else 0.0

@@ -7,7 +7,7 @@ class SessionError(AcusError):
     """Root of the errors of an attempt, its record and its store."""
 
 
-class IllegalTransition(SessionError):
+class IllegalTransitionError(SessionError):
     """An event that the attempt's state does not know; the message names the legal ones."""
 
 
@@ -15,9 +15,9 @@ class RecordingError(SessionError):
     """A record cannot be written (disk full, folder not writable, name already taken)."""
 
 
-class BrokenRecording(SessionError):
+class BrokenRecordingError(SessionError):
     """A file that is not a readable record of an attempt; the message says why."""
 
 
-class SessionNotFound(SessionError):
+class SessionNotFoundError(SessionError):
     """No session, or more than one, has this id."""

@@ -1,4 +1,4 @@
-"""The plan and its placement as metadata records, so that a record can be scored again by itself."""
+"""The plan and its placement as a metadata record, so that a record can be scored by itself."""
 
 import json
 from typing import Final
@@ -6,7 +6,7 @@ from typing import Final
 from app.core.errors import AcusError
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
-from app.session.errors import BrokenRecording
+from app.session.errors import BrokenRecordingError
 
 PLAN: Final = "plan"
 """Name of the metadata record that holds plan and placement."""
@@ -28,7 +28,7 @@ def placed_plan(record: dict[str, str]) -> PlacedPlan:
     """Inverse of `plan_record`.
 
     Raises:
-        BrokenRecording: if a value is missing or not usable.
+        BrokenRecordingError: if a value is missing or not usable.
     """
     try:
         plan = Plan(
@@ -38,6 +38,6 @@ def placed_plan(record: dict[str, str]) -> PlacedPlan:
         placement = Placement(PatientOrientation(record["orientation"]), (x, y, z))
         return PlacedPlan.of(plan, placement, json.loads(record["fulcrum_m"]))
     except KeyError as error:
-        raise BrokenRecording(f"the record's plan has no {error}") from error
+        raise BrokenRecordingError(f"the record's plan has no {error}") from error
     except (AcusError, ValueError, TypeError) as error:
-        raise BrokenRecording(f"the record's plan is not usable: {error}") from error
+        raise BrokenRecordingError(f"the record's plan is not usable: {error}") from error

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Final
 
 from app.core.errors import NumericalError
-from app.session.errors import IllegalTransition
+from app.session.errors import IllegalTransitionError
 
 
 class State(StrEnum):
@@ -116,16 +116,20 @@ def advance(attempt: Attempt, event: Event, time: float, reason: str = "") -> At
         reason: why, for an abort.
 
     Raises:
-        IllegalTransition: if the state does not know the event.
+        IllegalTransitionError: if the state does not know the event.
         NumericalError: if the time is not finite or lies before the last transition.
     """
     target = TABLE.get((attempt.state, event))
     if target is None:
         names = ", ".join(legal(attempt.state)) or "none (the attempt is over: start a new one)"
-        raise IllegalTransition(f"'{event}' is not possible while {attempt.state}; possible: {names}")
+        raise IllegalTransitionError(
+            f"'{event}' is not possible while {attempt.state}; possible: {names}"
+        )
     first = attempt.state is State.READY
     if not isfinite(time) or (not first and time < attempt.since):
-        raise NumericalError(f"'{event}' at {time} s lies before the last change at {attempt.since} s")
+        raise NumericalError(
+            f"'{event}' at {time} s lies before the last change at {attempt.since} s"
+        )
     return replace(
         attempt,
         state=target,

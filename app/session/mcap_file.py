@@ -1,6 +1,7 @@
 """An MCAP file that is safe to lose the process in: chunks are closed and synced on demand."""
 
 import os
+from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
@@ -43,7 +44,8 @@ class McapFile:
             self.flush()
         except FileExistsError as error:
             raise RecordingError(
-                f"session {self._header.id} exists already ({self.path}): every attempt needs its own id"
+                f"session {self._header.id} exists already ({self.path}): "
+                "every attempt needs its own id"
             ) from error
         except OSError as error:
             self.abandon()
@@ -68,7 +70,7 @@ class McapFile:
     def flush(self) -> None:
         """Close the open chunk and put everything on the disk."""
         writer, stream = self._open_writer(), self._stream
-        writer.flush()
+        writer.flush()  # type: ignore[no-untyped-call]  # mcap leaves it without types
         if stream is not None:
             os.fsync(stream.fileno())
 
@@ -77,20 +79,18 @@ class McapFile:
         if self._writer is None or self._stream is None:
             return
         try:
-            self._writer.finish()
+            self._writer.finish()  # type: ignore[no-untyped-call]
             self._stream.flush()
             os.fsync(self._stream.fileno())
         finally:
             self.abandon()
 
     def abandon(self) -> None:
-        """Let go of the file as it is; what cannot be flushed any more is lost, and was reported."""
+        """Let go of the file as it is; what cannot be flushed any more is lost."""
         stream, self._stream, self._writer = self._stream, None, None
         if stream is not None:
-            try:
+            with suppress(OSError):  # the same full disk that has been reported already
                 stream.close()
-            except OSError:
-                pass  # the same full disk that has been reported already
 
     def _open_writer(self) -> Writer:
         if self._writer is None:

@@ -80,7 +80,9 @@ class NeedlePose:
         return self.valid and self.depth_source in (DepthSource.TRACKED, DepthSource.HELD)
 
 
-def fuse(device: DeviceStatePort, fix: FixPort | None, now: float, last: NeedlePose | None = None) -> NeedlePose:
+def fuse(
+    device: DeviceStatePort, fix: FixPort | None, now: float, last: NeedlePose | None = None
+) -> NeedlePose:
     """Fuse the robot's direction and the cameras' depth into one pose; never NaN.
 
     Args:
@@ -129,7 +131,9 @@ def _device_fault(device: DeviceStatePort, axis: FloatArray, now: float) -> str:
         return "the robot gives no needle position"
     age = now - device.q_time
     if not np.isfinite(age) or age > ENCODER_LIMIT:
-        return f"the encoder values are {_text_ms(age)} old, the limit is {ENCODER_LIMIT * 1e3:.0f} ms"
+        return (
+            f"the encoder values are {_text_ms(age)} old, the limit is {ENCODER_LIMIT * 1e3:.0f} ms"
+        )
     return ""
 
 
@@ -140,13 +144,20 @@ def _depth(
     if fix is not None and is_usable(fix):
         age = _age(fix.time, now)
         if age <= HOLD_LIMIT:
-            # Projected on the present axis, not the distance from P_I: that is never negative and
-            # biased by the noise across the needle when the tip is at the skin.
-            depth = float((np.asarray(fix.p_tip_world) - fulcrum) @ axis)
-            variance = max(0.0, float(axis @ np.asarray(fix.covariance) @ axis))
+            depth, variance = fix_depth(fix, fulcrum, axis)
             source = DepthSource.TRACKED if age <= FRESH_LIMIT else DepthSource.HELD
             return depth, variance + (RATE_SIGMA * age) ** 2, age, source
     return float(device.depth), MODEL_SIGMA**2, _age(device.time, now), DepthSource.MODEL
+
+
+def fix_depth(fix: FixPort, fulcrum: FloatArray, axis: FloatArray) -> tuple[float, float]:
+    """Depth of the tip that a usable fix says [m], and its variance [m²].
+
+    Projected on the present axis, not the distance from P_I: that is never negative, and biased by
+    the noise across the needle when the tip is at the skin.
+    """
+    depth = float((np.asarray(fix.p_tip_world) - fulcrum) @ axis)
+    return depth, max(0.0, float(axis @ np.asarray(fix.covariance) @ axis))
 
 
 def is_usable(fix: FixPort) -> bool:

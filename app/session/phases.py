@@ -46,7 +46,11 @@ class Classifier:
 
 
 def classify(
-    memory: Classifier, state: State, pose: NeedlePose, distance: float, limits: Thresholds = DEFAULT
+    memory: Classifier,
+    state: State,
+    pose: NeedlePose,
+    distance: float,
+    limits: Thresholds = DEFAULT,
 ) -> tuple[Classifier, Event | None]:
     """Look at one pose.
 

@@ -1,15 +1,13 @@
-"""What an attempt needs of device, tracking and planning, and nothing more.
+"""What an attempt needs of device, tracking and exercise, and nothing more.
 
-`device.control.Loop`, `tracking.Tracker`, `planning.PlacedPlan` and `exercises.Exercise` satisfy
-these protocols; tests satisfy them with small fakes.
+`device.control.Loop`, `tracking.Tracker` and `exercises.Exercise` satisfy these protocols; tests
+satisfy them with small fakes.
 """
 
-from collections.abc import Mapping
 from typing import Any, Protocol
 
 from app.core.arrays import FloatArray
 from app.core.latest import Stamped
-from app.core.transform import RigidTransform
 
 
 class DeviceStatePort(Protocol):
@@ -51,6 +49,11 @@ class DeviceStatePort(Protocol):
         ...
 
     @property
+    def hub(self) -> FloatArray:
+        """Hub point, where the hand is [m], shape (3,)."""
+        ...
+
+    @property
     def depth(self) -> float:
         """Depth of the tip beyond the fulcrum [m]."""
         ...
@@ -58,6 +61,11 @@ class DeviceStatePort(Protocol):
     @property
     def force(self) -> FloatArray:
         """Wanted force at the hub point [N], shape (3,)."""
+        ...
+
+    @property
+    def guide(self) -> FloatArray:
+        """The virtual fixture's share of it [N], shape (3,)."""
         ...
 
     @property
@@ -115,8 +123,8 @@ class LoopPort(Protocol):
         """End at zero force."""
         ...
 
-    def latest(self) -> DeviceStatePort:
-        """Return the newest state."""
+    def latest(self) -> DeviceStatePort | None:
+        """Return the newest state, or None before the first tick."""
         ...
 
     def rows(self, since_tick: int) -> FloatArray:
@@ -190,56 +198,8 @@ class TrackerPort(Protocol):
         ...
 
 
-class PlanPort(Protocol):
-    """Entry and target in the patient (`planning.Plan`)."""
-
-    @property
-    def name(self) -> str:
-        """Name of the plan."""
-        ...
-
-    @property
-    def entry_mm(self) -> FloatArray:
-        """Entry, LPS [mm], shape (3,)."""
-        ...
-
-    @property
-    def target_mm(self) -> FloatArray:
-        """Target, LPS [mm], shape (3,)."""
-        ...
-
-
-class PlacedPlanPort(Protocol):
-    """The plan in the robot's frame (`planning.PlacedPlan`)."""
-
-    @property
-    def plan(self) -> PlanPort:
-        """The plan in the patient."""
-        ...
-
-    @property
-    def T_world_patient(self) -> RigidTransform:
-        """Patient to world [m]."""
-        ...
-
-    @property
-    def p_entry(self) -> FloatArray:
-        """Entry [m], shape (3,): the fulcrum."""
-        ...
-
-    @property
-    def p_target(self) -> FloatArray:
-        """Target at rest [m], shape (3,)."""
-        ...
-
-    @property
-    def axis(self) -> FloatArray:
-        """Wanted needle direction, shape (3,)."""
-        ...
-
-
 class ExercisePort(Protocol):
-    """The exercise (`exercises.Exercise`, a pydantic model)."""
+    """The exercise (`exercises.Exercise`)."""
 
     @property
     def id(self) -> str:
@@ -255,11 +215,3 @@ class ExercisePort(Protocol):
     def assistance(self) -> float:
         """Assistance at the start, 0...1."""
         ...
-
-    def model_dump(self, *, mode: str = "python") -> dict[str, Any]:
-        """Return the exercise as a JSON-ready mapping."""
-        ...
-
-
-Metadata = Mapping[str, str]
-"""Names and values of one metadata record."""

@@ -129,7 +129,9 @@ class Recorder:
             except (OSError, RecordingError) as error:
                 self._fail(error)
 
-    def finish(self, attachments: tuple[Attachment, ...] = (), result: dict[str, str] | None = None) -> None:
+    def finish(
+        self, attachments: tuple[Attachment, ...] = (), result: dict[str, str] | None = None
+    ) -> None:
         """Write the rest, the attachments and the result, and close the file; idempotent."""
         self._stop.set()
         if self._thread is not None:
@@ -150,7 +152,12 @@ class Recorder:
     def status(self) -> RecordingStatus:
         """How the record stands now."""
         return RecordingStatus(
-            self._file.path, self._active, self._failure, self._written, self._lost_rows, self._lost_samples
+            self._file.path,
+            self._active,
+            self._failure,
+            self._written,
+            self._lost_rows,
+            self._lost_samples,
         )
 
     def _run(self) -> None:
@@ -206,13 +213,17 @@ class Recorder:
             return
         lost = int(rows[0, slots.TICK]) - self._tick - 1
         self._file.message(
-            "/loop/inputs", self.header.nanoseconds(float(rows[0, slots.TIME])), blocks.pack(rows, lost)
+            "/loop/inputs",
+            self.header.nanoseconds(float(rows[0, slots.TIME])),
+            blocks.pack(rows, lost),
         )
         self._tick = int(rows[-1, slots.TICK])
         self._written += len(rows)
         self._lost_rows += lost
 
-    def _write_end(self, attachments: tuple[Attachment, ...], result: dict[str, str] | None) -> None:
+    def _write_end(
+        self, attachments: tuple[Attachment, ...], result: dict[str, str] | None
+    ) -> None:
         self._write_patient(self._clock.now())
         for attachment in attachments:
             self._file.attach(attachment, self.header.nanoseconds(self._clock.now()))

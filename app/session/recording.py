@@ -11,12 +11,14 @@ import numpy as np
 from app.core.arrays import FloatArray, read_only
 from app.core.events import Event
 from app.planning.placement import PlacedPlan
+from app.scoring.trajectory import Trajectory
 from app.session import blocks
-from app.session.errors import BrokenRecording
+from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
 from app.session.samples import Samples, floats, vectors, words
 from app.session.scan import Scan, scan
 from app.session.schemas import CHANNELS
+from app.session.scored import trajectory
 
 Metadata = MappingProxyType[str, dict[str, str]]
 
@@ -39,10 +41,12 @@ class Inputs:
         """Return one slot over time, shape (n,).
 
         Raises:
-            BrokenRecording: if the record has no such slot.
+            BrokenRecordingError: if the record has no such slot.
         """
         if name not in self.columns:
-            raise BrokenRecording(f"no slot {name!r} in this record; it has {', '.join(self.columns)}")
+            raise BrokenRecordingError(
+                f"no slot {name!r} in this record; it has {', '.join(self.columns)}"
+            )
         result: FloatArray = self.values[:, self.columns.index(name)]
         return result
 
@@ -76,14 +80,25 @@ class Recording:
         """Session id."""
         return self.metadata.get("session", {}).get("id", self.path.stem)
 
+    def trajectory(self) -> Trajectory:
+        """Return the attempt as scoring wants it.
+
+        Raises:
+            BrokenRecordingError: if the record holds no usable plan.
+        """
+        reason = self.metadata.get("result", {}).get("reason", "")
+        return trajectory(self.samples, self.placed_plan(), reason)
+
     def placed_plan(self) -> PlacedPlan:
         """Plan in the robot's frame.
 
         Raises:
-            BrokenRecording: if the record holds no usable plan.
+            BrokenRecordingError: if the record holds no usable plan.
         """
         if PLAN not in self.metadata:
-            raise BrokenRecording(f"{self.path.name} holds no plan: it was cut off at its beginning")
+            raise BrokenRecordingError(
+                f"{self.path.name} holds no plan: it was cut off at its beginning"
+            )
         return placed_plan(self.metadata[PLAN])
 
 
@@ -91,11 +106,13 @@ def read_recording(path: Path) -> Recording:
     """Read a record, finished or not.
 
     Raises:
-        BrokenRecording: if the file is not an MCAP file, or holds nothing of an attempt.
+        BrokenRecordingError: if the file is not an MCAP file, or holds nothing of an attempt.
     """
     content = scan(path)
     if "session" not in content.metadata:
-        raise BrokenRecording(f"{path.name} holds no session: " + "; ".join(content.problems or ["not ours"]))
+        raise BrokenRecordingError(
+            f"{path.name} holds no session: " + "; ".join(content.problems or ["not ours"])
+        )
     problems = content.problems
     samples = _samples(content, problems)
     inputs = _inputs(content, problems)
@@ -138,6 +155,8 @@ def _event(document: dict[str, Any]) -> Event:
 
 def _samples(content: Scan, problems: list[str]) -> Samples:
     rows = _documents(content, "/attempt", problems)
+    by_stamp = {_stamp(d): d for d in _documents(content, "/haptic/wrench", problems)}
+    wrenches = [by_stamp.get(_stamp(row), {}) for row in rows]  # both channels share the stamp
     return Samples(
         time=floats([row["time"] for row in rows]),
         state=words([row["state"] for row in rows]),
@@ -147,15 +166,10 @@ def _samples(content: Scan, problems: list[str]) -> Samples:
         tip=vectors([row["tip"] for row in rows]),
         axis=vectors([row["axis"] for row in rows]),
         target=vectors([row["target"] for row in rows]),
-        felt=_felt(content, rows, problems),
+        hub=vectors([row["hub"] for row in rows]),
+        guide=vectors([wrench.get("guide") for wrench in wrenches]),
+        felt=vectors([wrench.get("felt") for wrench in wrenches]),
     )
-
-
-def _felt(content: Scan, rows: list[dict[str, Any]], problems: list[str]) -> FloatArray:
-    """Felt force at each sample: matched by the stamp, which both channels share."""
-    by_stamp = {_stamp(d): d["felt"] for d in _documents(content, "/haptic/wrench", problems)}
-    zero = dict.fromkeys("xyz", 0.0)
-    return vectors([by_stamp.get(_stamp(row)) or zero for row in rows])
 
 
 def _stamp(document: dict[str, Any]) -> int:
@@ -170,7 +184,7 @@ def _inputs(content: Scan, problems: list[str]) -> Inputs:
     for data in content.messages.get("/loop/inputs", []):
         try:
             block = blocks.unpack(data)
-        except BrokenRecording as error:
+        except BrokenRecordingError as error:
             problems.append(str(error))
             continue
         lost += block.lost

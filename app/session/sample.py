@@ -78,7 +78,10 @@ def messages(sample: Sample, stamp: dict[str, int]) -> list[tuple[str, bytes]]:
         ("/tracking/quality", _quality(sample, stamp)),
     ]
     if sample.pose.valid:
-        documents += [("/tf", _needle_tf(sample.pose, stamp)), ("/needle/tip", _tip(sample.pose, stamp))]
+        documents += [
+            ("/tf", _needle_tf(sample.pose, stamp)),
+            ("/needle/tip", _tip(sample.pose, stamp)),
+        ]
     if sample.device is not None:
         documents += [
             ("/haptic/joints", _joints(sample.device, stamp)),
@@ -88,7 +91,7 @@ def messages(sample: Sample, stamp: dict[str, int]) -> list[tuple[str, bytes]]:
 
 
 def patient_transform(T_world_patient: RigidTransform, stamp: dict[str, int]) -> bytes:
-    """The registration as a FrameTransform world → patient."""
+    """Return the registration as a FrameTransform world → patient."""
     return encode(_transform(Frame.PATIENT, T_world_patient, stamp))
 
 
@@ -123,7 +126,7 @@ def needle_rotation(axis: FloatArray) -> FloatArray:
 
 
 def quaternion(rotation: FloatArray) -> dict[str, float]:
-    """Unit quaternion x, y, z, w (w ≥ 0) of a rotation matrix, by its largest component."""
+    """Return the unit quaternion x, y, z, w (w ≥ 0) of a rotation matrix, by its largest component."""
     r = rotation
     squares = 1.0 + np.array([[1, -1, -1], [-1, 1, -1], [-1, -1, 1], [1, 1, 1]]) @ np.diag(r)
     k = int(np.argmax(squares))
@@ -146,7 +149,9 @@ def _vector(values: FloatArray) -> dict[str, float]:
     return {"x": x, "y": y, "z": z}
 
 
-def _transform(child: Frame, T_world_child: RigidTransform, stamp: dict[str, int]) -> dict[str, Any]:
+def _transform(
+    child: Frame, T_world_child: RigidTransform, stamp: dict[str, int]
+) -> dict[str, Any]:
     return {
         "timestamp": stamp,
         "parent_frame_id": Frame.WORLD.value,
@@ -181,6 +186,7 @@ def _attempt(sample: Sample, stamp: dict[str, int]) -> dict[str, Any]:
         "depth": pose.depth if pose.valid else None,
         "tip": _vector(pose.p_tip) if pose.valid else None,
         "axis": _vector(pose.axis) if pose.valid else None,
+        "hub": _vector(sample.device.hub) if sample.device else None,
         "target": _vector(sample.p_target),
     }
 
@@ -212,6 +218,7 @@ def _wrench(sample: Sample, device: DeviceStatePort, stamp: dict[str, int]) -> d
     return {
         "timestamp": stamp,
         "wanted": _vector(device.force),
+        "guide": _vector(device.guide),
         "felt": _vector(device.felt),
         "clamped": bool(device.limit_scale < 1.0),
         "enabled": sample.enabled,

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import Final
 
 import numpy as np
@@ -18,7 +19,8 @@ SAMPLE_PERIOD: Final = 0.01
 class Samples:
     """The attempt over time at the recorder's rate; n samples, SI, world, read-only.
 
-    Where `valid` is False, tip, axis and depth are NaN.
+    Where `valid` is False, tip, axis and depth are NaN; where the robot said nothing or nothing
+    finite, hub, guide and felt are.
 
     Attributes:
         time: monotonic time [s], shape (n,).
@@ -29,7 +31,9 @@ class Samples:
         tip: tip [m], shape (n, 3).
         axis: needle direction, shape (n, 3).
         target: target with its motion [m], shape (n, 3).
-        felt: force at the hub point [N], shape (n, 3); zero where the robot said nothing.
+        hub: hub point [m], shape (n, 3).
+        guide: the virtual fixture's share of the wanted force [N], shape (n, 3).
+        felt: force at the hub point after all limits [N], shape (n, 3).
     """
 
     time: FloatArray
@@ -40,6 +44,8 @@ class Samples:
     tip: FloatArray
     axis: FloatArray
     target: FloatArray
+    hub: FloatArray
+    guide: FloatArray
     felt: FloatArray
 
 
@@ -70,7 +76,9 @@ class History:
             tip=vectors([xyz(p.p_tip) if p.valid else None for p in poses]),
             axis=vectors([xyz(p.axis) if p.valid else None for p in poses]),
             target=vectors([xyz(s.p_target) for s in kept]),
-            felt=vectors([xyz(s.device.felt if s.device else np.zeros(3)) for s in kept]),
+            hub=vectors([xyz(s.device.hub) if s.device else None for s in kept]),
+            guide=vectors([xyz(s.device.guide) if s.device else None for s in kept]),
+            felt=vectors([xyz(s.device.felt) if s.device else None for s in kept]),
         )
 
 
@@ -94,5 +102,8 @@ def vectors(values: Sequence[Mapping[str, float | None] | None]) -> FloatArray:
     """Read-only array, shape (n, 3), NaN for None."""
     missing: Mapping[str, float | None] = dict.fromkeys("xyz", None)
     rows = [[(v or missing)[key] for key in "xyz"] for v in values]
-    array = np.array([[np.nan if x is None else x for x in row] for row in rows], dtype=np.float64)
+    array = np.array(
+        [[np.nan if x is None or not isfinite(x) else x for x in row] for row in rows],
+        dtype=np.float64,
+    )
     return read_only(array.reshape(len(rows), 3))

@@ -1,4 +1,4 @@
-"""Reading an MCAP file that may have been cut off or damaged: a linear scan that keeps what is whole."""
+"""Reads an MCAP file that may be cut off or damaged: a linear scan that keeps what is whole."""
 
 import struct
 from collections.abc import Iterator
@@ -13,7 +13,7 @@ from mcap.stream_reader import StreamReader
 from mcap.writer import MCAP0_MAGIC
 from zstandard import ZstdError
 
-from app.session.errors import BrokenRecording
+from app.session.errors import BrokenRecordingError
 
 _FRAME: Final = struct.Struct("<BQ")
 
@@ -43,7 +43,7 @@ def scan(path: Path) -> Scan:
     """Read all records that are whole.
 
     Raises:
-        BrokenRecording: if the file cannot be read or does not begin as an MCAP file.
+        BrokenRecordingError: if the file cannot be read or does not begin as an MCAP file.
     """
     result = Scan()
     topics: dict[int, str] = {}
@@ -58,7 +58,7 @@ def scan(path: Path) -> Scan:
                 else:
                     _sort(record, topics, result)
     except OSError as error:
-        raise BrokenRecording(f"cannot read {path}: {error.strerror or error}") from error
+        raise BrokenRecordingError(f"cannot read {path}: {error.strerror or error}") from error
     # Only now: the index at the end repeats the channels, should the first chunk be damaged.
     result.messages = {topics[i]: data for i, data in payloads.items() if i in topics}
     return result
@@ -68,7 +68,7 @@ def _check_magic(stream: IO[bytes], path: Path) -> None:
     magic = stream.read(len(MCAP0_MAGIC))
     if magic != MCAP0_MAGIC:
         found = magic.hex(" ") or "nothing"
-        raise BrokenRecording(f"{path.name} is not an MCAP file: it begins with {found}")
+        raise BrokenRecordingError(f"{path.name} is not an MCAP file: it begins with {found}")
 
 
 def _records(stream: IO[bytes], size: int, problems: list[str]) -> Iterator[McapRecord]:
@@ -81,7 +81,9 @@ def _records(stream: IO[bytes], size: int, problems: list[str]) -> Iterator[Mcap
             return
         length = _FRAME.unpack(head)[1] if len(head) == _FRAME.size else size
         if length > size - offset - _FRAME.size:
-            problems.append(f"the file is cut off at byte {size}, inside the record at byte {offset}")
+            problems.append(
+                f"the file is cut off at byte {size}, inside the record at byte {offset}"
+            )
             return
         for record in _parse(head + stream.read(length), offset, problems):
             yield record

@@ -57,7 +57,9 @@ _JOINT: Final = _object(
     {"name": _TEXT, "position": _NUMBER, "velocity": _NUMBER, "effort": _NUMBER},
     optional=("position", "velocity", "effort"),
 )
-JOINT_STATES: Final = _object("foxglove.JointStates", {"timestamp": _TIME, "joints": _array(_JOINT)})
+JOINT_STATES: Final = _object(
+    "foxglove.JointStates", {"timestamp": _TIME, "joints": _array(_JOINT)}
+)
 LOG: Final = _object(
     "foxglove.Log",
     {
@@ -83,6 +85,7 @@ ATTEMPT: Final = _object(
         "depth": _NUMBER_OR_NULL,
         "tip": _VECTOR_OR_NULL,
         "axis": _VECTOR_OR_NULL,
+        "hub": _VECTOR_OR_NULL,
         "target": _VECTOR_OR_NULL,
     },
 )
@@ -91,6 +94,7 @@ WRENCH: Final = _object(
     {
         "timestamp": _TIME,
         "wanted": _VECTOR_OR_NULL,
+        "guide": _VECTOR_OR_NULL,
         "felt": _VECTOR_OR_NULL,
         "clamped": _FLAG,
         "enabled": _FLAG,

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 from typing import Final
 
-from app.session.errors import SessionError, SessionNotFound
+from app.session.errors import SessionError, SessionNotFoundError
 from app.session.summary import Summary, read_summary, sidecar
 
 SUFFIX: Final = ".mcap"
@@ -30,23 +30,24 @@ def find(folder: Path, session_id: str) -> Path:
     """Return the record of a session; the beginning of an id is enough if only one fits.
 
     Raises:
-        SessionNotFound: if none or several fit; names some that exist.
+        SessionNotFoundError: if none or several fit; names some that exist.
     """
     names = {path.stem: path for path in _records(folder)}
-    fitting = [session_id] if session_id in names else [n for n in names if n.startswith(session_id)]
+    alike = [name for name in names if name.startswith(session_id)]
+    fitting = [session_id] if session_id in names else alike
     if len(fitting) == 1 and session_id:
         return names[fitting[0]]
     shown = sorted(fitting or names, reverse=True)
     text = ", ".join(shown[:_SHOWN]) + (", ..." if len(shown) > _SHOWN else "") or "none"
     what = "fits several sessions" if fitting and session_id else "is no session"
-    raise SessionNotFound(f"{session_id!r} {what} in {folder}; there: {text}")
+    raise SessionNotFoundError(f"{session_id!r} {what} in {folder}; there: {text}")
 
 
 def delete(folder: Path, session_id: str) -> Path:
     """Move a session to the trash folder; `restore` undoes it.
 
     Raises:
-        SessionNotFound: if there is no such session.
+        SessionNotFoundError: if there is no such session.
         SessionError: if it cannot be moved.
     """
     return _move(find(folder, session_id), folder / TRASH)
@@ -56,7 +57,7 @@ def restore(folder: Path, session_id: str) -> Path:
     """Bring a deleted session back.
 
     Raises:
-        SessionNotFound: if the trash does not hold it.
+        SessionNotFoundError: if the trash does not hold it.
         SessionError: if it cannot be moved.
     """
     return _move(find(folder / TRASH, session_id), folder)

@@ -11,7 +11,7 @@ from typing import Any, Final
 from app import __version__
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import write_atomically
-from app.session.errors import BrokenRecording
+from app.session.errors import BrokenRecordingError
 from app.session.machine import FINAL
 from app.session.recording import Recording, read_recording
 from app.session.sample import finite
@@ -101,7 +101,7 @@ def read_summary(path: Path) -> Summary:
         pass  # no sidecar, or not one of ours: the record knows
     try:
         return derive(read_recording(path))
-    except BrokenRecording as error:
+    except BrokenRecordingError as error:
         return Summary(path.stem, _modified(path), state=BROKEN, reason=str(error), software="")
 
 

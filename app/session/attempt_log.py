@@ -1,0 +1,133 @@
+"""Everything that one attempt leaves behind: samples, events, its record, and its result."""
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+from app.core.errors import AcusError
+from app.core.events import Event
+from app.planning.placement import PlacedPlan
+from app.scoring.result import Score
+from app.scoring.trajectory import Trajectory
+from app.session import sample as encoding
+from app.session.curves import curves
+from app.session.errors import RecordingError
+from app.session.header import Attachment
+from app.session.machine import Attempt
+from app.session.recorder import Recorder
+from app.session.result import AttemptResult
+from app.session.sample import Sample
+from app.session.samples import History
+from app.session.scored import score_document, trajectory
+from app.session.summary import SCORE_FILE, Summary, write_summary
+
+Scorer = Callable[[Trajectory], Score]
+"""Scores a trajectory; raises an AcusError if it cannot."""
+
+
+@dataclass(slots=True)
+class AttemptLog:
+    """Log of one attempt.
+
+    Attributes:
+        recorder: its record.
+        placed: its plan.
+        scorer: scores it.
+        history: samples.
+        events: events in order.
+        scans: control scans taken.
+    """
+
+    recorder: Recorder
+    placed: PlacedPlan
+    scorer: Scorer
+    history: History = field(default_factory=History)
+    events: list[Event] = field(default_factory=list)
+    scans: int = 0
+
+    def open(self, threaded: bool) -> str:
+        """Start recording; returns why it cannot be recorded, or nothing."""
+        try:
+            self.recorder.open()
+        except RecordingError as error:
+            return str(error)
+        if threaded:
+            self.recorder.start()
+        return ""
+
+    def sample(self, sample: Sample) -> None:
+        """Keep a sample, thinned to 100 Hz, and record it."""
+        if self.history.add(sample):
+            self.recorder.sample(sample)
+
+    def event(self, event: Event) -> None:
+        """Keep and record an event."""
+        self.events.append(event)
+        self.recorder.event(event)
+
+    def finish(self, attempt: Attempt) -> AttemptResult:
+        """Score the attempt, finish its record and write its summary."""
+        samples = self.history.arrays()
+        path, score, unscored = None, None, ""
+        try:
+            path = trajectory(samples, self.placed, attempt.reason)
+            score = self.scorer(path)
+        except AcusError as error:
+            unscored = str(error)
+        summary = self._finish_record(attempt, score)
+        status = self.recorder.status()
+        return AttemptResult(
+            summary=summary,
+            state=attempt.state,
+            reason=attempt.reason,
+            duration=summary.duration,
+            phases=attempt.phases(attempt.since),
+            scans=self.scans,
+            score=score,
+            unscored=unscored,
+            curves=curves(samples, self.placed),
+            trajectory=path,
+            events=tuple(self.events),
+            record=status.path if status.path.exists() and not status.failure else None,
+        )
+
+    def _finish_record(self, attempt: Attempt, score: Score | None) -> Summary:
+        header = self.recorder.header
+        document = score_document(score) if score is not None else None
+        files: tuple[Attachment, ...] = ()
+        if document is not None:
+            files = (Attachment(SCORE_FILE, "application/json", encoding.encode(document)),)
+        duration = attempt.duration(attempt.since)
+        self.recorder.finish(
+            files,
+            {"state": attempt.state.value, "reason": attempt.reason, "duration_s": repr(duration)},
+        )
+        status = self.recorder.status()
+        summary = Summary(
+            id=header.id,
+            started=header.records()["session"]["started"],
+            student=header.student,
+            exercise_id=header.exercise_id,
+            exercise_title=header.exercise_title,
+            state=attempt.state.value,
+            reason=attempt.reason,
+            duration=duration,
+            scans=self.scans,
+            score=document,
+            problems=_problems(status.failure, status.lost_rows),
+        )
+        return self._write(summary)
+
+    def _write(self, summary: Summary) -> Summary:
+        """Write the sidecar of a record that exists and is ours."""
+        status = self.recorder.status()
+        if status.failure:
+            return summary
+        with suppress(OSError):  # the list derives it from the record, which is complete
+            write_summary(status.path, summary)
+        return summary
+
+
+def _problems(failure: str, lost_rows: int) -> tuple[str, ...]:
+    lost = f"{lost_rows} ticks of the loop were lost while recording" if lost_rows else ""
+    return tuple(text for text in (failure, lost) if text)

@@ -1,0 +1,64 @@
+"""What a trainer is told once about its runs: it goes into the head of every record."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from types import MappingProxyType
+
+from app.core.clock import Clock
+from app.core.paths import sessions
+from app.planning.placement import PlacedPlan
+from app.session.facts import PLAN, plan_record
+from app.session.header import Attachment, SessionHeader, new_id
+from app.session.ports import ExercisePort, LoopPort
+from app.session.recorder import Recorder
+
+
+@dataclass(frozen=True, slots=True)
+class RunContext:
+    """Where records go and what their head says beside plan and exercise.
+
+    Attributes:
+        folder: of the records; `core.paths.sessions()` by default.
+        seed: of every random number of the run.
+        metadata: records by name, such as `device`, `cameras`, `ct`; values as text.
+        attachments: plan, exercise and profiles as files.
+        wall: wall-clock time, for the head only.
+        identify: makes a session id from the wall-clock time.
+    """
+
+    folder: Path = field(default_factory=sessions)
+    seed: int = 0
+    metadata: Mapping[str, Mapping[str, str]] = field(default_factory=lambda: MappingProxyType({}))
+    attachments: tuple[Attachment, ...] = ()
+    wall: Callable[[], datetime] = lambda: datetime.now(UTC)
+    identify: Callable[[datetime], str] = new_id
+
+    def header(
+        self, exercise: ExercisePort, placed: PlacedPlan, student: str, now: float
+    ) -> SessionHeader:
+        """Head of a record that begins at monotonic time `now` [s]."""
+        started = self.wall()
+        return SessionHeader(
+            id=self.identify(started),
+            started=started,
+            origin=now,
+            student=student,
+            exercise_id=exercise.id,
+            exercise_title=exercise.title,
+            seed=self.seed,
+            metadata={PLAN: plan_record(placed), **self.metadata},
+            attachments=self.attachments,
+        )
+
+    def recorder(
+        self,
+        header: SessionHeader,
+        loop: LoopPort,
+        since_tick: int,
+        placed: PlacedPlan,
+        clock: Clock,
+    ) -> Recorder:
+        """Return a recorder for one attempt, not yet open."""
+        return Recorder(self.folder, header, loop.rows, since_tick, placed.T_world_patient, clock)

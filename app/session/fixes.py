@@ -1,0 +1,55 @@
+"""The cameras' fixes on their way to the loop and to the pose."""
+
+import threading
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.session.inputs import LoopInputs
+from app.session.needle import fix_depth, is_usable
+from app.session.ports import FixPort, LoopPort
+
+
+class Fixes:
+    """Keeps the newest fix and the newest usable one; hands each usable depth to the loop once.
+
+    `take` may be called from the tracker's thread and from the ticker alike.
+    """
+
+    def __init__(self, loop: LoopPort, inputs: LoopInputs) -> None:
+        self._loop = loop
+        self._inputs = inputs
+        self._lock = threading.Lock()
+        self._newest: FixPort | None = None
+        self._usable: FixPort | None = None
+
+    def take(self, fix: FixPort, fulcrum: FloatArray) -> None:
+        """Look at a fix; one that is not newer than the last is passed over."""
+        with self._lock:
+            if self._newest is not None and not fix.time > self._newest.time:
+                return
+            self._newest = fix
+            if not is_usable(fix):
+                return
+            self._usable = fix
+        self._tell_loop(fix, fulcrum)
+
+    def usable(self) -> FixPort | None:
+        """Newest fix that is valid, or None."""
+        with self._lock:
+            return self._usable
+
+    def status(self) -> tuple[str, float]:
+        """Status and residual [px] of the newest fix; empty and 0 before the first."""
+        with self._lock:
+            fix = self._newest
+        return (str(fix.status), float(fix.residual_px)) if fix is not None else ("", 0.0)
+
+    def _tell_loop(self, fix: FixPort, fulcrum: FloatArray) -> None:
+        device = self._loop.latest()
+        if device is None or not np.isfinite(device.axis).all():
+            return
+        norm = float(np.linalg.norm(device.axis))
+        if norm > 0.5:
+            depth, variance = fix_depth(fix, fulcrum, np.asarray(device.axis) / norm)
+            self._inputs.tracked(depth, fix.time, variance)

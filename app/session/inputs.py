@@ -1,0 +1,65 @@
+"""What the trainer writes into the loop's inbox, by meaning instead of by slot."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from app.core.arrays import FloatArray, frozen
+from app.session.ports import InboxPort
+
+
+class LoopInputs:
+    """The loop's inputs; every value is checked before it crosses over.
+
+    Attributes:
+        assistance: dial as last set, 0...1.
+        armed: whether forces are armed.
+    """
+
+    def __init__(self, inbox: InboxPort) -> None:
+        self._inbox = inbox
+        self.assistance = 0.0
+        self.armed = False
+
+    def path(self, axis: FloatArray, p_target: FloatArray) -> None:
+        """Set the wanted direction (unit vector) and the target at rest [m]."""
+        a, t = frozen(axis, (3,), "path").tolist(), frozen(p_target, (3,), "target").tolist()
+        self._inbox.write(
+            path_x=a[0], path_y=a[1], path_z=a[2], target_x=t[0], target_y=t[1], target_z=t[2]
+        )
+
+    def assist(self, value: float) -> None:
+        """Set the assistance, clamped to 0...1.
+
+        Raises:
+            NumericalError: if it is not a number.
+        """
+        self.assistance = float(np.clip(frozen(value, (), "assistance"), 0.0, 1.0))
+        self._inbox.write(assistance=self.assistance)
+
+    def arm(self, armed: bool) -> None:
+        """Arm or disarm the forces."""
+        self.armed = armed
+        self._inbox.write(enabled=float(armed))
+
+    def hand(self, x: float, y: float, depth: float, holds: bool) -> None:
+        """Move the simulated hand: direction (x, y), depth [m].
+
+        Raises:
+            NumericalError: if a value is not finite.
+        """
+        checked = frozen((x, y, depth), (3,), "hand").tolist()
+        self._inbox.write(
+            hand_x=checked[0], hand_y=checked[1], hand_depth=checked[2], hand_holds=float(holds)
+        )
+
+    def tracked(self, depth: float, time: float, variance: float) -> None:
+        """Hand over a depth that the cameras measured [m], its time [s] and variance [m²]."""
+        values: ArrayLike = (depth, time, variance)
+        checked = frozen(values, (3,), "tracked depth").tolist()
+        self._inbox.write(
+            tracked_depth=checked[0], tracked_time=checked[1], tracked_variance=checked[2]
+        )
+
+    def heartbeat(self, now: float) -> None:
+        """Tell the loop that the window lives [s]."""
+        self._inbox.write(heartbeat=now)

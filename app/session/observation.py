@@ -1,0 +1,112 @@
+"""Everything that one tick of the trainer sees, gathered once and used by all."""
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray, read_only
+from app.planning.placement import PlacedPlan
+from app.session.curves import Offset, offset
+from app.session.fixes import Fixes
+from app.session.inputs import LoopInputs
+from app.session.machine import State
+from app.session.needle import DOWN, DepthSource, NeedlePose, fuse
+from app.session.ports import DeviceStatePort
+from app.session.sample import Sample
+
+LOOP_LIMIT: Final = 0.5
+"""Age of the loop's newest state [s] from which the loop counts as dead."""
+
+GRACE: Final = 0.1
+"""A fault left over from before arming is forgiven this long after the beginning [s]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Observation:
+    """One look at robot and cameras.
+
+    Attributes:
+        time: moment [s].
+        pose: fused pose.
+        offset: from the tip to the target.
+        p_target: target now, with its motion [m], shape (3,).
+        device: newest state of the loop; None before its first tick.
+        fix_status: newest status of the tracker; empty before the first fix.
+        residual_px: its residual [px].
+    """
+
+    time: float
+    pose: NeedlePose
+    offset: Offset
+    p_target: FloatArray
+    device: DeviceStatePort | None
+    fix_status: str
+    residual_px: float
+
+    @property
+    def device_fault(self) -> str:
+        """Why the device holds its force at zero; empty if it does not."""
+        if self.device is None or int(self.device.fault) == 0:
+            return ""
+        code = self.device.fault
+        return str(getattr(code, "message", f"fault {int(code)} of the device"))
+
+    def fatal(self, began: float) -> str:
+        """Why an attempt that began at `began` [s] cannot go on; empty if it can."""
+        if self.device is None:
+            return "" if self.time - began < LOOP_LIMIT else "the loop does not run"
+        age = self.time - self.device.time
+        if age > LOOP_LIMIT:
+            return f"the loop has stopped: its newest state is {age:.1f} s old"
+        return self.device_fault if self.device.time > began + GRACE else ""
+
+    def sample(self, state: State, inputs: LoopInputs) -> Sample:
+        """Return what is recorded of it."""
+        return Sample(
+            time=self.time,
+            state=state,
+            pose=self.pose,
+            device=self.device,
+            p_target=self.p_target,
+            fix_status=self.fix_status,
+            residual_px=self.residual_px,
+            assistance=inputs.assistance,
+            enabled=inputs.armed,
+        )
+
+
+def observe(
+    device: DeviceStatePort | None,
+    fixes: Fixes,
+    placed: PlacedPlan,
+    now: float,
+    last: NeedlePose | None,
+) -> Observation:
+    """Fuse the newest values into one observation at `now` [s]; `last` is the pose before."""
+    p_target = placed.p_target
+    if device is None:
+        pose = _no_device(placed, now, last)
+    else:
+        pose = fuse(device, fixes.usable(), now, last)
+        if np.isfinite(device.target_shift).all():
+            p_target = read_only(placed.p_target + device.target_shift)
+    status, residual = fixes.status()
+    away = offset(pose, p_target, placed.axis)
+    return Observation(now, pose, away, p_target, device, status, residual)
+
+
+def _no_device(placed: PlacedPlan, now: float, last: NeedlePose | None) -> NeedlePose:
+    """Pose before the loop's first tick: the last one, else hanging at the fulcrum; not valid."""
+    return NeedlePose(
+        p_tip=last.p_tip if last else placed.p_entry,
+        axis=last.axis if last else DOWN,
+        depth=last.depth if last else 0.0,
+        time=now,
+        orientation_age=0.0,
+        depth_age=0.0,
+        depth_source=DepthSource.NONE,
+        valid=False,
+        covariance=last.covariance if last else read_only(np.zeros((3, 3))),
+        reason="the robot has not reported yet",
+    )

@@ -1,0 +1,48 @@
+"""The bridge to scoring: samples become a `Trajectory`, a score becomes a JSON document."""
+
+import json
+from typing import Any
+
+import numpy as np
+
+from app.planning.placement import PlacedPlan
+from app.scoring.result import Score
+from app.scoring.trajectory import Trajectory
+from app.session.needle import DepthSource
+from app.session.samples import Samples
+
+
+def trajectory(samples: Samples, placed: PlacedPlan, aborted: str = "") -> Trajectory:
+    """Turn samples into what scoring wants: those without a valid pose are left out.
+
+    A force that the robot did not report counts as zero; hub point and fixture are given only if
+    the robot reported them throughout.
+
+    Args:
+        samples: the attempt over time.
+        placed: its plan.
+        aborted: why it was aborted; empty if it was not.
+    """
+    rising = np.diff(samples.time, prepend=-np.inf) > 0.0
+    keep = samples.valid & rising & np.isfinite(samples.tip).all(axis=1)
+    hub, guide, target = samples.hub[keep], samples.guide[keep], samples.target[keep]
+    return Trajectory(
+        placed=placed,
+        time=samples.time[keep],
+        tip=samples.tip[keep],
+        axis=samples.axis[keep],
+        depth=samples.depth[keep],
+        felt=np.nan_to_num(samples.felt[keep], nan=0.0),
+        phase=samples.state[keep],  # type: ignore[arg-type]  # names are taken as well as codes
+        depth_valid=samples.depth_source[keep] == DepthSource.TRACKED.value,
+        hub=hub if np.isfinite(hub).all() else None,
+        guide=guide if np.isfinite(guide).all() else None,
+        target_shift=target - placed.p_target if np.isfinite(target).all() else None,
+        aborted=aborted,
+    )
+
+
+def score_document(score: Score) -> dict[str, Any]:
+    """Return the score as a JSON-ready mapping, in scoring's own stored form."""
+    document: dict[str, Any] = json.loads(score.to_json())
+    return document

@@ -1,0 +1,128 @@
+"""What the window shows: one frozen value per tick."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from app.core.arrays import FloatArray
+from app.session.curves import Offset
+from app.session.inputs import LoopInputs
+from app.session.machine import State
+from app.session.needle import DepthSource, NeedlePose
+from app.session.observation import Observation
+from app.session.ports import DeviceStatePort
+from app.session.recorder import RecordingStatus
+from app.session.running import Running
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Snapshot:
+    """Everything about the running trainer at one moment.
+
+    Attributes:
+        time: moment [s].
+        state: the attempt's state.
+        reason: why it was aborted; empty otherwise.
+        elapsed: time since the attempt began [s]; stands still once it is over.
+        phases: time spent per state [s].
+        pose: needle, world.
+        offset: from the tip to the target.
+        p_target: target now, with its motion [m], shape (3,).
+        device: newest state of the loop; None before its first tick.
+        timing: lateness of the loop, as it reports it.
+        tracker: statistics of the tracker, as it reports them; None without one.
+        fix_status: newest status of the tracker; empty before the first fix.
+        scans: control scans taken.
+        assistance: dial, 0...1.
+        armed: whether forces are armed.
+        recording: how the record stands; None before the first attempt.
+        messages: what the student should know, one line each, most urgent first.
+    """
+
+    time: float
+    state: State
+    reason: str
+    elapsed: float
+    phases: Mapping[State, float]
+    pose: NeedlePose
+    offset: Offset
+    p_target: FloatArray
+    device: DeviceStatePort | None
+    timing: Any
+    tracker: Any
+    fix_status: str
+    scans: int
+    assistance: float
+    armed: bool
+    recording: RecordingStatus | None
+    messages: tuple[str, ...]
+
+
+_FIX_TEXT = {
+    "out_of_view": "marker out of view",
+    "one_camera": "marker seen by one camera only",
+    "inconsistent": "the cameras disagree about the marker",
+}
+
+
+def advice(
+    pose: NeedlePose,
+    fix_status: str,
+    fault: str,
+    reason: str,
+    recording: RecordingStatus | None,
+) -> tuple[str, ...]:
+    """Messages for the student, most urgent first.
+
+    Args:
+        pose: newest pose.
+        fix_status: newest status of the tracker; empty before the first fix.
+        fault: name of the device's fault; empty if there is none.
+        reason: why the attempt was aborted; empty otherwise.
+        recording: how the record stands.
+    """
+    found = []
+    if reason:
+        found.append(f"attempt aborted: {reason}")
+    if fault:
+        found.append(f"no force: {fault}")
+    if recording is not None and recording.failure:
+        found.append(recording.failure)
+    if pose.reason:
+        found.append(pose.reason)
+    if fix_status in _FIX_TEXT:
+        found.append(_FIX_TEXT[fix_status])
+    if pose.depth_source is DepthSource.HELD:
+        found.append(f"depth held for {pose.depth_age * 1e3:.0f} ms")
+    elif pose.depth_source is DepthSource.MODEL:
+        found.append("depth not measured: the model's depth is shown")
+    if recording is not None and recording.lost_rows:
+        found.append(f"{recording.lost_rows} ticks of the loop were not recorded")
+    return tuple(found)
+
+
+def take(
+    now: float, seen: Observation, running: Running, inputs: LoopInputs, timing: Any, tracker: Any
+) -> Snapshot:
+    """Put a snapshot together at `now` [s]."""
+    attempt, log = running.attempt, running.log
+    recording = log.recorder.status() if log is not None else None
+    return Snapshot(
+        time=now,
+        state=attempt.state,
+        reason=attempt.reason,
+        elapsed=attempt.duration(now),
+        phases=attempt.phases(now),
+        pose=seen.pose,
+        offset=seen.offset,
+        p_target=seen.p_target,
+        device=seen.device,
+        timing=timing,
+        tracker=tracker,
+        fix_status=seen.fix_status,
+        scans=log.scans if log is not None else 0,
+        assistance=inputs.assistance,
+        armed=inputs.armed,
+        recording=recording,
+        messages=advice(seen.pose, seen.fix_status, seen.device_fault, attempt.reason, recording),
+    )
