@@ -47,6 +47,7 @@ class RunContext:
             student=student,
             exercise_id=exercise.id,
             exercise_title=exercise.title,
+            exercise_version=exercise.version,
             seed=self.seed,
             metadata={PLAN: plan_record(placed), **self.metadata},
             attachments=self.attachments,

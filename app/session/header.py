@@ -45,6 +45,7 @@ class SessionHeader:
         student: pseudonym of the student.
         exercise_id: exercise.
         exercise_title: its title.
+        exercise_version: its version.
         seed: seed of every random number of the run.
         metadata: further records by name (`device`, `cameras`, `placement`, ...).
         attachments: plan, exercise, profiles.
@@ -59,6 +60,7 @@ class SessionHeader:
     student: str
     exercise_id: str
     exercise_title: str = ""
+    exercise_version: int = 1
     seed: int = 0
     metadata: Mapping[str, Mapping[str, str]] = field(default_factory=lambda: MappingProxyType({}))
     attachments: tuple[Attachment, ...] = ()
@@ -78,7 +80,11 @@ class SessionHeader:
                 "seed": str(self.seed),
                 "note": DISCLAIMER,
             },
-            "exercise": {"id": self.exercise_id, "title": self.exercise_title},
+            "exercise": {
+                "id": self.exercise_id,
+                "title": self.exercise_title,
+                "version": str(self.exercise_version),
+            },
             "software": {"name": "acus", "version": __version__},
             **{name: dict(values) for name, values in self.metadata.items()},
         }

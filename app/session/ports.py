@@ -4,10 +4,13 @@
 satisfy them with small fakes.
 """
 
+from collections.abc import Mapping
 from typing import Any, Protocol
 
 from app.core.arrays import FloatArray
 from app.core.latest import Stamped
+from app.scoring.rows import Rules
+from app.scoring.tolerance import Tolerance
 
 
 class DeviceStatePort(Protocol):
@@ -212,6 +215,21 @@ class ExercisePort(Protocol):
         ...
 
     @property
+    def version(self) -> int:
+        """Only attempts of one version are compared."""
+        ...
+
+    @property
     def assistance(self) -> float:
         """Assistance at the start, 0...1."""
+        ...
+
+    @property
+    def tolerances(self) -> Mapping[str, Tolerance]:
+        """What each metric is judged by."""
+        ...
+
+    @property
+    def rules(self) -> Rules:
+        """Pass mark, and when a score is void."""
         ...

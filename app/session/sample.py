@@ -126,7 +126,7 @@ def needle_rotation(axis: FloatArray) -> FloatArray:
 
 
 def quaternion(rotation: FloatArray) -> dict[str, float]:
-    """Return the unit quaternion x, y, z, w (w ≥ 0) of a rotation matrix, by its largest component."""
+    """Return the unit quaternion (w ≥ 0) of a rotation matrix, by its largest component."""
     r = rotation
     squares = 1.0 + np.array([[1, -1, -1], [-1, 1, -1], [-1, -1, 1], [1, 1, 1]]) @ np.diag(r)
     k = int(np.argmax(squares))

@@ -1,14 +1,17 @@
 """The bridge to scoring: samples become a `Trajectory`, a score becomes a JSON document."""
 
 import json
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
+from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
 from app.session.needle import DepthSource
+from app.session.ports import ExercisePort
 from app.session.samples import Samples
 
 
@@ -40,6 +43,11 @@ def trajectory(samples: Samples, placed: PlacedPlan, aborted: str = "") -> Traje
         target_shift=target - placed.p_target if np.isfinite(target).all() else None,
         aborted=aborted,
     )
+
+
+def scorer(exercise: ExercisePort) -> Callable[[Trajectory], Score]:
+    """Return the scorer of an exercise: its tolerances and its rules."""
+    return lambda path: score(path, exercise.tolerances, exercise.rules)
 
 
 def score_document(score: Score) -> dict[str, Any]:

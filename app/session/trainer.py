@@ -9,7 +9,7 @@ from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.core.latest import Latest
 from app.planning.placement import PlacedPlan
-from app.session.attempt_log import AttemptLog, Scorer
+from app.session.attempt_log import AttemptLog
 from app.session.context import RunContext
 from app.session.fixes import Fixes
 from app.session.inputs import LoopInputs
@@ -18,6 +18,7 @@ from app.session.observation import Observation, observe
 from app.session.ports import ExercisePort, FixPort, LoopPort, TrackerPort
 from app.session.result import AttemptResult
 from app.session.running import Running
+from app.session.scored import scorer
 from app.session.snapshot import Snapshot, take
 from app.session.ticker import Ticker
 
@@ -46,7 +47,6 @@ class Trainer:
         tracker: TrackerPort | None,
         placed: PlacedPlan,
         exercise: ExercisePort,
-        scorer: Scorer,
         context: RunContext | None = None,
         clock: Clock | None = None,
         advance: Advance | None = None,
@@ -58,7 +58,7 @@ class Trainer:
         self._tracker = tracker
         self._placed = placed
         self._exercise = exercise
-        self._scorer = scorer
+        self._scorer = scorer(exercise)
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
         self._advance = advance
