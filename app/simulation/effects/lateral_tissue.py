@@ -19,7 +19,9 @@ is lost in the tissue (dU <= 0). Without this memory (a spring K(d) towards one 
 pushing at an angle would give out energy at the lateral port unless an axial port were counted;
 with it the lateral port alone is passive, so this effect has no axial force.
 
-Memory: C at the edges of bins of depth, in the parameters array. Withdrawing forgets.
+Memory: C at the edges of bins of depth, in the parameters array. Withdrawing forgets. A depth that
+nobody measured (DEPTH_SOURCE 0, the model's) moves nothing: the tissue stays as it was last known,
+and before the first measurement there is none.
 """
 
 from dataclasses import dataclass
@@ -35,7 +37,7 @@ from app.simulation.scene import Scene
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Side stiffness of layered tissue about the fulcrum",
-    "reads": ("axis_x", "axis_y", "axis_z", "depth", "l_out", "kinematics"),
+    "reads": ("axis_x", "axis_y", "axis_z", "depth", "depth_source", "l_out", "kinematics"),
     "writes": ("force_x", "force_y", "force_z"),
     "consumers": ("device axis lateral", "score of felt force"),
     "needs": ("layers",),
@@ -143,6 +145,8 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     x, y, z = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
     if state[sv.KINEMATICS] != 0.0 or not np.isfinite(depth + lever + x + y + z):
         return
+    if state[sv.DEPTH_SOURCE] == 0.0:
+        depth = parameters[DEPTH]
     depth = min(max(depth, 0.0), parameters[BINS] * BIN - 0.5 * BIN)
     if depth > parameters[DEPTH]:
         _advance(parameters, depth, x, y, z)

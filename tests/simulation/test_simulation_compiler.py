@@ -1,0 +1,139 @@
+"""The compiler: demand from the consumers, reasons, order, refusals."""
+
+import subprocess
+import sys
+
+import pytest
+
+from app.simulation.compiler import compile
+from app.simulation.consumers import Consumer, DevicePort
+from app.simulation.errors import SimulationError
+from app.simulation.registry import declaration, effect_names
+from app.simulation.scene import EffectRequest, Layer, Scene
+
+ALL = tuple(EffectRequest(n) for n in ("breathing", "shaft_friction", "lateral_tissue"))
+REAL = DevicePort("icube")
+SIMULATED = DevicePort("icube", simulated=True)
+
+
+def names(scene: Scene, device: DevicePort, **asked: tuple[str | Consumer, ...]) -> set[str]:
+    return {kept.name for kept in compile(scene, device, **asked).kept}
+
+
+def test_a_device_that_pushes_sideways_gets_no_axial_friction() -> None:
+    plan = compile(Scene(effects=ALL), REAL, views=("axial", "sagittal"))
+    assert [kept.name for kept in plan.kept] == ["lateral_tissue"]
+    assert {d.name for d in plan.dropped} == {"breathing", "shaft_friction"}
+    why = next(d.why for d in plan.dropped if d.name == "shaft_friction")
+    assert "axial_force" in why
+    assert "icube renders lateral force" in why
+
+
+def test_each_kind_of_consumer_keeps_what_it_reads() -> None:
+    scene = Scene(effects=ALL)
+    axial = DevicePort("three", frozenset({"lateral", "axial"}))
+    assert "shaft_friction" in names(scene, axial)
+    assert "shaft_friction" in names(scene, SIMULATED)
+    assert "shaft_friction" in names(scene, REAL, views=("force_gauge",))
+    assert "breathing" in names(scene, REAL, views=("target_motion",))
+    assert "breathing" in names(scene, REAL, scoring=("moving_target",))
+    needs = Consumer("metric tip_to_target scores it", ("target_shift_z",))
+    assert "breathing" in names(scene, REAL, scoring=(needs,))
+
+
+def test_a_device_without_force_and_without_views_simulates_nothing() -> None:
+    plan = compile(Scene(effects=ALL), DevicePort("pointer", frozenset()))
+    assert plan.kept == ()
+    assert plan.stages() == []
+
+
+def test_every_decision_says_why() -> None:
+    plan = compile(Scene(effects=ALL), SIMULATED)
+    assert all(kept.why.startswith("simulated: ") and kept.consumers for kept in plan.kept)
+    assert all(dropped.why.startswith("dropped: ") for dropped in plan.dropped)
+
+
+def test_an_effect_without_layers_or_on_another_organ_is_dropped() -> None:
+    bare = compile(Scene(effects=ALL, layers=()), SIMULATED, views=("target_motion",))
+    assert [kept.name for kept in bare.kept] == ["breathing"]
+    request = EffectRequest("breathing", organ="liver")
+    spine = Scene(effects=(request,), target_organ="spine")
+    plan = compile(spine, SIMULATED, views=("target_motion",))
+    assert plan.kept == ()
+    assert "liver" in plan.dropped[0].why
+    assert "spine" in plan.dropped[0].why
+
+
+@pytest.mark.parametrize(
+    ("request_", "message"),
+    [
+        (EffectRequest("tissue"), "there are breathing, lateral_tissue, shaft_friction"),
+        (EffectRequest("../scene"), "there is no effect"),
+        (EffectRequest("breathing", {"perod": 4.0}), "has no parameter 'perod'"),
+        (EffectRequest("breathing", {"period": 0.0}), "period is 0.0; give 0.5 to 60 s"),
+        (EffectRequest("breathing", {"period": float("nan")}), "period is nan"),
+        (EffectRequest("breathing", {"period": True}), "period is True"),
+        (EffectRequest("lateral_tissue", model="beam"), "has no model 'beam'; it has winkler"),
+    ],
+)
+def test_what_cannot_be_simulated_is_refused_by_name(request_: EffectRequest, message: str) -> None:
+    with pytest.raises(SimulationError, match=message.replace("(", r"\(")):
+        compile(Scene(effects=(request_,)), SIMULATED)
+
+
+def test_an_effect_named_twice_is_refused() -> None:
+    with pytest.raises(SimulationError, match="stands twice"):
+        Scene(effects=(EffectRequest("breathing"), EffectRequest("breathing")))
+
+
+def test_a_negative_layer_is_refused() -> None:
+    with pytest.raises(SimulationError, match="thickness is -1"):
+        Layer("fat", -1.0)
+
+
+def test_an_unknown_device_axis_is_refused() -> None:
+    with pytest.raises(SimulationError, match="known axes are lateral, axial"):
+        DevicePort("x", frozenset({"twist"}))
+
+
+@pytest.mark.parametrize("name", effect_names())
+def test_what_is_declared_is_what_the_effect_has(name: str) -> None:
+    from app.simulation.declaration import class_name
+    from app.simulation.registry import implementation
+
+    declared = declaration(name)
+    effect = getattr(implementation(name), class_name(name))()
+    for field, parameter in declared.parameters.items():
+        assert getattr(effect, field) == parameter.default
+        assert parameter.minimum <= parameter.default <= parameter.maximum
+
+
+DROPPED = """
+import sys
+from app.simulation.compiler import compile
+from app.simulation.consumers import DevicePort
+from app.simulation.scene import EffectRequest, Scene
+
+names = ("breathing", "shaft_friction", "lateral_tissue")
+scene = Scene(effects=tuple(EffectRequest(n) for n in names))
+plan = compile(scene, DevicePort("icube"))
+compiled = [m for m in sys.modules if m.startswith("app.simulation.effects.")]
+stages = [name for name, _, _ in plan.stages()]
+loaded = [m for m in sys.modules if m.startswith("app.simulation.effects.")]
+print(compiled, stages, loaded)
+"""
+
+
+def test_a_dropped_effect_is_not_even_imported() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", DROPPED], capture_output=True, text=True, check=True, timeout=110
+    )
+    assert done.stdout.strip() == (
+        "[] ['clear_effects', 'lateral_tissue'] ['app.simulation.effects.lateral_tissue']"
+    )
+
+
+def test_stages_have_fresh_memory_each_time() -> None:
+    plan = compile(Scene(effects=ALL), SIMULATED, views=("target_motion",))
+    one, two = plan.stages(), plan.stages()
+    assert all(a[2] is not b[2] for a, b in zip(one, two, strict=True))

@@ -1,0 +1,124 @@
+"""The scripted trainee: phases, skill, determinism."""
+
+import numpy as np
+import pytest
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray, unit
+from app.simulation.errors import SimulationError
+from app.simulation.script import STEP, Phase, write_script
+from app.simulation.skill import EXPERT, NOVICE
+from app.simulation.trainee import trainee_stage
+
+AXIS = unit(np.array([0.3, 0.1, -0.9]))
+DEPTH = 0.08
+
+
+def played(skill: str, seed: int = 0, speed: float = 1.0, start: float = 100.0) -> FloatArray:
+    """Time, hand direction (3), depth, phase every 2 ms until done, shape (n, 6)."""
+    _, step, parameters = trainee_stage(AXIS, DEPTH, skill, seed, speed)
+    state, rows = sv.empty_state(), []
+    for k in range(30_000):
+        state[sv.TIME] = start + 0.002 * k
+        step(state, parameters)
+        x, y = state[sv.HAND_X], state[sv.HAND_Y]
+        z = -np.sqrt(1.0 - x * x - y * y)
+        rows.append([0.002 * k, x, y, z, state[sv.HAND_DEPTH], state[sv.TRAINEE_PHASE]])
+        if state[sv.TRAINEE_PHASE] == Phase.DONE:
+            return np.array(rows)
+    raise AssertionError("never done")
+
+
+def angles(rows: FloatArray) -> FloatArray:
+    cross = np.linalg.norm(np.cross(rows[:, 1:4], AXIS), axis=1)
+    return np.rad2deg(np.arctan2(cross, rows[:, 1:4] @ AXIS))
+
+
+def test_an_expert_takes_about_12_s_and_a_novice_about_25() -> None:
+    assert 10.0 < played("expert")[-1, 0] < 14.0
+    assert 22.0 < played("novice")[-1, 0] < 28.0
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_an_expert_aims_within_a_degree_and_ends_within_a_millimetre(seed: int) -> None:
+    rows = played("expert", seed)
+    inside = rows[:, 4] > 0.0
+    assert angles(rows)[inside].max() < 1.2
+    assert rows[inside, 4].max() < DEPTH + 1e-3
+    tip = rows[-1, 4] * rows[-1, 1:4]
+    assert np.linalg.norm(tip - DEPTH * AXIS) < 1e-3
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_novice_aims_wrong_withdraws_redirects_and_overshoots(seed: int) -> None:
+    rows = played("novice", seed)
+    first = np.flatnonzero(rows[:, 5] == Phase.INSERT)[0]
+    assert 2.4 < angles(rows)[first] < 4.6
+    assert {Phase.WITHDRAW, Phase.REDIRECT} <= set(rows[:, 5].astype(int))
+    assert DEPTH + 2.5e-3 < rows[:, 4].max() < DEPTH + 6.5e-3
+    assert abs(rows[-1, 4] - DEPTH) < 2.5e-3
+
+
+def test_it_starts_above_the_skin_off_the_path_and_holds_at_the_end() -> None:
+    rows = played("expert")
+    assert rows[0, 4] == pytest.approx(-0.015, abs=2e-4)
+    assert angles(rows)[0] > 4.0
+    assert np.count_nonzero(rows[:, 5] == Phase.HOLD) * 0.002 == pytest.approx(1.5, abs=0.01)
+
+
+def test_phases_come_in_order_for_an_expert() -> None:
+    phases = played("expert")[:, 5]
+    assert (np.diff(phases) >= 0).all()
+
+
+def test_the_hand_never_jumps() -> None:
+    rows = played("novice")
+    assert np.abs(np.diff(rows[:, 1:4], axis=0)).max() < 1e-3
+    assert np.abs(np.diff(rows[:, 4])).max() < 2e-4
+
+
+def test_the_same_seed_is_the_same_run_at_any_starting_time() -> None:
+    np.testing.assert_allclose(played("novice", 3), played("novice", 3, start=7.0), atol=1e-9)
+
+
+def test_another_seed_is_another_run() -> None:
+    one, two = write_script(AXIS, DEPTH, NOVICE, 1), write_script(AXIS, DEPTH, NOVICE, 2)
+    n = min(len(one.rows), len(two.rows))
+    assert np.abs(one.rows[:n, :2] - two.rows[:n, :2]).max() > 1e-3
+
+
+def test_a_speed_factor_shortens_the_run() -> None:
+    assert played("novice", speed=2.0)[-1, 0] == pytest.approx(played("novice")[-1, 0] / 2, abs=0.1)
+
+
+def test_the_tremor_lies_between_8_and_12_hz_and_repeats_without_a_seam() -> None:
+    tile = write_script(AXIS, DEPTH, NOVICE, 0).tremor[:, 0]
+    power = np.abs(np.fft.rfft(tile)) ** 2
+    frequency = np.fft.rfftfreq(len(tile), 0.004)
+    band = (frequency >= 8.0) & (frequency <= 12.0)
+    assert power[band].sum() > 0.999 * power.sum()
+    assert abs(tile[0] - tile[-1]) <= np.abs(np.diff(tile)).max() * 1.01
+    assert tile.std() == pytest.approx(NOVICE.tremor, rel=1e-6)
+
+
+def test_the_start_leans_up_from_a_tilted_path_so_that_it_can_be_reached() -> None:
+    tilted = unit(np.array([0.0, np.sin(np.deg2rad(38)), -np.cos(np.deg2rad(38))]))
+    for seed in range(20):
+        script = write_script(tilted, DEPTH, EXPERT, seed)
+        e = script.rows[0, :2] @ script.basis
+        assert unit(tilted + e)[2] < tilted[2]
+
+
+def test_the_duration_is_that_of_the_rows() -> None:
+    script = write_script(AXIS, DEPTH, EXPERT, 0)
+    assert script.duration == pytest.approx((len(script.rows) - 1) * STEP)
+    assert script.rows[-1, 3] == Phase.DONE
+
+
+def test_what_cannot_be_played_is_refused_by_name() -> None:
+    with pytest.raises(SimulationError, match="there are novice, expert"):
+        trainee_stage(AXIS, DEPTH, "master")
+    with pytest.raises(SimulationError, match="must be above 0"):
+        trainee_stage(AXIS, -0.01)
+    with pytest.raises(SimulationError, match="speed factor is 0"):
+        trainee_stage(AXIS, DEPTH, speed=0.0)
