@@ -43,7 +43,8 @@ TICK: Final = next(_next)  # [-] number of the tick
 LATENESS: Final = next(_next)  # [s] wake-up after the deadline
 MISSED: Final = next(_next)  # [-] deadlines missed so far
 TICK_COST: Final = next(_next)  # [s] time that the stages of this tick took; 0 on a virtual clock
-INPUT_FAULT: Final = next(_next)  # [-] number of inputs that were not finite and kept their last value
+INPUT_ARMING: Final = next(_next)  # [-] arming ramp, 0 disarmed ... 1 armed
+FAULT: Final = next(_next)  # [-] number of inputs that were not finite and kept their last value
 
 # --- encoders and kinematics ----------------------------------------------------------------------
 Q_LEFT: Final = next(_next)  # [rad] joint angles as the encoders give them
@@ -93,6 +94,7 @@ TORQUE_LEFT: Final = next(_next)  # [N·m] joint torques sent
 TORQUE_RIGHT: Final = next(_next)
 LIMIT_SCALE: Final = next(_next)  # [-] 1 when no limit acts, else the factor on both torques
 SAFETY_SCALE: Final = next(_next)  # [-] fade for stale encoders and arming ramp, 0...1
+ARMING: Final = next(_next)  # [-] arming ramp, 0 disarmed ... 1 armed
 FAULT: Final = next(_next)  # [-] code of the fault that holds the force at zero, 0 = none
 
 # --- the simulated world --------------------------------------------------------------------------

@@ -1,1 +1,26 @@
 """Virtual fixtures, force limits, safety and the real-time loop."""
+
+from app.device.control.cost import stage_cost
+from app.device.control.fixture import VirtualFixture
+from app.device.control.inbox import INPUT_NAMES, Inbox
+from app.device.control.loop import Host, Loop, Priority
+from app.device.control.safety import Fault
+from app.device.control.state import DeviceState
+from app.device.control.table import Stage, Table, pantograph_stages
+from app.device.control.timing import Timing
+
+__all__ = [
+    "INPUT_NAMES",
+    "DeviceState",
+    "Fault",
+    "Host",
+    "Inbox",
+    "Loop",
+    "Priority",
+    "Stage",
+    "Table",
+    "Timing",
+    "VirtualFixture",
+    "pantograph_stages",
+    "stage_cost",
+]

@@ -75,9 +75,7 @@ _OF_STATUS = np.array(
     _FADE_TO,
     _HEARTBEAT,
     _ARMING,
-    _RAMP,
-    _SIZE,
-) = range(8)
+) = range(6)
 
 
 @njit
@@ -165,8 +163,9 @@ def safety_stage(state: FloatArray, p: FloatArray) -> None:
         fault = _ENCODERS_STALE
     if fault == 0 and armed and not now - state[sv.HEARTBEAT] <= p[_HEARTBEAT]:
         fault = _HEARTBEAT_LOST
-    p[_RAMP] = ramp(p[_RAMP], state[sv.DT], p[_ARMING], armed and fault == 0)
-    scale *= p[_RAMP]
+    arming = ramp(state[sv.ARMING], state[sv.DT], p[_ARMING], armed and fault == 0)
+    state[sv.ARMING] = arming
+    scale *= arming
     state[sv.FAULT] = fault
     state[sv.SAFETY_SCALE] = scale
     if scale > 0.0:
@@ -202,14 +201,15 @@ class Safety:
         return cls(profile.limits.hand_force, profile.limits.joint_torque)
 
     def stage(self) -> tuple[str, Any, FloatArray]:
-        """Return the stage for a loop's table, with memory of its own."""
-        parameters = np.zeros(_SIZE)
-        parameters[:_RAMP] = (
-            self.hand_limit,
-            self.torque_limit,
-            self.fade_from,
-            self.fade_to,
-            self.heartbeat,
-            self.arming,
+        """Return the stage for a loop's table; its memory is the slot ARMING."""
+        parameters = np.array(
+            [
+                self.hand_limit,
+                self.torque_limit,
+                self.fade_from,
+                self.fade_to,
+                self.heartbeat,
+                self.arming,
+            ]
         )
         return "safety", safety_stage, parameters

@@ -1,0 +1,52 @@
+"""The loop's history ring, read from other threads."""
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.device.control.kernel import COUNTERS, HEAD
+
+
+class History:
+    """Ring of the last ticks. The loop writes it without waiting for readers.
+
+    Row of tick n (from 1) is number n - 1; a reader copies and then checks that the loop has not
+    come round and overwritten what it copied.
+    """
+
+    def __init__(self, capacity: int = 16_384) -> None:
+        self.ring: FloatArray = np.zeros((capacity, sv.SLOTS))
+        self.counters = np.zeros(COUNTERS, dtype=np.int64)
+
+    @property
+    def head(self) -> int:
+        """Number of the newest tick; 0 before the first."""
+        return int(self.counters[HEAD])
+
+    def rows(self, since_tick: int = 0) -> FloatArray:
+        """Copy the ticks after `since_tick` that are still there, oldest first, (n, SLOTS).
+
+        A reader that comes too late sees a first tick later than `since_tick` + 1.
+        """
+        capacity = len(self.ring)
+        head = self.head
+        first = max(since_tick, head - capacity + 1, 0)
+        copy = self.ring[np.arange(first, head) % capacity]
+        overwritten = self.head - capacity + 1 - first
+        return copy[max(overwritten, 0) :]
+
+    def last(self) -> FloatArray:
+        """Copy the newest tick, shape (SLOTS,); zeros before the first."""
+        while True:
+            head = self.head
+            if head == 0:
+                return np.zeros(sv.SLOTS)
+            row: FloatArray = self.ring[(head - 1) % len(self.ring)].copy()
+            if self.head - head < len(self.ring) - 1:
+                return row
+
+    def column(self, slot: int, count: int) -> FloatArray:
+        """Copy one slot of up to `count` newest ticks, oldest first, shape (n,)."""
+        head = self.head
+        first = max(head - min(count, len(self.ring) - 1), 0)
+        return np.array(self.ring[np.arange(first, head) % len(self.ring), slot])

@@ -1,0 +1,160 @@
+"""What a tick is: inputs in, the stages in order, one row of history out. All compiled.
+
+State crosses threads through arrays only. `inbox` and `sequence` form a sequence lock with one
+writer at a time (odd while a write is in progress); `ring` is a history of whole states, whose row
+is written before `counters[HEAD]` says so.
+"""
+
+import warnings
+from collections.abc import Callable
+from math import isfinite
+from typing import Any, Final
+
+from app.core import state_vector as sv
+from app.core.compiled import STAGE_TYPE, njit
+from app.device.control.fences import fence
+
+from numba import types  # isort: skip  (after core.compiled)
+from numba.core.errors import NumbaExperimentalFeatureWarning  # isort: skip
+from numba.typed import List  # isort: skip
+
+HEAD: Final = 0
+STOP: Final = 1
+MISSED: Final = 2
+COUNTERS: Final = 3
+"""Entries of `counters` (int64): rows published, request to stop, deadlines missed."""
+
+_FLOATS = types.float64[::1]
+_INTEGERS = types.int64[::1]
+STAGES = types.ListType(STAGE_TYPE)
+PARAMETERS = types.ListType(_FLOATS)
+TICK_TYPES = (_FLOATS, STAGES, PARAMETERS, _FLOATS, _FLOATS, _INTEGERS, types.float64[:, ::1])
+"""Types of (state, stages, parameters, inbox, scratch, sequence, ring)."""
+
+
+def compiled(signature: Any) -> Callable[[Any], Any]:
+    """Compile now, for one signature, without numba's notice that tables of functions are new."""
+
+    def decorate(function: Any) -> Any:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", NumbaExperimentalFeatureWarning)
+            return njit(signature)(function)
+
+    return decorate
+
+
+@compiled(STAGES())
+def no_stages() -> Any:
+    """Return an empty list of stages."""
+    return List.empty_list(STAGE_TYPE)
+
+
+@compiled(PARAMETERS())
+def no_parameters() -> Any:
+    """Return an empty list of parameter arrays."""
+    return List.empty_list(_FLOATS)
+
+
+@compiled(types.void(STAGES, PARAMETERS, STAGE_TYPE, _FLOATS))
+def append(stages: Any, parameters: Any, function: Any, values: Any) -> None:
+    """Add a stage with its parameters."""
+    stages.append(function)
+    parameters.append(values)
+
+
+@compiled(types.void(_FLOATS, _INTEGERS, types.int64[::1], _FLOATS))
+def post(inbox: Any, sequence: Any, slots: Any, values: Any) -> None:
+    """Write some inputs as one change; the caller holds the writers' lock."""
+    sequence[0] += 1
+    fence()
+    for k in range(len(slots)):
+        inbox[slots[k]] = values[k]
+    fence()
+    sequence[0] += 1
+
+
+@njit
+def receive(state: Any, inbox: Any, scratch: Any, sequence: Any) -> None:
+    """Copy the inputs into the state; during a write, the last whole copy stays.
+
+    An input that is not finite keeps its last value, so that no stage's memory is spoilt by it,
+    and is counted in INPUT_FAULT, which makes `safety` hold the force at zero.
+    """
+    before = sequence[0]
+    if before % 2 == 0:
+        fence()
+        for slot in range(sv.INPUTS):
+            scratch[slot] = inbox[slot]
+        fence()
+        if sequence[0] == before:
+            bad = 0
+            for slot in range(sv.INPUTS):
+                if isfinite(scratch[slot]):
+                    state[slot] = scratch[slot]
+                else:
+                    bad += 1
+            state[sv.INPUT_FAULT] = bad
+
+
+@njit
+def publish(state: Any, ring: Any, counters: Any) -> None:
+    """Append the state to the history; readers see the row before they see the new head."""
+    row = counters[HEAD] % ring.shape[0]
+    for slot in range(sv.SLOTS):
+        ring[row, slot] = state[slot]
+    fence()
+    counters[HEAD] += 1
+
+
+@njit
+def run_stages(state: Any, stages: Any, parameters: Any) -> None:
+    """Call every stage of a table in order."""
+    for function, values in zip(stages, parameters):  # noqa: B905  (numba's zip has no strict)
+        function(state, values)
+
+
+@compiled(types.void(*TICK_TYPES, _INTEGERS, types.float64, types.float64, types.int64))
+def step(
+    state: Any,
+    stages: Any,
+    parameters: Any,
+    inbox: Any,
+    scratch: Any,
+    sequence: Any,
+    ring: Any,
+    counters: Any,
+    time: float,
+    dt: float,
+    ticks: int,
+) -> None:
+    """Run ticks at `time` + dt, + 2 dt, ... without waiting."""
+    for k in range(ticks):
+        state[sv.TIME] = time + (k + 1) * dt
+        state[sv.DT] = dt
+        state[sv.TICK] = counters[HEAD] + 1
+        state[sv.MISSED] = counters[MISSED]
+        receive(state, inbox, scratch, sequence)
+        run_stages(state, stages, parameters)
+        publish(state, ring, counters)
+
+
+@compiled(types.void(_FLOATS, STAGES, PARAMETERS, types.float64[:, ::1], _INTEGERS, types.float64))
+def release(
+    state: Any, stages: Any, parameters: Any, ring: Any, counters: Any, time: float
+) -> None:
+    """Send zero torque through the link's write stages, whatever happened before."""
+    for slot in (sv.ENABLED, sv.TORQUE_LEFT, sv.TORQUE_RIGHT, sv.SAFETY_SCALE, sv.ARMING):
+        state[slot] = 0.0
+    for slot in (sv.FELT_X, sv.FELT_Y, sv.FELT_Z):
+        state[slot] = 0.0
+    state[sv.TIME] = time
+    state[sv.TICK] = counters[HEAD] + 1
+    run_stages(state, stages, parameters)
+    publish(state, ring, counters)
+
+
+@compiled(types.void(_FLOATS, STAGES, PARAMETERS, types.int64))
+def repeat(state: Any, stages: Any, parameters: Any, times: int) -> None:
+    """Call a table many times: what a benchmark or a cost estimate measures."""
+    for _ in range(times):
+        run_stages(state, stages, parameters)

@@ -1,0 +1,263 @@
+"""The control loop: a table of stages at a fixed rate, in a thread of its own."""
+
+from __future__ import annotations
+
+import atexit
+import sys
+import threading
+from collections.abc import Iterable, Mapping
+from enum import StrEnum
+from types import TracebackType
+from typing import Any
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.clock import Clock, SystemClock, VirtualClock
+from app.device.control import kernel
+from app.device.control.history import History
+from app.device.control.inbox import Inbox
+from app.device.control.kernel import MISSED, STOP
+from app.device.control.state import DeviceState
+from app.device.control.table import Table
+from app.device.control.timing import Timing, measure
+from app.device.errors import LoopError
+
+THREAD_RATE_HZ = 250.0
+"""Highest rate that the plain thread promises, where the compiled loop does not exist."""
+
+_STOP_TIMEOUT = 5.0
+
+
+class Host(StrEnum):
+    """What runs the ticks.
+
+    `COMPILED`: a compiled kernel with absolute deadlines, without the interpreter lock (Linux).
+    `THREAD`: a plain thread, at most `THREAD_RATE_HZ`. `STEPPED`: `Loop.step` on a virtual clock.
+    """
+
+    COMPILED = "compiled"
+    THREAD = "thread"
+    STEPPED = "stepped"
+
+
+class Priority(StrEnum):
+    """Priority of the compiled loop's thread. `REALTIME` is done without where it is refused."""
+
+    REALTIME = "realtime"
+    NORMAL = "normal"
+
+
+def default_host(clock: Clock) -> Host:
+    """Host for a clock on this platform."""
+    if isinstance(clock, VirtualClock):
+        return Host.STEPPED
+    return Host.COMPILED if sys.platform == "linux" else Host.THREAD
+
+
+class Loop:
+    """Runs a table of stages at a fixed rate.
+
+    No force leaves before `inbox.write(enabled=1, heartbeat=...)`, and leaving for any reason
+    (stop, exception in a `with` block, end of the program) sends zero torque once more.
+
+    Args:
+        stages: the table, or (name, function, parameters) triples without a write side.
+        rate_hz: ticks per second.
+        clock: the machine's clock, or a virtual one for `step`.
+        host: what runs the ticks; by default chosen for the clock and the platform.
+        initial: starting values of the state by slot name, e.g. of `PLANT_*`.
+        priority: what to ask the operating system for.
+    """
+
+    def __init__(
+        self,
+        stages: Table | Iterable[tuple[str, Any, FloatArray]],
+        rate_hz: float = 1000.0,
+        clock: Clock | None = None,
+        host: Host | None = None,
+        initial: Mapping[str, float] | None = None,
+        priority: Priority = Priority.REALTIME,
+    ) -> None:
+        self.table = stages if isinstance(stages, Table) else Table.of(stages)
+        self.clock: Clock = clock or SystemClock()
+        self.host = host or default_host(self.clock)
+        self.rate_hz = min(rate_hz, THREAD_RATE_HZ) if self.host is Host.THREAD else rate_hz
+        self.priority = priority
+        self.inbox = Inbox()
+        self._history = History()
+        self._state = sv.empty_state()
+        self._scratch = sv.empty_state()
+        for name, value in (initial or {}).items():
+            self._state[_slot(name)] = value
+        self._thread: threading.Thread | None = None
+        self._is_open = False
+        self._realtime = False
+        self._failure: BaseException | None = None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether `open` has been called and `close` has not."""
+        return self._is_open
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the stages in the order of the tick."""
+        return tuple(stage.name for stage in self.table)
+
+    def open(self) -> None:
+        """Start ticking, disarmed. Does nothing if the loop is open."""
+        if self._is_open:
+            return
+        self._failure = None
+        self._history.counters[STOP] = 0
+        self.inbox.write(enabled=0.0)
+        self._packed = _pack(self.table)
+        self._packed_write = _pack(self.table.write)
+        self._is_open = True
+        atexit.register(self.close)
+        if self.host is not Host.STEPPED:
+            self._thread = threading.Thread(target=self._host, name="acus loop", daemon=True)
+            self._thread.start()
+
+    def close(self) -> None:
+        """Stop ticking and send zero torque. Does nothing if the loop is closed.
+
+        Raises:
+            LoopError: if the thread does not end, which means that a stage does not return.
+        """
+        if not self._is_open:
+            return
+        self._is_open = False
+        atexit.unregister(self.close)
+        self._history.counters[STOP] = 1
+        self.inbox.write(enabled=0.0)
+        if self._thread is None:
+            self._release()
+            return
+        self._thread.join(_STOP_TIMEOUT)
+        if self._thread.is_alive():
+            raise LoopError(
+                f"the loop did not stop in {_STOP_TIMEOUT:g} s: a stage does not return"
+            )
+        self._thread = None
+
+    def __enter__(self) -> Loop:
+        """Open the loop."""
+        self.open()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        """Close the loop, also after an exception."""
+        self.close()
+
+    def latest(self) -> DeviceState:
+        """Return the newest tick; zeros with tick 0 before the first.
+
+        Raises:
+            LoopError: if the loop has ended with an error.
+        """
+        self._raise_failure()
+        return DeviceState.from_row(self._history.last())
+
+    def rows(self, since_tick: int = 0) -> FloatArray:
+        """Return the ticks after `since_tick` that the history still holds, (n, SLOTS).
+
+        The history holds the last 16 383 ticks; a gap shows in the slot `TICK` of the first row.
+        """
+        return self._history.rows(since_tick)
+
+    def timing(self, count: int = 10_000) -> Timing:
+        """Lateness over the last `count` ticks."""
+        return measure(self._history, self.rate_hz, str(self.host), self._realtime, count)
+
+    def step(self, ticks: int = 1) -> None:
+        """Run the same ticks on the virtual clock, which advances by one period each.
+
+        Raises:
+            LoopError: if the loop is closed, or its clock is not virtual.
+        """
+        if not isinstance(self.clock, VirtualClock):
+            raise LoopError("step needs a loop on a VirtualClock; this one runs by itself")
+        if not self._is_open:
+            raise LoopError("the loop is closed; call open() before step()")
+        self._tick(self.clock.now(), ticks)
+        self.clock.sleep(ticks / self.rate_hz)
+
+    def swap(self, stages: Table | Iterable[tuple[str, Any, FloatArray]]) -> None:
+        """Replace the table of a closed loop; the state stays.
+
+        Raises:
+            LoopError: if the loop is open.
+        """
+        if self._is_open:
+            raise LoopError(
+                "the table can be swapped only while the loop is closed; close it first"
+            )
+        self.table = stages if isinstance(stages, Table) else Table.of(stages)
+
+    def _host(self) -> None:
+        try:
+            if self.host is Host.COMPILED:
+                self._run_compiled()
+            else:
+                self._run_thread()
+        except BaseException as error:  # handed on by latest(); the torques go to zero first
+            self._failure = error
+        finally:
+            self._release()
+
+    def _run_compiled(self) -> None:
+        from app.device.control import realtime  # exists on Linux only
+
+        realtime.ask_for_precise_timers()
+        if self.priority is Priority.REALTIME:
+            self._realtime = realtime.ask_for_realtime_priority()
+        realtime.run(*self._arguments(), round(1e9 / self.rate_hz))
+
+    def _run_thread(self) -> None:
+        period, counters = 1.0 / self.rate_hz, self._history.counters
+        deadline = self.clock.now() + period
+        while not counters[STOP]:
+            self.clock.sleep(deadline - self.clock.now())
+            now = self.clock.now()
+            skipped = max(int((now - deadline) / period), 0)
+            counters[MISSED] += skipped
+            self._state[sv.LATENESS] = max(now - deadline, 0.0)
+            self._tick(now - period, 1)
+            deadline += (1 + skipped) * period
+
+    def _tick(self, time: float, ticks: int) -> None:
+        kernel.step(*self._arguments(), time, 1.0 / self.rate_hz, ticks)
+
+    def _arguments(self) -> tuple[Any, ...]:
+        inbox, history = self.inbox, self._history
+        shared = (inbox.values, self._scratch, inbox.sequence, history.ring, history.counters)
+        return (self._state, *self._packed, *shared)
+
+    def _release(self) -> None:
+        history = self._history
+        kernel.release(
+            self._state, *self._packed_write, history.ring, history.counters, self.clock.now()
+        )
+
+    def _raise_failure(self) -> None:
+        if self._failure is not None:
+            raise LoopError(f"the loop has ended: {self._failure}") from self._failure
+
+
+def _pack(stages: Iterable[tuple[str, Any, FloatArray]]) -> tuple[Any, Any]:
+    functions, parameters = kernel.no_stages(), kernel.no_parameters()
+    for _, function, values in stages:
+        kernel.append(functions, parameters, function, values)
+    return functions, parameters
+
+
+def _slot(name: str) -> int:
+    if name not in sv.INDEX:
+        raise LoopError(f"the state has no slot {name!r}; valid names: {', '.join(sv.INDEX)}")
+    return sv.INDEX[name]

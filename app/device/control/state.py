@@ -1,0 +1,106 @@
+"""One tick of the loop as a value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray, read_only
+from app.device.control.safety import Fault
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DeviceState:
+    """State of the robot and its loop after a tick; SI, in world, arrays read-only.
+
+    Attributes:
+        row: the whole state vector, shape (SLOTS,).
+        time: monotonic time of the tick [s].
+        tick: number of the tick, from 1; 0 before the first.
+        q: joint angles (left, right) [rad], shape (2,).
+        qd: joint velocities [rad/s], shape (2,).
+        p3: tool point [m], shape (2,).
+        axis: needle direction, hub to tip, shape (3,).
+        hub: hub point [m], shape (3,).
+        tip: tip [m], shape (3,).
+        l_in: fulcrum to tool point [m].
+        l_out: hub point to fulcrum [m].
+        depth: tip beyond the fulcrum along the axis [m].
+        depth_source: 1 tracked, 2 held, 0 model.
+        angle_error: between needle and path [rad].
+        force: wanted at the hub [N], shape (3,).
+        guide: share of the virtual fixture [N], shape (3,).
+        felt: at the hub after all limits [N], shape (3,).
+        torque: joint torques sent (left, right) [N·m], shape (2,).
+        axial_force: tissue on needle along the axis [N].
+        limit_scale: factor of force and torque limits, 1 when none acts.
+        safety_scale: factor of fading and arming, 0 to 1.
+        fault: why the force is held at zero.
+        kinematics: status of the forward kinematics, 0 = valid.
+        lateness: wake-up after the deadline [s].
+        missed: deadlines missed so far.
+    """
+
+    row: FloatArray
+    time: float
+    tick: int
+    q: FloatArray
+    qd: FloatArray
+    p3: FloatArray
+    axis: FloatArray
+    hub: FloatArray
+    tip: FloatArray
+    l_in: float
+    l_out: float
+    depth: float
+    depth_source: int
+    angle_error: float
+    force: FloatArray
+    guide: FloatArray
+    felt: FloatArray
+    torque: FloatArray
+    axial_force: float
+    limit_scale: float
+    safety_scale: float
+    fault: Fault
+    kinematics: int
+    lateness: float
+    missed: int
+
+    @classmethod
+    def from_row(cls, row: FloatArray) -> DeviceState:
+        """Read a state vector, shape (SLOTS,); keeps a read-only copy."""
+        copy = read_only(np.array(row, dtype=np.float64))
+
+        def number(slot: int) -> float:
+            return float(copy[slot])
+
+        return cls(
+            row=copy,
+            time=number(sv.TIME),
+            tick=int(copy[sv.TICK]),
+            q=copy[sv.Q_LEFT : sv.Q_LEFT + 2],
+            qd=copy[sv.QD_LEFT : sv.QD_LEFT + 2],
+            p3=copy[sv.P3_X : sv.P3_X + 2],
+            axis=copy[sv.AXIS_X : sv.AXIS_X + 3],
+            hub=copy[sv.HUB_X : sv.HUB_X + 3],
+            tip=copy[sv.TIP_X : sv.TIP_X + 3],
+            l_in=number(sv.L_IN),
+            l_out=number(sv.L_OUT),
+            depth=number(sv.DEPTH),
+            depth_source=int(copy[sv.DEPTH_SOURCE]),
+            angle_error=number(sv.ANGLE_ERROR),
+            force=copy[sv.FORCE_X : sv.FORCE_X + 3],
+            guide=copy[sv.GUIDE_X : sv.GUIDE_X + 3],
+            felt=copy[sv.FELT_X : sv.FELT_X + 3],
+            torque=copy[sv.TORQUE_LEFT : sv.TORQUE_LEFT + 2],
+            axial_force=number(sv.AXIAL_FORCE),
+            limit_scale=number(sv.LIMIT_SCALE),
+            safety_scale=number(sv.SAFETY_SCALE),
+            fault=Fault(int(copy[sv.FAULT])),
+            kinematics=int(copy[sv.KINEMATICS]),
+            lateness=number(sv.LATENESS),
+            missed=int(copy[sv.MISSED]),
+        )

@@ -1,0 +1,19 @@
+"""Errors of the device room."""
+
+from app.core.errors import AcusError
+
+
+class DeviceError(AcusError):
+    """The robot or its loop cannot do what was asked."""
+
+
+class LoopError(DeviceError):
+    """The control loop is in the wrong state for the call, or has ended with an error."""
+
+
+class UnknownInputError(DeviceError, KeyError):
+    """A name that is not an input of the loop."""
+
+    def __str__(self) -> str:
+        """Return the message without the quotes that KeyError adds."""
+        return str(self.args[0])
