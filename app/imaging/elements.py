@@ -30,7 +30,7 @@ def numbers(header: Dataset, tag: int, name: str, count: int | None = None) -> t
     """Values of a decimal string; empty where absent.
 
     Raises:
-        FileDamagedError: if one is not a finite number, or there are not `count`; names the element.
+        FileDamagedError: if one is not a finite number, or there are not `count` of them.
     """
     strings = parts(header, tag)
     if not strings:

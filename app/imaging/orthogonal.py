@@ -68,7 +68,7 @@ class OrthogonalSlicer:
 
     def __init__(self, volume: Volume) -> None:
         self._volume = volume
-        axes, flips = _nearest_axes(volume.direction)
+        axes, flips = nearest_axes(volume.direction)
         block = np.transpose(volume.hu, [2 - axis for axis in axes])  # to (l, p, s)
         steps = tuple(slice(None, None, -1 if flip else 1) for flip in flips)
         self._lps_block: NDArray[Any] = block[steps]
@@ -158,7 +158,7 @@ def letters(direction: ArrayLike) -> str:
     return "".join((_POSITIVE if vector[axis] > 0.0 else _NEGATIVE)[axis] for axis in shown)
 
 
-def _nearest_axes(direction: FloatArray) -> tuple[tuple[int, ...], tuple[bool, ...]]:
+def nearest_axes(direction: FloatArray) -> tuple[tuple[int, ...], tuple[bool, ...]]:
     """Voxel axis (0 = i, 1 = j, 2 = k) for each of L, P, S, and whether it runs the other way."""
     share = np.abs(direction)
     axes = max(permutations(range(3)), key=lambda p: sum(share[a, p[a]] for a in range(3)))

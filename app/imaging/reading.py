@@ -41,7 +41,10 @@ def load_ct(
         progress: told how far it is; cancels.
 
     Raises:
-        FolderError, SeriesUnknownError, SeriesAmbiguousError, SeriesRefusedError, FileDamagedError, Cancelled.
+        FolderError: if the folder cannot be read or holds no DICOM.
+        SeriesUnknownError, SeriesAmbiguousError, SeriesRefusedError: see `choose`.
+        FileDamagedError: if a file cannot be decoded.
+        Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
     listing = scan_folder(path, progress.part(0.0, 0.4))
