@@ -114,7 +114,7 @@ class CurvesView(QWidget):
         for row, curve in enumerate(self._curves):
             plot = self.graphics.addPlot(row=row, col=0)
             _prepare(plot, curve, last=row == len(self._curves) - 1)
-            _shade(plot, review, names=row == 0)
+            _shade(plot, review, curve, names=row == 0)
             _draw(plot, review, curve)
             self._cursors.append(_cursor(plot))
             plot.setXLink(first) if first is not None else None
@@ -188,10 +188,10 @@ def value_range(curve: Curve) -> tuple[float, float]:
     values = curve.values[np.isfinite(curve.values)]
     low = min(0.0, float(values.min(initial=0.0)))
     high = max(float(values.max(initial=0.0)), curve.line or 0.0, low + 1e-3)
-    return low - 0.05 * (high - low), high + 0.28 * (high - low)
+    return low - 0.12 * (high - low), high + 0.28 * (high - low)
 
 
-def _shade(plot: pg.PlotItem, review: Review, names: bool) -> None:
+def _shade(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None:
     for span in review.spans:
         region = pg.LinearRegionItem(
             (span.start, span.end), movable=False, pen=pg.mkPen(None),
@@ -200,11 +200,22 @@ def _shade(plot: pg.PlotItem, review: Review, names: bool) -> None:
         region.setZValue(-20)
         plot.addItem(region)
     if names:
-        for mark in review.marks:
-            sign = "▼" if mark.kind == "scan" else "!"
-            text = pg.TextItem(f"{sign} {mark.label}", color=theme.TEXT, anchor=(0.5, 0))
-            text.setPos(mark.time, 0.0)
+        _name(plot, review, *value_range(curve))
+
+
+def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
+    """Name the states below and the events above the first curve."""
+    total = float(review.curves.time[-1]) if len(review.curves.time) else 0.0
+    for span in review.spans:
+        if span.end - span.start > 0.06 * total:  # a narrower one has no room for its name
+            text = pg.TextItem(state_word(span.state), color=theme.TEXT_DIM, anchor=(0.5, 1))
+            text.setPos(0.5 * (span.start + span.end), low)
             plot.addItem(text, ignoreBounds=True)
+    for mark in review.marks:
+        sign = "▼" if mark.kind == "scan" else "!"
+        text = pg.TextItem(f"{sign} {mark.label}", color=theme.TEXT, anchor=(0.5, 0))
+        text.setPos(mark.time, high)
+        plot.addItem(text, ignoreBounds=True)
 
 
 def _cursor(plot: pg.PlotItem) -> pg.InfiniteLine:

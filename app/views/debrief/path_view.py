@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.arrays import FloatArray
 from app.views import theme
-from app.views.debrief.review import RINGS, Review
+from app.views.debrief.review import Review
 from app.views.exercise.hand import HandLimits
 from app.views.exercise.pad_painter import PadArea, paint_background
 from app.views.exercise.pad_view import PadScene
@@ -48,9 +48,9 @@ def pad_scene(review: Review) -> PadScene:
     placed = review.placed
     limits = HandLimits(1.5, -0.03, 2.0 * placed.length)
     return PadScene(
-        frame=review.frame, scale=review.scale, rings=RINGS, limits=limits,
-        p_entry=placed.p_entry, target_depth=placed.length, depth_tolerance=RINGS[0],
-        stop_depth=placed.length + RINGS[1],
+        frame=review.frame, scale=review.scale, rings=review.rings, limits=limits,
+        p_entry=placed.p_entry, target_depth=placed.length, depth_tolerance=review.rings[0],
+        stop_depth=placed.length + review.rings[1],
     )  # fmt: skip
 
 

@@ -17,15 +17,13 @@ from app.session.curves import Curves, curves
 from app.session.recording import Recording
 from app.session.summary import SCORE_FILE, derive
 from app.views.exercise.pad_geometry import PadScale, PathFrame, path_frame
+from app.views.exercise.pad_view import rings
 
 SHOWN_EVENTS: Final = ("scan", "fault", "abort")
 """Kinds of events that are marked on the curves."""
 
 FORCE_LIMIT: Final = 5.0
 """Limit of the force at the hand [N] where the record names none."""
-
-RINGS: Final = (0.002, 0.005)
-"""Rings of the pad and the path view where the exercise's tolerances name none [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +87,12 @@ class Review:
     force_limit: float
 
     @property
+    def rings(self) -> tuple[float, float]:
+        """Rings of the pad by the tolerances that the attempt was judged by [m]."""
+        rows = self.score.rows if self.score is not None else ()
+        return rings({row.name: row.tolerance for row in rows if row.tolerance is not None})
+
+    @property
     def frame(self) -> PathFrame:
         """Frame of the pad in which the tip's track is drawn."""
         return path_frame(self.placed.axis, self.placed.T_world_patient.rotation)
@@ -96,7 +100,7 @@ class Review:
     @property
     def scale(self) -> PadScale:
         """Scale of the pad."""
-        return PadScale(self.placed.length, RINGS[0])
+        return PadScale(self.placed.length, self.rings[0])
 
     def track(self) -> FloatArray:
         """Place of the tip on the pad, shape (n, 2), NaN where not valid."""

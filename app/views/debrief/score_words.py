@@ -57,7 +57,7 @@ def row_texts(row: Row, score: Score) -> RowTexts:
     band = f"{symbol} {band_word(row.band)}" if row.band else "–"
     return RowTexts(
         label=row.label + (" *" if row.tolerance and row.tolerance.required else ""),
-        value=tr("not available") if row.value is None else f"{number(row.value)} {row.unit}",
+        value=tr("not available") if row.value is None else with_unit(row.value, row.unit),
         band=band,
         points=_points(row, score),
         weight=f"{row.tolerance.weight:g}" if row.tolerance else "–",
@@ -70,6 +70,12 @@ def number(value: float) -> str:
     """Three significant digits, never in exponents."""
     size = abs(value)
     return f"{value:.0f}" if size >= 100 else f"{value:.1f}" if size >= 10 else f"{value:.2f}"
+
+
+def with_unit(value: float, unit: str) -> str:
+    """Say a value with its unit; the degree sign stands close."""
+    gap = "" if unit in ("°", "") else " "
+    return f"{number(value)}{gap}{unit}"
 
 
 def total_text(score: Score | None) -> str:

@@ -1,8 +1,12 @@
 """What the bull's-eye pad and the depth bar show at one moment, as values."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
+from app.scoring.defaults import DEFAULT_TOLERANCES
+from app.scoring.tolerance import Bands
 from app.views.exercise.hand import HandLimits
 from app.views.exercise.pad_geometry import PadScale, PathFrame
 
@@ -52,3 +56,12 @@ class PadView:
     measured: bool
     force: float
     force_limit: float
+
+
+def rings(tolerances: Mapping[str, Bands] = DEFAULT_TOLERANCES) -> tuple[float, float]:
+    """Radii of the rings [m]: the lateral error that counts as expert, and the one that passes.
+
+    An exercise that does not score the lateral error gets the default's rings.
+    """
+    bands = tolerances.get("lateral_error", DEFAULT_TOLERANCES["lateral_error"])
+    return MILLIMETRE * bands.expert, MILLIMETRE * bands.pass_

@@ -60,18 +60,14 @@ def loop_item(rate: float, median: float, p99: float, missed: int, ticks: int) -
     ))  # fmt: skip
 
 
-def encoder_item(age: float, fault: int, fault_text: str = "") -> StatusItem:
+def encoder_item(age: float, fault: str = "") -> StatusItem:
     """Return the encoders' health: age [s], and the fault that holds the force at zero."""
-    if fault:
-        text = fault_text or tr("fault {code}: force is zero", code=fault)
-        verdict = Verdict.BAD
-    else:
-        verdict = _by_age(age, ENCODER_FADE, ENCODER_ZERO)
-        text = age_text(age)
+    verdict = Verdict.BAD if fault else _by_age(age, ENCODER_FADE, ENCODER_ZERO)
+    text = tr("fault: no force") if fault else age_text(age)
     return StatusItem(verdict, tr("Encoders"), text, tr(
         "Age of the robot's joint angles. The force fades from 20 ms and is zero from 100 ms. "
         "If it stays old, check the robot's cable and power, then start the attempt again."
-    ))  # fmt: skip
+    ) + (f"\n{fault}" if fault else ""))  # fmt: skip
 
 
 def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> StatusItem:
@@ -114,17 +110,19 @@ def heartbeat_item(age: float) -> StatusItem:
     ))  # fmt: skip
 
 
-def recorder_item(recording: bool, lost: int = 0) -> StatusItem:
-    """Return the recorder's health: whether it writes, and how many rows it lost."""
+def recorder_item(recording: bool, lost: int = 0, failure: str = "") -> StatusItem:
+    """Return the recorder's health: whether it writes, what it lost, why it cannot write."""
     verdict, text = Verdict.IDLE, tr("not recording")
     if recording:
         verdict, text = Verdict.GOOD, tr("recording")
     if lost:
         verdict, text = Verdict.WARNING, tr("{lost} samples lost", lost=lost)
+    if failure:
+        verdict, text = Verdict.BAD, tr("failed")
     return StatusItem(verdict, tr("Recorder"), text, tr(
         "Every attempt is written to disk, flushed each second. If samples are lost, the disk is "
         "too slow or full: free some space."
-    ))  # fmt: skip
+    ) + (f"\n{failure}" if failure else ""))  # fmt: skip
 
 
 def age_text(age: float) -> str:

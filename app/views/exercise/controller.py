@@ -1,0 +1,227 @@
+"""Between trainer and widgets: pulls, shows, passes on. It judges nothing and stores nothing."""
+
+from dataclasses import dataclass
+from typing import Final
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from app.core.clock import Clock, SystemClock
+from app.core.errors import AcusError
+from app.core.events import Event
+from app.session.result import AttemptResult
+from app.session.snapshot import Snapshot
+from app.views.background import run_in_background
+from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.hand import HandPose
+from app.views.exercise.messages import MessageList
+from app.views.exercise.panel import ExercisePanel
+from app.views.exercise.rate_meter import RateMeter
+from app.views.exercise.readings import figures, pad_view, status_items, tracker_figures
+from app.views.exercise.run import ExerciseRun
+from app.views.exercise.status import StatusStrip
+from app.views.exercise.tracker_panel import TrackerPanel
+
+PERIOD_MS: Final = 25
+"""The window looks at the trainer this often: 40 Hz."""
+
+STATUS_PERIOD: Final = 0.25
+"""The status strip is refreshed this often [s]: words that flicker cannot be read."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExerciseViews:
+    """The widgets that the controller feeds."""
+
+    bullseye: Bullseye
+    panel: ExercisePanel
+    status: StatusStrip
+    tracker: TrackerPanel
+    messages: MessageList
+
+
+class ExerciseController(QObject):
+    """Feeds the exercise's widgets from a trainer, and the trainer from them.
+
+    Signals:
+        needle_moved(NeedlePose): at every look, while the pose is valid.
+        snapshot_taken(Snapshot): at every look.
+        event_seen(Event): each event of the trainer, once.
+        began(str): session id of an attempt that began.
+        finished(AttemptResult): an attempt ended or was aborted, once each.
+        failed(str): something that the user asked for did not work, in one line.
+    """
+
+    needle_moved = Signal(object)
+    snapshot_taken = Signal(object)
+    event_seen = Signal(object)
+    began = Signal(str)
+    finished = Signal(object)
+    failed = Signal(str)
+
+    def __init__(
+        self, views: ExerciseViews, clock: Clock | None = None, parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._views = views
+        self._clock = clock or SystemClock()
+        self._run: ExerciseRun | None = None
+        self._seen: AttemptResult | None = None
+        self._ending = False
+        self._beat = 0.0
+        self._status_time = -1.0
+        self._rate = RateMeter()
+        self._timer = QTimer(self, interval=PERIOD_MS)
+        self._timer.timeout.connect(self.look)
+        self._connect()
+
+    # --- life -------------------------------------------------------------------------------------
+    def attach(self, run: ExerciseRun) -> None:
+        """Serve a running trainer; begins to look at it and to send heartbeats."""
+        self.detach()
+        self._run, self._seen = run, run.trainer.result
+        self._beat = self._clock.now()
+        self._rate = RateMeter()
+        self._views.bullseye.set_scene(run.scene(), run.interactive)
+        self._views.panel.set_ready(True)
+        self._timer.start()
+        self.set_assistance(self._views.panel.assistance.value() / 100)
+
+    def detach(self) -> None:
+        """Let go of the trainer, without closing it; idempotent."""
+        self._timer.stop()
+        self._run, self._ending = None, False
+        self._views.bullseye.set_scene(None, False)
+        self._views.panel.set_ready(False)
+        self._views.panel.show_figures(None)
+        self._views.status.show_items(())
+
+    def replan(self, run: ExerciseRun) -> None:
+        """Take another plan of the same trainer: the pad is drawn anew, the rest goes on."""
+        self._run = run
+        self._views.bullseye.set_scene(run.scene(), run.interactive)
+
+    @property
+    def run(self) -> ExerciseRun | None:
+        """The run being served."""
+        return self._run
+
+    # --- one look ---------------------------------------------------------------------------------
+    def look(self) -> None:
+        """Send a heartbeat, take the newest snapshot, show it, pass it on."""
+        run = self._run
+        if run is None:
+            return
+        now = self._clock.now()
+        late, self._beat = now - self._beat, now
+        run.trainer.heartbeat()
+        try:
+            snapshot = run.trainer.snapshot()
+        except AcusError as error:
+            self._fail(str(error))
+            return
+        self._drain(run)
+        self._show(run, snapshot, now, late)
+        self.snapshot_taken.emit(snapshot)
+        if snapshot.pose.valid:
+            self.needle_moved.emit(snapshot.pose)
+        self._look_for_result(run)
+
+    def _show(self, run: ExerciseRun, snapshot: Snapshot, now: float, late: float) -> None:
+        limit = run.profile.limits.hand_force
+        views = self._views
+        views.panel.show_figures(figures(snapshot, limit))
+        view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
+        if view is not None:
+            views.bullseye.show_view(view)
+        rate = self._rate.read(now, snapshot.device.tick) if snapshot.device is not None else 0.0
+        pictures_due = views.tracker.due(now)
+        status_due = now - self._status_time >= STATUS_PERIOD
+        if not (pictures_due or status_due):
+            return
+        pictures = tuple(run.pictures()) if run.pictures is not None else ()
+        if pictures_due:
+            views.tracker.show_tracker(pictures, tracker_figures(snapshot, pictures), now)
+        if status_due:
+            self._status_time = now
+            views.status.show_items(status_items(snapshot, rate, late, pictures))
+
+    def _drain(self, run: ExerciseRun) -> None:
+        for event in run.trainer.events.drain():
+            self._views.messages.add_event(event)
+            self.event_seen.emit(event)
+
+    def _look_for_result(self, run: ExerciseRun) -> None:
+        """Tell of a result once, whoever finished the attempt: the user, or a fault."""
+        result = run.trainer.result
+        if result is not None and result is not self._seen and not self._ending:
+            self._seen = result
+            self.finished.emit(result)
+
+    # --- what the user asks for -------------------------------------------------------------------
+    def begin(self, student: str) -> None:
+        """Begin an attempt."""
+        run = self._run
+        if run is None:
+            return
+        self._views.messages.clear()
+        self._views.messages.start_clock(self._clock.now())
+        try:
+            session = run.trainer.begin(student)
+        except AcusError as error:
+            self._fail(str(error))
+            return
+        self.began.emit(session)
+        self._views.bullseye.pad.setFocus()
+
+    def scan(self) -> None:
+        """Take a control scan."""
+        if self._run is not None:
+            try:
+                self._run.trainer.scan()
+            except AcusError as error:
+                self._fail(str(error))
+
+    def end(self) -> None:
+        """End the attempt; scoring and writing go on beside the window."""
+        run = self._run
+        if run is None or self._ending:
+            return
+        self._ending = True
+        run_in_background(self, lambda _: run.trainer.end(), self._ended, self._end_failed)
+
+    def abort(self) -> None:
+        """Break the attempt off: the force is zero before this returns."""
+        if self._run is not None:
+            self._run.trainer.abort()
+            self.look()
+
+    def set_assistance(self, share: float) -> None:
+        """Set the assistance, 0…1."""
+        if self._run is not None:
+            self._run.trainer.assistance(share)
+
+    def _ended(self, result: AttemptResult) -> None:
+        self._ending = False
+        self.look()
+
+    def _end_failed(self, error: Exception) -> None:
+        self._ending = False
+        self._fail(str(error))
+
+    def _move_hand(self, pose: HandPose) -> None:
+        if self._run is not None:
+            x, y, _ = pose.direction
+            self._run.trainer.hand(float(x), float(y), pose.depth, pose.holds)
+
+    def _fail(self, message: str) -> None:
+        self._views.messages.add_event(Event(self._clock.now(), "error", message))
+        self.failed.emit(message)
+
+    def _connect(self) -> None:
+        panel = self._views.panel
+        panel.start_requested.connect(self.begin)
+        panel.assistance_changed.connect(self.set_assistance)
+        panel.buttons.scan_requested.connect(self.scan)
+        panel.buttons.end_requested.connect(self.end)
+        panel.buttons.abort_requested.connect(self.abort)
+        self._views.bullseye.hand_moved.connect(self._move_hand)

@@ -1,0 +1,49 @@
+"""What happened, newest last: events of the trainer as lines with their time."""
+
+from typing import Final
+
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
+
+from app.core.events import Event
+from app.views import theme
+from app.views.exercise.readouts import clock_text
+from app.views.text import tr
+
+LONGEST: Final = 200
+"""Lines kept; older ones are in the record."""
+
+_LOOKS: Final = {
+    "state": (theme.TEXT, "•"),
+    "scan": (theme.ACCENT, "▼"),
+    "abort": (theme.BAD, "✖"),
+    "fault": (theme.BAD, "✖"),
+    "recorder": (theme.WARNING, "▲"),
+    "error": (theme.BAD, "✖"),
+}
+
+
+class MessageList(QListWidget):
+    """Lines with symbol, time since the attempt began, and words."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._origin: float | None = None
+        self.setWordWrap(True)
+        self.setAccessibleName(tr("Messages"))
+
+    def start_clock(self, origin: float) -> None:
+        """Count times from `origin` [s]; before that they are left out."""
+        self._origin = origin
+
+    def add_event(self, event: Event) -> None:
+        """Append an event; the list keeps its last `LONGEST` lines and stays at its end."""
+        colour, symbol = _LOOKS.get(event.kind, (theme.TEXT_DIM, "•"))
+        known = self._origin is not None and event.time >= self._origin
+        when = clock_text(event.time - (self._origin or 0.0)) + "  " if known else ""
+        item = QListWidgetItem(f"{symbol} {when}{event.message}")
+        item.setForeground(QColor(colour))
+        self.addItem(item)
+        while self.count() > LONGEST:
+            self.takeItem(0)
+        self.scrollToBottom()

@@ -1,0 +1,138 @@
+"""From a snapshot of the trainer to what the widgets show. Pure; nothing here judges anything."""
+
+from collections.abc import Sequence
+from math import inf
+
+import numpy as np
+
+from app.device.control.safety import Fault
+from app.session.snapshot import Snapshot
+from app.views.exercise.camera_view import CameraPicture
+from app.views.exercise.live import LiveFigures
+from app.views.exercise.pad_view import PadView
+from app.views.exercise.status_items import (
+    StatusItem,
+    depth_item,
+    encoder_item,
+    heartbeat_item,
+    loop_item,
+    recorder_item,
+    tracker_item,
+)
+from app.views.exercise.tracker_panel import TrackerFigures
+from app.views.text import tr
+
+SEEN = ("tracked", "held")
+
+
+def figures(snapshot: Snapshot, force_limit: float) -> LiveFigures:
+    """Live figures for the panel; `force_limit` [N]."""
+    return LiveFigures(
+        state=snapshot.state,
+        elapsed=snapshot.elapsed,
+        depth=snapshot.pose.depth,
+        measured=snapshot.pose.measured,
+        angle_error=snapshot.offset.angle,
+        lateral=snapshot.offset.lateral,
+        to_target=snapshot.offset.remaining,
+        force=felt(snapshot),
+        force_limit=force_limit,
+        scans=snapshot.scans,
+    )
+
+
+def felt(snapshot: Snapshot) -> float:
+    """Force felt at the hand [N]; 0 where the robot says nothing."""
+    device = snapshot.device
+    force = 0.0 if device is None else float(np.linalg.norm(device.felt))
+    return force if np.isfinite(force) else 0.0
+
+
+def pad_view(snapshot: Snapshot, needle_length: float, force_limit: float) -> PadView | None:
+    """Return what the bull's-eye shows; None while there is no valid pose."""
+    pose, device = snapshot.pose, snapshot.device
+    if not pose.valid:
+        return None
+    hub = pose.p_tip - needle_length * pose.axis
+    if device is not None and np.isfinite(device.hub).all():
+        hub = device.hub
+    return PadView(
+        direction=pose.axis,
+        p_tip=pose.p_tip,
+        p_hub=hub,
+        depth=pose.depth,
+        measured=pose.measured,
+        force=felt(snapshot),
+        force_limit=force_limit,
+    )
+
+
+def status_items(
+    snapshot: Snapshot, rate: float, heartbeat_age: float, pictures: Sequence[CameraPicture] = ()
+) -> tuple[StatusItem, ...]:
+    """Health of every part, for the status strip.
+
+    Args:
+        snapshot: newest state.
+        rate: measured rate of the loop [Hz].
+        heartbeat_age: since the window's last sign of life [s].
+        pictures: newest camera pictures: they tell which camera does not see the marker.
+    """
+    device, timing, pose = snapshot.device, snapshot.timing, snapshot.pose
+    items = []
+    if timing is not None:
+        items.append(loop_item(rate, timing.median, timing.p99, timing.missed, timing.ticks))
+    fault = int(device.fault) if device is not None else 0
+    items.append(encoder_item(pose.orientation_age, fault_text(fault)))
+    items.append(tracker_status(snapshot, pictures))
+    items.append(depth_item(str(pose.depth_source), pose.depth_age))
+    items.append(heartbeat_item(heartbeat_age))
+    record = snapshot.recording
+    if record is not None and record.failure:
+        items.append(recorder_item(False, failure=record.failure))
+    else:
+        lost = record.lost_rows + record.lost_samples if record is not None else 0
+        items.append(recorder_item(bool(record and record.active), lost))
+    return tuple(items)
+
+
+def tracker_status(snapshot: Snapshot, pictures: Sequence[CameraPicture]) -> StatusItem:
+    """Health of the cameras."""
+    statistics, pose = snapshot.tracker, snapshot.pose
+    age = pose.depth_age if str(pose.depth_source) in SEEN else inf
+    if statistics is None:
+        return tracker_item(0.0, 0.0, inf, tr("no cameras"))
+    return tracker_item(
+        statistics.rate_hz, statistics.valid_share, age, problem(snapshot.fix_status, pictures)
+    )
+
+
+def tracker_figures(snapshot: Snapshot, pictures: Sequence[CameraPicture]) -> TrackerFigures:
+    """Figures below the camera pictures."""
+    statistics = snapshot.tracker
+    residual = float(getattr(statistics, "residual_px", None) or np.nan)
+    return TrackerFigures(
+        rate=statistics.rate_hz if statistics is not None else 0.0,
+        residual_px=residual if np.isfinite(residual) else None,
+        item=tracker_status(snapshot, pictures),
+    )
+
+
+def problem(fix_status: str, pictures: Sequence[CameraPicture]) -> str:
+    """Say what keeps the cameras from a fix, naming the cameras; empty if nothing does."""
+    blind = [picture.name for picture in pictures if picture.marker is None]
+    if fix_status in ("out_of_view", "one_camera"):
+        if not blind:
+            return tr("marker out of view")
+        return tr("marker out of view ({cameras})", cameras=", ".join(blind))
+    if fix_status == "inconsistent":
+        return tr("the cameras disagree")
+    return "" if fix_status in ("", "valid") else fix_status
+
+
+def fault_text(code: int) -> str:
+    """Say what holds the force at zero; empty for 0."""
+    if code == 0:
+        return ""
+    known = code in set(Fault)
+    return Fault(code).message if known else tr("fault {code}: no force", code=code)

@@ -1,0 +1,91 @@
+"""What an exercise hands to its views: the trainer and the numbers of its device and plan."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from app.core.events import EventQueue
+from app.mechanisms.profile import DeviceProfile
+from app.planning.placement import PlacedPlan
+from app.session.result import AttemptResult
+from app.session.snapshot import Snapshot
+from app.views.exercise.camera_view import CameraPicture
+from app.views.exercise.hand import HandLimits
+from app.views.exercise.pad_geometry import PadScale, path_frame
+from app.views.exercise.pad_view import PadScene, rings
+
+
+class TrainerPort(Protocol):
+    """What the views need of `session.Trainer`."""
+
+    events: EventQueue
+    result: AttemptResult | None
+
+    def begin(self, student: str = "") -> str:
+        """Begin an attempt."""
+        ...
+
+    def end(self) -> AttemptResult:
+        """End and score it."""
+        ...
+
+    def abort(self, reason: str = ...) -> AttemptResult | None:
+        """Break it off."""
+        ...
+
+    def scan(self) -> int:
+        """Take a control scan."""
+        ...
+
+    def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
+        """Move the simulated hand."""
+        ...
+
+    def assistance(self, value: float) -> None:
+        """Set the assistance, 0…1."""
+        ...
+
+    def heartbeat(self) -> None:
+        """Tell the loop that the window lives."""
+        ...
+
+    def snapshot(self) -> Snapshot:
+        """Return the newest state of everything."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExerciseRun:
+    """A running trainer with what its views must know.
+
+    Attributes:
+        trainer: does everything.
+        placed: the plan in world.
+        profile: of the device.
+        interactive: whether the mouse moves a simulated hand; False for a real robot or a scripted
+            trainee.
+        rings: tolerance rings of the pad [m], from the inside.
+        pictures: newest pictures of the cameras; None without cameras.
+    """
+
+    trainer: TrainerPort
+    placed: PlacedPlan
+    profile: DeviceProfile
+    interactive: bool = True
+    rings: tuple[float, ...] = field(default_factory=rings)
+    pictures: Callable[[], Sequence[CameraPicture]] | None = None
+
+    def scene(self) -> PadScene:
+        """Return the pad of this run."""
+        placed = self.placed
+        shallowest, deepest = self.profile.depth_range
+        return PadScene(
+            frame=path_frame(placed.axis, placed.T_world_patient.rotation),
+            scale=PadScale(placed.length, self.rings[0]),
+            rings=self.rings,
+            limits=HandLimits(self.profile.tilt_limit, shallowest, deepest),
+            p_entry=placed.p_entry,
+            target_depth=placed.length,
+            depth_tolerance=self.rings[0],
+            stop_depth=min(placed.length + self.rings[-1], deepest),
+        )
