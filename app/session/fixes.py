@@ -47,7 +47,7 @@ class Fixes:
 
     def _tell_loop(self, fix: FixPort, fulcrum: FloatArray) -> None:
         device = self._loop.latest()
-        if device is None or not np.isfinite(device.axis).all():
+        if device.tick == 0 or not np.isfinite(device.axis).all():
             return
         norm = float(np.linalg.norm(device.axis))
         if norm > 0.5:

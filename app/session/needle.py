@@ -10,6 +10,7 @@ from typing import Final
 
 import numpy as np
 
+from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
 from app.session.ports import DeviceStatePort, FixPort
 
@@ -96,7 +97,7 @@ def fuse(
     axis = np.asarray(device.axis, dtype=np.float64)
     fault = _device_fault(device, axis, now)
     if fault:
-        return _invalid(last, now, fault, _age(device.q_time, now))
+        return _invalid(last, now, fault, _age(encoder_time(device), now))
     axis = axis / np.linalg.norm(axis)
     fulcrum = np.asarray(device.tip) - device.depth * np.asarray(device.axis)
     depth, variance, age, source = _depth(device, fix, fulcrum, axis, now)
@@ -105,7 +106,7 @@ def fuse(
         axis=read_only(axis),
         depth=depth,
         time=now,
-        orientation_age=_age(device.q_time, now),
+        orientation_age=_age(encoder_time(device), now),
         depth_age=age,
         depth_source=source,
         valid=True,
@@ -124,12 +125,17 @@ def tip_covariance(axis: FloatArray, depth: float, depth_variance: float) -> Flo
     return result
 
 
+def encoder_time(device: DeviceStatePort) -> float:
+    """When the encoders were read [s]."""
+    return float(device.row[slots.Q_TIME])
+
+
 def _device_fault(device: DeviceStatePort, axis: FloatArray, now: float) -> str:
     if not (np.isfinite(axis).all() and 0.5 < float(np.linalg.norm(axis)) < 2.0):
         return "the robot gives no needle direction"
     if not (np.isfinite(device.tip).all() and np.isfinite(device.depth)):
         return "the robot gives no needle position"
-    age = now - device.q_time
+    age = now - encoder_time(device)
     if not np.isfinite(age) or age > ENCODER_LIMIT:
         return (
             f"the encoder values are {_text_ms(age)} old, the limit is {ENCODER_LIMIT * 1e3:.0f} ms"

@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
 from app.planning.placement import PlacedPlan
 from app.session.curves import Offset, offset
@@ -77,7 +78,7 @@ class Observation:
 
 
 def observe(
-    device: DeviceStatePort | None,
+    state: DeviceStatePort | None,
     fixes: Fixes,
     placed: PlacedPlan,
     now: float,
@@ -85,12 +86,14 @@ def observe(
 ) -> Observation:
     """Fuse the newest values into one observation at `now` [s]; `last` is the pose before."""
     p_target = placed.p_target
+    device = state if state is not None and state.tick > 0 else None
     if device is None:
         pose = _no_device(placed, now, last)
     else:
         pose = fuse(device, fixes.usable(), now, last)
-        if np.isfinite(device.target_shift).all():
-            p_target = read_only(placed.p_target + device.target_shift)
+        shift = device.row[slots.TARGET_SHIFT_X : slots.TARGET_SHIFT_X + 3]
+        if np.isfinite(shift).all():
+            p_target = read_only(placed.p_target + shift)
     status, residual = fixes.status()
     away = offset(pose, p_target, placed.axis)
     return Observation(now, pose, away, p_target, device, status, residual)

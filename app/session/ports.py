@@ -17,23 +17,23 @@ class DeviceStatePort(Protocol):
     """One row of the loop as a value (`device.control.DeviceState`); SI, world."""
 
     @property
+    def row(self) -> FloatArray:
+        """The whole state vector, shape (SLOTS,)."""
+        ...
+
+    @property
     def time(self) -> float:
         """Monotonic time of the tick [s]."""
         ...
 
     @property
     def tick(self) -> int:
-        """Number of the tick."""
+        """Number of the tick; 0 before the first."""
         ...
 
     @property
     def q(self) -> FloatArray:
         """Joint angles [rad], shape (2,)."""
-        ...
-
-    @property
-    def q_time(self) -> float:
-        """When the encoders were read [s]."""
         ...
 
     @property
@@ -96,11 +96,6 @@ class DeviceStatePort(Protocol):
         """Code of the fault that holds the force at zero; 0 none."""
         ...
 
-    @property
-    def target_shift(self) -> FloatArray:
-        """Displacement of the target now [m], shape (3,)."""
-        ...
-
 
 class InboxPort(Protocol):
     """Where other threads write the loop's inputs."""
@@ -126,8 +121,8 @@ class LoopPort(Protocol):
         """End at zero force."""
         ...
 
-    def latest(self) -> DeviceStatePort | None:
-        """Return the newest state, or None before the first tick."""
+    def latest(self) -> DeviceStatePort:
+        """Return the newest state; its tick is 0 before the first."""
         ...
 
     def rows(self, since_tick: int) -> FloatArray:

@@ -10,6 +10,7 @@ from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
 from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
+from app.session.errors import SessionError
 from app.session.needle import DepthSource
 from app.session.ports import ExercisePort
 from app.session.samples import Samples
@@ -25,9 +26,14 @@ def trajectory(samples: Samples, placed: PlacedPlan, aborted: str = "") -> Traje
         samples: the attempt over time.
         placed: its plan.
         aborted: why it was aborted; empty if it was not.
+
+    Raises:
+        SessionError: if no sample has a valid pose.
     """
     rising = np.diff(samples.time, prepend=-np.inf) > 0.0
     keep = samples.valid & rising & np.isfinite(samples.tip).all(axis=1)
+    if not keep.any():
+        raise SessionError("no sample of this attempt has a valid pose of the needle")
     hub, guide, target = samples.hub[keep], samples.guide[keep], samples.target[keep]
     return Trajectory(
         placed=placed,

@@ -2,7 +2,8 @@
 
 import threading
 from collections.abc import Callable
-from typing import Final
+from math import inf
+from typing import Any, Final
 
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
@@ -24,6 +25,9 @@ from app.session.ticker import Ticker
 
 TICK_PERIOD: Final = 0.02
 """The trainer looks at everything this often [s]."""
+
+STATISTICS_PERIOD: Final = 0.25
+"""Statistics of loop and tracker are taken this often [s]; they cost more than a tick."""
 
 Advance = Callable[[float], None]
 """Lets simulated parts other than the loop catch up with virtual time [s]."""
@@ -70,6 +74,9 @@ class Trainer:
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
         self._prepared = False
+        self._measured = -inf
+        self._timing: Any = None
+        self._statistics: Any = None
 
     # --- life -------------------------------------------------------------------------------------
     def open(self) -> None:
@@ -224,8 +231,11 @@ class Trainer:
         return observe(None, self._fixes, self._placed, now, None)
 
     def _snapshot(self, seen: Observation, now: float) -> Snapshot:
-        statistics = self._tracker.statistics() if self._tracker is not None else None
-        return take(now, seen, self._running, self._inputs, self._loop.timing(), statistics)
+        if abs(now - self._measured) >= STATISTICS_PERIOD:
+            self._measured = now
+            self._timing = self._loop.timing()
+            self._statistics = self._tracker.statistics() if self._tracker is not None else None
+        return take(now, seen, self._running, self._inputs, self._timing, self._statistics)
 
     def _prepare(self) -> None:
         """Write path, target and the exercise's assistance, once."""
@@ -236,8 +246,7 @@ class Trainer:
 
     def _new_log(self, student: str, now: float) -> AttemptLog:
         header = self._context.header(self._exercise, self._placed, student, now)
-        device = self._loop.latest()
-        since = int(device.tick) if device is not None else 0
+        since = int(self._loop.latest().tick)
         recorder = self._context.recorder(header, self._loop, since, self._placed, self._clock)
         return AttemptLog(recorder, self._placed, self._scorer)
 
