@@ -190,7 +190,7 @@ def _phases(values: Sequence[Any] | NDArray[Any], n: int) -> NDArray[np.int8]:
         names, index = np.unique(given.astype(str), return_inverse=True)
         unknown = [name for name in names if name not in _CODES]
         if unknown:
-            raise TrajectoryError(f"unknown phase {unknown[0]!r}; phases are {', '.join(_CODES)}")
+            raise TrajectoryError(f"unknown phase '{unknown[0]}'; phases are {', '.join(_CODES)}")
         codes = np.array([_CODES[name] for name in names], dtype=np.int8)[index]
     elif given.dtype.kind in "iu" and given.min() >= 0 and given.max() < len(_CODES):
         codes = given.astype(np.int8)

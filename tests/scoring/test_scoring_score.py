@@ -1,0 +1,195 @@
+import json
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scoring_attempts import Attempt
+
+from app.scoring.defaults import DEFAULT_TOLERANCES
+from app.scoring.errors import ScoreFormatError, ToleranceError, UnknownMetricError
+from app.scoring.metrics import available
+from app.scoring.result import Score
+from app.scoring.rows import Rules
+from app.scoring.score import score
+from app.scoring.tolerance import Band, Tolerance
+
+PERFECT = Attempt()
+
+
+def bands(expert: float, good: float, passing: float, **options: object) -> Tolerance:
+    return Tolerance.model_validate({"expert": expert, "good": good, "pass": passing} | options)
+
+
+def test_a_perfect_attempt_scores_100_and_passes() -> None:
+    result = score(PERFECT.trajectory())
+    assert result.total == pytest.approx(100.0)
+    assert result.passed
+    assert result.void_reason == ""
+    assert {row.band for row in result.rows if row.tolerance} == {Band.EXPERT}
+
+
+@pytest.mark.parametrize(
+    ("name", "amounts"),
+    [
+        ("lateral", [0.0025, 0.004, 0.006, 0.009]),
+        ("depth", [0.0025, 0.004, 0.006, 0.009]),
+        ("depth", [-0.0025, -0.004, -0.006, -0.009]),
+        ("tilt", [math.radians(a) for a in (1.5, 2.5, 3.5, 5.0)]),
+        ("aligning", [110.0, 170.0, 240.0, 320.0]),
+        ("detour", [0.03, 0.04, 0.05, 0.06]),
+    ],
+)
+def test_the_worse_an_attempt_the_lower_its_score(name: str, amounts: list[float]) -> None:
+    totals = [score(PERFECT.but(**{name: amount}).trajectory()).total for amount in amounts]
+    assert all(total is not None for total in totals)
+    numbers = [100.0, *[total for total in totals if total is not None]]
+    assert all(a > b for a, b in pairwise(numbers))
+
+
+def test_worse_in_everything_at_once_is_monotone_too() -> None:
+    totals = []
+    for step in np.linspace(0.0, 1.0, 8):
+        attempt = PERFECT.but(lateral=0.009 * step, depth=0.008 * step, tilt=0.08 * step)
+        totals.append(score(attempt.trajectory()).total)
+    assert totals == sorted(totals, key=lambda total: -(total or 0.0))
+    assert totals[0] == pytest.approx(100.0)
+    assert (totals[-1] or 0.0) < 60.0
+
+
+def test_the_total_is_the_weighted_mean_of_the_rows() -> None:
+    result = score(PERFECT.but(lateral=0.0045, tilt=0.03).trajectory())
+    counted = [row for row in result.rows if row.utility is not None]
+    weights = np.array([row.weight for row in counted])
+    utilities = np.array([row.utility for row in counted])
+    assert result.total == pytest.approx(100.0 * (weights @ utilities) / weights.sum())
+
+
+def test_a_missed_target_fails_whatever_the_total() -> None:
+    result = score(PERFECT.but(lateral=0.0055).trajectory())
+    assert result.total is not None
+    assert result.total > 60.0
+    assert not result.passed
+    assert [row.name for row in result.failures] == ["lateral_error"]
+
+
+def test_a_total_below_the_pass_mark_fails() -> None:
+    trajectory = PERFECT.but(tilt=0.03).trajectory()
+    assert score(trajectory).passed
+    assert not score(trajectory, rules=Rules(pass_mark=99.0)).passed
+
+
+def test_metrics_without_a_tolerance_are_shown_and_not_counted() -> None:
+    result = score(PERFECT.trajectory(), {"angle_error": bands(1, 2, 3)})
+    assert {row.name for row in result.rows} == set(available())
+    assert result.rows[0].name == "angle_error"
+    assert result.row("peak_force").utility is None
+    assert result.total == pytest.approx(100.0)
+
+
+def test_a_metric_that_cannot_be_computed_says_why_and_does_not_count() -> None:
+    tolerances = {"angle_error": bands(1, 2, 3), "guidance_work": bands(10, 20, 50)}
+    result = score(PERFECT.trajectory(), tolerances)
+    row = result.row("guidance_work")
+    assert row.value is None
+    assert "not recorded" in row.note
+    assert row.weight == 0.0
+    assert result.total == pytest.approx(100.0)
+
+
+def test_an_aborted_attempt_is_void() -> None:
+    result = score(PERFECT.trajectory(aborted="encoder fault"))
+    assert result.total is None
+    assert not result.passed
+    assert result.void_reason == "the attempt was aborted: encoder fault"
+
+
+def test_an_attempt_without_insertion_is_void() -> None:
+    result = score(PERFECT.trajectory(phase=np.full(2251, "aligning")))
+    assert result.void_reason == "the needle was never inserted"
+    assert score(PERFECT.trajectory(phase=np.full(2251, "ready"))).void_reason == (
+        "the attempt was never begun"
+    )
+
+
+def test_poor_tracking_makes_the_score_void_with_both_figures() -> None:
+    base = PERFECT.trajectory()
+    valid = (base.time < 32.0) | (base.time > 44.5)
+    result = score(PERFECT.trajectory(depth_valid=valid))
+    assert result.void_reason == "the tip was tracked for 50 % of the insertion; 70 % are needed"
+    assert score(PERFECT.trajectory(depth_valid=valid), rules=Rules(minimum_tracking=40.0)).passed
+
+
+def test_a_required_metric_that_cannot_be_computed_makes_the_score_void() -> None:
+    phase = np.array(PERFECT.trajectory().phase)
+    phase[-3:] = 1
+    result = score(PERFECT.trajectory(phase=phase))
+    assert result.void_reason == (
+        "lateral error is required and cannot be computed: "
+        "the needle was out of the body at the end"
+    )
+
+
+def test_an_unknown_metric_in_the_tolerances_is_refused_with_the_valid_names() -> None:
+    with pytest.raises(
+        UnknownMetricError, match=r"no metric 'entry_error'; there are .*lateral_error"
+    ):
+        score(PERFECT.trajectory(), {"entry_error": bands(1, 2, 3)})
+
+
+def test_bands_against_the_direction_of_their_metric_are_refused() -> None:
+    with pytest.raises(ToleranceError, match=r"lateral_error: .* lower is better"):
+        score(PERFECT.trajectory(), {"lateral_error": bands(5, 3, 2)})
+    with pytest.raises(ToleranceError, match=r"tracking_valid: .* higher is better"):
+        score(PERFECT.trajectory(), {"tracking_valid": bands(80, 90, 99)})
+
+
+def test_weights_of_zero_only_leave_nothing_to_score() -> None:
+    result = score(PERFECT.trajectory(), {"angle_error": bands(1, 2, 3, weight=0)})
+    assert result.void_reason == "no metric with a weight could be computed"
+
+
+@pytest.mark.parametrize("attempt", [PERFECT, PERFECT.but(lateral=0.02), PERFECT.but(noise=3e-4)])
+def test_a_stored_score_reads_back_and_recomputes_to_itself(attempt: Attempt) -> None:
+    result = score(attempt.trajectory())
+    again = Score.from_json(result.to_json())
+    assert again == result
+    assert again.recomputed() == result
+
+
+def test_a_void_score_is_stored_without_nan() -> None:
+    result = score(PERFECT.trajectory(aborted="stopped"))
+    text = result.to_json(indent=1)
+    assert "NaN" not in text
+    assert "Infinity" not in text
+    assert json.loads(text)["total"] is None
+    assert Score.from_json(text).recomputed() == result
+
+
+def test_a_stored_score_can_be_judged_by_other_tolerances() -> None:
+    result = score(PERFECT.but(lateral=0.004).trajectory())
+    harder = result.recomputed({"lateral_error": bands(1, 2, 3, required=True)})
+    assert not harder.passed
+    assert harder.row("lateral_error").value == result.row("lateral_error").value
+    assert result.recomputed(dict(DEFAULT_TOLERANCES)) == result
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[]",
+        "{}",
+        '{"format": "acus-score/9"}',
+        '{"format": "acus-score/1", "total": NaN}',
+        "null",
+    ],
+)
+def test_what_is_no_stored_score_is_refused(text: str) -> None:
+    with pytest.raises(ScoreFormatError):
+        Score.from_json(text)
+
+
+def test_an_unknown_row_is_refused_with_the_rows_there_are() -> None:
+    with pytest.raises(UnknownMetricError, match="no row 'nothing'; it has"):
+        score(PERFECT.trajectory()).row("nothing")
