@@ -135,6 +135,7 @@ class Trainer:
             self._running.begin(log, now, threaded=self._ticker is not None)
             self.heartbeat()
             self.arm()
+            self._publish(now)
             return log.recorder.header.id
 
     def end(self) -> AttemptResult:
@@ -208,17 +209,15 @@ class Trainer:
         """Pull the latest values, move the attempt, record, publish; `now` is the time [s]."""
         with self._lock:
             try:
-                self._seen = seen = self._observe(now)
-                reason = self._running.look(seen, self._inputs)
+                self._seen = self._observe(now)
+                reason = self._running.look(self._seen, self._inputs)
             except AcusError as error:
-                seen, reason = self._seen or self._blind(now), str(error)
+                reason = str(error)
             if reason:
                 self.abort(reason)
             elif self._ticker is None and self._running.log is not None:
                 self._running.log.recorder.drain()
-            snapshot = self._snapshot(seen, now)
-            self._latest.publish(snapshot, now)
-            return snapshot
+            return self._publish(now)
 
     def _observe(self, now: float) -> Observation:
         stamped = self._tracker.latest.read() if self._tracker is not None else None
@@ -227,15 +226,16 @@ class Trainer:
         last = self._seen.pose if self._seen is not None else None
         return observe(self._loop.latest(), self._fixes, self._placed, now, last)
 
-    def _blind(self, now: float) -> Observation:
-        return observe(None, self._fixes, self._placed, now, None)
-
-    def _snapshot(self, seen: Observation, now: float) -> Snapshot:
+    def _publish(self, now: float) -> Snapshot:
+        """Publish what the last look saw, with the attempt as it is now."""
+        seen = self._seen or observe(None, self._fixes, self._placed, now, None)
         if abs(now - self._measured) >= STATISTICS_PERIOD:
             self._measured = now
             self._timing = self._loop.timing()
             self._statistics = self._tracker.statistics() if self._tracker is not None else None
-        return take(now, seen, self._running, self._inputs, self._timing, self._statistics)
+        snapshot = take(now, seen, self._running, self._inputs, self._timing, self._statistics)
+        self._latest.publish(snapshot, now)
+        return snapshot
 
     def _prepare(self) -> None:
         """Write path, target and the exercise's assistance, once."""
@@ -253,8 +253,10 @@ class Trainer:
     def _finish(self, event: Event, reason: str = "") -> AttemptResult:
         self.disarm()
         now = self._clock.now()
-        self.result = self._running.finish(event, self._seen, self._inputs, now, reason)
-        return self.result
+        result = self._running.finish(event, self._seen, self._inputs, now, reason)
+        self.result = result
+        self._publish(now)
+        return result
 
     def _crashed(self, error: Exception) -> None:
         """Switch the forces off and keep the record after a fault of the program itself."""

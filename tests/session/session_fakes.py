@@ -35,7 +35,9 @@ EXERCISE = SimpleNamespace(
 
 def placed_plan(length_mm: float = 60.0) -> PlacedPlan:
     """A path straight down."""
-    plan = Plan(np.array([-12.5, -98.0, 310.2]), np.array([-12.5, -98.0 + length_mm, 310.2]), "Plan")
+    plan = Plan(
+        np.array([-12.5, -98.0, 310.2]), np.array([-12.5, -98.0 + length_mm, 310.2]), "Plan"
+    )
     return PlacedPlan.of(plan, Placement(), FULCRUM)
 
 
@@ -184,7 +186,9 @@ class Bench:
             advance=self.tracker.advance,
         )
 
-    def run(self, seconds: float, depth: float | None = None, x: float = 0.0, y: float = 0.0) -> Any:
+    def run(
+        self, seconds: float, depth: float | None = None, x: float = 0.0, y: float = 0.0
+    ) -> Any:
         """Let time pass; the hand moves to `depth` [m] at a steady speed meanwhile."""
         steps = max(1, round(seconds / 0.02))
         start = self.loop.inbox.values.get("hand_depth", -0.02)
