@@ -62,7 +62,8 @@ def isosurface(values: NDArray[Any], affine_mm: FloatArray, level: float, most: 
     smooth.SetNumberOfIterations(12)
     smooth.SetPassBand(0.08)
     smooth.Update()
-    return _to_mesh(_thin(smooth.GetOutput(), most), affine_mm)
+    # Flying edges winds its triangles so that they face the higher values.
+    return _to_mesh(_thin(smooth.GetOutput(), most), affine_mm, outwards=False)
 
 
 def coarser(mesh: Mesh, most: int) -> Mesh:
@@ -78,7 +79,7 @@ def coarser(mesh: Mesh, most: int) -> Mesh:
         if decimate.GetOutput().GetNumberOfPolys() <= most:
             break
         divisions = max(2, int(divisions * 0.8))
-    return _to_mesh(decimate.GetOutput(), np.eye(4))
+    return _to_mesh(decimate.GetOutput(), np.eye(4), outwards=True)
 
 
 def to_polydata(mesh: Mesh) -> vtkPolyData:
@@ -115,14 +116,14 @@ def _thin(surface: vtkPolyData, most: int) -> vtkPolyData:
     return decimate.GetOutput()
 
 
-def _to_mesh(surface: vtkPolyData, affine_mm: FloatArray) -> Mesh:
+def _to_mesh(surface: vtkPolyData, affine_mm: FloatArray, outwards: bool) -> Mesh:
     if surface.GetNumberOfPolys() == 0:
         empty = np.zeros((0, 3), np.float32)
         return Mesh(empty, np.zeros((0, 3), np.int32), empty)
     points = vtk_to_numpy(surface.GetPoints().GetData()).astype(np.float64)
     placed = (points @ affine_mm[:3, :3].T + affine_mm[:3, 3]).astype(np.float32)
     triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    if np.linalg.det(affine_mm[:3, :3]) < 0.0:  # a mirrored grid turns the triangles inside out
+    if outwards != (np.linalg.det(affine_mm[:3, :3]) > 0.0):  # a mirrored grid turns them over
         triangles = triangles[:, ::-1]
     plain = Mesh(placed, triangles.astype(np.int32), np.zeros_like(placed))
     normals = vtkPolyDataNormals()

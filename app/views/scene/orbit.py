@@ -58,8 +58,7 @@ class Orbit:
     def turned(self, right_px: float, down_px: float) -> Orbit:
         """Turn the patient with the mouse as on a ball."""
         turn = rotation_exp(
-            (-right_px * TURN_PER_PX) * np.asarray(self.up)
-            + (-down_px * TURN_PER_PX) * self.right
+            (-right_px * TURN_PER_PX) * np.asarray(self.up) + (-down_px * TURN_PER_PX) * self.right
         )
         backwards = unit(turn @ self.backwards)
         up = turn @ self.up
@@ -77,7 +76,9 @@ class Orbit:
         half = min(max(self.half_height_mm / factor, SMALLEST_MM), LARGEST_MM)
         return replace(self, half_height_mm=half)
 
-    def ray(self, x_px: float, y_px: float, size_px: tuple[int, int]) -> tuple[FloatArray, FloatArray]:
+    def ray(
+        self, x_px: float, y_px: float, size_px: tuple[int, int]
+    ) -> tuple[FloatArray, FloatArray]:
         """Line of sight through a pixel: a point on it at the focus' depth, and its direction."""
         width, height = size_px
         mm = 2.0 * self.half_height_mm / max(1, height)

@@ -1,0 +1,114 @@
+"""VTK actors of the stage: rods, balls and surfaces in two finenesses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+from PySide6.QtGui import QColor
+from vtkmodules.vtkFiltersSources import vtkCylinderSource, vtkSphereSource
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
+
+from app.core.transform import rotation_between
+from app.views.scene.mesh import Mesh, to_polydata
+from app.views.theme import Mark
+
+
+def colour(name: str) -> tuple[float, float, float]:
+    """Return `#rrggbb` as three floats in [0, 1]."""
+    value = QColor(name)
+    return value.redF(), value.greenF(), value.blueF()
+
+
+class Rod:
+    """A cylinder between two points."""
+
+    def __init__(self, renderer: vtkRenderer, mark: Mark, radius_mm: float) -> None:
+        source = vtkCylinderSource()
+        source.SetRadius(radius_mm)
+        source.SetResolution(16)
+        self._actor = _actor(renderer, source.GetOutputPort(), mark)
+
+    def place(self, start: ArrayLike | None, end: ArrayLike | None) -> None:
+        """Run from `start` to `end` [mm]; hidden without both or without length."""
+        known = start is not None and end is not None
+        path = np.subtract(end, start) if known else np.zeros(3)
+        length = float(np.linalg.norm(path))
+        self._actor.SetVisibility(length > 1e-6)
+        if length > 1e-6:
+            placed = np.eye(4)
+            placed[:3, :3] = rotation_between([0.0, 1.0, 0.0], path) @ np.diag([1.0, length, 1.0])
+            placed[:3, 3] = np.asarray(start) + path / 2
+            self._actor.SetUserMatrix(_matrix(placed))
+
+    def set_colour(self, mark: Mark) -> None:
+        """Take the colour of `mark`."""
+        self._actor.GetProperty().SetColor(*colour(mark.colour))
+
+
+class Ball:
+    """A sphere at a point."""
+
+    def __init__(self, renderer: vtkRenderer, mark: Mark, radius_mm: float) -> None:
+        source = vtkSphereSource()
+        source.SetRadius(radius_mm)
+        source.SetThetaResolution(20)
+        source.SetPhiResolution(14)
+        self._actor = _actor(renderer, source.GetOutputPort(), mark)
+
+    def place(self, at: ArrayLike | None) -> None:
+        """Stand at a point [mm]; hidden without one."""
+        self._actor.SetVisibility(at is not None)
+        if at is not None:
+            self._actor.SetPosition(*np.asarray(at, dtype=np.float64))
+
+
+class SurfaceActor:
+    """A mesh, and its coarse version for while the picture moves."""
+
+    def __init__(self, renderer: vtkRenderer, mark: Mark, opacity: float) -> None:
+        self._mapper = vtkPolyDataMapper()
+        self._meshes = None
+        actor = vtkActor()
+        actor.SetMapper(self._mapper)
+        look = actor.GetProperty()
+        look.SetColor(*colour(mark.colour))
+        look.SetOpacity(opacity)
+        look.SetAmbient(0.15)
+        look.SetSpecular(0.15)
+        if opacity < 1.0:  # far sides of a translucent skin would only veil what is inside
+            look.BackfaceCullingOn()
+        actor.VisibilityOff()
+        self._actor = actor
+        renderer.AddActor(actor)
+
+    def set_meshes(self, meshes: Sequence[Mesh] | None) -> None:
+        """Take the fine and the coarse mesh, or show none."""
+        shown = meshes is not None and meshes[0].count > 0
+        self._meshes = tuple(to_polydata(mesh) for mesh in meshes) if shown else None
+        self._actor.SetVisibility(shown)
+
+    def choose(self, moving: bool) -> None:
+        """Show the coarse version while `moving`."""
+        if self._meshes is not None:
+            self._mapper.SetInputData(self._meshes[moving])
+
+
+def _actor(renderer: vtkRenderer, port: object, mark: Mark) -> vtkActor:
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(port)
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(*colour(mark.colour))
+    actor.GetProperty().SetAmbient(0.35)
+    actor.VisibilityOff()
+    renderer.AddActor(actor)
+    return actor
+
+
+def _matrix(values: np.ndarray) -> vtkMatrix4x4:
+    matrix = vtkMatrix4x4()
+    matrix.DeepCopy(values.ravel())
+    return matrix

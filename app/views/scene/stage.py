@@ -1,0 +1,130 @@
+"""What stands in the 3D picture. Built, changed and rendered on one thread only."""
+
+from __future__ import annotations
+
+import numpy as np
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the OpenGL factory
+from numpy.typing import NDArray
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
+
+from app.core.errors import AcusError
+from app.core.transform import RigidTransform
+from app.core.units import MILLIMETRE
+from app.planning.draft import DraftPlan
+from app.views import theme
+from app.views.needle_overlay import NeedleOverlay
+from app.views.scene.actors import Ball, Rod, SurfaceActor, colour
+from app.views.scene.orbit import Orbit
+from app.views.scene.robot import RobotShape
+from app.views.scene.surfaces import Surfaces
+
+EYE_DISTANCE_MM = 2000.0
+LINK_RADIUS_MM, FULCRUM_RADIUS_MM = 4.0, 7.0
+NEEDLE_RADIUS_MM, PATH_RADIUS_MM, POINT_RADIUS_MM = 1.2, 0.7, 3.0
+
+
+class SceneError(AcusError):
+    """The 3D view cannot be drawn."""
+
+
+class Stage:
+    """Surfaces, robot, needle and plan in patient LPS millimetres, and the off-screen window."""
+
+    def __init__(self) -> None:
+        self._renderer = vtkRenderer()
+        self._renderer.SetBackground(*colour(theme.IMAGE_BACKGROUND))
+        self._renderer.GetActiveCamera().ParallelProjectionOn()
+        self._window: vtkRenderWindow | None = None
+        self._skin = SurfaceActor(self._renderer, theme.SKIN, opacity=0.32)
+        self._bone = SurfaceActor(self._renderer, theme.BONE, opacity=1.0)
+        self._links = [Rod(self._renderer, theme.ROBOT, LINK_RADIUS_MM) for _ in range(5)]
+        self._fulcrum = Ball(self._renderer, theme.ROBOT, FULCRUM_RADIUS_MM)
+        self._needle = Rod(self._renderer, theme.NEEDLE, NEEDLE_RADIUS_MM)
+        self._tip = Ball(self._renderer, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM)
+        self._path = Rod(self._renderer, theme.PATH, PATH_RADIUS_MM)
+        self._entry = Ball(self._renderer, theme.ENTRY, POINT_RADIUS_MM)
+        self._target = Ball(self._renderer, theme.TARGET, POINT_RADIUS_MM)
+
+    def open(self) -> None:
+        """Make the OpenGL context on the calling thread."""
+        self._window = _off_screen_window()
+        self._window.AddRenderer(self._renderer)
+
+    def close(self) -> None:
+        """Free the OpenGL context; idempotent."""
+        if self._window is not None:
+            self._window.RemoveRenderer(self._renderer)
+            self._window.Finalize()
+            self._window = None
+
+    def set_surfaces(self, surfaces: Surfaces | None) -> None:
+        """Show skin and bone, or none."""
+        self._skin.set_meshes(surfaces and (surfaces.skin, surfaces.skin_moving))
+        self._bone.set_meshes(surfaces and (surfaces.bone, surfaces.bone_moving))
+
+    def set_plan(self, draft: DraftPlan) -> None:
+        """Show entry, target and the path between them."""
+        self._entry.place(draft.entry_mm)
+        self._target.place(draft.target_mm)
+        self._path.place(draft.entry_mm, draft.target_mm)
+
+    def set_needle(self, needle: NeedleOverlay | None) -> None:
+        """Show the needle, grey where its pose is not valid."""
+        self._needle.place(needle and needle.start_mm, needle and needle.tip_mm)
+        self._tip.place(needle and needle.tip_mm)
+        mark = theme.ROBOT if needle is not None and not needle.valid else theme.NEEDLE
+        self._needle.set_colour(mark)
+
+    def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
+        """Show the links and the ball; world metres are brought into the patient."""
+        rods = [] if robot is None else robot.links()
+        for number, rod in enumerate(self._links):
+            if number < len(rods):
+                start, end = (T_patient_world @ np.array(rods[number])) / MILLIMETRE
+                rod.place(start, end)
+            else:
+                rod.place(None, None)
+        self._fulcrum.place(robot and (T_patient_world @ robot.fulcrum) / MILLIMETRE)
+
+    def render(self, orbit: Orbit, size_px: tuple[int, int], moving: bool) -> NDArray[np.uint8]:
+        """Return the picture, RGBA, shape (height, width, 4), top row first.
+
+        Raises:
+            SceneError: if the stage is closed.
+        """
+        window = self._window
+        if window is None:
+            raise SceneError("the 3D view is closed: open it before rendering")
+        self._skin.choose(moving)
+        self._bone.choose(moving)
+        self._aim(orbit)
+        width, height = size_px
+        window.SetSize(width, height)
+        window.Render()
+        pixels = vtkUnsignedCharArray()
+        window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels)
+        picture = vtk_to_numpy(pixels).reshape(height, width, 4)[::-1].copy()
+        picture[:, :, 3] = 255
+        return picture
+
+    def _aim(self, orbit: Orbit) -> None:
+        camera = self._renderer.GetActiveCamera()
+        camera.SetFocalPoint(*orbit.focus_mm)
+        camera.SetPosition(*(orbit.focus_mm + EYE_DISTANCE_MM * orbit.backwards))
+        camera.SetViewUp(*orbit.up)
+        camera.SetParallelScale(orbit.half_height_mm)
+        camera.SetClippingRange(1.0, 2.0 * EYE_DISTANCE_MM)
+
+
+def _off_screen_window() -> vtkRenderWindow:
+    """EGL needs no display and works the same with and without one; else what VTK offers."""
+    try:
+        from vtkmodules.vtkRenderingOpenGL2 import vtkEGLRenderWindow as Window
+    except ImportError:  # not on this platform
+        Window = vtkRenderWindow
+    window = Window()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    return window

@@ -1,0 +1,209 @@
+"""The 3D pane: shows the newest picture of the render thread, and turns it with the mouse."""
+
+from __future__ import annotations
+
+from time import monotonic
+
+import numpy as np
+from PySide6.QtCore import QPointF, Qt, QTimer, Signal
+from PySide6.QtGui import (
+    QCloseEvent,
+    QColor,
+    QImage,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QResizeEvent,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QWidget
+
+from app.core.transform import RigidTransform
+from app.imaging.volume import Volume
+from app.planning.draft import DraftPlan
+from app.views import theme
+from app.views.needle_overlay import NeedleOverlay
+from app.views.scene.compass import draw_compass
+from app.views.scene.orbit import Orbit
+from app.views.scene.renderer import SceneRenderer, Shot
+from app.views.scene.robot import RobotShape
+from app.views.scene.surfaces import Surfaces
+from app.views.text import tr
+
+POLL_MS = 25
+SETTLE_S = 0.3
+"""How long the picture must rest before it is drawn fine."""
+
+ZOOM_PER_PX, ZOOM_PER_NOTCH, NOTCH = 1.01, 1.15, 120
+
+
+class SceneView(QWidget):
+    """Surfaces, robot, needle and plan in 3D.
+
+    Signals:
+        maximise_wanted(): double click.
+        clicked(object, object): a click that did not turn: point and direction [mm, LPS] of the
+            line of sight.
+    """
+
+    maximise_wanted = Signal()
+    clicked = Signal(object, object)
+
+    def __init__(self, renderer: SceneRenderer, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMinimumSize(120, 90)
+        self._renderer = renderer
+        self._image = QImage()
+        self._home = Orbit.look_from("A", np.zeros(3), 250.0)
+        self.orbit = self._home
+        self.note = ""
+        self._changed_at = monotonic()
+        self._fine = False
+        self._pending = False
+        self._pressed, self._last = QPointF(), QPointF()
+        self._timer = QTimer(self, interval=POLL_MS)
+        self._timer.timeout.connect(self._look)
+        self._timer.start()
+        renderer.open()
+
+    # --- what is shown ------------------------------------------------------------------------
+    def set_volume(self, volume: Volume) -> None:
+        """Look at another patient from the front; the old surfaces go."""
+        corners = volume.lps_mm([(0, 0, 0), np.asarray(volume.size) - 1.0])
+        extent = float(np.abs(corners[1] - corners[0]).max())
+        self._home = Orbit.look_from("A", corners.mean(axis=0), 0.55 * extent)
+        self.set_surfaces(None)
+        self.set_orbit(self._home)
+
+    def set_surfaces(self, surfaces: Surfaces | None) -> None:
+        """Show skin and bone."""
+        self._change("surfaces", lambda stage: stage.set_surfaces(surfaces))
+
+    def set_plan(self, draft: DraftPlan) -> None:
+        """Show entry, target and path."""
+        self._change("plan", lambda stage: stage.set_plan(draft))
+
+    def set_needle(self, needle: NeedleOverlay | None) -> None:
+        """Show the needle."""
+        self._change("needle", lambda stage: stage.set_needle(needle))
+
+    def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
+        """Show the robot, placed under the patient."""
+        self._change("robot", lambda stage: stage.set_robot(robot, T_patient_world))
+
+    def set_orbit(self, orbit: Orbit) -> None:
+        """Look from somewhere else."""
+        self.orbit = orbit
+        self._touch()
+
+    def set_note(self, note: str) -> None:
+        """Write a line at the bottom, such as the progress of the surfaces."""
+        self.note = note
+        self.update()
+
+    def picture(self) -> QImage:
+        """Return the newest picture."""
+        return self._image
+
+    def close_renderer(self) -> None:
+        """Stop looking and stop the thread; idempotent."""
+        self._timer.stop()
+        self._renderer.close()
+
+    # --- rendering ----------------------------------------------------------------------------
+    def _change(self, kind: str, change: object) -> None:
+        self._renderer.change(kind, change)
+        self._touch()
+
+    def _touch(self) -> None:
+        self._changed_at = monotonic()
+        self._pending, self._fine = True, False
+
+    def _look(self) -> None:
+        picture = self._renderer.take()
+        if picture is not None:
+            height, width, _ = picture.shape
+            borrowed = QImage(picture.data, width, height, QImage.Format.Format_RGBX8888)
+            self._image = borrowed.convertToFormat(QImage.Format.Format_RGB32)
+            self.update()
+        if not self.isVisible() or not self._renderer.idle:
+            return
+        if self._pending:
+            self._pending = False
+            self._request(moving=True)
+        elif not self._fine and monotonic() - self._changed_at > SETTLE_S:
+            self._fine = True
+            self._request(moving=False)
+
+    def _request(self, moving: bool) -> None:
+        ratio = self.devicePixelRatioF()
+        size = (max(1, int(self.width() * ratio)), max(1, int(self.height() * ratio)))
+        self._renderer.request(Shot(self.orbit, size, moving))
+
+    # --- events -------------------------------------------------------------------------------
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the newest picture, stretched while a better one is on its way."""
+        painter = QPainter(self)
+        painter.fillRect(self.rect(), QColor(theme.IMAGE_BACKGROUND))
+        if not self._image.isNull():
+            painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
+            painter.drawImage(self.rect(), self._image)
+        draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0))
+        painter.setPen(QColor(theme.TEXT))
+        painter.drawText(8, 20, tr("3D"))
+        note = self._renderer.error and tr("3D view off: {why}", why=self._renderer.error)
+        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignBottom
+        painter.drawText(self.rect().adjusted(110, 0, -8, -6), flags, note or self.note)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Ask for a picture of the new size."""
+        self._touch()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Begin to turn, pan or zoom."""
+        self._pressed = self._last = event.position()
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Left turns, middle pans, right zooms."""
+        step = event.position() - self._last
+        self._last = event.position()
+        buttons = event.buttons()
+        if buttons & Qt.MouseButton.LeftButton:
+            self.set_orbit(self.orbit.turned(step.x(), step.y()))
+        elif buttons & Qt.MouseButton.MiddleButton:
+            self.set_orbit(self.orbit.panned(step.x(), step.y(), self.height()))
+        elif buttons & Qt.MouseButton.RightButton:
+            self.set_orbit(self.orbit.zoomed(ZOOM_PER_PX ** -step.y()))
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Tell of a click that stayed in place."""
+        moved = (event.position() - self._pressed).manhattanLength()
+        if event.button() is Qt.MouseButton.LeftButton and moved < 4:
+            at = event.position()
+            self.clicked.emit(*self.orbit.ray(at.x(), at.y(), (self.width(), self.height())))
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Ask to be maximised, or restored."""
+        self.maximise_wanted.emit()
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Zoom."""
+        notches = event.angleDelta().y() / NOTCH
+        self.set_orbit(self.orbit.zoomed(ZOOM_PER_NOTCH**notches))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """A, P, L, R, S, I look from that side (Shift+R or 0 for R); r and Space reset."""
+        letter = event.text().upper()
+        if event.text() == "r" or event.key() == Qt.Key.Key_Space:
+            self.set_orbit(self._home)
+        elif letter and letter in "APLRSI":
+            self.set_orbit(self.orbit.seen_from(letter))
+        else:
+            super().keyPressEvent(event)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Stop the thread with the pane."""
+        self.close_renderer()
+        super().closeEvent(event)
