@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 from app.core.arrays import FloatArray
 from app.views import theme
 from app.views.debrief.review import Review, Span
+from app.views.exercise.state_words import state_word
 from app.views.text import tr
 
 PHASE_SHADES: Final = {
@@ -70,20 +71,6 @@ def curves_of(review: Review) -> tuple[Curve, ...]:
             tr("limit {n:g} N", n=review.force_limit), "N", tr("force"),
         ),
     )  # fmt: skip
-
-
-def state_word(state: str) -> str:
-    """Name of a recorded state for people; unknown ones as they stand."""
-    return {
-        "ready": tr("Ready"),
-        "aligning": tr("Aligning"),
-        "inserting": tr("Inserting"),
-        "holding": tr("Holding"),
-        "ended": tr("Ended"),
-        "aborted": tr("Aborted"),
-        "unfinished": tr("Unfinished"),
-        "broken": tr("Broken"),
-    }.get(state, state)
 
 
 class CurvesView(QWidget):
@@ -188,7 +175,7 @@ def value_range(curve: Curve) -> tuple[float, float]:
     values = curve.values[np.isfinite(curve.values)]
     low = min(0.0, float(values.min(initial=0.0)))
     high = max(float(values.max(initial=0.0)), curve.line or 0.0, low + 1e-3)
-    return low - 0.12 * (high - low), high + 0.28 * (high - low)
+    return low - 0.2 * (high - low), high + 0.28 * (high - low)
 
 
 def _shade(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None:

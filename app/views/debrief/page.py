@@ -7,12 +7,13 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBox
 
 from app.core.disclaimer import DISCLAIMER
 from app.views import theme
-from app.views.debrief.curves import CurvesView, state_word
+from app.views.debrief.curves import CurvesView
 from app.views.debrief.path_view import PathView
 from app.views.debrief.review import Review
 from app.views.debrief.score_table import ScoreTable
 from app.views.debrief.score_words import total_text, verdict
 from app.views.exercise.readouts import clock_text
+from app.views.exercise.state_words import state_word
 from app.views.text import tr
 
 

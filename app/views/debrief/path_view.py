@@ -1,7 +1,7 @@
 """The tip's track in the bull's-eye plane, from the entry to where it ended."""
 
 import numpy as np
-from PySide6.QtCore import QPointF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
@@ -55,9 +55,25 @@ def pad_scene(review: Review) -> PadScene:
 
 
 def paint_track(
-    painter: QPainter, area: PadArea, places: FloatArray, colour: str, width: float
+    painter: QPainter,
+    area: PadArea,
+    places: FloatArray,
+    colour: str,
+    width: float,
+    mark: float = 8.0,
+    ground: str = theme.BACKGROUND,
 ) -> None:
-    """Draw a track of pad places, shape (n, 2); gaps where there is no number."""
+    """Draw a track of pad places, shape (n, 2); gaps where there is no number.
+
+    Args:
+        painter: draws.
+        area: where the pad lies.
+        places: on the pad.
+        colour: of the track.
+        width: of the line.
+        mark: half the diagonal of the end's diamond.
+        ground: colour inside the square at the beginning.
+    """
     known = np.asarray(np.isfinite(places).all(axis=1))
     if not known.any():
         return
@@ -68,8 +84,8 @@ def paint_track(
         if known[part[0]]:
             painter.drawPolyline(QPolygonF([area.point(places[i]) for i in part]))
     first, last = area.point(places[known][0]), area.point(places[known][-1])
-    painter.setBrush(QColor(theme.BACKGROUND))
-    painter.drawRect(int(first.x()) - 4, int(first.y()) - 4, 8, 8)
+    painter.setBrush(QColor(ground))
+    painter.drawRect(QRectF(first.x() - mark / 2, first.y() - mark / 2, mark, mark))
     painter.setBrush(QColor(colour))
-    corners = ((0, -8), (8, 0), (0, 8), (-8, 0))
-    painter.drawPolygon(QPolygonF([last + QPointF(x, y) for x, y in corners]))
+    corners = ((0, -1), (1, 0), (0, 1), (-1, 0))
+    painter.drawPolygon(QPolygonF([last + QPointF(mark * x, mark * y) for x, y in corners]))

@@ -8,21 +8,10 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.session.machine import State
 from app.views import theme
+from app.views.exercise.state_words import state_word
 from app.views.text import tr
 
 ORDER: Final = (State.READY, State.ALIGNING, State.INSERTING, State.HOLDING, State.ENDED)
-
-
-def state_text(state: State) -> str:
-    """Name of a state for people."""
-    return {
-        State.READY: tr("Ready"),
-        State.ALIGNING: tr("Aligning"),
-        State.INSERTING: tr("Inserting"),
-        State.HOLDING: tr("Holding"),
-        State.ENDED: tr("Ended"),
-        State.ABORTED: tr("Aborted"),
-    }[state]
 
 
 class Steps(QWidget):
@@ -48,7 +37,7 @@ class Steps(QWidget):
         elif state is None:
             self._reached = 0
         self._state = state
-        self.setAccessibleName(state_text(state) if state else tr("No attempt"))
+        self.setAccessibleName(state_word(state) if state else tr("No attempt"))
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
@@ -77,7 +66,7 @@ class Steps(QWidget):
         painter.drawText(disc, Qt.AlignmentFlag.AlignCenter, sign)
         painter.setFont(_font(painter, theme.SMALL_PX, here))
         painter.setPen(QColor(theme.TEXT if here else theme.TEXT_DIM))
-        name = state_text(State.ABORTED) if here and aborted else state_text(state)
+        name = state_word(State.ABORTED) if here and aborted else state_word(state)
         top = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
         painter.drawText(box.adjusted(0, 26, 0, 0), top, name)
 

@@ -1,0 +1,197 @@
+"""The report of an attempt: A4, vector text and curves, a pseudonym and nothing about a patient."""
+
+from pathlib import Path
+from typing import Final
+
+from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
+
+from app import __version__
+from app.core.disclaimer import DISCLAIMER
+from app.core.files import write_atomically
+from app.scoring.result import Score
+from app.scoring.rows import Row
+from app.views.debrief.curves import curves_of
+from app.views.debrief.page import date_text
+from app.views.debrief.print_path import paint_path
+from app.views.debrief.print_plot import paint_plot
+from app.views.debrief.print_style import BAND_INKS, DIM, INK, RULE, font
+from app.views.debrief.review import Review
+from app.views.debrief.score_words import counting, row_texts, shown_only, total_text, verdict
+from app.views.exercise.readouts import clock_text
+from app.views.exercise.state_words import state_word
+from app.views.text import tr
+
+WIDTH: Final = 595.0
+HEIGHT: Final = 842.0
+MARGIN: Final = 48.0
+_RESOLUTION: Final = 72
+"""One unit of the painter is one point; a PDF has no pixels that this could coarsen."""
+_COLUMNS: Final = (0.0, 205.0, 295.0, 375.0, 455.0)
+"""Left edges of the table's columns [pt]."""
+_ROW: Final = 17.0
+
+
+def write_report(review: Review, path: Path) -> None:
+    """Write the report as a PDF, whole or not at all.
+
+    Raises:
+        OSError: if the file cannot be written.
+    """
+    write_atomically(path, report_bytes(review))
+
+
+def report_bytes(review: Review) -> bytes:
+    """Render the report as the bytes of a PDF."""
+    data = QByteArray()
+    buffer = QBuffer(data)
+    buffer.open(QIODevice.OpenModeFlag.WriteOnly)
+    writer = _writer(buffer, review)
+    painter = QPainter(writer)
+    _first_page(painter, review)
+    _footer(painter, review, 1)
+    writer.newPage()
+    _second_page(painter, review)
+    _footer(painter, review, 2)
+    painter.end()
+    buffer.close()
+    return bytes(data.data())
+
+
+def _writer(buffer: QBuffer, review: Review) -> QPdfWriter:
+    writer = QPdfWriter(buffer)
+    writer.setResolution(_RESOLUTION)
+    writer.setPageLayout(
+        QPageLayout(
+            QPageSize(QPageSize.PageSizeId.A4),
+            QPageLayout.Orientation.Portrait,
+            QMarginsF(0, 0, 0, 0),
+        )
+    )
+    writer.setTitle(tr("Acus attempt {id}", id=review.id))
+    writer.setCreator(f"Acus {__version__}")
+    return writer
+
+
+def _first_page(painter: QPainter, review: Review) -> None:
+    y = _heading(painter, review)
+    y = _facts(painter, review, y)
+    y = _verdict(painter, review, y)
+    if review.score is not None:
+        y = _table(painter, review.score, y)
+    painter.setFont(font(8.5))
+    painter.setPen(QColor(DIM))
+    for problem in review.problems:
+        _paragraph(painter, f"▲ {problem}", y, 24.0)
+        y += 24.0
+
+
+def _heading(painter: QPainter, review: Review) -> float:
+    _text(painter, MARGIN, MARGIN + 14.0, review.exercise, font(17.0, bold=True))
+    _text(painter, MARGIN, MARGIN + 31.0, tr("Report of an attempt"), font(10.0), DIM)
+    painter.setPen(QPen(QColor(RULE), 0.8))
+    painter.drawLine(QPointF(MARGIN, MARGIN + 40.0), QPointF(WIDTH - MARGIN, MARGIN + 40.0))
+    return MARGIN + 60.0
+
+
+def _facts(painter: QPainter, review: Review, y: float) -> float:
+    facts = (
+        (tr("Student (pseudonym)"), review.student),
+        (tr("Date"), date_text(review.started)),
+        (tr("Session"), review.id),
+        (tr("State"), state_word(review.state) + (f": {review.reason}" if review.reason else "")),
+        (tr("Duration"), clock_text(review.duration)),
+        (tr("Control scans"), str(review.scans)),
+        (tr("Path"), tr("{mm:.1f} mm from entry to target", mm=1e3 * review.placed.length)),
+        (tr("Recorded with"), f"Acus {review.software}"),
+    )
+    for name, value in facts:
+        _text(painter, MARGIN, y, name, font(9.5), DIM)
+        _text(painter, MARGIN + 130.0, y, value, font(9.5))
+        y += 15.0
+    return y + 16.0
+
+
+def _verdict(painter: QPainter, review: Review, y: float) -> float:
+    _, word, reason = verdict(review)
+    _text(painter, MARGIN, y, word, font(17.0, bold=True))
+    total = QRectF(MARGIN, y - 15.0, WIDTH - 2 * MARGIN, 20.0)
+    painter.setFont(font(14.0, bold=True))
+    painter.drawText(total, Qt.AlignmentFlag.AlignRight, total_text(review.score))
+    if reason:
+        painter.setFont(font(9.5))
+        _paragraph(painter, reason, y + 8.0, 26.0)
+        y += 26.0
+    return y + 28.0
+
+
+def _table(painter: QPainter, score: Score, y: float) -> float:
+    titles = (tr("Metric"), tr("Value"), tr("Band"), tr("Points"), tr("Weight"))
+    for left, title in zip(_COLUMNS, titles, strict=True):
+        _text(painter, MARGIN + left, y, title, font(9.0, bold=True), DIM)
+    painter.setPen(QPen(QColor(RULE), 0.6))
+    painter.drawLine(QPointF(MARGIN, y + 5.0), QPointF(WIDTH - MARGIN, y + 5.0))
+    y += 7.0
+    for row in counting(score):
+        y += _ROW
+        _table_row(painter, row, score, y)
+    if any(row.tolerance and row.tolerance.required for row in score.rows):
+        y += _ROW
+        _text(painter, MARGIN, y, tr("* required to pass"), font(8.0), DIM)
+    for row in shown_only(score):
+        y += _ROW
+        _table_row(painter, row, score, y)
+    return y + 2 * _ROW
+
+
+def _table_row(painter: QPainter, row: Row, score: Score, y: float) -> None:
+    texts = row_texts(row, score)
+    ink = DIM if row.tolerance is None else INK
+    for i, text in enumerate((texts.label, texts.value, texts.band, texts.points, texts.weight)):
+        colour = BAND_INKS[row.band] if i == 2 and row.band else ink
+        _text(painter, MARGIN + _COLUMNS[i], y, text, font(9.5), colour)
+
+
+def _second_page(painter: QPainter, review: Review) -> None:
+    _text(painter, MARGIN, MARGIN + 8.0, tr("Course of the attempt"), font(13.0, bold=True))
+    curves, top, width = curves_of(review), MARGIN + 22.0, WIDTH - 2 * MARGIN
+    for i, curve in enumerate(curves):
+        last = i == len(curves) - 1
+        height = 118.0 if last else 100.0
+        box = QRectF(MARGIN, top, width, height)
+        paint_plot(painter, box, curve, review.curves.time, review.spans, review.marks, last)
+        top += height + 6.0
+    caption = tr("Track of the tip, seen along the planned path")
+    _text(painter, MARGIN, top + 16.0, caption, font(9.5, bold=True))
+    painter.setFont(font(8.5))
+    painter.setPen(QColor(DIM))
+    legend = QRectF(MARGIN, top + 24.0, 190.0, 120.0)
+    note = tr(
+        "□ where it began   ◆ where it ended\nRings: {expert:g} mm expert, {passing:g} mm pass\n"
+        "Letters: directions of the patient\n▼ control scan",
+        expert=1e3 * review.rings[0], passing=1e3 * review.rings[1],
+    )  # fmt: skip
+    painter.drawText(legend, Qt.TextFlag.TextWordWrap, note)
+    paint_path(painter, QRectF(WIDTH - MARGIN - 265.0, top + 4.0, 265.0, 265.0), review)
+
+
+def _footer(painter: QPainter, review: Review, page: int) -> None:
+    y = HEIGHT - MARGIN + 8.0
+    painter.setPen(QPen(QColor(RULE), 0.6))
+    painter.drawLine(QPointF(MARGIN, y - 12.0), QPointF(WIDTH - MARGIN, y - 12.0))
+    _text(painter, MARGIN, y, tr(DISCLAIMER), font(8.5, bold=True))
+    right = QRectF(MARGIN, y - 9.0, WIDTH - 2 * MARGIN, 12.0)
+    painter.setFont(font(8.0))
+    painter.setPen(QColor(DIM))
+    painter.drawText(right, Qt.AlignmentFlag.AlignRight, tr("page {page} of 2", page=page))
+
+
+def _text(painter: QPainter, x: float, y: float, text: str, used: QFont, colour: str = INK) -> None:
+    painter.setFont(used)
+    painter.setPen(QColor(colour))
+    painter.drawText(QPointF(x, y), text)
+
+
+def _paragraph(painter: QPainter, text: str, y: float, height: float) -> None:
+    box = QRectF(MARGIN, y, WIDTH - 2 * MARGIN, height)
+    painter.drawText(box, Qt.TextFlag.TextWordWrap, text)

@@ -1,0 +1,192 @@
+"""The sessions page: what was recorded, to be opened, exported, deleted and brought back."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from PySide6.QtCore import QModelIndex, QSortFilterProxyModel, Qt, Signal
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QTableView,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.errors import AcusError
+from app.session.store import delete, list_sessions, restore
+from app.session.summary import BROKEN, Summary
+from app.views import theme
+from app.views.background import run_in_background
+from app.views.debrief.sessions_model import DATE, NOTE, SORT_ROLE, SUMMARY_ROLE, SessionsModel
+from app.views.text import tr
+
+
+class SessionsPage(QWidget):
+    """A sortable, filterable list of the records in one folder.
+
+    Signals:
+        open_requested(Summary): show the debrief of a session.
+        export_requested(list[Summary]): write these as CSV.
+        failed(str): something did not work, in one line.
+        closed(): back to where the user came from.
+    """
+
+    open_requested = Signal(object)
+    export_requested = Signal(object)
+    failed = Signal(str)
+    closed = Signal()
+
+    def __init__(self, folder: Path, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._folder = folder
+        self._deleted: list[str] = []
+        self.model = SessionsModel()
+        self.proxy = QSortFilterProxyModel(self)
+        self.proxy.setSourceModel(self.model)
+        self.proxy.setSortRole(SORT_ROLE)
+        self.proxy.setFilterKeyColumn(-1)
+        self.proxy.setFilterCaseSensitivity(Qt.CaseSensitivity.CaseInsensitive)
+        self.table = QTableView(self)
+        self.search = QLineEdit(self)
+        self._count = QLabel(self)
+        self.back = QPushButton(tr("Back"), self)
+        self.open_button = QPushButton(tr("Open"), self)
+        self.export = QPushButton(tr("Export CSV"), self)
+        self.delete_button = QPushButton(tr("Delete"), self)
+        self.undo = QPushButton(tr("Undo delete"), self)
+        self._prepare_table()
+        self._lay_out()
+        self._connect()
+        self._enable()
+
+    def refresh(self) -> None:
+        """Read the folder again, beside the window."""
+        run_in_background(
+            self, lambda _: list_sessions(self._folder), self.show_summaries, self._fail
+        )
+
+    def show_summaries(self, summaries: Sequence[Summary]) -> None:
+        """Show these sessions."""
+        self.model.set_summaries(summaries)
+        self._enable()
+
+    def selected(self) -> list[Summary]:
+        """Return the selected sessions, from the top."""
+        rows = sorted(self.table.selectionModel().selectedRows(), key=lambda index: index.row())
+        return [row.data(SUMMARY_ROLE) for row in rows]
+
+    def delete_selected(self) -> None:
+        """Move the selected sessions to the trash folder; `undo_delete` brings them back."""
+        deleted = []
+        try:
+            for summary in self.selected():
+                delete(self._folder, summary.id)
+                deleted.append(summary.id)
+        except AcusError as error:
+            self.failed.emit(str(error))
+        if deleted:
+            self._deleted = deleted
+        self.refresh()
+
+    def undo_delete(self) -> None:
+        """Bring the sessions deleted last back."""
+        try:
+            while self._deleted:
+                restore(self._folder, self._deleted[-1])
+                self._deleted.pop()
+        except AcusError as error:
+            self.failed.emit(str(error))
+        self.refresh()
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _open(self, index: QModelIndex | None = None) -> None:
+        chosen = [index.data(SUMMARY_ROLE)] if index is not None else self.selected()
+        if len(chosen) != 1:
+            return
+        if chosen[0].state == BROKEN:
+            self.failed.emit(chosen[0].reason)
+        else:
+            self.open_requested.emit(chosen[0])
+
+    def _enable(self) -> None:
+        chosen = self.selected()
+        readable = [summary for summary in chosen if summary.state != BROKEN]
+        self.open_button.setEnabled(len(chosen) == 1 and len(readable) == 1)
+        self.export.setEnabled(bool(readable))
+        self.delete_button.setEnabled(bool(chosen))
+        self.undo.setEnabled(bool(self._deleted))
+        shown, total = self.proxy.rowCount(), self.model.rowCount()
+        self._count.setText(
+            tr("No sessions yet: begin an attempt, and it will be listed here.")
+            if total == 0
+            else tr("{shown} of {total} sessions", shown=shown, total=total)
+        )
+
+    def _fail(self, error: Exception) -> None:
+        self.failed.emit(str(error))
+
+    def _prepare_table(self) -> None:
+        table = self.table
+        table.setModel(self.proxy)
+        table.setSortingEnabled(True)
+        table.sortByColumn(DATE, Qt.SortOrder.DescendingOrder)
+        table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        table.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
+        table.setAlternatingRowColors(True)
+        table.setShowGrid(False)
+        table.verticalHeader().hide()
+        table.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT)
+        header = table.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(NOTE, QHeaderView.ResizeMode.Stretch)
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        self.search.setPlaceholderText(tr("Filter by student, exercise, date, state…"))
+        self.search.setClearButtonEnabled(True)
+        self.open_button.setProperty("role", "primary")
+        self._count.setProperty("role", "dim")
+
+    def _lay_out(self) -> None:
+        title = QLabel(tr("Sessions"), self)
+        title.setProperty("role", "title")
+        top = QHBoxLayout()
+        top.addWidget(title)
+        top.addSpacing(2 * theme.MARGIN)
+        top.addWidget(self.search, 1)
+        bottom = QHBoxLayout()
+        bottom.addWidget(self.back)
+        bottom.addWidget(self._count, 1)
+        for button in (self.undo, self.delete_button, self.export, self.open_button):
+            bottom.addWidget(button)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
+        page.addLayout(top)
+        page.addWidget(self.table, 1)
+        page.addLayout(bottom)
+
+    def _connect(self) -> None:
+        self.search.textChanged.connect(self.proxy.setFilterFixedString)
+        self.search.textChanged.connect(self._enable)
+        self.table.selectionModel().selectionChanged.connect(self._enable)
+        self.table.doubleClicked.connect(self._open)
+        self.back.clicked.connect(self.closed)
+        self.open_button.clicked.connect(lambda: self._open())
+        self.export.clicked.connect(self._export)
+        self.delete_button.clicked.connect(self.delete_selected)
+        self.undo.clicked.connect(self.undo_delete)
+        for keys, action in (
+            (QKeySequence.StandardKey.Delete, self.delete_selected),
+            (QKeySequence.StandardKey.Undo, self.undo_delete),
+        ):
+            shortcut = QShortcut(QKeySequence(keys), self.table)
+            shortcut.setContext(Qt.ShortcutContext.WidgetShortcut)
+            shortcut.activated.connect(action)
+
+    def _export(self) -> None:
+        readable = [summary for summary in self.selected() if summary.state != BROKEN]
+        if readable:
+            self.export_requested.emit(readable)

@@ -1,0 +1,116 @@
+"""Recorded sessions as a table for Qt: one column per fact, sortable by its value."""
+
+from collections.abc import Sequence
+from typing import Any, Final
+
+from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelIndex, Qt
+from PySide6.QtGui import QColor
+
+from app.session.summary import BROKEN, Summary
+from app.views import theme
+from app.views.debrief.page import date_text
+from app.views.exercise.readouts import clock_text
+from app.views.exercise.state_words import state_word
+from app.views.text import tr
+
+Index = QModelIndex | QPersistentModelIndex
+SORT_ROLE: Final = Qt.ItemDataRole.UserRole
+SUMMARY_ROLE: Final = Qt.ItemDataRole.UserRole + 1
+DATE, STUDENT, EXERCISE, SCORE, STATE, DURATION, NOTE = range(7)
+_RIGHT: Final = frozenset({SCORE, DURATION})
+_STATE_LOOKS: Final = {
+    "ended": (theme.TEXT, "✔"),
+    "aborted": (theme.WARNING, "▲"),
+    "unfinished": (theme.WARNING, "▲"),
+    "broken": (theme.BAD, "✖"),
+}
+
+
+class SessionsModel(QAbstractTableModel):
+    """Read-only table of summaries."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._summaries: tuple[Summary, ...] = ()
+
+    def set_summaries(self, summaries: Sequence[Summary]) -> None:
+        """Replace all rows."""
+        self.beginResetModel()
+        self._summaries = tuple(summaries)
+        self.endResetModel()
+
+    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008
+        """Return the number of sessions."""
+        return 0 if parent.isValid() else len(self._summaries)
+
+    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: B008
+        """Return the number of columns."""
+        return 0 if parent.isValid() else NOTE + 1
+
+    def headerData(
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> Any:
+        """Titles of the columns."""
+        if orientation is not Qt.Orientation.Horizontal or role != Qt.ItemDataRole.DisplayRole:
+            return None
+        return (
+            tr("Date"), tr("Student"), tr("Exercise"), tr("Score"), tr("State"), tr("Time"),
+            tr("Remark"),
+        )[section]  # fmt: skip
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        """Text, colour, alignment, sort key or the summary itself."""
+        summary, column = self._summaries[index.row()], index.column()
+        if role == Qt.ItemDataRole.DisplayRole:
+            return cell_text(summary, column)
+        if role == SORT_ROLE:
+            return sort_key(summary, column)
+        if role == SUMMARY_ROLE:
+            return summary
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return "\n".join(filter(None, (summary.id, summary.reason, *summary.problems)))
+        if role == Qt.ItemDataRole.TextAlignmentRole and column in _RIGHT:
+            return Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        if role == Qt.ItemDataRole.ForegroundRole and column == STATE:
+            return QColor(_STATE_LOOKS.get(summary.state, (theme.TEXT, ""))[0])
+        return None
+
+
+def cell_text(summary: Summary, column: int) -> str:
+    """Text of one cell."""
+    if column == DATE:
+        return date_text(summary.started)
+    if column == STUDENT:
+        return summary.student
+    if column == EXERCISE:
+        return summary.exercise_title or summary.exercise_id
+    if column == SCORE:
+        return score_text(summary)
+    if column == STATE:
+        symbol = _STATE_LOOKS.get(summary.state, ("", "•"))[1]
+        return f"{symbol} {state_word(summary.state)}"
+    if column == DURATION:
+        return "" if summary.state == BROKEN else clock_text(summary.duration)
+    return "; ".join(filter(None, (summary.reason, *summary.problems)))
+
+
+def score_text(summary: Summary) -> str:
+    """Points with ✔ or ✖, `void`, or nothing."""
+    score = summary.score
+    if score is None:
+        return ""
+    if score.get("void_reason") or score.get("total") is None:
+        return tr("void")
+    return f"{'✔' if score.get('passed') else '✖'} {float(score['total']):.0f}"
+
+
+def sort_key(summary: Summary, column: int) -> str | float:
+    """Value that a column is sorted by; without a score below every score."""
+    if column == DATE:
+        return summary.started
+    if column == SCORE:
+        total = (summary.score or {}).get("total")
+        return float(total) if total is not None else -1.0
+    if column == DURATION:
+        return summary.duration
+    return cell_text(summary, column).casefold()

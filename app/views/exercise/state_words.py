@@ -1,0 +1,17 @@
+"""Names of recorded states for people."""
+
+from app.views.text import tr
+
+
+def state_word(state: str) -> str:
+    """Name of a recorded state; unknown ones as they stand."""
+    return {
+        "ready": tr("Ready"),
+        "aligning": tr("Aligning"),
+        "inserting": tr("Inserting"),
+        "holding": tr("Holding"),
+        "ended": tr("Ended"),
+        "aborted": tr("Aborted"),
+        "unfinished": tr("Unfinished"),
+        "broken": tr("Broken"),
+    }.get(state, state)
