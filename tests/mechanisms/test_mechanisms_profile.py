@@ -1,0 +1,95 @@
+"""Device profiles: strict, with the origin of every number."""
+
+import math
+
+import pytest
+import yaml
+
+from app.core import paths
+from app.core.errors import ConfigurationError
+from app.mechanisms.profile import Axis, Provenance, Section, load_profile, profile_names
+
+
+@pytest.fixture
+def document():
+    path = paths.resources() / "devices" / "icube.yaml"
+    return yaml.safe_load(path.read_text(encoding="utf-8"))
+
+
+def written(tmp_path, document):
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(document), encoding="utf-8")
+    return path
+
+
+def test_every_shipped_profile_loads():
+    for name in profile_names():
+        assert load_profile(name).name == name
+
+
+def test_the_robots_numbers_are_those_of_the_thesis():
+    profile = load_profile("icube")
+    assert profile.pantograph.links == (0.100, 0.165, 0.085)
+    assert profile.pantograph.fulcrum.tolist() == [0.0, 0.16056, 0.09]
+    assert profile.tilt_limit == pytest.approx(math.radians(39.0))
+    assert profile.with_joint("old").tilt_limit_deg == 45.0
+    assert profile.renders == (Axis.LATERAL,)
+    assert profile.rate_hz == 1000.0
+    assert profile.inertia.reflected_rotor == pytest.approx(6.99e-4)
+
+
+def test_every_value_says_where_it_comes_from():
+    profile = load_profile("icube")
+    for name in type(profile).model_fields:
+        section = getattr(profile, name)
+        if isinstance(section, Section):
+            values = set(type(section).model_fields) - {"provenance"}
+            assert set(section.provenance) == values
+    assert profile.inertia.provenance["distal_mass"] is Provenance.ESTIMATED
+
+
+def test_a_value_without_its_origin_is_refused(tmp_path, document):
+    del document["geometry"]["provenance"]["distal"]
+    with pytest.raises(ConfigurationError, match=r"geometry.*no provenance for distal"):
+        load_profile(written(tmp_path, document))
+
+
+def test_an_origin_without_a_value_is_refused(tmp_path, document):
+    document["limits"]["provenance"]["power"] = "measured"
+    with pytest.raises(ConfigurationError, match="provenance of power"):
+        load_profile(written(tmp_path, document))
+
+
+@pytest.mark.parametrize(
+    ("section", "key", "value", "message"),
+    [
+        ("geometry", "proximal", -0.1, "greater than 0"),
+        ("geometry", "fulcrum", [0.0, 0.16, 0.0], "greater than 0"),
+        ("workspace", "joint", "newest", "not one of new, old"),
+        ("workspace", "depth_min", 0.5, "must be below depth_max"),
+        ("encoder", "counts_per_turn", 0, "greater than 0"),
+        ("limits", "hand_force", float("nan"), "finite"),
+        ("loop", "renders", ["sideways"], "lateral"),
+    ],
+)
+def test_a_wrong_value_is_refused_by_name(tmp_path, document, section, key, value, message):
+    document[section][key] = value
+    with pytest.raises(ConfigurationError, match=message) as caught:
+        load_profile(written(tmp_path, document))
+    assert "mine.yaml" in str(caught.value)
+    assert section in str(caught.value)
+
+
+def test_an_unknown_profile_names_the_valid_ones():
+    with pytest.raises(ConfigurationError, match=r"valid names: .*icube"):
+        load_profile("icubed")
+
+
+def test_an_unknown_joint_names_the_valid_ones():
+    with pytest.raises(ConfigurationError, match="valid names: new, old"):
+        load_profile("icube").with_joint("rusty")
+
+
+def test_a_profile_that_is_not_there_is_said_to_be_missing(tmp_path):
+    with pytest.raises(ConfigurationError, match="cannot read"):
+        load_profile(tmp_path / "none.yaml")
