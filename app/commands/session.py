@@ -1,0 +1,187 @@
+"""`acus session`: recorded attempts."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+FolderOption = Annotated[
+    Path | None,
+    typer.Option("--folder", help="Folder of the records; the default one if not given."),
+]
+JsonOption = Annotated[
+    bool, typer.Option("--json", help="Print JSON; docs/json.md explains the keys.")
+]
+
+
+def register(app: typer.Typer) -> None:
+    """Add `session list`, `session show` and `session export`."""
+    session = typer.Typer(no_args_is_help=True, help="Recorded attempts.")
+    session.command("list")(list_)
+    session.command("show")(show)
+    session.command("export")(export)
+    app.add_typer(session, name="session")
+
+
+def list_(folder: FolderOption = None, as_json: JsonOption = False) -> None:
+    """List all attempts, newest first; broken records with the reason."""
+    from app.session.store import list_sessions
+
+    place = _folder(folder)
+    summaries = list_sessions(place)
+    if as_json:
+        _print_json({"folder": str(place), "sessions": [s.document() for s in summaries]})
+    elif not summaries:
+        typer.echo(f"no sessions in {place}")
+    else:
+        _print_table(summaries)
+
+
+def show(
+    session_id: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
+    folder: FolderOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Show one attempt: score, events, what its record holds."""
+    from app.session.recording import read_recording
+    from app.session.store import find
+    from app.session.summary import read_summary
+
+    path = find(_folder(folder), session_id)
+    recording = read_recording(path)
+    summary = read_summary(path)
+    document = _details(recording, summary.document())
+    if as_json:
+        _print_json(document)
+    else:
+        _print_details(document)
+
+
+def export(
+    out: Annotated[Path, typer.Option("--out", help="CSV file to write.")],
+    ids: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[ID]...", help="Session ids; all if none is given."),
+    ] = None,
+    folder: FolderOption = None,
+    trajectory: Annotated[
+        bool, typer.Option("--trajectory", help="One attempt over time instead of the scores.")
+    ] = False,
+) -> None:
+    """Export scores, one row per attempt, or one attempt over time, as CSV."""
+    from app.exchange.csv_export import write_csv
+
+    place = _folder(folder)
+    text, rows = _trajectory(place, ids) if trajectory else _scores(place, ids)
+    if out.suffix.lower() != ".csv":
+        raise typer.BadParameter(f"--out {out}: only .csv can be written")
+    write_csv(out, text)
+    typer.echo(f"{rows} rows written to {out}")
+
+
+def _folder(folder: Path | None) -> Path:
+    from app.core.paths import sessions
+    from app.session.errors import SessionError
+
+    if folder is None:
+        return sessions()
+    if not folder.is_dir():
+        raise SessionError(f"{folder} is not a folder: give the folder that holds the records")
+    return folder
+
+
+def _scores(folder: Path, ids: list[str] | None) -> tuple[str, int]:
+    from app.exchange.csv_export import score_table
+    from app.session.store import find, list_sessions
+    from app.session.summary import read_summary
+
+    chosen = [find(folder, name) for name in dict.fromkeys(ids or [])]
+    summaries = [read_summary(path) for path in chosen] if ids else list_sessions(folder)
+    return score_table(summaries), len(summaries)
+
+
+def _trajectory(folder: Path, ids: list[str] | None) -> tuple[str, int]:
+    from app.exchange.csv_export import trajectory_table
+    from app.session.recording import read_recording
+    from app.session.store import find
+
+    if ids is None or len(ids) != 1:
+        raise typer.BadParameter("--trajectory takes exactly one session id")
+    recording = read_recording(find(folder, ids[0]))
+    return trajectory_table(recording), len(recording.samples.time)
+
+
+def _details(recording: Any, summary: dict[str, Any]) -> dict[str, Any]:
+    samples, inputs = recording.samples, recording.inputs
+    return summary | {
+        "file": str(recording.path),
+        "complete": recording.complete,
+        "metadata": dict(recording.metadata),
+        "attachments": sorted(recording.attachments),
+        "samples": len(samples.time),
+        "ticks": len(inputs.values),
+        "ticks_lost": inputs.lost,
+        "events": [
+            {"time_s": e.time, "kind": e.kind, "message": e.message, "data": dict(e.data)}
+            for e in recording.events
+        ],
+    }
+
+
+def _print_json(document: dict[str, Any]) -> None:
+    from app.session.sample import finite
+
+    typer.echo(json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False))
+
+
+def _print_table(summaries: list[Any]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False)
+    for title in ("id", "student", "exercise", "state", "duration", "score", ""):
+        table.add_column(title, overflow="fold", no_wrap=title == "id")
+    for s in summaries:
+        note = s.reason or "; ".join(s.problems)
+        cells = (
+            s.id,
+            s.student,
+            s.exercise_id,
+            s.state,
+            f"{s.duration:.0f} s",
+            _total(s.score),
+            note,
+        )
+        table.add_row(*(_plain(cell) for cell in cells))
+    Console().print(table)
+
+
+def _plain(text: str) -> Any:
+    """Text that no markup is read from: pseudonyms and reasons are other people's words."""
+    from rich.text import Text
+
+    return Text(text)
+
+
+def _total(score: Any) -> str:
+    if not score:
+        return "-"
+    if score.get("total") is None:
+        return "void"
+    return f"{score['total']:.0f} %{' passed' if score.get('passed') else ''}"
+
+
+def _print_details(document: dict[str, Any]) -> None:
+    for key in ("id", "started", "student", "state", "reason", "duration_s", "scans", "file"):
+        typer.echo(f"{key:12} {document[key]}")
+    typer.echo(f"{'exercise':12} {document['exercise']['title']} ({document['exercise']['id']})")
+    typer.echo(f"{'score':12} {_total(document['score'])}")
+    for row in (document["score"] or {}).get("rows", []):
+        value = "-" if row["value"] is None else f"{row['value']:.4g} {row['unit']}"
+        typer.echo(f"  {row['label']:32} {value:>14}  {row['band'] or row['note'] or ''}")
+    for event in document["events"]:
+        typer.echo(f"  {event['time_s']:12.3f} s  {event['message']}")
+    for problem in document["problems"]:
+        typer.echo(f"{'problem':12} {problem}")
+    typer.echo(document["note"])

@@ -1,0 +1,158 @@
+"""Tables for spreadsheets: one row per attempt, or one attempt over time (RFC 4180, UTF-8).
+
+The first line holds the column names, with units, as every spreadsheet expects; the training
+disclaimer stands in the last column, `note`, of every row, so that it survives sorting and cutting.
+"""
+
+import csv
+import io
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from app.core.disclaimer import DISCLAIMER
+from app.core.files import write_atomically
+from app.exchange.errors import ExportError
+from app.session.curves import curves
+from app.session.recording import Recording
+from app.session.summary import Summary
+
+FIXED: Final = (
+    "id",
+    "started_utc",
+    "student",
+    "exercise",
+    "state",
+    "reason",
+    "duration_s",
+    "scans",
+    "score_total_percent",
+    "passed",
+    "void_reason",
+)
+"""Columns before the metrics; each metric then has the column `<name>_<unit>`."""
+
+TRAJECTORY_COLUMNS: Final = (
+    "time_s",
+    "state",
+    "valid",
+    "depth_source",
+    "tip_x_mm",
+    "tip_y_mm",
+    "tip_z_mm",
+    "depth_mm",
+    "lateral_mm",
+    "remaining_mm",
+    "angle_deg",
+    "felt_n",
+    "note",
+)
+"""Columns of a trajectory; positions in the world frame."""
+
+_FORMULA: Final = ("=", "+", "-", "@", "\t", "\r", "\n")
+_UNIT_NAMES: Final = {"%": "percent", "°": "deg", "N·s": "ns", "": "ratio", "1": "ratio"}
+
+
+def score_table(summaries: Iterable[Summary]) -> str:
+    """Table of attempts, one row each, in the given order.
+
+    The metrics' columns are the union over all attempts; a metric that an attempt does not have is
+    empty there.
+    """
+    rows = list(summaries)
+    metrics = list(dict.fromkeys(name for row in rows for name in _metrics(row)))
+    lines = [[*FIXED, *metrics, "note"]]
+    for row in rows:
+        values = _metrics(row)
+        cells = [*_fixed(row), *(values.get(name) for name in metrics), DISCLAIMER]
+        lines.append([_cell(value) for value in cells])
+    return _text(lines)
+
+
+def trajectory_table(recording: Recording) -> str:
+    """Table of one attempt over time; cells are empty where the pose was not valid.
+
+    Raises:
+        BrokenRecordingError: if the record holds no usable plan.
+    """
+    samples = recording.samples
+    figures = curves(samples, recording.placed_plan())
+    columns = (
+        figures.time,
+        samples.state,
+        samples.valid,
+        samples.depth_source,
+        *(samples.tip * 1e3).T,
+        figures.depth * 1e3,
+        figures.lateral * 1e3,
+        figures.remaining * 1e3,
+        np.degrees(figures.angle),
+        figures.felt,
+    )
+    lines = [list(TRAJECTORY_COLUMNS)]
+    for values in zip(*(column.tolist() for column in columns), strict=True):
+        lines.append([_cell(value) for value in (*values, DISCLAIMER)])
+    return _text(lines)
+
+
+def write_csv(path: Path, text: str) -> None:
+    """Write a table, whole or not at all, with the byte order mark that spreadsheets look for.
+
+    Raises:
+        ExportError: if the file cannot be written.
+    """
+    try:
+        write_atomically(path, b"\xef\xbb\xbf" + text.encode())
+    except OSError as error:
+        raise ExportError(f"cannot write {path}: {error.strerror or error}") from error
+
+
+def _fixed(row: Summary) -> Sequence[object]:
+    score: Mapping[str, Any] = row.score or {}
+    return (
+        row.id,
+        row.started,
+        row.student,
+        row.exercise_id,
+        row.state,
+        row.reason,
+        row.duration,
+        row.scans,
+        score.get("total"),
+        score.get("passed"),
+        score.get("void_reason"),
+    )
+
+
+def _metrics(row: Summary) -> dict[str, object]:
+    """Metric values by column name."""
+    rows = (row.score or {}).get("rows", [])
+    return {f"{r['name']}_{_unit(str(r['unit']))}": r["value"] for r in rows}
+
+
+def _unit(unit: str) -> str:
+    if unit in _UNIT_NAMES:
+        return _UNIT_NAMES[unit]
+    return "".join(c if c.isalnum() else "_" for c in unit.lower()).strip("_")
+
+
+def _cell(value: object) -> str:
+    """Text of a cell; what a spreadsheet would run as a formula begins with an apostrophe."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float):
+        return f"{value:.9g}" if np.isfinite(value) else ""
+    if isinstance(value, int):
+        return str(value)
+    text = str(value)
+    return f"'{text}" if text.startswith(_FORMULA) else text
+
+
+def _text(lines: Sequence[Sequence[str]]) -> str:
+    stream = io.StringIO(newline="")
+    csv.writer(stream, lineterminator="\r\n").writerows(lines)
+    return stream.getvalue()

@@ -1,0 +1,15 @@
+"""Errors of reading and writing other people's formats."""
+
+from app.core.errors import AcusError
+
+
+class ExchangeError(AcusError):
+    """Root of the exchange errors."""
+
+
+class MarkupsError(ExchangeError, ValueError):
+    """A markups file that holds no usable plan; names the file, the field and the value."""
+
+
+class ExportError(ExchangeError):
+    """An export that cannot be written."""
