@@ -62,8 +62,7 @@ def isosurface(values: NDArray[Any], affine_mm: FloatArray, level: float, most: 
     smooth.SetNumberOfIterations(12)
     smooth.SetPassBand(0.08)
     smooth.Update()
-    # Flying edges winds its triangles so that they face the higher values.
-    return _to_mesh(_thin(smooth.GetOutput(), most), affine_mm, outwards=False)
+    return _to_mesh(_thin(smooth.GetOutput(), most), affine_mm)
 
 
 def coarser(mesh: Mesh, most: int) -> Mesh:
@@ -71,7 +70,7 @@ def coarser(mesh: Mesh, most: int) -> Mesh:
     if mesh.count <= most:
         return mesh
     decimate = vtkBinnedDecimation()
-    decimate.SetInputData(to_polydata(mesh))
+    decimate.SetInputData(_polydata(mesh.points, mesh.triangles))
     divisions = max(4, int((most / 3.0) ** 0.5))  # a surface crosses about 1.5 d² of d³ bins
     for _ in range(8):
         decimate.SetNumberOfDivisions(divisions, divisions, divisions)
@@ -79,21 +78,26 @@ def coarser(mesh: Mesh, most: int) -> Mesh:
         if decimate.GetOutput().GetNumberOfPolys() <= most:
             break
         divisions = max(2, int(divisions * 0.8))
-    return _to_mesh(decimate.GetOutput(), np.eye(4), outwards=True)
+    return _to_mesh(decimate.GetOutput(), np.eye(4))
 
 
 def to_polydata(mesh: Mesh) -> vtkPolyData:
     """Return the mesh as VTK's, sharing no memory with it."""
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(mesh.points, deep=True))
+    result = _polydata(mesh.points, mesh.triangles)
+    result.GetPointData().SetNormals(numpy_to_vtk(mesh.normals, deep=True))
+    return result
+
+
+def _polydata(points: NDArray[np.float32], triangles: NDArray[Any]) -> vtkPolyData:
+    places = vtkPoints()
+    places.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
     cells = vtkCellArray()
-    offsets = np.arange(0, 3 * mesh.count + 1, 3, dtype=np.int64)
-    connectivity = np.ascontiguousarray(mesh.triangles, dtype=np.int64).ravel()
+    offsets = np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int64)
+    connectivity = np.ascontiguousarray(triangles, dtype=np.int64).ravel()
     cells.SetData(numpy_to_vtk(offsets, deep=True), numpy_to_vtk(connectivity, deep=True))
     result = vtkPolyData()
-    result.SetPoints(points)
+    result.SetPoints(places)
     result.SetPolys(cells)
-    result.GetPointData().SetNormals(numpy_to_vtk(mesh.normals, deep=True))
     return result
 
 
@@ -116,18 +120,17 @@ def _thin(surface: vtkPolyData, most: int) -> vtkPolyData:
     return decimate.GetOutput()
 
 
-def _to_mesh(surface: vtkPolyData, affine_mm: FloatArray, outwards: bool) -> Mesh:
+def _to_mesh(surface: vtkPolyData, affine_mm: FloatArray) -> Mesh:
     if surface.GetNumberOfPolys() == 0:
         empty = np.zeros((0, 3), np.float32)
         return Mesh(empty, np.zeros((0, 3), np.int32), empty)
     points = vtk_to_numpy(surface.GetPoints().GetData()).astype(np.float64)
     placed = (points @ affine_mm[:3, :3].T + affine_mm[:3, 3]).astype(np.float32)
     triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    if outwards != (np.linalg.det(affine_mm[:3, :3]) > 0.0):  # a mirrored grid turns them over
+    if np.linalg.det(affine_mm[:3, :3]) < 0.0:  # a mirrored grid turns the triangles inside out
         triangles = triangles[:, ::-1]
-    plain = Mesh(placed, triangles.astype(np.int32), np.zeros_like(placed))
     normals = vtkPolyDataNormals()
-    normals.SetInputData(to_polydata(plain))
+    normals.SetInputData(_polydata(placed, triangles))
     normals.SplittingOff()
     normals.ConsistencyOff()
     normals.Update()
