@@ -4,7 +4,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from app.core.configuration import Strict
 from app.core.units import MILLIMETRE
@@ -14,9 +14,6 @@ from app.planning.plan import Plan
 Triple = tuple[float, float, float]
 NotNegative = Annotated[float, Field(ge=0.0)]
 KILOPASCAL = 1e3
-
-PHANTOM_DEFAULT = "phantom_default"
-"""Plan that the phantom itself proposes: from the skin to the lesion."""
 
 
 class View(StrEnum):
@@ -81,7 +78,11 @@ class PlanPoints(Strict):
         return Plan(self.entry_mm, self.target_mm, self.name)  # type: ignore[arg-type]
 
 
-PlanChoice = PlanPoints | Literal["phantom_default"]
+PlanChoice = Annotated[
+    Annotated[PlanPoints, Tag("points")] | Annotated[Literal["phantom_default"], Tag("name")],
+    Discriminator(lambda value: "name" if isinstance(value, str) else "points"),
+]
+"""Two points, or `phantom_default`: the plan that the phantom itself proposes."""
 
 
 class PlacementPart(Strict):

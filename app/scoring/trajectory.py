@@ -17,6 +17,9 @@ from app.scoring.errors import MetricUnavailableError, TrajectoryError
 LAST_SEEN = 1.0
 """The tip counts as known at the end if the cameras saw it within this time before [s]."""
 
+LARGEST = 1e9
+"""No time [s], place [m] or force [N] of an attempt lies beyond this; squares stay finite."""
+
 
 class Phase(IntEnum):
     """State of the attempt at a sample; the lower-case names are those of the state machine."""
@@ -155,12 +158,13 @@ def _samples(values: ArrayLike, name: str, n: int | None, shape: tuple[int, ...]
     wanted = (len(array) if n is None and array.ndim else n, *shape)
     if array.shape != wanted:
         raise TrajectoryError(f"{name} has shape {array.shape}; {wanted} is needed, as time has it")
-    bad = ~np.isfinite(array.reshape(len(array), -1)).all(axis=1)
+    flat = array.reshape(len(array), int(np.prod(shape)))
+    bad = ~(np.abs(flat) <= LARGEST).all(axis=1)  # NaN is not below anything
     if bad.any():
         first = int(np.argmax(bad))
         raise TrajectoryError(
-            f"{name} is not finite in {int(bad.sum())} of {len(array)} samples, first at sample "
-            f"{first}: {array[first].tolist()}; leave such samples out or mark the depth as invalid"
+            f"{name} is not finite within ±{LARGEST:g} in {bad.sum()} of {len(array)} samples, "
+            f"first at sample {first}: {array[first].tolist()}; leave such samples out"
         )
     return read_only(array)
 

@@ -1,0 +1,127 @@
+from pathlib import Path
+
+import pytest
+
+from app.core.errors import ConfigurationError
+from app.exercises.library import read_exercise
+from app.exercises.parts import View
+from app.exercises.schema import Exercise
+from app.planning.placement import PatientOrientation
+from app.scoring.defaults import DEFAULT_TOLERANCES
+
+MINIMAL = "id: mine\ntitle: Mine\n"
+
+
+def read(tmp_path: Path, text: str) -> Exercise:
+    path = tmp_path / "mine.yaml"
+    path.write_text(MINIMAL + text, encoding="utf-8")
+    return read_exercise(path)
+
+
+def test_a_name_and_a_title_are_enough(tmp_path: Path) -> None:
+    exercise = read(tmp_path, "")
+    assert exercise.ct.phantom is not None
+    assert exercise.plan == "phantom_default"
+    assert exercise.tolerances == dict(DEFAULT_TOLERANCES)
+    assert exercise.placement.placement().orientation is PatientOrientation.SUPINE
+
+
+def test_everything_can_be_given(tmp_path: Path) -> None:
+    exercise = read(
+        tmp_path,
+        """
+version: 3
+level: 2
+description: All fields.
+ct: {folder: chest, series: 1.2.3}
+plan: {entry_mm: [0, -90, 300], target_mm: [5, -20, 300], name: liver}
+placement: {orientation: left_down, rotation_deg: [0, 10, 0]}
+device: icube
+joint: old
+rig: thesis
+assistance: 0.25
+effects: {breathing: {organ: liver, model: lujan, parameters: {period: 5}}, lateral_tissue: }
+layers: [{name: skin, thickness_mm: 2, side_stiffness_kpa: 50}]
+target_organ: liver
+tolerances: {angle_error: {expert: 1, good: 2, pass: 3, zero: 9, weight: 2, required: true}}
+rules: {pass_mark: 70, minimum_tracking: 50}
+views: [force_gauge]
+seed: 9
+""",
+    )
+    assert exercise.ct.folder == tmp_path / "chest"
+    assert exercise.placement.placement().rotation_deg == (0.0, 10.0, 0.0)
+    assert exercise.effects["breathing"].parameters == {"period": 5.0}
+    assert exercise.effects["lateral_tissue"].parameters == {}
+    assert exercise.layers[0].thickness == pytest.approx(0.002)
+    assert exercise.layers[0].side_stiffness == pytest.approx(50e3)
+    assert exercise.views == (View.FORCE_GAUGE,)
+    assert exercise.tolerances["angle_error"].knots == (1.0, 2.0, 3.0, 9.0)
+
+
+def test_effects_may_be_a_list_of_names(tmp_path: Path) -> None:
+    exercise = read(tmp_path, "effects: [breathing, shaft_friction]\n")
+    assert list(exercise.effects) == ["breathing", "shaft_friction"]
+
+
+def test_an_exercise_survives_being_written_and_read(tmp_path: Path) -> None:
+    exercise = read(
+        tmp_path, "effects: [breathing]\nplan: {entry_mm: [0, 0, 0], target_mm: [0, 50, 0]}\n"
+    )
+    assert Exercise.model_validate(exercise.model_dump(mode="json")) == exercise
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("colour: red", r"colour: .*'red'"),
+        ("assistance: 1.5", r"assistance: .*less than or equal to 1.*1\.5"),
+        ("assistance: .nan", r"assistance: .*finite"),
+        ("version: 0", "version: .*greater than or equal to 1"),
+        ("ct: {}", "ct: .*either phantom: .* or folder"),
+        ("ct: {folder: a, phantom: {seed: 1}}", "ct: .*one of the two"),
+        ("ct: {folder: a}", "plan phantom_default needs ct: {phantom"),
+        ("ct: {phantom: {seed: -1}}", r"ct\.phantom\.seed"),
+        ("plan: {entry_mm: [0, 0, 0], target_mm: [0, 0, 0.2]}", r"plan.*0\.2 mm apart"),
+        ("plan: {entry_mm: [0, 0], target_mm: [0, 0, 9]}", r"plan.*entry_mm"),
+        ("placement: {orientation: sitting}", "placement.orientation: .*'supine', 'prone'"),
+        ("placement: {rotation_deg: [0, 400, 0]}", "placement: .*within ±360"),
+        ("device: robo", "mine.yaml: device: 'robo' is not known; valid names are icube"),
+        ("rig: webcam", "mine.yaml: rig: 'webcam' is not known; valid names are thesis, wide"),
+        ("effects: {breathing: {parameters: {period: fast}}}", r"parameters\.period"),
+        ("effects: {breathing: {periods: 3}}", r"effects\.breathing\.periods"),
+        ("effects: 3", "effects: "),
+        ("layers: [{name: fat, thickness_mm: -1}]", r"layers\.0\.thickness_mm"),
+        ("tolerances: {entry_error: {expert: 1, good: 2, pass: 3}}", "no metric 'entry_error'"),
+        ("tolerances: {angle_error: {expert: 3, good: 2, pass: 1}}", "of which lower is better"),
+        ("tolerances: {angle_error: {expert: 1, good: 2}}", r"tolerances\.angle_error\.pass"),
+        ("tolerances: {angle_error: {expert: 1, good: 2, pass: 3, weight: 0}}", "a weight above 0"),
+        ("views: [xray]", r"views\.0: .*'live_overlay', 'bullseye'"),
+    ],
+)
+def test_what_is_wrong_is_named_with_file_field_and_valid_values(
+    tmp_path: Path, text: str, message: str
+) -> None:
+    with pytest.raises(ConfigurationError, match=message) as caught:
+        read(tmp_path, text + "\n")
+    assert "mine.yaml" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["", "Big", "a b", "-a", "a--b", "../a", "a" * 65])
+def test_an_id_that_is_no_file_name_is_refused(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "x.yaml"
+    path.write_text(f"id: {name!r}\ntitle: X\n", encoding="utf-8")
+    with pytest.raises(ConfigurationError, match="id: "):
+        read_exercise(path)
+
+
+def test_a_key_that_is_given_twice_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigurationError, match="given twice"):
+        read(tmp_path, "seed: 1\nseed: 2\n")
+
+
+def test_an_exercise_is_frozen(tmp_path: Path) -> None:
+    exercise = read(tmp_path, "")
+    with pytest.raises(ValueError, match="frozen"):
+        exercise.seed = 3  # type: ignore[misc]
