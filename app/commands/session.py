@@ -8,11 +8,9 @@ import typer
 
 FolderOption = Annotated[
     Path | None,
-    typer.Option("--folder", help="Folder of the records; the default one if not given."),
+    typer.Option("--folder", help="Folder of the records."),
 ]
-JsonOption = Annotated[
-    bool, typer.Option("--json", help="Print JSON; docs/json.md explains the keys.")
-]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")]
 
 
 def register(app: typer.Typer) -> None:
@@ -62,7 +60,7 @@ def export(
     out: Annotated[Path, typer.Option("--out", help="CSV file to write.")],
     ids: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[ID]...", help="Session ids; all if none is given."),
+        typer.Argument(metavar="[ID]...", help="Session ids; none means all."),
     ] = None,
     folder: FolderOption = None,
     trajectory: Annotated[
