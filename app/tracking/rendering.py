@@ -34,27 +34,32 @@ def sample_pattern(blur_px: float, samples: int = SAMPLES) -> FloatArray:
 
 @njit
 def _shaft_hit(dx: float, dy: float, a: Any, c: Any, shape: Any) -> Any:
-    """Ray (dx, dy, 1) against the shaft: (distance, position behind or before the band, hit)."""
-    dd = dx * dx + dy * dy + 1.0
+    """Ray (dx, dy, 1) against shaft and point: (distance, position on the axis, hit)."""
     da = dx * a[0] + dy * a[1] + a[2]
-    dc = dx * c[0] + dy * c[1] + c[2]
     ac = a[0] * c[0] + a[1] * c[1] + a[2] * c[2]
-    square = dd - da * da  # squared length of the ray's part across the axis
-    if square < 1e-9:
-        return 0.0, 0.0, False
-    t = (dc - da * ac) / square
+    mx, my, mz = dx - da * a[0], dy - da * a[1], 1.0 - da * a[2]
+    cx, cy, cz = c[0] - ac * a[0], c[1] - ac * a[1], c[2] - ac * a[2]
+    mm = mx * mx + my * my + mz * mz
+    mc = mx * cx + my * cy + mz * cz
+    cc = cx * cx + cy * cy + cz * cz
+    cone = shape[3] - shape[5]  # where the taper begins
+    discriminant = mc * mc - mm * (cc - shape[0] * shape[0])
+    if discriminant <= 0.0 or mm < 1e-12:
+        return 0.0, 0.0, False  # the cone is thinner than the cylinder
+    t = (mc - np.sqrt(discriminant)) / mm
     s = t * da - ac
-    gap = (
-        (t * dx - c[0] - s * a[0]) ** 2
-        + (t * dy - c[1] - s * a[1]) ** 2
-        + (t - c[2] - s * a[2]) ** 2
-    )
-    radius = shape[0] * min(1.0, max(0.0, (shape[3] - s) / (3.0 * shape[0])))  # tapered point
-    if gap >= radius * radius or t <= 0.0:
+    if shape[4] < s <= cone:
+        return t, s, t > 0.0
+    slope2 = (shape[0] / shape[5]) ** 2
+    reach = shape[3] + ac
+    qa = mm - slope2 * da * da
+    qb = mc - slope2 * reach * da
+    discriminant = qb * qb - qa * (cc - slope2 * reach * reach)
+    if discriminant <= 0.0 or qa < 1e-12:
         return 0.0, 0.0, False
-    t -= np.sqrt((radius * radius - gap) / square)
+    t = (qb - np.sqrt(discriminant)) / qa
     s = t * da - ac
-    return t, s, shape[4] < s < shape[3]
+    return t, s, t > 0.0 and cone < s < shape[3]
 
 
 @njit
@@ -158,7 +163,7 @@ def _nearness(dx: float, dy: float, a: Any, c: Any, shape: Any, margin: float) -
     if abs(s) < shape[2] + slack and gap < shape[1] + blurred:
         inside = gap < shape[1] - blurred and abs(s) < shape[2] - slack
         return 3 if inside else 2
-    if gap < shape[0] - blurred and s < shape[3] - slack - 4.0 * shape[0]:
+    if gap < shape[0] - blurred and s < shape[3] - shape[5] - slack:
         return 3
     return 1 if gap < shape[0] + blurred else 0
 
@@ -186,12 +191,6 @@ def row_spans(uv: Any, ok: Any, reach: float, width: int, height: int) -> Any:
 
 
 @njit
-def _five(v: Any) -> Any:
-    """As a tuple, which the kernels keep in registers (an array would be read for every ray)."""
-    return v[0], v[1], v[2], v[3], v[4]
-
-
-@njit
 def draw_needle(
     image: Any,
     rays: Any,
@@ -215,18 +214,17 @@ def draw_needle(
         coarse: the same elsewhere on the shaft.
         a: unit vector from hub to tip.
         c: centre of the band [m].
-        shape: radius of the shaft, radius and half length of the band, tip and hub on the axis
-            measured from the band's centre towards the tip [m], (5,).
+        shape: a `rig.NeedleShape`; as a tuple it stays in registers.
         colours: of shaft and band, (2, 3).
         light: see the module.
         margin: half width of what one pixel sees, in normalised coordinates.
     """
     axis, centre = (a[0], a[1], a[2]), (c[0], c[1], c[2])
-    lamp, form = _five(light), _five(shape)
+    lamp = (light[0], light[1], light[2], light[3], light[4])
     for v in range(image.shape[0]):
         for u in range(spans[v, 0], spans[v, 1]):
             x, y = rays[v + 1, u + 1, 0], rays[v + 1, u + 1, 1]
-            near = _nearness(x, y, axis, centre, form, margin)
+            near = _nearness(x, y, axis, centre, shape, margin)
             if near == 0:
                 continue
             xu = 0.5 * (rays[v + 1, u + 2, 0] - rays[v + 1, u, 0])
@@ -244,7 +242,7 @@ def draw_needle(
                     near >= 2,
                     axis,
                     centre,
-                    form,
+                    shape,
                     colours,
                     lamp,
                 )

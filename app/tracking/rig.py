@@ -2,6 +2,7 @@
 
 from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -73,11 +74,13 @@ class NeedleProfile(Strict):
 
     Attributes:
         length_mm: hub to tip.
+        point_length_mm: over which the shaft tapers to the tip.
         marker_offset_mm: centre of the band behind the tip.
     """
 
     length_mm: float = Field(gt=0.0)
     shaft_diameter_mm: float = Field(gt=0.0)
+    point_length_mm: float = Field(gt=0.0)
     marker_offset_mm: float = Field(ge=0.0)
     marker_length_mm: float = Field(gt=0.0)
     marker_diameter_mm: float = Field(gt=0.0)
@@ -86,6 +89,35 @@ class NeedleProfile(Strict):
     def marker_offset(self) -> float:
         """Distance from the band's centre to the tip [m]."""
         return self.marker_offset_mm * MILLIMETRE
+
+    @cached_property
+    def shape(self) -> "NeedleShape":
+        """Its measures in metres."""
+        return NeedleShape(
+            0.5 * self.shaft_diameter_mm * MILLIMETRE,
+            0.5 * self.marker_diameter_mm * MILLIMETRE,
+            0.5 * self.marker_length_mm * MILLIMETRE,
+            self.marker_offset,
+            self.marker_offset - self.length_mm * MILLIMETRE,
+            self.point_length_mm * MILLIMETRE,
+        )
+
+
+class NeedleShape(NamedTuple):
+    """Shaft, band and point [m]; positions on the axis count from the band's centre to the tip."""
+
+    shaft: float
+    """Radius of the shaft."""
+    radius: float
+    """Radius of the band."""
+    half: float
+    """Half length of the band."""
+    tip: float
+    """Position of the tip."""
+    hub: float
+    """Position of the hub; negative."""
+    point: float
+    """Length over which the shaft tapers to the tip."""
 
 
 class RangeProfile(Strict):

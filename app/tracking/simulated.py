@@ -7,7 +7,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.clock import Clock
-from app.core.units import MILLIMETRE, MILLISECOND
+from app.core.units import MILLISECOND
 from app.tracking.background import LIGHT_WORLD, paint_background
 from app.tracking.camera import Camera, Frame, Image
 from app.tracking.camera_model import CameraModel
@@ -28,15 +28,7 @@ class NeedleRenderer:
         self, model: CameraModel, needle: NeedleProfile, blur_px: float, seed: int = 0
     ) -> None:
         self.model = model
-        self._shape = np.array(
-            [
-                0.5 * needle.shaft_diameter_mm * MILLIMETRE,
-                0.5 * needle.marker_diameter_mm * MILLIMETRE,
-                0.5 * needle.marker_length_mm * MILLIMETRE,
-                needle.marker_offset,
-                needle.marker_offset - needle.length_mm * MILLIMETRE,
-            ]
-        )
+        self._shape = needle.shape
         self._fine = sample_pattern(blur_px)
         self._coarse = sample_pattern(blur_px, 8)
         self._rays = _pixel_rays(model)
@@ -69,11 +61,11 @@ class NeedleRenderer:
         much further outside the image than such a piece is long.
         """
         width, height = self.model.image_size
-        along = np.linspace(self._shape[4] - 1e-3, self._shape[3] + 1e-3, 42)
+        along = np.linspace(self._shape.hub - 1e-3, self._shape.tip + 1e-3, 42)
         points = centre + along[:, None] * axis
         uv, ok = self.model.project_camera(points)
         nearest = points[ok, 2].min(initial=np.inf)
-        reach = self._shape[1] * self.model.intrinsics[:2].max() / nearest + 3.0
+        reach = self._shape.radius * self.model.intrinsics[:2].max() / nearest + 3.0
         return row_spans(uv, ok, float(reach), width, height)
 
 

@@ -1,0 +1,198 @@
+"""Marker extraction by the centroid of the band's outline (the default way).
+
+Redness r = R - (G + B)/2 does not see grey and hardly skin. Shading makes one flank of the band
+darker than the other, so r itself would pull the centroid towards the lamp; the weight of a pixel is
+therefore the share of it that the band covers,
+
+    w = (r - b) / (f - b),
+
+with f the redness of the nearby inside of the band and b that of the nearby background; inside
+it is one. The centroid of w is that of the outline, whatever the light.
+"""
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray
+from app.tracking.camera import Image
+from app.tracking.marker import Extractor, MarkerFix
+
+_Float32 = NDArray[np.float32]
+_Mask = NDArray[np.uint8]
+
+_SQUARE3 = np.ones((3, 3), dtype=np.uint8)
+_SQUARE5 = np.ones((5, 5), dtype=np.uint8)
+_CANDIDATES = 4
+_REACH = 5
+_REDNESS_NOISE = float(np.sqrt(1.5))
+"""Standard deviation of r for one grey level of independent noise in each colour."""
+
+
+@dataclass(frozen=True)
+class OutlineCentroid(Extractor):
+    """Red mask in a tracked region, then the centroid of the covered shares.
+
+    Attributes:
+        redness: least r of the band [grey levels].
+        area_min, area_max: of the band [px²].
+        region: half width of the tracked region [px].
+        noise_grey: standard deviation of the picture's noise, for the covariance.
+        overexposed: largest share of the band with a colour at its end, at which it is refused.
+    """
+
+    redness: float = 40.0
+    area_min: float = 40.0
+    area_max: float = 6000.0
+    region: int = 48
+    noise_grey: float = 4.0
+    overexposed: float = 0.25
+
+    def find(self, image: Image, predicted: FloatArray | None) -> MarkerFix | None:
+        """See `Extractor.find`."""
+        if predicted is None:
+            found = self.search(image)
+            return found[0] if found else None
+        if not np.isfinite(predicted).all():
+            return None
+        return self._in_region(image, predicted)
+
+    def search(self, image: Image) -> tuple[MarkerFix, ...]:
+        """Look at every second pixel for red patches of the right size, then closely at each."""
+        seeds = self._seeds(image)
+        fixes = [fix for seed in seeds if (fix := self._in_region(image, seed)) is not None]
+        distinct: list[MarkerFix] = []
+        for fix in sorted(fixes, key=lambda fix: -fix.quality):
+            if all(np.abs(fix.uv - other.uv).max() > 2.0 for other in distinct):
+                distinct.append(fix)
+        return tuple(distinct)
+
+    def _seeds(self, image: Image) -> list[FloatArray]:
+        mask = _threshold(_redness(image[::2, ::2]), self.redness)
+        mask = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, _SQUARE3)
+        count, _, statistics, centres = cv2.connectedComponentsWithStats(mask)
+        areas = 4.0 * statistics[1:count, cv2.CC_STAT_AREA]
+        fitting = np.flatnonzero((areas > 0.5 * self.area_min) & (areas < 1.5 * self.area_max))
+        largest = fitting[np.argsort(-areas[fitting])][:_CANDIDATES]
+        return [2.0 * centres[1 + i] for i in largest]
+
+    def _in_region(self, image: Image, centre: FloatArray) -> MarkerFix | None:
+        height, width = image.shape[:2]
+        u, v = np.clip(np.rint(centre), -1e6, 1e6).astype(int)
+        left, top = max(0, u - self.region), max(0, v - self.region)
+        right, bottom = min(width, u + self.region + 1), min(height, v + self.region + 1)
+        if right - left < 8 or bottom - top < 8:
+            return None
+        patch = _tight(image, (left, top, right, bottom), centre, self.redness)
+        if patch is None:
+            return None
+        blob, (left, top, right, bottom) = patch
+        if left == 0 or top == 0 or right == width or bottom == height:
+            return None  # cut by the border of the picture
+        window = image[top:bottom, left:right]
+        return self._measure(window, blob, np.array([left, top], dtype=np.float64))
+
+    def _measure(self, window: Image, blob: _Mask, origin: FloatArray) -> MarkerFix | None:
+        if _overexposed(window, blob) > self.overexposed:
+            return None
+        redness = _redness(window)
+        inside = cv2.erode(blob, _SQUARE3, iterations=2)
+        support = cv2.dilate(blob, _SQUARE5)
+        weight, contrast = _covered(redness, inside, support)
+        area = float(weight.sum())
+        if not self.area_min <= area <= self.area_max or contrast <= 0.0:
+            return None
+        return _fix(weight, inside, area, _REDNESS_NOISE * self.noise_grey / contrast, origin)
+
+
+def _redness(image: Image) -> _Float32:
+    blue, green, red = cv2.split(image)
+    mean = cv2.addWeighted(blue, 0.5, green, 0.5, 0.0, dtype=cv2.CV_32F)
+    return np.asarray(cv2.subtract(red, mean, dtype=cv2.CV_32F), dtype=np.float32)
+
+
+def _threshold(redness: _Float32, limit: float) -> _Mask:
+    return (redness > limit).astype(np.uint8)
+
+
+def _tight(
+    image: Image, region: tuple[int, int, int, int], centre: FloatArray, limit: float
+) -> tuple[_Mask, tuple[int, int, int, int]] | None:
+    """The red patch nearest to `centre` in the region, and its box with room around it."""
+    left, top, right, bottom = region
+    mask = _threshold(_redness(image[top:bottom, left:right]), limit)
+    count, labels, statistics, centres = cv2.connectedComponentsWithStats(mask)
+    if count < 2:
+        return None
+    areas = statistics[1:, cv2.CC_STAT_AREA]
+    distance = np.hypot(*(centres[1:] + (left, top) - centre).T)
+    distance[areas < max(6.0, 0.2 * areas.max())] = np.inf  # specks
+    which = 1 + int(np.argmin(distance))
+    x, y, w, h = statistics[which, :4]
+    room = 7
+    box = (
+        max(0, left + x - room),
+        max(0, top + y - room),
+        min(image.shape[1], left + x + w + room),
+        min(image.shape[0], top + y + h + room),
+    )
+    blob = np.zeros((box[3] - box[1], box[2] - box[0]), dtype=np.uint8)
+    rows, columns = top + y - box[1], left + x - box[0]
+    blob[rows : rows + h, columns : columns + w] = labels[y : y + h, x : x + w] == which
+    touches = (left + x == 0 or top + y == 0) or (
+        left + x + w == image.shape[1] or top + y + h == image.shape[0]
+    )
+    return None if touches else (blob, box)
+
+
+def _overexposed(window: Image, blob: _Mask) -> float:
+    saturated = (window[..., 2] >= 254) & (blob > 0)
+    return float(saturated.sum()) / max(1.0, float(blob.sum()))
+
+
+def _covered(redness: _Float32, inside: _Mask, support: _Mask) -> tuple[_Float32, float]:
+    """Covered share of each pixel, and the mean contrast f - b along the outline [grey levels]."""
+    band, has_band = _spread(redness, inside, _REACH)
+    ground, has_ground = _spread(redness, np.uint8(1) - support, _REACH)
+    contrast = band - ground
+    edge = (support > 0) & (inside == 0) & has_band & has_ground & (contrast > 10.0)
+    weight = np.where(inside > 0, np.float32(1.0), np.float32(0.0))
+    weight[edge] = np.clip((redness[edge] - ground[edge]) / contrast[edge], -0.5, 1.5)
+    return weight, float(contrast[edge].mean()) if edge.any() else 0.0
+
+
+def _spread(values: _Float32, mask: _Mask, steps: int) -> tuple[_Float32, NDArray[np.bool_]]:
+    """Carry the masked values outwards, one pixel a step, as means of what is already known.
+
+    A pixel so takes the value of the nearest part of the mask: its own side of a shaded band.
+    Returns the values and where there are any.
+    """
+    known = mask.astype(np.float32)
+    total = cv2.boxFilter(values * known, -1, (3, 3), normalize=False)
+    count = cv2.boxFilter(known, -1, (3, 3), normalize=False)
+    mean = np.where(count > 0.5, total / np.maximum(count, 1.0), 0.0)
+    known = (count > 0.5).astype(np.float32)
+    for _ in range(steps - 1):
+        total = cv2.boxFilter(mean * known, -1, (3, 3), normalize=False)
+        count = cv2.boxFilter(known, -1, (3, 3), normalize=False)
+        new = (count > 0.5) & (known < 0.5)
+        mean[new] = total[new] / count[new]
+        known[new] = 1.0
+    return mean, known > 0.5
+
+
+def _fix(
+    weight: _Float32, inside: _Mask, area: float, noise: float, origin: FloatArray
+) -> MarkerFix:
+    """Centroid of the weights and what the noise of the outline's pixels makes of it."""
+    rows, columns = np.arange(weight.shape[0]), np.arange(weight.shape[1])
+    u = float(weight.sum(axis=0) @ columns) / area
+    v = float(weight.sum(axis=1) @ rows) / area
+    edge_v, edge_u = np.nonzero((weight != 0.0) & (inside == 0))
+    lever = np.column_stack([edge_u - u, edge_v - v])
+    covariance = (noise / area) ** 2 * (lever.T @ lever) + 1e-8 * np.eye(2)
+    plausible = np.abs(weight[edge_v, edge_u] - 0.5) <= 0.8
+    quality = float(plausible.mean()) if plausible.size else 0.0
+    return MarkerFix(np.array([u, v]) + origin, covariance, area, quality)
