@@ -1,0 +1,79 @@
+"""Errors and notes across the top of the window: they stop nothing and go when closed."""
+
+from __future__ import annotations
+
+import traceback
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QMessageBox, QToolButton, QWidget
+
+from app.core.errors import AcusError
+from app.views import theme
+from app.views.text import tr
+
+LONGEST = 260
+"""Characters shown in the bar; the rest stands in the details."""
+
+
+class MessageBar(QWidget):
+    """One line with a symbol, details on request, and a button to close it."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self._details = ""
+        self._symbol, self._text = QLabel(self), QLabel(self)
+        self._text.setWordWrap(True)
+        self._text.setTextFormat(Qt.TextFormat.PlainText)
+        self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._more, self._close = QToolButton(self), QToolButton(self)
+        self._more.setText(tr("Details"))
+        self._close.setText("✕")
+        self._close.setAccessibleName(tr("Close message"))
+        self._more.clicked.connect(self.show_details)
+        self._close.clicked.connect(self.hide)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(theme.MARGIN, 4, theme.SPACING, 4)
+        row.addWidget(self._symbol)
+        row.addWidget(self._text, 1)
+        row.addWidget(self._more)
+        row.addWidget(self._close)
+        self.hide()
+
+    @property
+    def text(self) -> str:
+        """Message that is shown."""
+        return self._text.text()
+
+    def show_error(self, error: Exception | str) -> None:
+        """Tell what happened and, where the error says so, what to do."""
+        details = ""
+        if isinstance(error, Exception):
+            details = "".join(traceback.format_exception(error))
+        known = isinstance(error, AcusError | str)
+        text = str(error) if known else tr("Something went wrong: {what}", what=repr(error))
+        self._show("bad", text, details)
+
+    def show_note(self, text: str) -> None:
+        """Tell that something worked."""
+        self._show("good", text, "")
+
+    def show_details(self) -> None:
+        """Open a window with the whole message and where it comes from."""
+        box = QMessageBox(QMessageBox.Icon.NoIcon, tr("Details"), self._text.text(), parent=self)
+        box.setDetailedText(self._details)
+        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        box.open()
+
+    def _show(self, verdict: str, text: str, details: str) -> None:
+        colour, symbol = theme.VERDICTS[verdict]
+        self._symbol.setText(symbol)
+        self._symbol.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX}px;")
+        self.setStyleSheet(
+            f"MessageBar {{ background: {theme.RAISED}; border-bottom: 2px solid {colour}; }}"
+        )
+        line = " ".join(text.split())
+        self._text.setText(line if len(line) <= LONGEST else line[: LONGEST - 1] + "…")
+        self._details = details or (text if len(line) > LONGEST else "")
+        self._more.setVisible(bool(self._details))
+        self.show()

@@ -1,0 +1,62 @@
+"""A patient as the window holds it: volume, body and, for the phantom, a proposed plan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.core.progress import Progress
+from app.imaging.body import Body, find_body
+from app.imaging.phantom import anatomy, phantom_series
+from app.imaging.reading import load_ct, read_series
+from app.imaging.series import Series
+from app.imaging.volume import Volume
+from app.planning.plan import Plan
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Patient:
+    """What is looked at and planned on.
+
+    Attributes:
+        volume: the CT.
+        body: what of it is patient, for skin and inside.
+        label: for the title; never a name from the files.
+        proposed: plan that comes with the patient; None for a CT of one's own.
+        folder: where it was opened; None for the phantom.
+        phantom_seed: of the procedural patient; None for a CT of one's own.
+    """
+
+    volume: Volume
+    body: Body
+    label: str
+    proposed: Plan | None = None
+    folder: Path | None = None
+    phantom_seed: int | None = None
+
+
+def load_phantom(seed: int, progress: Progress) -> Patient:
+    """Make (once) and read the procedural patient.
+
+    Raises:
+        AcusError: if it cannot be written or read; says why.
+        Cancelled: if `progress` was cancelled.
+    """
+    folder = phantom_series(seed, progress.part(0.0, 0.6))
+    volume = load_ct(folder, progress=progress.part(0.6, 0.9))
+    known = anatomy(seed)
+    plan = Plan(known.entry_mm, known.lesion_mm, f"phantom-{seed}")
+    body = find_body(volume, progress.part(0.9, 1.0))
+    return Patient(volume, body, f"Phantom {seed}", plan, phantom_seed=seed)
+
+
+def read_patient(series: Series, folder: Path, progress: Progress) -> Patient:
+    """Read a series that the user chose.
+
+    Raises:
+        AcusError: if it cannot be read; says why.
+        Cancelled: if `progress` was cancelled.
+    """
+    volume = read_series(series, progress.part(0.0, 0.85))
+    body = find_body(volume, progress.part(0.85, 1.0))
+    return Patient(volume, body, series.pseudonym, folder=folder)

@@ -1,0 +1,200 @@
+"""The plan and the patient's position while they are edited, with undo, and the robot's verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from numpy.typing import ArrayLike
+from PySide6.QtCore import QObject, Signal
+
+from app.core.arrays import FloatArray
+from app.core.errors import AcusError
+from app.imaging.body import Body, is_inside, snap_to_skin
+from app.planning.draft import DraftPlan
+from app.planning.history import History
+from app.planning.limits import ReachLimits
+from app.planning.placement import PlacedPlan, Placement
+from app.planning.plan import Plan
+from app.planning.reach import Reach, reach
+from app.views.slices.viewing import Tool
+
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """What undo goes back to: points and position together."""
+
+    draft: DraftPlan = field(default_factory=DraftPlan)
+    placement: Placement = field(default_factory=Placement)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Verdict:
+    """What can be said about an edit.
+
+    Attributes:
+        reach: the robot's answer; None while the plan is incomplete or not usable.
+        problem: why there is no answer, or what else is wrong; empty if nothing is.
+    """
+
+    reach: Reach | None
+    problem: str = ""
+
+    @property
+    def placed(self) -> PlacedPlan | None:
+        """The plan in the robot's frame, if the robot can follow it."""
+        usable = self.reach is not None and self.reach.reachable and not self.problem
+        return self.reach.placed if usable and self.reach is not None else None
+
+
+class PlanEditor(QObject):
+    """Holds the history; every change gives a new verdict at once.
+
+    Signals:
+        changed(): draft, placement, verdict, dirty or path is another.
+        refused(str): a point could not be placed there, and why.
+    """
+
+    changed = Signal()
+    refused = Signal(str)
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._history = History(Edit())
+        self._saved = Edit()
+        self._body: Body | None = None
+        self._limits: ReachLimits | None = None
+        self.path: Path | None = None
+        self.locked = False
+        self._fresh = True  # no point of the present gesture was accepted yet
+        self.verdict = Verdict(None)
+
+    # --- what is there ------------------------------------------------------------------------
+    @property
+    def edit(self) -> Edit:
+        """Points and position now."""
+        return self._history.present
+
+    @property
+    def dirty(self) -> bool:
+        """Whether points were changed since the plan was opened or saved."""
+        return self.edit.draft != self._saved.draft
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is a step to take back."""
+        return self._history.can_undo and not self.locked
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is a step to take again."""
+        return self._history.can_redo and not self.locked
+
+    # --- what it stands on --------------------------------------------------------------------
+    def set_body(self, body: Body | None) -> None:
+        """Take the patient whose skin entries snap to."""
+        self._body = body
+        self._announce()
+
+    def set_limits(self, limits: ReachLimits) -> None:
+        """Take the device whose reach is judged."""
+        self._limits = limits
+        self._announce()
+
+    def set_locked(self, locked: bool) -> None:
+        """Refuse changes while an attempt runs."""
+        self.locked = locked
+        self.changed.emit()
+
+    # --- edits --------------------------------------------------------------------------------
+    def start(self, plan: Plan | None, placement: Placement | None = None) -> None:
+        """Begin anew with a plan, or with none; there is nothing to undo then."""
+        draft = DraftPlan() if plan is None else DraftPlan.of(plan)
+        edit = Edit(draft, placement or self.edit.placement)
+        self._history, self._saved, self.path = History(edit), edit, None
+        self._announce()
+
+    def opened(self, path: Path, plan: Plan) -> None:
+        """Take over a plan that was read from a file."""
+        self.start(plan)
+        self.path = path
+        self.changed.emit()
+
+    def saved(self, path: Path) -> None:
+        """Remember where the plan was written."""
+        self.path, self._saved = path, self.edit
+        self.changed.emit()
+
+    def place(self, tool: Tool, point: Point, starts_step: bool) -> None:
+        """Set entry (on the skin next to `point`) or target; one drag is one step to undo."""
+        if self._refuse_locked():
+            return
+        self._fresh = self._fresh or starts_step
+        try:
+            place = self._on_skin(point) if tool is Tool.ENTRY else point
+            draft = self.edit.draft
+            draft = draft.with_entry(place) if tool is Tool.ENTRY else draft.with_target(place)
+        except AcusError as error:
+            self.refused.emit(str(error))
+            return
+        edit = replace(self.edit, draft=draft)
+        self._history = self._history.do(edit) if self._fresh else self._history.amend(edit)
+        self._fresh = False
+        self._announce()
+
+    def set_placement(self, placement: Placement) -> None:
+        """Lay the patient differently."""
+        if not self._refuse_locked():
+            self._history = self._history.do(replace(self.edit, placement=placement))
+            self._announce()
+
+    def apply_remedy(self) -> None:
+        """Turn the patient as the verdict suggests."""
+        reached = self.verdict.reach
+        if reached is not None and reached.remedy is not None:
+            self.set_placement(reached.remedy.placement)
+
+    def undo(self) -> None:
+        """Take the last step back."""
+        self._step(self._history.undo)
+
+    def redo(self) -> None:
+        """Take it again."""
+        self._step(self._history.redo)
+
+    # --- inside -------------------------------------------------------------------------------
+    def _step(self, move: Callable[[], History[Edit]]) -> None:
+        if not self._refuse_locked():
+            self._history = move()
+            self._announce()
+
+    def _refuse_locked(self) -> bool:
+        if self.locked:
+            self.refused.emit("the plan cannot change while an attempt runs: end it first")
+        return self.locked
+
+    def _on_skin(self, point: ArrayLike) -> ArrayLike:
+        return point if self._body is None else snap_to_skin(self._body, point)
+
+    def _announce(self) -> None:
+        self.verdict = self._judge()
+        self.changed.emit()
+
+    def _judge(self) -> Verdict:
+        draft = self.edit.draft
+        if not draft.complete or self._limits is None:
+            return Verdict(None)
+        try:
+            plan = draft.plan()
+            reached = reach(plan, self.edit.placement, self._limits)
+            if self._body is not None:
+                plan.require_inside(self._inside)
+        except AcusError as error:
+            return Verdict(None, str(error))
+        return Verdict(reached)
+
+    def _inside(self, point: FloatArray) -> bool:
+        return self._body is None or is_inside(self._body, point)

@@ -1,0 +1,46 @@
+"""What the panel says about a plan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from app.core.units import DEGREE, MILLIMETRE
+from app.views.plan.editor import PlanEditor
+from app.views.text import tr
+
+
+@dataclass(frozen=True, slots=True)
+class VerdictWords:
+    """Kind (a key of `theme.VERDICTS`), sentence, measures, and whether a rotation would help."""
+
+    kind: str
+    text: str
+    measures: str = ""
+    remedy: bool = False
+
+
+def verdict_words(editor: PlanEditor) -> VerdictWords:
+    """Put the editor's verdict into words."""
+    draft, verdict = editor.edit.draft, editor.verdict
+    if verdict.problem:
+        return VerdictWords("bad", verdict.problem)
+    if draft.entry_mm is None:
+        return VerdictWords("warning", tr("Place the entry on the skin: press E, then click."))
+    if draft.target_mm is None:
+        return VerdictWords("warning", tr("Place the target: press T, then click."))
+    reached = verdict.reach
+    if reached is None:
+        return VerdictWords("warning", tr("No device chosen yet."))
+    measures = tr(
+        "Path {length:.1f} mm, tilt {tilt:.1f}° from vertical",
+        length=reached.depth / MILLIMETRE,
+        tilt=reached.tilt / DEGREE,
+    )
+    if reached.reachable:
+        return VerdictWords("good", tr("The robot can follow this path."), measures)
+    reasons = "; ".join(str(reason) for reason in reached.reasons)
+    text = tr("Out of reach: {reasons}.", reasons=reasons)
+    if reached.remedy is None:
+        return VerdictWords("bad", text, measures)
+    text += "\n" + tr("Remedy: {words}", words=reached.remedy.words)
+    return VerdictWords("bad", text, measures, remedy=True)
