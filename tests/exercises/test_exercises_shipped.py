@@ -1,0 +1,69 @@
+"""The shipped exercises judge as a teacher would: perfect is 100, worse is never more."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from app.exercises.library import load_exercise
+from app.exercises.schema import Exercise
+from app.planning.placement import PlacedPlan
+from app.planning.plan import Plan
+from app.scoring.result import Score
+from app.scoring.score import score
+from app.scoring.trajectory import Trajectory
+
+SHIPPED = ["first-insertion", "thick-tissue", "breathing-liver"]
+FULCRUM = np.array([0.0, 0.16056, 0.090])
+
+
+def attempt(exercise: Exercise, badness: float, seed: int) -> Score:
+    """Score an insertion: perfect at badness 0; at 1 far off in place, angle, path, time, force."""
+    plan = Plan((0.0, -95.0, 300.0), (20.0, -20.0, 310.0))
+    placed = PlacedPlan.of(plan, exercise.placement.placement(), FULCRUM)
+    rng = np.random.default_rng(seed)
+    side = np.cross(placed.axis, rng.normal(size=3))
+    side /= np.linalg.norm(side)
+    time = np.linspace(0.0, 45.0 + 500.0 * badness, 1500)
+    share = np.clip((time / time[-1] - 0.4) / 0.5, 0.0, 1.0)
+    bow = badness * (0.06 * np.sin(np.pi * share) + 0.012 * share)
+    depth = share * (placed.length + 0.008 * badness)
+    tip = placed.p_entry + np.outer(depth, placed.axis) + np.outer(bow, side)
+    axis = placed.axis + 0.08 * badness * side
+    n = len(time)
+    trajectory = Trajectory(
+        placed=placed,
+        time=time,
+        tip=tip,
+        axis=np.tile(axis / np.linalg.norm(axis), (n, 1)),
+        depth=depth,
+        felt=np.tile(6.0 * badness * side, (n, 1)),
+        phase=np.where(share > 0.0, "inserting", "aligning"),  # type: ignore[arg-type]
+        depth_valid=np.ones(n, dtype=bool),
+    )
+    return score(trajectory, exercise.tolerances, exercise.rules)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_perfect_attempt_scores_100(name: str) -> None:
+    result = attempt(load_exercise(name), 0.0, seed=1)
+    assert result.total == pytest.approx(100.0)
+    assert result.passed
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+@pytest.mark.parametrize("seed", range(5))
+def test_the_score_falls_with_everything_that_gets_worse(name: str, seed: int) -> None:
+    exercise = load_exercise(name)
+    totals = [attempt(exercise, badness, seed).total for badness in np.linspace(0.0, 1.0, 12)]
+    numbers = [total for total in totals if total is not None]
+    assert len(numbers) == len(totals)
+    assert all(a >= b for a, b in pairwise(numbers))
+    assert numbers[-1] < 30.0 < numbers[0]
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_bad_attempt_fails_by_its_required_metrics(name: str) -> None:
+    result = attempt(load_exercise(name), 1.0, seed=2)
+    assert not result.passed
+    assert result.failures
