@@ -10,7 +10,7 @@ from app.core.arrays import FloatArray
 from app.core.compiled import stage
 from app.simulation.declaration import Declaration, class_name
 from app.simulation.registry import implementation
-from app.simulation.scene import Scene
+from app.simulation.scene import Binding, Scene
 
 Stage = tuple[str, Any, FloatArray]
 """Name, compiled `void(state, parameters)`, its parameters array."""
@@ -69,7 +69,11 @@ class SimulationPlan:
     def _stage(self, kept: Kept) -> Stage:
         module = implementation(kept.name)
         effect = getattr(module, class_name(kept.name))(**kept.parameters)
-        return kept.name, module.step, effect.parameters(self.scene, self.depth_slot)
+        return (
+            kept.name,
+            module.step,
+            effect.parameters(Binding(self.scene, self.depth_slot, kept.model)),
+        )
 
 
 @stage

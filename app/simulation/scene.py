@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from app.core import state_vector as sv
 from app.core.arrays import FloatArray, frozen
 from app.simulation.errors import SimulationError
 
@@ -116,3 +117,19 @@ class Scene:
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:
             raise SimulationError(f"effect {twice[0]!r} stands twice in the scene; name it once")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Binding:
+    """What an effect is bound to when its parameters array is made.
+
+    Attributes:
+        scene: the scene.
+        depth_slot: slot that holds the depth for effects along the needle: the true depth of a
+            simulated needle, else the measured one.
+        model: the chosen way to compute the effect.
+    """
+
+    scene: Scene
+    depth_slot: int = sv.DEPTH
+    model: str = ""

@@ -6,13 +6,13 @@ import pytest
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.simulation.effects import breathing as effect
-from app.simulation.scene import Scene
+from app.simulation.scene import Binding, Scene
 
 SUPINE = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]])  # L→+x, S→+y, A→+z: columns L, P, S
 
 
 def shifts(times: FloatArray, **parameters: float) -> FloatArray:
-    memory = effect.Breathing(**parameters).parameters(Scene(R_world_patient=SUPINE), sv.DEPTH)
+    memory = effect.Breathing(**parameters).parameters(Binding(Scene(R_world_patient=SUPINE)))
     rows = []
     for time in times:
         state = sv.empty_state()

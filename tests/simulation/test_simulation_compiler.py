@@ -73,7 +73,7 @@ def test_an_effect_without_layers_or_on_another_organ_is_dropped() -> None:
         (EffectRequest("breathing", {"period": 0.0}), "period is 0.0; give 0.5 to 60 s"),
         (EffectRequest("breathing", {"period": float("nan")}), "period is nan"),
         (EffectRequest("breathing", {"period": True}), "period is True"),
-        (EffectRequest("lateral_tissue", model="beam"), "has no model 'beam'; it has winkler"),
+        (EffectRequest("lateral_tissue", model="fem"), "has no model 'fem'; it has beam, winkler"),
     ],
 )
 def test_what_cannot_be_simulated_is_refused_by_name(request_: EffectRequest, message: str) -> None:

@@ -6,13 +6,15 @@ import pytest
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.simulation.effects import shaft_friction as effect
-from app.simulation.scene import Layer, Scene
+from app.simulation.scene import Binding, Layer, Scene
 
 LAYERS = (Layer("a", 0.2, friction=10.0, static_friction=18.0, viscous_friction=200.0),)
 
 
 def friction(**parameters: float) -> FloatArray:
-    return effect.ShaftFriction(**parameters).parameters(Scene(layers=LAYERS), sv.PLANT_DEPTH)
+    return effect.ShaftFriction(**parameters).parameters(
+        Binding(Scene(layers=LAYERS), sv.PLANT_DEPTH)
+    )
 
 
 def tick(memory: FloatArray, depth: float, dt: float = 1e-3) -> float:
@@ -76,7 +78,7 @@ def test_a_cycle_dissipates_all_but_the_presliding_energy() -> None:
 
 def test_a_measured_depth_has_its_speed_smoothed() -> None:
     scene = Scene(layers=LAYERS)
-    memory = effect.ShaftFriction().parameters(scene, sv.DEPTH)
+    memory = effect.ShaftFriction().parameters(Binding(scene))
     assert memory[effect.SMOOTHING] == pytest.approx(0.03)
     assert friction()[effect.SMOOTHING] == 0.0
 

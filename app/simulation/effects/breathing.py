@@ -18,7 +18,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.simulation.scene import Scene
+from app.simulation.scene import Binding
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Breathing moves the target",
@@ -53,9 +53,9 @@ class Breathing:
     shape: float = 2.0
     anterior_lag: float = 0.392699
 
-    def parameters(self, scene: Scene, depth_slot: int) -> FloatArray:
+    def parameters(self, binding: Binding) -> FloatArray:
         """Return a fresh parameters array; breathing starts at exhalation at its first tick."""
-        left, posterior, superior = scene.R_world_patient.T
+        left, posterior, superior = binding.scene.R_world_patient.T
         in_phase = self.left_right * left - self.superior_inferior * superior
         lagging = -self.anterior_posterior * posterior
         head = [self.period, self.shape, self.anterior_lag, np.nan]

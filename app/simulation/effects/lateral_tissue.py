@@ -1,4 +1,4 @@
-"""Side stiffness of layered tissue about the fulcrum: a rigid needle in a Winkler foundation.
+"""Side stiffness of layered tissue about the fulcrum: a needle in a Winkler foundation.
 
 Tissue at depth s is pierced where the tip passes, at direction r(s), and from then on resists the
 needle's sideways displacement s (n - r(s)) there with k(s) [N/m²]. With |n| = |r| = 1 the stored
@@ -14,14 +14,20 @@ closed form K θ for small angles. Virtual work gives the force at the hub point
 
 perpendicular to the needle and back towards the directions at which the tissue was pierced.
 
+Models. `winkler` takes the needle as rigid. `beam` (default: see docs/studies.md) lets it bend:
+K(d) becomes the moment per angle of a beam on the layered foundation, its slope held at the fulcrum,
+tabulated over depth when the scene is compiled; C is laid with the same increments dK. K rises with
+depth in both, so what is said here of energy holds for both.
+
 Energy. Advancing lays new tissue down unstressed (dU = 0); retreating frees tissue, whose energy
 is lost in the tissue (dU <= 0). Without this memory (a spring K(d) towards one fixed direction)
 pushing at an angle would give out energy at the lateral port unless an axial port were counted;
 with it the lateral port alone is passive, so this effect has no axial force.
 
-Memory: C at the edges of bins of depth, in the parameters array. Withdrawing forgets. A depth that
-nobody measured (DEPTH_SOURCE 0, the model's) moves nothing: the tissue stays as it was last known,
-and before the first measurement there is none.
+Memory: C at the edges of bins of depth, in the parameters array. Withdrawing forgets; inside a bin
+only the mean direction is kept, so a depth that flickers re-lays at most the bin at the tip. A
+depth that nobody measured (DEPTH_SOURCE 0, the model's) moves nothing: the tissue stays as it was
+last known, and before the first measurement there is none.
 """
 
 from dataclasses import dataclass
@@ -33,15 +39,20 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.simulation.errors import SimulationError
-from app.simulation.scene import Scene
+from app.simulation.foundation import hermite_moment
+from app.simulation.needles import bending_stiffness
+from app.simulation.scene import Binding
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Side stiffness of layered tissue about the fulcrum",
     "reads": ("axis_x", "axis_y", "axis_z", "depth", "depth_source", "l_out", "kinematics"),
     "writes": ("force_x", "force_y", "force_z"),
     "consumers": ("device axis lateral", "score of felt force"),
-    "needs": ("layers",),
-    "models": {"winkler": "rigid needle in a Winkler foundation, closed form per layer"},
+    "needs": ("layers", "needle"),
+    "models": {
+        "beam": "needle that bends: stiffness by depth from a beam on the layers, tabulated",
+        "winkler": "rigid needle, closed form per layer; far too stiff beyond some 40 mm",
+    },
     "energy": (
         "potential",
         "stored energy K - n·C is never negative; advancing adds none, retreating loses it",
@@ -56,48 +67,88 @@ DECLARATION: Final[dict[str, Any]] = {
 BIN: Final = 2.0**-10  # [m] depth resolution of the memory; a power of two, so that edges are exact
 _LONGEST: Final = 1.0  # [m] of layers; longer than any needle
 
-# Parameters array: heads, then layers (end, k) and C at the bin edges (n + 1 triples).
-LAYERS, BINS, LEVER, DEPTH, CX, CY, CZ, HEAD = range(8)
+# Parameters array: heads, layers (end, k), C at the bin edges (triples), K of the beam there.
+LAYERS, BINS, LEVER, BEAM, DEPTH, CX, CY, CZ, HEAD = range(9)
 
 
 @dataclass(frozen=True, slots=True)
 class LateralTissue:
-    """Parameters of the effect; the layers come from the scene."""
+    """Parameters of the effect; layers and needle come from the scene."""
 
     stiffness_scale: float = 1.0
     shortest_lever: float = 0.02
 
-    def parameters(self, scene: Scene, depth_slot: int) -> FloatArray:
+    def parameters(self, binding: Binding) -> FloatArray:
         """Return a fresh parameters array: tissue not yet pierced.
-
-        `depth_slot` is not used: what the robot renders follows the measured depth.
 
         Raises:
             SimulationError: if the layers together are thicker than a metre.
         """
-        ends = np.cumsum([layer.thickness for layer in scene.layers])
+        layers = binding.scene.layers
+        ends = np.cumsum([layer.thickness for layer in layers])
         if ends[-1] > _LONGEST:
             raise SimulationError(
                 f"the layers are {ends[-1]:g} m thick together; at most {_LONGEST:g} m"
             )
-        bins = int(np.ceil(ends[-1] / BIN - 1e-9)) + 1
-        head = np.array([len(ends), bins, self.shortest_lever, 0.0, 0.0, 0.0, 0.0])
-        stiffness = [self.stiffness_scale * layer.side_stiffness for layer in scene.layers]
-        layers = np.column_stack([ends, stiffness]).ravel()
-        return np.concatenate([head, layers, np.zeros(3 * (bins + 1))])
+        stiffness = [self.stiffness_scale * layer.side_stiffness for layer in layers]
+        bins = int(np.ceil(ends[-1] / BIN)) + 1
+        beam = binding.model != "winkler"
+        head = np.array([len(ends), bins, self.shortest_lever, beam, 0.0, 0.0, 0.0, 0.0])
+        pairs = np.column_stack([ends, stiffness]).ravel()
+        p = np.concatenate([head, pairs, np.zeros(4 * (bins + 1))])
+        if beam:
+            p[-(bins + 1) :] = _beam_table(
+                p, bending_stiffness(binding.scene.needle.outer_diameter)
+            )
+        return p
 
 
 @njit
-def rotational_stiffness(parameters: FloatArray, depth: float) -> float:
+def _rigid_stiffness(p: FloatArray, depth: float) -> float:
     """K(d) = Σ k_i (b_i³ - a_i³) / 3 [N·m/rad]; zero for d <= 0."""
     total = 0.0
     start = 0.0
-    for i in range(int(parameters[LAYERS])):
-        end = min(parameters[HEAD + 2 * i], depth)
+    for i in range(int(p[LAYERS])):
+        end = min(p[HEAD + 2 * i], depth)
         if end > start:
-            total += parameters[HEAD + 2 * i + 1] * (end * end * end - start * start * start) / 3.0
+            total += p[HEAD + 2 * i + 1] * (end * end * end - start * start * start) / 3.0
             start = end
     return total
+
+
+@njit
+def _beam_table(p: FloatArray, ei: float) -> FloatArray:
+    """K at the bin edges [N·m/rad] of a needle that bends, by one Hermite element per bin.
+
+    Never falls with depth: the needle of a shorter depth is a restriction of the longer one.
+    """
+    bins = int(p[BINS])
+    k = np.empty(bins)
+    for j in range(bins):  # mean side stiffness of the bin
+        k[j] = 0.0
+        start = 0.0
+        for i in range(int(p[LAYERS])):
+            end = p[HEAD + 2 * i]
+            share = min(end, (j + 1) * BIN) - max(start, j * BIN)
+            k[j] += max(share, 0.0) / BIN * p[HEAD + 2 * i + 1]
+            start = end
+    table = np.zeros(bins + 1)
+    band, right = np.empty((2 * bins, 4)), np.empty(2 * bins)
+    for n in range(1, bins + 1):
+        moment = hermite_moment(k[:n], ei, n * BIN, 1.0, band[: 2 * n], right[: 2 * n])
+        table[n] = max(moment, table[n - 1])
+    return table
+
+
+@njit
+def rotational_stiffness(p: FloatArray, depth: float) -> float:
+    """Moment about the fulcrum per angle for a needle inserted straight [N·m/rad]."""
+    if p[BEAM] == 0.0 or depth <= 0.0:
+        return _rigid_stiffness(p, depth)
+    table = HEAD + 2 * int(p[LAYERS]) + 3 * (int(p[BINS]) + 1)
+    j = min(int(depth / BIN), int(p[BINS]) - 1)
+    low = p[table + j]
+    return low + (depth / BIN - j) * (p[table + j + 1] - low)
 
 
 @njit

@@ -25,7 +25,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.simulation.scene import Scene
+from app.simulation.scene import Binding
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Friction of the tissue along the inserted shaft",
@@ -45,6 +45,7 @@ DECLARATION: Final[dict[str, Any]] = {
 
 SLOT, PRESLIDING, STRIBECK, SMOOTHING, LAYERS, DEPTH, SPEED, FORCE, HEAD = range(9)
 _PER_LAYER: Final = 4  # end, kinetic, break-away, viscous
+_FASTEST: Final = 10.0  # [m/s]; faster is a jump of the measurement
 _SNAP: Final = 1e-12  # below this a decaying value becomes 0: subnormal numbers cost 20 times more
 
 
@@ -56,14 +57,15 @@ class ShaftFriction:
     stribeck_speed: float = 0.002
     speed_smoothing: float = 0.03
 
-    def parameters(self, scene: Scene, depth_slot: int) -> FloatArray:
+    def parameters(self, binding: Binding) -> FloatArray:
         """Return a fresh parameters array: needle at rest.
 
-        `depth_slot` is the slot that holds the depth. The true depth of a simulated needle is
+        The true depth of a simulated needle is
         differenced as it is; a measured depth comes in steps of a camera frame, so its speed is
         smoothed over `speed_smoothing`.
         """
-        smoothing = 0.0 if depth_slot == sv.PLANT_DEPTH else self.speed_smoothing
+        smoothing = 0.0 if binding.depth_slot == sv.PLANT_DEPTH else self.speed_smoothing
+        scene = binding.scene
         ends = np.cumsum([layer.thickness for layer in scene.layers])
         layers = [
             (
@@ -74,7 +76,7 @@ class ShaftFriction:
             )
             for end, layer in zip(ends, scene.layers, strict=True)
         ]
-        head = [depth_slot, self.presliding_stiffness, self.stribeck_speed, smoothing]
+        head = [binding.depth_slot, self.presliding_stiffness, self.stribeck_speed, smoothing]
         return np.concatenate([head, [len(ends), np.nan, 0.0, 0.0], np.ravel(layers)])
 
 
@@ -122,7 +124,8 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     if dt > 0.0:
         smoothing = parameters[SMOOTHING]
         keep = np.exp(-dt / smoothing) if smoothing > 0.0 else 0.0
-        speed = keep * parameters[SPEED] + (1.0 - keep) * travel / dt
+        now = min(max(travel / dt, -_FASTEST), _FASTEST)
+        speed = keep * parameters[SPEED] + (1.0 - keep) * now
         parameters[SPEED] = speed if abs(speed) > _SNAP else 0.0
     inserted, level, viscous = _level(parameters, depth, parameters[SPEED])
     force = dahl(parameters[FORCE], travel, level, parameters[PRESLIDING] * inserted)

@@ -1,0 +1,288 @@
+"""Hard cases of effects, plant and trainee: bounded or a named error, never NaN, never a jump."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray, unit
+from app.mechanisms.profile import load_profile
+from app.simulation.compiler import compile
+from app.simulation.consumers import DevicePort
+from app.simulation.effects import breathing, lateral_tissue, shaft_friction
+from app.simulation.errors import SimulationError
+from app.simulation.plant import Hand, initial_plant, plant_stage
+from app.simulation.scene import Binding, EffectRequest, Layer, Scene
+from app.simulation.trainee import trainee_stage
+
+PROFILE = load_profile("icube")
+ANY = st.floats(allow_nan=True, allow_infinity=True)
+FORCES = slice(sv.FORCE_X, sv.FORCE_Z + 1)
+PLANT = slice(sv.PLANT_Q_LEFT, sv.PUSH + 1)
+QUICK = settings(derandomize=True, deadline=None, max_examples=60)
+
+
+def friction(layer: Layer, **parameters: float) -> FloatArray:
+    effect = shaft_friction.ShaftFriction(**parameters)
+    return effect.parameters(Binding(Scene(layers=(layer,)), sv.PLANT_DEPTH))
+
+
+def rub(memory: FloatArray, depth: float, dt: float = 1e-3) -> float:
+    state = sv.empty_state()
+    state[sv.PLANT_DEPTH], state[sv.DT] = depth, dt
+    shaft_friction.step(state, memory)
+    return float(state[sv.AXIAL_FORCE])
+
+
+def press(memory: FloatArray, tilt: float, depth: float, l_out: float = 0.1) -> FloatArray:
+    state = sv.empty_state()
+    state[sv.AXIS_X], state[sv.AXIS_Z] = math.sin(tilt), -math.cos(tilt)
+    state[sv.DEPTH], state[sv.L_OUT], state[sv.DEPTH_SOURCE] = depth, l_out, 1.0
+    lateral_tissue.step(state, memory)
+    return state[FORCES].copy()
+
+
+def plant(hand: Hand | None = None) -> tuple[FloatArray, FloatArray, object]:
+    _, step, parameters = plant_stage(PROFILE, hand=hand)
+    state = sv.empty_state()
+    for name, value in initial_plant(PROFILE, (0.0, 0.0, -1.0), 0.0).items():
+        state[sv.INDEX[name]] = value
+    state[sv.DT] = 1e-3
+    return state, parameters, step
+
+
+# --- friction -------------------------------------------------------------------------------------
+@pytest.mark.parametrize("dt", [0.25e-3, 1e-3, 2e-3, 0.1])
+@pytest.mark.parametrize("stiffness", [1e4, 1e5, 1e6, 1e9])
+def test_friction_at_300_mm_per_s_is_bounded_for_any_stiffness_and_step(
+    dt: float, stiffness: float
+) -> None:
+    memory = friction(Layer("x", 9.0, viscous_friction=0.0), presliding_stiffness=stiffness)
+    force = 0.0
+    for k in range(300):
+        depth = 0.05 + 0.3 * dt * k
+        force = rub(memory, depth, dt)
+        assert 0.0 <= force <= 18.45 * depth
+    # It trails the level, which grows with depth, by one presliding distance at most.
+    assert force == pytest.approx(10.57 * depth, rel=2e-2)
+
+
+def test_explicit_euler_explodes_where_the_exponential_does_not() -> None:
+    """Negative control: the case is as hard as it is said to be."""
+    z, level, stiffness, speed, dt = 0.0, 1.0, 1e6, 0.3, 1e-3
+    for _ in range(50):
+        z += dt * (speed - stiffness * abs(speed) / level * z)
+    assert abs(stiffness * z) > 1e6 * level
+
+
+def test_a_still_needle_on_an_encoder_edge_does_not_chatter() -> None:
+    memory = shaft_friction.ShaftFriction().parameters(Binding(Scene(layers=(Layer("x", 0.2),))))
+    state, forces, count = sv.empty_state(), [], 33e-6
+    for k in range(2000):
+        state[sv.DEPTH], state[sv.DT], state[sv.AXIAL_FORCE] = 0.051 + count * (k % 2), 1e-3, 0.0
+        shaft_friction.step(state, memory)
+        forces.append(state[sv.AXIAL_FORCE])
+    elastic = 2.0 * 1e5 * 0.0511 * count  # the slope doubles where the motion turns
+    viscous = 250.0 * 0.0511 * count / 0.03
+    assert np.abs(np.diff(forces[10:])).max() <= elastic + 2.0 * viscous
+
+
+def test_friction_at_zero_negative_and_huge_depth_is_finite() -> None:
+    memory = friction(Layer("x", 0.1))
+    for depth in (0.0, -1.0, 0.0, 5e-324, 1e-320, 1e300, 0.0, -1e300, 0.05):
+        assert math.isfinite(rub(memory, depth))
+
+
+@QUICK
+@given(st.lists(st.tuples(ANY, ANY), max_size=30))
+def test_friction_survives_any_depth_and_step(ticks: list[tuple[float, float]]) -> None:
+    memory = friction(Layer("x", 0.1, viscous_friction=0.0))
+    for depth, dt in ticks:
+        assert abs(rub(memory, depth, dt)) <= 18.45 * 0.1 + 1e-9
+
+
+def test_friction_at_rest_leaves_no_subnormals() -> None:
+    memory = friction(Layer("x", 0.1))
+    for k in range(100):
+        rub(memory, 0.05 + 1e-5 * k)
+    for _ in range(3000):
+        rub(memory, 0.05099)
+    values = memory[shaft_friction.SPEED : shaft_friction.FORCE + 1]
+    assert all(value == 0.0 or abs(value) > 1e-300 for value in values)
+
+
+# --- lateral tissue -------------------------------------------------------------------------------
+def tissue(*layers: Layer, model: str = "winkler") -> FloatArray:
+    return lateral_tissue.LateralTissue().parameters(Binding(Scene(layers=layers), model=model))
+
+
+def test_at_zero_and_negative_depth_there_is_no_tissue() -> None:
+    memory = tissue(Layer("x", 0.2, 1e6))
+    for depth in (0.0, -0.03, -1e300, 0.0):
+        assert not press(memory, 0.3, depth).any()
+
+
+def test_layers_of_zero_thickness_count_for_nothing() -> None:
+    thin = tissue(Layer("a", 0.0, 1e6), Layer("b", 0.1, 2e4), Layer("c", 0.0, 1e6))
+    plain = tissue(Layer("b", 0.1, 2e4))
+    beam = tissue(Layer("a", 0.0, 1e6), model="beam")
+    assert not press(beam, 0.1, 0.08).any()
+    for memory in (thin, plain):
+        press(memory, 0.0, 0.08)
+    np.testing.assert_array_equal(press(thin, 0.1, 0.08), press(plain, 0.1, 0.08))
+    assert not press(tissue(Layer("nothing", 0.0)), 0.1, 0.08).any()
+
+
+def test_a_stiffness_of_a_million_is_finite_and_still_perpendicular() -> None:
+    memory = tissue(Layer("x", 0.2, 1e6))
+    press(memory, 0.0, 0.12)
+    force = press(memory, 0.1, 0.12, l_out=0.08)
+    assert np.isfinite(force).all()
+    assert abs(force @ [math.sin(0.1), 0.0, -math.cos(0.1)]) < 1e-9 * np.linalg.norm(force)
+
+
+def test_a_hub_at_the_fulcrum_keeps_the_force_bounded() -> None:
+    memory = tissue(Layer("x", 0.2, 2e4))
+    press(memory, 0.0, 0.12)
+    near, at = press(memory, 0.1, 0.12, l_out=0.02), press(memory, 0.1, 0.12, l_out=0.0)
+    np.testing.assert_allclose(at, near)
+
+
+def test_grazing_a_layer_boundary_back_and_forth_does_not_chatter() -> None:
+    memory = tissue(Layer("a", 0.05, 1e4), Layer("b", 0.1, 1e5))
+    press(memory, 0.0, 0.05)
+    forces = [press(memory, 0.1, 0.05 + 1e-6 * (-1) ** k)[0] for k in range(400)]
+    assert np.abs(np.diff(forces)).max() < 1e-3 * abs(forces[0])
+    assert np.ptp(forces) < 0.02 * abs(forces[0])  # at most the bin at the tip is laid anew
+
+
+@pytest.mark.parametrize("model", ["winkler", "beam"])
+@QUICK
+@given(st.lists(st.tuples(ANY, st.floats(-1.5, 1.5), st.floats(0.0, 0.2)), max_size=30))
+def test_the_tissue_survives_any_depth_and_holds_its_bound(
+    model: str,
+    ticks: list[tuple[float, float, float]],
+) -> None:
+    memory = tissue(Layer("x", 0.1, 2e4), model=model)
+    most = 2e4 * 0.1**3 / 3.0 / 0.02
+    for depth, tilt, l_out in ticks:
+        assert np.linalg.norm(press(memory, tilt, depth, l_out)) <= most * (1.0 + 1e-9)
+
+
+def test_layers_thicker_than_a_metre_are_refused() -> None:
+    with pytest.raises(SimulationError, match="at most 1 m"):
+        tissue(Layer("x", 1e3))
+
+
+# --- breathing ------------------------------------------------------------------------------------
+@pytest.mark.parametrize("period", [0.0, -4.0, math.nan, math.inf])
+def test_a_breath_without_a_period_is_refused(period: float) -> None:
+    scene = Scene(effects=(EffectRequest("breathing", {"period": period}),))
+    with pytest.raises(SimulationError, match=r"period is .*; give 0.5 to 60 s"):
+        compile(scene, DevicePort("icube"), views=("target_motion",))
+
+
+@QUICK
+@given(st.lists(ANY, max_size=20))
+def test_breathing_stays_within_its_amplitudes_at_any_time(times: list[float]) -> None:
+    memory = breathing.Breathing().parameters(Binding(Scene()))
+    state = sv.empty_state()
+    for time in times:
+        state[sv.TARGET_SHIFT_X : sv.TARGET_SHIFT_Z + 1] = 0.0
+        state[sv.TIME] = time
+        breathing.step(state, memory)
+        shift = state[sv.TARGET_SHIFT_X : sv.TARGET_SHIFT_Z + 1]
+        assert np.linalg.norm(shift) < 0.0127
+
+
+# --- plant and hand -------------------------------------------------------------------------------
+@QUICK
+@given(st.lists(st.tuples(ANY, ANY, ANY, ANY, ANY, ANY, ANY), max_size=20))
+def test_the_plant_survives_any_input(ticks: list[tuple[float, ...]]) -> None:
+    state, parameters, step = plant()
+    for x, y, depth, left, right, tissue_force, dt in ticks:
+        state[sv.HAND_X], state[sv.HAND_Y], state[sv.HAND_DEPTH] = x, y, depth
+        state[sv.HAND_HOLDS] = 1.0
+        state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = left, right
+        state[sv.AXIAL_FORCE], state[sv.DT] = tissue_force, dt
+        before = state[PLANT].copy()
+        step(state, parameters)  # type: ignore[operator]
+        assert np.isfinite(state[PLANT]).all()
+        assert np.abs(state[PLANT] - before)[:2].max() <= 50.0 * 5e-3 + 1e-9
+
+
+def test_a_hand_that_is_not_a_number_lets_go() -> None:
+    state, parameters, step = plant()
+    state[sv.HAND_X], state[sv.HAND_HOLDS] = 0.3, 1.0
+    step(state, parameters)  # type: ignore[operator]
+    assert state[sv.PULL_X] != 0.0
+    for slot in (sv.HAND_X, sv.HAND_Y, sv.HAND_DEPTH, sv.HAND_HOLDS):
+        kept, state[slot] = state[slot], math.nan
+        step(state, parameters)  # type: ignore[operator]
+        assert not state[sv.PULL_X : sv.PUSH + 1].any()
+        state[slot] = kept
+
+
+def test_a_plant_in_an_impossible_state_goes_back_to_its_start() -> None:
+    state, parameters, step = plant()
+    start = state[PLANT].copy()
+    start[sv.PLANT_DEPTH - sv.PLANT_Q_LEFT] = -0.015  # where `plant_stage` starts by default
+    for q in ((math.nan, 0.5), (0.0, math.inf), (math.acos(0.425), math.pi - math.acos(0.425))):
+        state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT] = q
+        state[sv.PLANT_DEPTH] = math.nan
+        step(state, parameters)  # type: ignore[operator]
+        np.testing.assert_array_equal(state[PLANT], start)
+
+
+def test_a_huge_step_is_clamped_to_what_the_loop_clamps() -> None:
+    one, parameters, step = plant()
+    other = one.copy()
+    for state, dt in ((one, 1e9), (other, 5e-3)):
+        state[sv.HAND_X], state[sv.HAND_HOLDS], state[sv.DT] = 0.2, 1.0, dt
+        step(state, parameters)  # type: ignore[operator]
+    np.testing.assert_array_equal(one[PLANT], other[PLANT])
+
+
+@pytest.mark.parametrize("dt", [1e-3, 5e-3])
+def test_a_stiff_hand_against_a_stiff_spring_at_the_motors_stays_bounded(dt: float) -> None:
+    """Deep tissue as the device renders it: 1500 N/m at the hub, sampled once a tick."""
+    state, parameters, step = plant(Hand(stiffness=2000.0, damping=5.0))
+    state[sv.HAND_X], state[sv.HAND_HOLDS], state[sv.DT] = 0.2, 1.0, dt
+    rest = state[sv.PLANT_Q_LEFT : sv.PLANT_Q_RIGHT + 1].copy()
+    rows = []
+    for _ in range(2000):
+        # 1500 N/m at the hub is about 1500 (L_out/L_in)² (0.1 m/rad)² = 74 N·m/rad at the joints...
+        torque = -74.0 * (state[sv.PLANT_Q_LEFT : sv.PLANT_Q_RIGHT + 1] - rest)
+        # ... within the limit of the motors.
+        state[sv.TORQUE_LEFT : sv.TORQUE_RIGHT + 1] = np.clip(torque, -0.6, 0.6)
+        step(state, parameters)  # type: ignore[operator]
+        rows.append(state[PLANT].copy())
+    assert np.isfinite(rows).all()
+    assert np.abs(np.array(rows)[:, :2] - rest).max() < 1.0
+
+
+def test_a_robot_at_rest_for_ten_minutes_has_no_subnormals() -> None:
+    state, parameters, step = plant()
+    state[sv.PLANT_QD_LEFT], state[sv.PLANT_DEPTH_RATE], state[sv.DT] = 1e-3, 1e-3, 5e-3
+    for _ in range(20_000):
+        step(state, parameters)  # type: ignore[operator]
+    for value in state[PLANT]:
+        assert value == 0.0 or abs(value) > 1e-300
+
+
+# --- trainee --------------------------------------------------------------------------------------
+@QUICK
+@given(st.lists(ANY, max_size=20))
+def test_the_trainee_wants_a_direction_at_any_time(times: list[float]) -> None:
+    axis = unit(np.array([0.0, 0.6, -0.8]))
+    _, step, parameters = trainee_stage(axis, 0.08, "novice", 5)
+    state = sv.empty_state()
+    for time in times:
+        state[sv.TIME] = time
+        step(state, parameters)
+        hand = state[sv.HAND_X : sv.HAND_HOLDS + 1]
+        assert np.isfinite(hand).all()
+        assert math.hypot(hand[0], hand[1]) < 0.98
