@@ -18,7 +18,9 @@ def placed_plan() -> PlacedPlan:
     return PlacedPlan.of(plan, Placement(), FULCRUM)
 
 
-def curves(placed: PlacedPlan, duration: float = 64.0, seed: int = 3) -> tuple[Curves, np.ndarray, np.ndarray]:
+def curves(
+    placed: PlacedPlan, duration: float = 64.0, seed: int = 3
+) -> tuple[Curves, np.ndarray, np.ndarray]:
     """Figures, tip and state of an attempt that aligns, inserts in two goes and holds."""
     rng = np.random.default_rng(seed)
     t = np.arange(0.0, duration, 0.02)

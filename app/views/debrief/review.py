@@ -13,8 +13,11 @@ from app.core.events import Event
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import ScoreFormatError
 from app.scoring.result import Score
+from app.scoring.trajectory import Phase
 from app.session.curves import Curves, curves
-from app.session.recording import Recording
+from app.session.errors import SessionError
+from app.session.recording import Recording, read_recording
+from app.session.result import AttemptResult
 from app.session.summary import SCORE_FILE, derive
 from app.views.exercise.pad_geometry import PadScale, PathFrame, path_frame
 from app.views.exercise.pad_view import rings
@@ -145,7 +148,7 @@ def review(recording: Recording) -> Review:
     A stored score that cannot be read is no reason to show nothing: it becomes a problem line.
 
     Raises:
-        BrokenRecording: if the record holds no plan.
+        BrokenRecordingError: if the record holds no plan.
     """
     summary, placed = derive(recording), recording.placed_plan()
     samples = recording.samples
@@ -170,6 +173,44 @@ def review(recording: Recording) -> Review:
         placed=placed,
         tip=samples.tip,
         force_limit=_force_limit(recording),
+    )
+
+
+def review_of_result(result: AttemptResult) -> Review:
+    """Gather what the debrief shows of an attempt that has just finished.
+
+    From its record; where nothing could be recorded, from memory.
+
+    Raises:
+        BrokenRecordingError: if the record holds no plan.
+        SessionError: if there is neither record nor trajectory: nothing was ever measured.
+    """
+    if result.record is not None:
+        return review(read_recording(result.record))
+    if result.trajectory is None:
+        raise SessionError(
+            result.unscored or result.reason or "the attempt left nothing to show: no valid pose"
+        )
+    summary, path = result.summary, result.trajectory
+    names = np.array([Phase(code).name.lower() for code in path.phase])
+    return Review(
+        id=summary.id,
+        student=summary.student,
+        exercise=summary.exercise_title or summary.exercise_id,
+        started=summary.started,
+        state=summary.state,
+        reason=summary.reason,
+        duration=result.duration,
+        scans=result.scans,
+        software=summary.software,
+        problems=summary.problems,
+        score=result.score,
+        curves=result.curves,
+        spans=spans(path.time - path.time[0], names),
+        marks=marks(result.events, float(path.time[0]), SHOWN_EVENTS),
+        placed=path.placed,
+        tip=path.tip,
+        force_limit=FORCE_LIMIT,
     )
 
 

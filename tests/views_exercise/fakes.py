@@ -1,0 +1,108 @@
+"""A trainer that does what it is told, for tests of the widgets around it."""
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from types import MappingProxyType, SimpleNamespace
+from typing import Any
+
+import numpy as np
+from attempts import placed_plan
+
+from app.core.events import Event, EventQueue
+from app.mechanisms.profile import load_profile
+from app.planning.placement import PlacedPlan
+from app.session.curves import offset
+from app.session.errors import IllegalTransitionError
+from app.session.machine import State
+from app.session.needle import DepthSource, NeedlePose
+from app.session.recorder import RecordingStatus
+from app.session.snapshot import Snapshot
+from app.views.exercise.run import ExerciseRun
+
+
+def pose(placed: PlacedPlan, tilt: float = 0.05, depth: float = 0.04, **changes: Any) -> NeedlePose:
+    """A needle that leans by `tilt` [rad] off the path."""
+    side = np.cross(placed.axis, [0.0, 1.0, 0.0])
+    axis = np.cos(tilt) * placed.axis + np.sin(tilt) * side / np.linalg.norm(side)
+    values: dict[str, Any] = {
+        "p_tip": placed.p_entry + depth * axis, "axis": axis, "depth": depth, "time": 1.0,
+        "orientation_age": 0.001, "depth_age": 0.03, "depth_source": DepthSource.TRACKED,
+        "valid": True, "covariance": 1e-9 * np.eye(3), "reason": "",
+    }  # fmt: skip
+    return NeedlePose(**(values | changes))
+
+
+def snapshot(placed: PlacedPlan | None = None, **changes: Any) -> Snapshot:
+    """Everything is well."""
+    placed = placed or placed_plan()
+    where = changes.pop("pose", None) or pose(placed)
+    device = SimpleNamespace(
+        tick=5000, hub=where.p_tip - 0.2 * where.axis, felt=np.array([1.0, 2.0, 2.0]), fault=0
+    )
+    values: dict[str, Any] = {
+        "time": 1.0, "state": State.READY, "reason": "", "elapsed": 0.0,
+        "phases": MappingProxyType({}), "pose": where,
+        "offset": offset(where, placed.p_target, placed.axis), "p_target": placed.p_target,
+        "device": device, "tracker": SimpleNamespace(rate_hz=30.0, valid_share=0.98),
+        "timing": SimpleNamespace(median=8e-5, p99=2e-4, missed=2, ticks=5000),
+        "fix_status": "valid", "scans": 0, "assistance": 1.0, "armed": False,
+        "recording": RecordingStatus(Path("a.mcap"), True, "", 10, 0, 0), "messages": (),
+    }  # fmt: skip
+    return Snapshot(**(values | changes))
+
+
+@dataclass
+class FakeTrainer:
+    """Keeps what it was told in `calls`."""
+
+    placed: PlacedPlan = field(default_factory=placed_plan)
+    events: EventQueue = field(default_factory=EventQueue)
+    result: Any = None
+    calls: list[tuple[Any, ...]] = field(default_factory=list)
+    now: Snapshot = field(default_factory=snapshot)
+
+    def begin(self, student: str = "") -> str:
+        if self.now.state is not State.READY:
+            raise IllegalTransitionError("'begin' is not possible while aligning")
+        self.calls.append(("begin", student))
+        self.now = replace(self.now, state=State.ALIGNING)
+        self.events.put(Event(1.0, "state", "aligning"))
+        return "20261121-101500-ab12"
+
+    def end(self) -> Any:
+        self.calls.append(("end",))
+        self.now = replace(self.now, state=State.ENDED)
+        self.result = SimpleNamespace(state=State.ENDED)
+        return self.result
+
+    def abort(self, reason: str = "aborted by the user") -> Any:
+        self.calls.append(("abort",))
+        self.now = replace(self.now, state=State.ABORTED)
+        self.result = SimpleNamespace(state=State.ABORTED)
+        return self.result
+
+    def scan(self) -> int:
+        self.calls.append(("scan",))
+        return 1
+
+    def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
+        self.calls.append(("hand", x, y, depth, holds))
+
+    def assistance(self, value: float) -> None:
+        self.calls.append(("assistance", value))
+
+    def heartbeat(self) -> None:
+        self.calls.append(("heartbeat",))
+
+    def snapshot(self) -> Snapshot:
+        return self.now
+
+    def told(self, name: str) -> list[tuple[Any, ...]]:
+        """Calls of one name."""
+        return [call for call in self.calls if call[0] == name]
+
+
+def run(trainer: FakeTrainer | None = None, **changes: Any) -> ExerciseRun:
+    """A run of the fake trainer on the shipped device."""
+    trainer = trainer or FakeTrainer()
+    return ExerciseRun(trainer, trainer.placed, load_profile("icube"), **changes)

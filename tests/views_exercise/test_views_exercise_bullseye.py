@@ -1,0 +1,176 @@
+from math import radians
+
+import numpy as np
+import pytest
+from fakes import FakeTrainer, run, snapshot
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtTest import QTest
+
+from app.core.arrays import angle_between
+from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.pad_painter import PadArea, spring
+from app.views.exercise.readings import pad_view
+
+
+@pytest.fixture
+def pad(qt):
+    exercise = run(FakeTrainer())
+    widget = Bullseye()
+    widget.resize(560, 470)
+    widget.set_scene(exercise.scene(), interactive=True)
+    widget.show_view(pad_view(snapshot(), 0.2, 5.0))
+    widget.show()
+    qt.processEvents()
+    yield widget
+    widget.close()
+    widget.deleteLater()
+
+
+def wheel(widget, notches, modifiers=Qt.KeyboardModifier.NoModifier):
+    at = QPointF(20, 20)
+    event = QWheelEvent(
+        at, at, QPoint(0, 0), QPoint(0, 120 * notches), Qt.MouseButton.NoButton, modifiers,
+        Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    widget.pad.wheelEvent(event)
+
+
+def test_the_hand_takes_the_needle_without_a_jump(pad):
+    view = pad_view(snapshot(), 0.2, 5.0)
+    assert np.allclose(pad.hand.direction, view.direction)
+    assert pad.hand.depth == pytest.approx(view.depth)
+    assert pad.hand.holds
+
+
+def test_a_drag_to_the_right_tilts_the_tip_to_the_right_and_release_keeps_it(pad):
+    before = pad._hand.tilts.copy()
+    QTest.mousePress(pad.pad, Qt.MouseButton.LeftButton, pos=QPoint(100, 100))
+    QTest.mouseMove(pad.pad, QPoint(140, 100))
+    after = pad._hand.tilts.copy()
+    QTest.mouseRelease(pad.pad, Qt.MouseButton.LeftButton, pos=QPoint(140, 100))
+    assert after[0] > before[0]
+    assert np.allclose(pad._hand.tilts, after)
+    QTest.mouseMove(pad.pad, QPoint(40, 40))
+    assert np.allclose(pad._hand.tilts, after)
+
+
+def test_a_drag_moves_the_ghost_by_the_gain_times_the_mouse(pad):
+    scene = pad._scene
+    pad._gain.setCurrentIndex(2)
+    before = scene.scale.place(pad._hand.tilts)
+    pad.pad.dragged.emit(0.1, -0.05)
+    assert np.allclose(scene.scale.place(pad._hand.tilts), np.add(before, (0.1, -0.05)), atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("notches", "modifier", "step"),
+    [
+        (1, Qt.KeyboardModifier.NoModifier, 0.001),
+        (-2, Qt.KeyboardModifier.NoModifier, -0.002),
+        (1, Qt.KeyboardModifier.ShiftModifier, 0.0002),
+    ],
+)
+def test_the_wheel_moves_a_millimetre_and_with_shift_a_fifth(pad, notches, modifier, step):
+    before = pad.hand.depth
+    wheel(pad, notches, modifier)
+    assert pad.hand.depth - before == pytest.approx(step)
+
+
+def test_half_notches_of_a_touchpad_add_up(pad):
+    before = pad.hand.depth
+    wheel(pad, 0.5)
+    assert pad.hand.depth == before
+    wheel(pad, 0.5)
+    assert pad.hand.depth - before == pytest.approx(0.001)
+
+
+@pytest.mark.parametrize(
+    ("key", "axis", "sign"),
+    [
+        (Qt.Key.Key_Left, 0, -1), (Qt.Key.Key_Right, 0, 1),
+        (Qt.Key.Key_Up, 1, 1), (Qt.Key.Key_Down, 1, -1),
+    ],
+)  # fmt: skip
+def test_arrow_keys_tilt_by_a_fifth_of_a_degree_and_finer_with_shift(pad, key, axis, sign):
+    before = pad._hand.tilts.copy()
+    QTest.keyClick(pad.pad, key)
+    coarse = pad._hand.tilts.copy()
+    QTest.keyClick(pad.pad, key, Qt.KeyboardModifier.ShiftModifier)
+    assert coarse[axis] - before[axis] == pytest.approx(sign * radians(0.2))
+    assert pad._hand.tilts[axis] - coarse[axis] == pytest.approx(sign * radians(0.05))
+
+
+def test_page_keys_push_and_pull_and_home_goes_back_to_the_needle(pad):
+    before = pad.hand.depth
+    QTest.keyClick(pad.pad, Qt.Key.Key_PageDown)
+    assert pad.hand.depth - before == pytest.approx(0.001)
+    QTest.keyClick(pad.pad, Qt.Key.Key_PageUp, Qt.KeyboardModifier.ShiftModifier)
+    assert pad.hand.depth - before == pytest.approx(0.0008)
+    QTest.keyClick(pad.pad, Qt.Key.Key_Up)
+    QTest.keyClick(pad.pad, Qt.Key.Key_Home)
+    assert pad.hand.depth == pytest.approx(before)
+    assert angle_between(pad.hand.direction, pad._view.direction) < 1e-12
+
+
+def test_intents_are_thinned_to_a_hundred_a_second_and_the_last_one_arrives(pad, qt):
+    QTest.qWait(30)
+    seen = []
+    pad.hand_moved.connect(seen.append)
+    for _ in range(200):
+        pad.pad.tilted.emit(0.0001, 0.0)
+    assert seen == []
+    QTest.qWait(60)
+    assert len(seen) == 1
+    assert np.allclose(seen[0].direction, pad.hand.direction)
+
+
+def test_the_hand_stays_inside_the_cone_and_the_depth_range_and_answers_at_once(pad):
+    limits = pad._scene.limits
+    for _ in range(60):
+        pad.pad.dragged.emit(0.5, 0.2)
+        pad.pad.advanced.emit(0.05)
+    assert angle_between(pad.hand.direction, (0, 0, -1)) <= limits.tilt + 1e-9
+    assert pad.hand.depth == pytest.approx(limits.deepest)
+    pad.pad.advanced.emit(-0.001)
+    assert pad.hand.depth == pytest.approx(limits.deepest - 0.001)
+    before = pad.hand.direction
+    pad.pad.dragged.emit(-0.05, -0.02)
+    assert angle_between(pad.hand.direction, before) > radians(0.1)
+
+
+def test_without_a_simulated_hand_the_mouse_moves_nothing(qt):
+    widget = Bullseye()
+    widget.set_scene(run().scene(), interactive=False)
+    widget.show_view(pad_view(snapshot(), 0.2, 5.0))
+    widget.pad.dragged.emit(0.5, 0.5)
+    assert widget.hand is None
+
+
+def test_a_pad_without_a_plan_is_drawn_and_ignores_the_mouse(qt):
+    widget = Bullseye()
+    widget.resize(400, 400)
+    widget.pad.dragged.emit(0.5, 0.5)
+    widget.show_view(pad_view(snapshot(), 0.2, 5.0))
+    assert not widget.grab().isNull()
+
+
+def test_the_words_name_the_plane_the_angle_and_the_side(pad):
+    text = pad._in_plane.text() + pad._out_of_plane.text()
+    assert "°" in text
+    assert "plane" in text
+    assert "mm to go" in pad._remaining.text()
+
+
+def test_places_beyond_the_rim_are_drawn_on_it():
+    area = PadArea.inside(400, 300, 30)
+    far = area.point((30.0, 40.0)) - area.centre
+    assert np.hypot(far.x(), far.y()) == pytest.approx(area.radius)
+
+
+def test_a_spring_without_length_is_a_point_and_others_end_where_they_should():
+    start, end = QPointF(10, 10), QPointF(60, 30)
+    assert spring(start, start, 5.0).count() == 2
+    zigzag = spring(start, end, 5.0)
+    assert zigzag.first() == start
+    assert zigzag.last() == end

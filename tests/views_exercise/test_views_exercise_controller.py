@@ -1,0 +1,172 @@
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from attempts import placed_plan
+from fakes import FakeTrainer, pose, run, snapshot
+from PySide6.QtTest import QTest
+
+from app.core.clock import VirtualClock
+from app.session.machine import State
+from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.camera_view import CameraPicture
+from app.views.exercise.controller import ExerciseController, ExerciseViews
+from app.views.exercise.messages import LONGEST, MessageList
+from app.views.exercise.panel import ExercisePanel
+from app.views.exercise.rate_meter import RateMeter
+from app.views.exercise.status import StatusStrip
+from app.views.exercise.tracker_panel import TrackerPanel
+
+
+@pytest.fixture
+def desk(qt):
+    views = ExerciseViews(
+        Bullseye(), ExercisePanel(), StatusStrip(), TrackerPanel(), MessageList()
+    )  # fmt: skip
+    controller = ExerciseController(views, VirtualClock(10.0))
+    trainer = FakeTrainer()
+    controller.attach(run(trainer))
+    controller._timer.stop()  # looked at by hand
+    yield SimpleNamespace(controller=controller, views=views, trainer=trainer)
+    controller.detach()
+    for name in ExerciseViews.__slots__:
+        getattr(views, name).deleteLater()
+
+
+def test_every_look_sends_a_heartbeat_and_passes_the_needle_on(desk):
+    poses = []
+    desk.controller.needle_moved.connect(poses.append)
+    desk.controller.look()
+    desk.controller.look()
+    assert len(desk.trainer.told("heartbeat")) == 2
+    assert poses == [desk.trainer.now.pose] * 2
+
+
+def test_a_pose_that_is_not_valid_moves_no_needle_and_keeps_the_pad(desk):
+    poses = []
+    desk.controller.needle_moved.connect(poses.append)
+    broken = pose(placed_plan(), valid=False, reason="the robot gives no needle direction")
+    desk.trainer.now = snapshot(pose=broken, device=None, timing=None, tracker=None)
+    desk.controller.look()
+    assert poses == []
+
+
+def test_the_attempt_is_begun_with_the_pseudonym_and_buttons_follow_its_state(desk):
+    panel = desk.views.panel
+    desk.controller.look()
+    assert panel.buttons.start.isEnabled()
+    assert not panel.buttons.end.isEnabled()
+    panel.set_student("student-07")
+    panel.buttons.start.click()
+    desk.controller.look()
+    assert desk.trainer.told("begin") == [("begin", "student-07")]
+    assert not panel.buttons.start.isEnabled()
+    assert panel.buttons.end.isEnabled()
+    assert not panel.student.isEnabled()
+    assert desk.views.messages.item(0).text().endswith("aligning")
+
+
+def test_a_refused_begin_is_said_in_words_and_nothing_breaks(desk):
+    said = []
+    desk.controller.failed.connect(said.append)
+    desk.trainer.now = replace(desk.trainer.now, state=State.ALIGNING)
+    desk.controller.begin("x")
+    assert "not possible" in said[0]
+    assert "not possible" in desk.views.messages.item(0).text()
+
+
+def test_ending_tells_of_the_result_once(desk):
+    results = []
+    desk.controller.finished.connect(results.append)
+    desk.controller.begin("x")
+    desk.controller.end()
+    desk.controller.end()
+    for _ in range(50):
+        QTest.qWait(10)
+        desk.controller.look()
+    assert results == [desk.trainer.result]
+    assert len(desk.trainer.told("end")) == 1
+
+
+def test_an_attempt_that_a_fault_aborted_is_told_of_as_well(desk):
+    results = []
+    desk.controller.finished.connect(results.append)
+    desk.controller.begin("x")
+    desk.trainer.abort("heartbeat lost")
+    desk.controller.look()
+    desk.controller.look()
+    assert results == [desk.trainer.result]
+
+
+def test_a_result_from_before_is_not_told_of_again(desk):
+    results = []
+    desk.controller.finished.connect(results.append)
+    desk.trainer.result = SimpleNamespace(state=State.ENDED)
+    desk.controller.attach(run(desk.trainer))
+    desk.controller._timer.stop()
+    desk.controller.look()
+    assert results == []
+
+
+def test_dial_scan_abort_and_hand_reach_the_trainer(desk):
+    desk.controller.look()
+    desk.controller.begin("x")
+    desk.controller.look()
+    desk.views.panel.assistance.setValue(40)
+    desk.views.panel.buttons.scan.click()
+    QTest.qWait(40)
+    desk.views.panel.buttons.abort.click()
+    assert ("assistance", 0.4) in desk.trainer.calls
+    assert desk.trainer.told("scan")
+    assert desk.trainer.told("abort")
+    hand = desk.trainer.told("hand")[-1]
+    assert np.hypot(hand[1], hand[2]) < 1.0
+    assert hand[4] is True
+
+
+def test_detaching_clears_the_widgets_and_stops_the_looks(desk):
+    desk.controller.look()
+    desk.controller.detach()
+    before = len(desk.trainer.calls)
+    desk.controller.look()
+    assert len(desk.trainer.calls) == before
+    assert desk.views.panel.readouts.text("depth") == "–"
+    assert not desk.views.panel.buttons.start.isEnabled()
+
+
+def test_camera_pictures_are_refreshed_at_most_fifteen_times_a_second(desk, qt):
+    asked = []
+    image = np.zeros((48, 64, 3), np.uint8)
+
+    def pictures():
+        asked.append(1)
+        return (CameraPicture("left", image, (10.0, 5.0)), CameraPicture("right", image, None))
+
+    desk.controller.attach(run(desk.trainer, pictures=pictures))
+    desk.controller._timer.stop()
+    desk.views.tracker.show()
+    clock = desk.controller._clock
+    for _ in range(40):
+        clock.sleep(0.025)
+        desk.controller.look()
+    assert len(asked) <= 15 + 4 + 1
+    assert not desk.views.tracker.grab().isNull()
+
+
+def test_the_rate_is_the_counter_over_the_time():
+    meter = RateMeter()
+    assert meter.read(0.0, 0) == 0.0
+    rates = [meter.read(0.1 * i, 100 * i) for i in range(1, 40)]
+    assert rates[-1] == pytest.approx(1000.0)
+    assert meter.read(1.0, 5) == 0.0
+
+
+def test_the_message_list_keeps_its_last_lines(qt):
+    from app.core.events import Event
+
+    messages = MessageList()
+    for i in range(LONGEST + 20):
+        messages.add_event(Event(float(i), "scan", f"control scan {i}"))
+    assert messages.count() == LONGEST
+    assert messages.item(LONGEST - 1).text().endswith(f"control scan {LONGEST + 19}")

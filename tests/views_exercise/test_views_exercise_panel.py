@@ -1,0 +1,185 @@
+from math import inf, nan, radians
+
+import pytest
+from fakes import snapshot
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+
+from app.session.machine import State
+from app.views.exercise.camera_view import CameraPicture
+from app.views.exercise.hold_key import HOLD_MS
+from app.views.exercise.live import LiveFigures
+from app.views.exercise.panel import ExercisePanel
+from app.views.exercise.readings import figures, problem, status_items
+from app.views.exercise.status import StatusStrip
+from app.views.exercise.status_items import (
+    Verdict,
+    age_text,
+    depth_item,
+    encoder_item,
+    heartbeat_item,
+    loop_item,
+    recorder_item,
+    tracker_item,
+)
+
+
+@pytest.fixture
+def panel(qt):
+    widget = ExercisePanel()
+    widget.set_ready(True)
+    widget.show()
+    yield widget
+    widget.close()
+    widget.deleteLater()
+
+
+def live(state, **changes):
+    values = {
+        "state": state, "elapsed": 67.0, "depth": 0.0523, "measured": True,
+        "angle_error": radians(3.31), "lateral": 0.0029, "to_target": 0.032, "force": 4.3,
+        "force_limit": 5.0, "scans": 2,
+    }  # fmt: skip
+    return LiveFigures(**(values | changes))
+
+
+@pytest.mark.parametrize("state", list(State))
+def test_only_what_the_state_allows_is_enabled(panel, state):
+    panel.show_figures(live(state))
+    running = state in (State.ALIGNING, State.INSERTING, State.HOLDING)
+    assert panel.buttons.start.isEnabled() is not running
+    for button in (panel.buttons.scan, panel.buttons.end, panel.buttons.abort):
+        assert button.isEnabled() is running
+
+
+def test_nothing_starts_before_everything_is_ready_and_the_reason_is_shown(panel):
+    panel.set_ready(False, "The path needs 42° of tilt")
+    assert not panel.buttons.start.isEnabled()
+    assert panel._note.text() == "The path needs 42° of tilt"
+
+
+def test_the_readouts_carry_their_units(panel):
+    panel.show_figures(live(State.INSERTING))
+    texts = [panel.readouts.text(k) for k in ("elapsed", "depth", "angle", "lateral", "to_target")]
+    assert texts == ["1:07", "52.3 mm", "3.3°", "2.9 mm", "32.0 mm"]
+    panel.show_figures(live(State.INSERTING, measured=False))
+    assert panel.readouts.text("depth").endswith("◇")
+
+
+def test_keys_end_and_scan_only_while_the_attempt_runs(panel):
+    ended, scanned = [], []
+    panel.buttons.end_requested.connect(lambda: ended.append(1))
+    panel.buttons.scan_requested.connect(lambda: scanned.append(1))
+    panel.activateWindow()
+    assert QTest.qWaitForWindowActive(panel)
+    for state, count in ((State.READY, 0), (State.INSERTING, 1)):
+        panel.show_figures(live(state))
+        QTest.keyClick(panel, Qt.Key.Key_Return)
+        QTest.keyClick(panel, Qt.Key.Key_S)
+        assert (len(ended), len(scanned)) == (count, count)
+
+
+def test_escape_aborts_only_when_it_is_held(panel):
+    aborted = []
+    panel.buttons.abort_requested.connect(lambda: aborted.append(1))
+    panel.buttons.watch(panel)
+    panel.show_figures(live(State.INSERTING))
+    QTest.keyPress(panel, Qt.Key.Key_Escape)
+    QTest.keyRelease(panel, Qt.Key.Key_Escape)
+    QTest.qWait(HOLD_MS + 100)
+    assert not aborted
+    QTest.keyPress(panel, Qt.Key.Key_Escape)
+    QTest.qWait(HOLD_MS + 100)
+    QTest.keyRelease(panel, Qt.Key.Key_Escape)
+    assert aborted == [1]
+
+
+def test_the_dial_speaks_in_shares_and_is_silent_when_it_is_set_from_outside(panel):
+    shares = []
+    panel.assistance_changed.connect(shares.append)
+    panel.set_assistance(0.25)
+    assert shares == []
+    assert panel.assistance.value() == 25
+    panel.assistance.setValue(0)
+    assert shares == [0.0]
+    assert "off" in panel._assistance_text.text()
+
+
+def test_a_pseudonym_cannot_hold_what_a_file_name_must_not(panel):
+    for text, good in (("student-07", True), ("", True), ("../x", False), ("Jane Doe", False)):
+        panel.student.setText(text)
+        assert panel.student.hasAcceptableInput() is good
+
+
+@pytest.mark.parametrize("force", [0.0, 3.9, 4.3, 5.0, 9.0, nan, inf, -1.0])
+def test_the_force_bar_takes_any_number(panel, force):
+    panel.readouts.force.show_force(force, 5.0)
+    assert not panel.readouts.force.grab().isNull()
+    assert panel.readouts.force.verdict in ("good", "warning", "bad")
+
+
+def test_a_bar_without_a_limit_is_drawn(panel):
+    panel.readouts.force.show_force(1.0, 0.0)
+    assert panel.readouts.force.verdict == "bad"
+    assert not panel.readouts.force.grab().isNull()
+
+
+def test_each_health_has_its_verdict():
+    assert loop_item(1000, 8e-5, 2e-4, 0, 1000).verdict is Verdict.GOOD
+    assert loop_item(1000, 3e-4, 2e-3, 0, 1000).verdict is Verdict.WARNING
+    assert loop_item(1000, 8e-5, 2e-3, 100, 1000).verdict is Verdict.BAD
+    assert encoder_item(0.001).verdict is Verdict.GOOD
+    assert encoder_item(0.05).verdict is Verdict.WARNING
+    assert encoder_item(0.15).verdict is Verdict.BAD
+    assert encoder_item(nan).verdict is Verdict.BAD
+    assert encoder_item(0.001, "singular").verdict is Verdict.BAD
+    assert tracker_item(30, 0.98, 0.03, "").verdict is Verdict.GOOD
+    assert tracker_item(30, 0.5, 0.03, "").verdict is Verdict.WARNING
+    assert tracker_item(30, 0.98, inf, "").verdict is Verdict.BAD
+    assert [depth_item(s, 0.1).verdict for s in ("tracked", "held", "model", "none", "?")] == [
+        Verdict.GOOD, Verdict.WARNING, Verdict.BAD, Verdict.BAD, Verdict.BAD,
+    ]  # fmt: skip
+    assert heartbeat_item(0.02).verdict is Verdict.GOOD
+    assert heartbeat_item(2.0).verdict is Verdict.BAD
+    assert recorder_item(False).verdict is Verdict.IDLE
+    assert recorder_item(True, 3).verdict is Verdict.WARNING
+    assert recorder_item(False, failure="disk full").verdict is Verdict.BAD
+
+
+def test_no_verdict_is_told_by_colour_alone():
+    symbols = [verdict.look[1] for verdict in Verdict]
+    assert len(set(symbols)) == len(symbols)
+
+
+def test_ages_are_said_in_words():
+    assert age_text(0.0123) == "12 ms"
+    assert age_text(2.5) == "2.5 s"
+    assert age_text(inf) == age_text(nan) == "never"
+
+
+def test_the_camera_that_does_not_see_the_marker_is_named():
+    left = CameraPicture("left camera", None, None)
+    right = CameraPicture("right camera", None, (3.0, 4.0))
+    assert problem("one_camera", (left, right)) == "marker out of view (left camera)"
+    assert problem("out_of_view", ()) == "marker out of view"
+    assert problem("valid", (left,)) == ""
+
+
+def test_the_strip_shows_every_part_of_a_snapshot(qt):
+    strip = StatusStrip()
+    items = status_items(snapshot(), 1000.0, 0.02)
+    strip.show_items(items)
+    assert [item.title for item in items] == [
+        "Robot loop", "Encoders", "Cameras", "Depth", "Heartbeat", "Recorder",
+    ]  # fmt: skip
+    assert all(item.verdict is Verdict.GOOD for item in items)
+    assert items[0].help in strip._cells[0].toolTip()
+    strip.show_items(items[:2])
+    assert [cell.isVisibleTo(strip) for cell in strip._cells] == [True, True, *[False] * 4]
+
+
+def test_figures_split_the_distance_to_the_target_into_across_and_along():
+    shown = figures(snapshot(), 5.0)
+    assert shown.force == pytest.approx(3.0)
+    assert shown.lateral == pytest.approx(0.04 * 0.0499791693, rel=1e-6)
+    assert shown.to_target > 0.0
