@@ -26,8 +26,8 @@ def attempt(exercise: Exercise, badness: float, seed: int) -> Score:
     side /= np.linalg.norm(side)
     time = np.linspace(0.0, 45.0 + 500.0 * badness, 1500)
     share = np.clip((time / time[-1] - 0.4) / 0.5, 0.0, 1.0)
-    bow = badness * (0.06 * np.sin(np.pi * share) + 0.012 * share)
-    depth = share * (placed.length + 0.008 * badness)
+    bow = badness * (0.06 * np.sin(np.pi * share) + 0.02 * share)
+    depth = share * (placed.length + 0.010 * badness)
     tip = placed.p_entry + np.outer(depth, placed.axis) + np.outer(bow, side)
     axis = placed.axis + 0.08 * badness * side
     n = len(time)
