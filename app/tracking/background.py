@@ -1,4 +1,4 @@
-"""What the simulated cameras see behind the needle: the trainer's housing, traced once per camera."""
+"""What the simulated cameras see behind the needle: the housing, traced once per camera."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""The pinhole camera with lens distortion: points to pixels, pixels to rays, and their Jacobians."""
+"""The pinhole camera with lens distortion: points to pixels, pixels to rays."""
 
 from dataclasses import dataclass, field
 
@@ -43,8 +43,8 @@ class CameraModel:
         object.__setattr__(self, "T_camera_world", self.T_world_camera.inverse())
         if self.intrinsics[:2].min() <= 0.0 or min(self.image_size) < 16:
             raise RigError(
-                f"camera {self.name}: focal lengths {self.intrinsics[:2].tolist()} px and image size "
-                f"{self.image_size} must be positive, the size at least 16 px"
+                f"camera {self.name}: focal lengths {self.intrinsics[:2].tolist()} px and image "
+                f"size {self.image_size} must be positive, the size at least 16 px"
             )
 
     @property

@@ -45,7 +45,7 @@ def distort_point(x: float, y: float, c: Any) -> Any:
 
 @njit
 def distortion_jacobian(x: float, y: float, c: Any) -> Any:
-    """Derivatives (∂x_d/∂x, ∂x_d/∂y = ∂y_d/∂x, ∂y_d/∂y); the matrix is symmetric."""
+    """Return the derivatives (∂x_d/∂x, ∂x_d/∂y = ∂y_d/∂x, ∂y_d/∂y); the matrix is symmetric."""
     r2 = x * x + y * y
     g = 1.0 + r2 * (c[0] + r2 * (c[1] + r2 * c[4]))
     slope = c[0] + r2 * (2.0 * c[1] + r2 * 3.0 * c[4])  # dg/d(r²)

@@ -1,8 +1,8 @@
 """Marker extraction by the centroid of the band's outline (the default way).
 
 Redness r = R - (G + B)/2 does not see grey and hardly skin. Shading makes one flank of the band
-darker than the other, so r itself would pull the centroid towards the lamp; the weight of a pixel is
-therefore the share of it that the band covers,
+darker than the other, so r itself would pull the centroid towards the lamp; the weight of a pixel
+is therefore the share of it that the band covers,
 
     w = (r - b) / (f - b),
 
@@ -120,14 +120,14 @@ def _threshold(redness: _Float32, limit: float) -> _Mask:
 def _tight(
     image: Image, region: tuple[int, int, int, int], centre: FloatArray, limit: float
 ) -> tuple[_Mask, tuple[int, int, int, int]] | None:
-    """The red patch nearest to `centre` in the region, and its box with room around it."""
+    """Return the red patch nearest to `centre` in the region, and its box with room around it."""
     left, top, right, bottom = region
     mask = _threshold(_redness(image[top:bottom, left:right]), limit)
     count, labels, statistics, centres = cv2.connectedComponentsWithStats(mask)
     if count < 2:
         return None
     areas = statistics[1:, cv2.CC_STAT_AREA]
-    distance = np.hypot(*(centres[1:] + (left, top) - centre).T)
+    distance = np.hypot(*(centres[1:] + np.array([left, top]) - centre).T)
     distance[areas < max(6.0, 0.2 * areas.max())] = np.inf  # specks
     which = 1 + int(np.argmin(distance))
     x, y, w, h = statistics[which, :4]

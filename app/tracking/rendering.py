@@ -144,7 +144,8 @@ def _needle_colour(
 @njit
 def _nearness(dx: float, dy: float, a: Any, c: Any, shape: Any, margin: float) -> int:
     """0: the pixel sees nothing of the needle; 1: perhaps the shaft; 2: perhaps the band;
-    3: nothing but one smooth part of either, so that one ray will do."""
+    3: nothing but one smooth part of either, so that one ray will do.
+    """
     dd = dx * dx + dy * dy + 1.0
     da = dx * a[0] + dy * a[1] + a[2]
     dc = dx * c[0] + dy * c[1] + c[2]

@@ -58,8 +58,8 @@ class CameraProfile(Strict):
         line = np.array(self.looks_at_mm) * MILLIMETRE - position
         if np.hypot(line[0], line[1]) < 1e-6:
             raise RigError(
-                f"camera {self.name}: looks_at_mm {self.looks_at_mm} lies straight above, below or at "
-                f"position_mm {self.position_mm}; move it sideways, the roll needs a horizontal part"
+                f"camera {self.name}: looks_at_mm {self.looks_at_mm} lies straight above, below or "
+                f"at position_mm {self.position_mm}; move it sideways: the roll needs that"
             )
         z = unit(line)
         down = unit(np.array([0.0, 0.0, -1.0]) + z[2] * z)

@@ -30,7 +30,7 @@ class MarkerScene:
 
     @classmethod
     def from_tip(cls, p_tip: ArrayLike, axis: ArrayLike, marker_offset: float) -> MarkerScene:
-        """Scene of a needle with its tip at `p_tip` [m]; the band lies `marker_offset` [m] behind."""
+        """Scene of a needle with its tip at `p_tip`, the band `marker_offset` [m] behind it."""
         direction = unit(axis)
         return cls(frozen(p_tip, (3,), "tip") - marker_offset * direction, direction)
 

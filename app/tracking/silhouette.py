@@ -47,7 +47,7 @@ def centroid_shift(
 
 
 def _body(needle: NeedleShape, centre: FloatArray, axis: FloatArray) -> FloatArray:
-    """Corners in the camera frame: both end circles of the band, then the shaft before the near end."""
+    """Corners in the camera frame: both end circles, then the shaft before the near end."""
     across = unit(np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))]))
     ring = _CIRCLE[:, :1] * across + _CIRCLE[:, 1:] * np.cross(axis, across)
     towards = -1.0 if axis @ centre > 0.0 else 1.0  # which end of the band faces the camera

@@ -37,6 +37,7 @@ class NeedleRenderer:
         self._background = paint_background(model, self._rays, blur_px, seed)
         light = model.T_world_camera.rotation.T @ LIGHT_WORLD[:3]
         self._light = np.concatenate([light, LIGHT_WORLD[3:]])
+        self._compile()
 
     def render(self, scene: MarkerScene) -> Image:
         """Picture of a scene without noise, uint8 (height, width, 3), writable."""
@@ -44,6 +45,11 @@ class NeedleRenderer:
         if scene.visible:
             self._draw(image, scene)
         return image
+
+    def _compile(self) -> None:
+        """Draw once, so that the kernels are ready before the first picture is due."""
+        pose = self.model.T_world_camera
+        self.render(MarkerScene(pose @ np.array([0.0, 0.0, 0.3]), pose.rotation[:, 1]))
 
     def _draw(self, image: Image, scene: MarkerScene) -> None:
         axis = self.model.T_camera_world.rotate(scene.axis_world)
@@ -121,7 +127,7 @@ class SimulatedCamera(Camera):
         self._rng = None
 
     def _due(self) -> int:
-        """Number of the newest picture that could have been delivered by now."""
+        """Return the number of the newest picture that could have been delivered by now."""
         return int(np.floor((self._clock.now() - self.latency - self.skew) * self._rate + 1e-6))
 
 
@@ -132,7 +138,7 @@ def simulated_cameras(
     seed: int = 0,
     effects: Sequence[tuple[PictureEffect, Any]] = (),
 ) -> tuple[SimulatedCamera, SimulatedCamera]:
-    """Both cameras of a rig, with its noise, latency and skew; further effects come before the noise.
+    """Both cameras of a rig, with its noise, latency and skew; `effects` come before the noise.
 
     Tracing the backgrounds takes a moment: build them off the window's thread.
     """

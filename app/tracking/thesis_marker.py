@@ -51,11 +51,11 @@ class ThesisMarker(Extractor):
         )
 
     def _detector(self) -> Any:
-        options = cv2.SimpleBlobDetector_Params()
+        options: Any = cv2.SimpleBlobDetector_Params()  # type: ignore[attr-defined]
         options.filterByColor, options.blobColor = True, 255
         options.filterByArea = True
         options.minArea, options.maxArea = self.area_min, self.area_max
         options.filterByCircularity, options.minCircularity = True, 0.5
         options.filterByConvexity, options.minConvexity = True, 0.5
         options.filterByInertia = False
-        return cv2.SimpleBlobDetector_create(options)
+        return cv2.SimpleBlobDetector_create(options)  # type: ignore[attr-defined]

@@ -1,0 +1,107 @@
+"""Pictures of both cameras, paired as they come, and the news about their health."""
+
+import threading
+from collections.abc import Callable, Sequence
+
+from app.core.clock import Clock
+from app.tracking.camera import Camera, Frame
+from app.tracking.watch import CameraHealth, CameraReader, CameraState
+
+_WAIT = 0.1
+"""Longest wait [s] for a picture before the cameras' health is looked at."""
+
+_PAIRING = 0.05
+"""Time [s] that the faster camera waits for the other before it goes on alone."""
+
+_TROUBLE = frozenset({CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED})
+
+Pair = tuple[Frame | None, Frame | None]
+"""New pictures of both cameras; None where a camera has none."""
+
+
+class CameraFeed:
+    """Two cameras, each read in its own thread.
+
+    Args:
+        cameras: two.
+        names: of them.
+        clock: for ages.
+        noise_expected: whether a picture that repeats to the last bit means a frozen driver.
+        report: takes (kind, message) when a camera stops, freezes, fails or recovers.
+    """
+
+    def __init__(
+        self,
+        cameras: Sequence[Camera],
+        names: Sequence[str],
+        clock: Clock,
+        noise_expected: bool,
+        report: Callable[[str, str], None],
+    ) -> None:
+        self._arrived = threading.Condition()
+        self._clock = clock
+        self._report = report
+        self._readers = tuple(
+            CameraReader(camera, name, clock, self._arrived, noise_expected)
+            for camera, name in zip(cameras, names, strict=True)
+        )
+        self._states = [CameraState.WAITING, CameraState.WAITING]
+        self._seen: list[Frame | None] = [None, None]
+        self._stopped = False
+
+    def open(self) -> None:
+        """Open both cameras.
+
+        Raises:
+            CameraError: if one cannot be opened; the other is closed again.
+        """
+        self._stopped = False
+        self._seen = [None, None]
+        try:
+            for reader in self._readers:
+                reader.open()
+        except Exception:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Close both cameras and wake who waits; closing twice is fine."""
+        with self._arrived:
+            self._stopped = True
+            self._arrived.notify_all()
+        for reader in self._readers:
+            reader.close()
+
+    def wait(self) -> Pair:
+        """Wait for new pictures: for one at most 0.1 s, then for the other a little longer."""
+        with self._arrived:
+            self._arrived.wait_for(lambda: self._stopped or any(self._fresh()), _WAIT)
+            if any(self._fresh()):
+                self._arrived.wait_for(lambda: self._stopped or all(self._fresh()), _PAIRING)
+            fresh = self._fresh()
+            frames = [reader.newest() for reader in self._readers]
+        self._watch()
+        usable: list[Frame | None] = [None, None]
+        for i in range(2):
+            if fresh[i]:
+                self._seen[i] = frames[i]
+                usable[i] = None if self._states[i] is CameraState.FROZEN else frames[i]
+        return usable[0], usable[1]
+
+    def health(self, now: float) -> tuple[CameraHealth, ...]:
+        """Health of both cameras at `now` [s], also of one that hangs."""
+        return tuple(reader.health(now) for reader in self._readers)
+
+    def _fresh(self) -> list[bool]:
+        newest = [reader.newest() for reader in self._readers]
+        return [n is not None and n is not s for n, s in zip(newest, self._seen, strict=True)]
+
+    def _watch(self) -> None:
+        for i, health in enumerate(self.health(self._clock.now())):
+            before, self._states[i] = self._states[i], health.state
+            if health.state is before:
+                continue
+            if health.state in _TROUBLE:
+                self._report("fault", f"camera {health.name}: {health.text}")
+            elif before in _TROUBLE:
+                self._report("tracker", f"camera {health.name} delivers pictures again")

@@ -1,0 +1,88 @@
+"""Figures about the tracker over the last seconds."""
+
+import threading
+from collections import Counter, deque
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from app.tracking.fix import FixStatus, NeedleFix
+from app.tracking.watch import CameraHealth, CameraState
+
+WINDOW = 2.0
+"""Time [s] over which rate, share and latency are taken."""
+
+
+@dataclass(frozen=True, slots=True)
+class TrackerStatistics:
+    """How the tracker does.
+
+    Attributes:
+        rate: fixes per second, valid or not.
+        valid_share: share of the valid ones, 0 to 1.
+        latency: median time [s] from capture to fix.
+        age: time [s] since the capture of the newest fix; None before the first.
+        status: of the newest fix; None before the first.
+        reason: one line for people about the present trouble; empty without.
+        residual_px: of the newest fix.
+        missing: cameras that do not show the marker in the newest fix.
+        counts: fixes of each status since the start.
+        cameras: health of each camera.
+        fault: message of an error inside the tracker; empty without.
+    """
+
+    rate: float
+    valid_share: float
+    latency: float
+    age: float | None
+    status: FixStatus | None
+    reason: str
+    residual_px: float
+    missing: tuple[str, ...]
+    counts: dict[str, int] = field(default_factory=dict)
+    cameras: tuple[CameraHealth, ...] = ()
+    fault: str = ""
+
+
+class TrackerMeter:
+    """Counts fixes; written by the tracker's thread, read by any."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._recent: deque[tuple[float, float, bool]] = deque(maxlen=2048)
+        self._counts: Counter[str] = Counter()
+
+    def count(self, fix: NeedleFix, now: float) -> None:
+        """Take in a fix that was finished at `now` [s]."""
+        with self._lock:
+            self._counts[fix.status.value] += 1
+            self._recent.append((now, now - fix.time, fix.status is FixStatus.VALID))
+
+    def statistics(
+        self, now: float, newest: NeedleFix | None, cameras: tuple[CameraHealth, ...], fault: str
+    ) -> TrackerStatistics:
+        """Figures at `now` [s]."""
+        with self._lock:
+            recent = [entry for entry in self._recent if now - entry[0] <= WINDOW]
+            counts = dict(self._counts)
+        trouble = next((c for c in cameras if c.state in _TROUBLE), None)
+        reason = fault or (newest.reason if newest else "")
+        if trouble is not None:
+            reason = f"camera {trouble.name}: {trouble.text}"
+        span = max(now - recent[0][0], 1e-3) if len(recent) > 1 else WINDOW
+        return TrackerStatistics(
+            rate=(len(recent) - 1) / span if len(recent) > 1 else 0.0,
+            valid_share=float(np.mean([entry[2] for entry in recent])) if recent else 0.0,
+            latency=float(np.median([entry[1] for entry in recent])) if recent else 0.0,
+            age=max(0.0, now - newest.time) if newest else None,
+            status=newest.status if newest else None,
+            reason=reason,
+            residual_px=newest.residual_px if newest else 0.0,
+            missing=newest.missing if newest else (),
+            counts=counts,
+            cameras=cameras,
+            fault=fault,
+        )
+
+
+_TROUBLE = frozenset({CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED})

@@ -1,0 +1,57 @@
+"""The marker's way through one camera's pictures: memory for prediction and interpolation."""
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.tracking.fix import Sighting
+from app.tracking.marker import MarkerFix
+
+_GAP = 0.1
+"""Longest time [s] between two pictures over which positions are interpolated or predicted."""
+
+_FARTHEST = 60.0
+"""Longest predicted way [px] between two pictures."""
+
+
+class PixelTrack:
+    """The last two finds of one camera."""
+
+    def __init__(self) -> None:
+        self._fixes: list[tuple[float, MarkerFix]] = []
+
+    def add(self, time: float, marker: MarkerFix | None) -> None:
+        """Remember a find; a picture without the marker ends the track."""
+        self._fixes = [] if marker is None else [*self._fixes[-1:], (time, marker)]
+
+    def forget(self) -> None:
+        """End the track: the next search looks at the whole picture."""
+        self._fixes = []
+
+    def predict(self, time: float) -> FloatArray | None:
+        """Pixel where the marker should be at `time` [s], at constant speed; None if lost."""
+        if not self._fixes:
+            return None
+        last_time, last = self._fixes[-1]
+        if not 0.0 <= time - last_time <= _GAP:
+            return None
+        if len(self._fixes) < 2 or last_time - self._fixes[0][0] > _GAP:
+            return last.uv
+        first_time, first = self._fixes[0]
+        step = (last.uv - first.uv) * (time - last_time) / max(last_time - first_time, 1e-6)
+        return np.asarray(last.uv + np.clip(step, -_FARTHEST, _FARTHEST))
+
+    def at(self, time: float) -> Sighting | None:
+        """Sighting at `time` [s], on the line between the last two finds; None if lost.
+
+        Only interpolates: later than the newest find, or with too wide a gap, the newest counts.
+        """
+        if not self._fixes:
+            return None
+        (first_time, first), (last_time, last) = self._fixes[0], self._fixes[-1]
+        span = last_time - first_time
+        if not 0.0 < span <= _GAP or time >= last_time:
+            return Sighting.of(last)
+        share = max(0.0, (time - first_time) / span)
+        uv = (1.0 - share) * first.uv + share * last.uv
+        covariance = (1.0 - share) ** 2 * first.covariance + share**2 * last.covariance
+        return Sighting(uv, covariance)

@@ -1,0 +1,175 @@
+"""The tracker: two cameras in, needle fixes out."""
+
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from app.core.arrays import FloatArray
+from app.core.clock import Clock
+from app.core.events import Event, EventQueue
+from app.core.latest import Latest
+from app.tracking.camera import Camera, Frame, Image
+from app.tracking.errors import TrackingError
+from app.tracking.feed import CameraFeed, Pair
+from app.tracking.fix import FixSolver, FixStatus, NeedleFix
+from app.tracking.follower import MarkerFollower, Markers
+from app.tracking.marker import Extractor
+from app.tracking.outline_centroid import OutlineCentroid
+from app.tracking.rig import RigProfile
+from app.tracking.statistics import TrackerMeter, TrackerStatistics
+
+_PAUSE = 0.1
+"""Time [s] to wait after an error inside the tracker."""
+
+Axis = Callable[[float], FloatArray | None]
+"""Needle direction, hub to tip, at a time [s]; None while the robot does not know it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TrackedPicture:
+    """Newest picture of a camera and where the marker is in it [px], shape (2,), or None."""
+
+    name: str
+    image: Image
+    time: float
+    pixel: FloatArray | None
+
+
+class Tracker:
+    """Finds the needle's tip in the pictures of two cameras, in its own thread.
+
+    Args:
+        cameras: in the order of the rig.
+        rig: profile of the cameras and the needle.
+        clock: for ages and waiting.
+        axis: the needle's direction by the robot.
+        fulcrum: P_I in world [m], shape (3,).
+        on_fix: called in the tracker's thread with every fix, e.g. to write the depth for the loop.
+        events: takes an event of kind `fault` when a camera stops, freezes or fails, or when the
+            tracker itself fails, and of kind `tracker` when a camera recovers.
+        extractor: how the marker is found; by default `OutlineCentroid`.
+    """
+
+    def __init__(
+        self,
+        cameras: Sequence[Camera],
+        rig: RigProfile,
+        clock: Clock,
+        axis: Axis,
+        fulcrum: FloatArray,
+        on_fix: Callable[[NeedleFix], None] | None = None,
+        events: EventQueue | None = None,
+        extractor: Extractor | None = None,
+    ) -> None:
+        if len(cameras) != 2:
+            raise TrackingError(f"the tracker needs two cameras, got {len(cameras)}")
+        self.latest: Latest[NeedleFix] = Latest()
+        self.events = events if events is not None else EventQueue()
+        self._clock = clock
+        self._axis = axis
+        self._on_fix = on_fix
+        self._names = tuple(model.name for model in rig.models)
+        self._solver = FixSolver(rig, fulcrum)
+        finder = extractor or OutlineCentroid(noise_grey=rig.noise_grey)
+        self._follower = MarkerFollower(finder, self._solver)
+        self._feed = CameraFeed(cameras, self._names, clock, rig.noise_grey > 0.0, self._put)
+        self._meter = TrackerMeter()
+        self._pictures: dict[str, TrackedPicture] = {}
+        self._thread: threading.Thread | None = None
+        self._stop = threading.Event()
+        self._fault = ""
+
+    def open(self) -> None:
+        """Open both cameras and start; opening twice is fine.
+
+        Raises:
+            CameraError: if a camera cannot be opened; the other is closed again.
+        """
+        if self._thread is not None:
+            return
+        self._stop.clear()
+        self._feed.open()
+        self._thread = threading.Thread(target=self._run, name="tracker", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Stop the thread and close the cameras; closing twice is fine."""
+        self._stop.set()
+        self._feed.close()
+        thread, self._thread = self._thread, None
+        if thread is not None:
+            thread.join(timeout=2.0)
+
+    def process(self, left: Frame | None, right: Frame | None) -> NeedleFix:
+        """Fix of one pair of pictures, of whatever capture times; None for a camera without one.
+
+        This is the whole work of a step and needs no thread. The fix is of the earlier capture
+        time; the other camera's pixel is interpolated to it between its last two pictures.
+
+        Raises:
+            TrackingError: if there is no picture at all.
+        """
+        frames = (left, right)
+        times = [frame.time for frame in frames if frame is not None]
+        if not times:
+            raise TrackingError("a step of the tracker needs at least one picture")
+        time = min(times)
+        axis = self._axis(time)
+        markers = self._follower.find(frames, axis, time)
+        sightings = self._follower.sightings(frames, markers, time)
+        fix = self._solver.solve(sightings, axis, time)
+        if fix.status is FixStatus.INCONSISTENT:
+            self._follower.forget()
+        self._show(frames, markers)
+        return self._without_picture(fix, frames)
+
+    def statistics(self) -> TrackerStatistics:
+        """Figures of the last seconds and the health of both cameras."""
+        now = self._clock.now()
+        stamped = self.latest.read()
+        newest = stamped.value if stamped else None
+        return self._meter.statistics(now, newest, self._feed.health(now), self._fault)
+
+    def pictures(self) -> tuple[TrackedPicture, ...]:
+        """Newest picture of each camera with the found marker, read-only; empty before one came."""
+        pictures = dict(self._pictures)
+        return tuple(pictures[name] for name in self._names if name in pictures)
+
+    def _without_picture(self, fix: NeedleFix, frames: Pair) -> NeedleFix:
+        absent = [name for name, f in zip(self._names, frames, strict=True) if f is None]
+        if not absent:
+            return fix
+        return replace(fix, reason=f"no picture from the {absent[0]} camera")
+
+    def _show(self, frames: Pair, markers: Markers) -> None:
+        for name, frame, marker in zip(self._names, frames, markers, strict=True):
+            if frame is not None:
+                pixel = marker.uv if marker is not None else None
+                self._pictures[name] = TrackedPicture(name, frame.image, frame.time, pixel)
+
+    def _run(self) -> None:
+        while not self._stop.is_set():
+            try:
+                self._step()
+            except Exception as error:  # shown as a fault; the tracker goes on with the next pair
+                self._fail(f"{type(error).__name__}: {error}")
+                self._stop.wait(_PAUSE)
+
+    def _step(self) -> None:
+        frames = self._feed.wait()
+        if self._stop.is_set() or (frames[0] is None and frames[1] is None):
+            return
+        fix = self.process(*frames)
+        self.latest.publish(fix, fix.time)
+        self._meter.count(fix, self._clock.now())
+        if self._on_fix is not None:
+            self._on_fix(fix)
+        self._fault = ""
+
+    def _fail(self, message: str) -> None:
+        if message != self._fault:
+            self._put("fault", f"the tracker failed: {message}")
+        self._fault = message
+
+    def _put(self, kind: str, message: str) -> None:
+        self.events.put(Event(self._clock.now(), kind, message))
