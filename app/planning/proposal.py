@@ -28,7 +28,7 @@ def demonstration_plan(volume: Volume, body: Body, name: str = "demonstration") 
     Raises:
         PlanError: if no path of 65 mm from the anterior skin stays in the body.
     """
-    candidates = []
+    candidates: list[tuple[float, int, tuple[FloatArray, FloatArray]]] = []
     for across, along, tilt in product(_ACROSS, _ALONG_MM, _TILTS_DEG):
         path = _path(volume, body, across, along, np.deg2rad(tilt))
         if path is not None:
