@@ -73,7 +73,7 @@ def test_elbows_exactly_two_links_apart_are_stretched_not_unreachable():
 
 def test_an_arm_stretched_to_its_very_end_is_reached():
     reach = GEOMETRY.proximal + GEOMETRY.distal
-    one_axis = Geometry(0.1, 0.165, 1e-9, GEOMETRY.fulcrum, 0.2)
+    one_axis = Geometry(0.1, 0.165, 1e-12, GEOMETRY.fulcrum, 0.2)
     for turn in (0.3, 0.9, 1.4):
         p3 = reach * np.array([np.cos(turn), np.sin(turn)]) * (1.0 - 1e-9)
         assert inverse(one_axis, p3) == pytest.approx([turn, turn], abs=1e-3)

@@ -1,0 +1,171 @@
+"""The force path at its worst: fuzzed inputs, antipodes, huge forces, subnormals, dial changes."""
+
+import numpy as np
+import pytest
+from device.device_rig import HAND_LIMIT, PROFILE, TORQUE_LIMIT, Rig
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from app.core import state_vector as sv
+from app.device.control import Fault
+from app.device.control.fixture import attraction_kernel
+from app.device.control.velocity import VelocityFilter
+
+anything = st.floats(allow_nan=True, allow_infinity=True)
+FORCE_PATH = [sv.FELT_X, sv.FELT_Y, sv.FELT_Z, sv.TORQUE_LEFT, sv.TORQUE_RIGHT]
+
+
+def assert_safe(row: np.ndarray) -> None:
+    assert np.isfinite(row[FORCE_PATH]).all()
+    assert np.linalg.norm(row[sv.FELT_X : sv.FELT_Z + 1]) <= HAND_LIMIT + 1e-9
+    assert np.abs(row[[sv.TORQUE_LEFT, sv.TORQUE_RIGHT]]).max() <= TORQUE_LIMIT
+    assert int(row[sv.FAULT]) in [int(fault) for fault in Fault]
+
+
+@settings(derandomize=True, deadline=None, max_examples=150)
+@given(
+    st.lists(st.tuples(st.sampled_from(range(sv.INPUTS)), anything), max_size=6),
+    st.tuples(anything, anything),
+    st.tuples(anything, anything, anything),
+    st.booleans(),
+)
+def test_whatever_comes_in_the_force_is_finite_and_within_its_limits(inputs, q, force, wild):
+    rig = Rig()
+    with rig.loop:
+        rig.arm()
+        names = {slot: name for name, slot in sv.INDEX.items()}
+        rig.write(**{names[slot]: value for slot, value in inputs})
+        if wild:
+            rig.loop._state[[sv.PLANT_Q_LEFT, sv.PLANT_Q_RIGHT]] = q
+        rig.force[:] = force
+        rig.step(30)
+        for row in rig.loop.rows():
+            assert_safe(row)
+
+
+@settings(derandomize=True, deadline=None, max_examples=100)
+@given(st.floats(-4.0, 4.0), st.floats(-4.0, 4.0), st.floats(-0.5, 0.5))
+def test_in_any_pose_of_the_motors_the_force_stays_within_its_limits(q1, q2, depth):
+    rig = Rig(force=(3.0, -9.0, 2.0))
+    with rig.loop:
+        rig.arm()
+        rig.loop._state[[sv.PLANT_Q_LEFT, sv.PLANT_Q_RIGHT]] = q1, q2
+        rig.write(tracked_depth=depth, tracked_time=rig.clock.now())
+        rig.step(50)
+        rows = rig.loop.rows()
+    for row in rows:
+        assert_safe(row)
+        assert np.isfinite(row).all()
+
+
+def test_on_the_path_the_force_is_exactly_zero():
+    for path in np.eye(3):
+        assert attraction_kernel(*path, *path) == (0.0, 0.0, 0.0)
+    rig = Rig(tilt=0.0)
+    with rig.loop:
+        rig.arm()
+        path = rig.loop.latest().axis
+        rig.write(path_x=path[0], path_y=path[1], path_z=path[2])
+        rig.step(200)
+        assert not rig.loop.latest().guide.any()
+
+
+@pytest.mark.parametrize("offset", [1e-300, 1e-200, 1e-100, 1e-16, 1e-9, 1e-3])
+def test_near_the_path_the_force_is_proportional_to_the_error(offset):
+    force = np.array(attraction_kernel(0.0, 0.0, -1.0, offset, 0.0, -1.0))
+    assert force == pytest.approx([-offset, 0.0, 0.0], rel=1e-3, abs=0.0)
+
+
+def test_against_the_path_the_force_goes_to_zero_without_a_jump():
+    previous = None
+    for angle in np.linspace(np.pi - 1e-3, np.pi + 1e-3, 2001):
+        force = np.array(attraction_kernel(0.0, 0.0, -1.0, np.sin(angle), 0.0, -np.cos(angle)))
+        assert np.isfinite(force).all()
+        assert np.linalg.norm(force) <= np.pi
+        assert previous is None or np.linalg.norm(force - previous) < 1e-5
+        previous = force
+
+
+def test_the_spring_is_smooth_where_its_two_forms_meet():
+    angles = np.pi / 2 + np.linspace(-1e-6, 1e-6, 201)
+    forces = [
+        np.linalg.norm(attraction_kernel(0.0, 0.0, -1.0, np.sin(a), 0.0, -np.cos(a)))
+        for a in angles
+    ]
+    assert np.diff(forces) == pytest.approx(np.full(200, 1e-8), abs=1e-13)
+
+
+@pytest.mark.parametrize("size", [1e3, 1e100, 1e160, 1e300])
+def test_a_huge_force_is_limited_and_keeps_its_direction(size):
+    rig = Rig(force=(size, 0.5 * size, 0.0), laws=[])
+    with rig.loop:
+        rig.arm()
+        state = rig.loop.latest()
+    wanted = np.array([1.0, 0.5, 0.0])
+    wanted -= state.axis * np.dot(state.axis, wanted)
+    assert np.linalg.norm(state.felt) == pytest.approx(HAND_LIMIT)
+    assert state.felt == pytest.approx(HAND_LIMIT * wanted / np.linalg.norm(wanted))
+
+
+def test_a_needle_that_passes_through_the_vertical_feels_no_jump():
+    rig = Rig(tilt=0.0)
+    with rig.loop:
+        rig.arm(path_x=0.1)
+        forces = []
+        base = rig.loop._state[[sv.PLANT_Q_LEFT, sv.PLANT_Q_RIGHT]].copy()
+        for k in range(200):
+            shift = 1e-6 * (k - 100)
+            rig.loop._state[[sv.PLANT_Q_LEFT, sv.PLANT_Q_RIGHT]] = base + shift
+            rig.step(1)
+            forces.append(rig.loop.latest().felt)
+    assert np.abs(np.diff(forces, axis=0)).max() < 0.02
+
+
+def test_turning_the_dial_never_moves_the_force_further_than_the_dial():
+    rig = Rig()
+    rng = np.random.default_rng(5)
+    with rig.loop:
+        rig.arm()
+        previous, dial = rig.loop.latest().felt, 1.0
+        for _ in range(100):
+            turned = float(rng.uniform(0.0, 1.0))
+            rig.write(assistance=turned)
+            rig.step(1)
+            felt = rig.loop.latest().felt
+            full = PROFILE.fixture.stiffness * rig.loop.latest().angle_error
+            assert np.linalg.norm(felt - previous) <= full * abs(turned - dial) + 1e-9
+            previous, dial = felt, turned
+
+
+def test_losing_the_marker_does_not_make_the_force_jump():
+    rig = Rig(force=(0.0, 0.0, 0.0))
+    with rig.loop:
+        rig.arm(tracked_depth=0.03, tracked_time=rig.clock.now() + 1.0)
+        rig.step(500)
+        torques = rig.loop.rows()[1100:, [sv.TORQUE_LEFT, sv.TORQUE_RIGHT]]
+    assert np.abs(np.diff(torques, axis=0)).max() < 0.02 * TORQUE_LIMIT
+
+
+def test_a_decaying_velocity_ends_in_exact_zero_not_in_subnormal_numbers():
+    state = sv.empty_state()
+    state[sv.DT] = 1e-3
+    _, function, memory = VelocityFilter().stage()
+    smallest = 1.0
+    for k in range(20_000):
+        state[sv.Q_LEFT] = 2.5 if k == 0 else 2.6
+        function(state, memory)
+        if state[sv.QD_LEFT] != 0.0:
+            smallest = min(smallest, abs(state[sv.QD_LEFT]))
+    assert state[sv.QD_LEFT] == 0.0
+    assert smallest >= 1e-12
+
+
+def test_a_rig_at_rest_for_ten_minutes_stays_finite():
+    rig = Rig()
+    with rig.loop:
+        rig.arm()
+        rig.write(enabled=0.0)
+        rig.loop.step(600_000)
+        row = rig.loop.latest().row
+    assert np.isfinite(row).all()
+    assert_safe(row)
