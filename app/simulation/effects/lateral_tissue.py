@@ -15,9 +15,9 @@ closed form K θ for small angles. Virtual work gives the force at the hub point
 perpendicular to the needle and back towards the directions at which the tissue was pierced.
 
 Models. `winkler` takes the needle as rigid. `beam` (default: see docs/studies.md) lets it bend:
-K(d) becomes the moment per angle of a beam on the layered foundation, its slope held at the fulcrum,
-tabulated over depth when the scene is compiled; C is laid with the same increments dK. K rises with
-depth in both, so what is said here of energy holds for both.
+K(d) becomes the moment per angle of a beam on the layered foundation whose slope is held at the
+fulcrum, tabulated over depth when the scene is compiled; C is laid with the same increments dK. K
+rises with depth in both, so what is said here of energy holds for both.
 
 Energy. Advancing lays new tissue down unstressed (dU = 0); retreating frees tissue, whose energy
 is lost in the tissue (dU <= 0). Without this memory (a spring K(d) towards one fixed direction)
