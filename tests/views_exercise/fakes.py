@@ -17,6 +17,8 @@ from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.recorder import RecordingStatus
 from app.session.snapshot import Snapshot
+from app.tracking.fix import FixStatus
+from app.tracking.statistics import TrackerStatistics
 from app.views.exercise.run import ExerciseRun
 
 
@@ -32,6 +34,15 @@ def pose(placed: PlacedPlan, tilt: float = 0.05, depth: float = 0.04, **changes:
     return NeedlePose(**(values | changes))
 
 
+def statistics(**changes: Any) -> TrackerStatistics:
+    """A tracker that sees the marker."""
+    values: dict[str, Any] = {
+        "rate": 30.0, "valid_share": 0.98, "latency": 0.04, "age": 0.03,
+        "status": FixStatus.VALID, "reason": "", "residual_px": 0.3, "missing": (),
+    }  # fmt: skip
+    return TrackerStatistics(**(values | changes))
+
+
 def snapshot(placed: PlacedPlan | None = None, **changes: Any) -> Snapshot:
     """Everything is well."""
     placed = placed or placed_plan()
@@ -43,7 +54,7 @@ def snapshot(placed: PlacedPlan | None = None, **changes: Any) -> Snapshot:
         "time": 1.0, "state": State.READY, "reason": "", "elapsed": 0.0,
         "phases": MappingProxyType({}), "pose": where,
         "offset": offset(where, placed.p_target, placed.axis), "p_target": placed.p_target,
-        "device": device, "tracker": SimpleNamespace(rate_hz=30.0, valid_share=0.98),
+        "device": device, "tracker": statistics(),
         "timing": SimpleNamespace(median=8e-5, p99=2e-4, missed=2, ticks=5000),
         "fix_status": "valid", "scans": 0, "assistance": 1.0, "armed": False,
         "recording": RecordingStatus(Path("a.mcap"), True, "", 10, 0, 0), "messages": (),

@@ -1,16 +1,18 @@
+from dataclasses import replace
 from math import inf, nan, radians
 
 import pytest
-from fakes import snapshot
+from fakes import snapshot, statistics
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 
 from app.session.machine import State
-from app.views.exercise.camera_view import CameraPicture
+from app.tracking.fix import FixStatus
+from app.tracking.watch import CameraHealth, CameraState
 from app.views.exercise.hold_key import HOLD_MS
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.panel import ExercisePanel
-from app.views.exercise.readings import figures, problem, status_items
+from app.views.exercise.readings import figures, problem, status_items, tracker_figures
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.status_items import (
     Verdict,
@@ -158,11 +160,21 @@ def test_ages_are_said_in_words():
 
 
 def test_the_camera_that_does_not_see_the_marker_is_named():
-    left = CameraPicture("left camera", None, None)
-    right = CameraPicture("right camera", None, (3.0, 4.0))
-    assert problem("one_camera", (left, right)) == "marker out of view (left camera)"
-    assert problem("out_of_view", ()) == "marker out of view"
-    assert problem("valid", (left,)) == ""
+    blind = statistics(status=FixStatus.ONE_CAMERA, missing=("left",))
+    assert problem(blind) == "marker out of view (left camera)"
+    both = statistics(status=FixStatus.OUT_OF_VIEW, missing=("left", "right"))
+    assert problem(both) == "marker out of view (both cameras)"
+    assert problem(statistics()) == ""
+    dead = CameraHealth("left", CameraState.FAILED, 1.0, "gone")
+    broken = replace(blind, cameras=(dead,), reason="camera left: gone")
+    assert problem(broken) == "camera left: gone"
+
+
+def test_the_residual_is_shown_only_where_there_is_one():
+    assert tracker_figures(snapshot()).residual_px == 0.3
+    blind = statistics(status=FixStatus.OUT_OF_VIEW)
+    assert tracker_figures(snapshot(tracker=blind)).residual_px is None
+    assert tracker_figures(snapshot(tracker=None)).item.text == "no cameras"
 
 
 def test_the_strip_shows_every_part_of_a_snapshot(qt):

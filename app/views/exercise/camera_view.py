@@ -1,34 +1,16 @@
 """One camera's picture with what was found in it."""
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QImage, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.tracking.tracker import TrackedPicture
 from app.views import theme
 from app.views.text import tr
 
 MARK = "#35d6ed"
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class CameraPicture:
-    """A picture and the marker in it.
-
-    Attributes:
-        name: which camera, for people.
-        image: grey (rows, columns) or blue-green-red (rows, columns, 3), uint8, as OpenCV has it.
-        marker: pixel (column, row) of the marker's centre; None if it was not found.
-        radius: of the marker [px].
-    """
-
-    name: str
-    image: NDArray[np.uint8]
-    marker: tuple[float, float] | None
-    radius: float = 12.0
 
 
 class CameraView(QWidget):
@@ -36,7 +18,7 @@ class CameraView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._picture: CameraPicture | None = None
+        self._picture: TrackedPicture | None = None
         self._image = QImage()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(160, 120)
@@ -45,7 +27,7 @@ class CameraView(QWidget):
         """Preferred size."""
         return QSize(320, 240)
 
-    def show_picture(self, picture: CameraPicture | None) -> None:
+    def show_picture(self, picture: TrackedPicture | None) -> None:
         """Show a picture; None says that there is none."""
         self._picture = picture
         self._image = qimage(picture.image) if picture else QImage()
@@ -67,18 +49,18 @@ class CameraView(QWidget):
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
         painter.drawImage(QRectF(corner, corner + size), self._image)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        if self._picture.marker is not None:
+        if self._picture.pixel is not None:
             # OpenCV's pixel (0, 0) is the centre of the first pixel, the widget's its corner.
-            column, row = self._picture.marker
-            at = corner + QPointF(column + 0.5, row + 0.5) * scale
-            _draw_marker(painter, at, max(8.0, 1.5 * scale * self._picture.radius))
+            column, row = self._picture.pixel.tolist()
+            _draw_marker(painter, corner + QPointF(column + 0.5, row + 0.5) * scale)
         self._draw_name(painter, corner, self._picture)
 
     @staticmethod
-    def _draw_name(painter: QPainter, corner: QPointF, picture: CameraPicture) -> None:
-        found = picture.marker is not None
+    def _draw_name(painter: QPainter, corner: QPointF, picture: TrackedPicture) -> None:
+        found = picture.pixel is not None
         colour, symbol = theme.VERDICTS["good" if found else "bad"]
-        text = picture.name if found else tr("{name}: marker not seen", name=picture.name)
+        name = camera_name(picture.name)
+        text = name if found else tr("{name}: marker not seen", name=name)
         font = QFont(painter.font())
         font.setPixelSize(theme.SMALL_PX)
         painter.setFont(font)
@@ -90,7 +72,12 @@ class CameraView(QWidget):
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, label)
 
 
-def _draw_marker(painter: QPainter, at: QPointF, radius: float) -> None:
+def camera_name(name: str) -> str:
+    """Name of a camera of the rig for people."""
+    return {"left": tr("left camera"), "right": tr("right camera")}.get(name, name)
+
+
+def _draw_marker(painter: QPainter, at: QPointF, radius: float = 12.0) -> None:
     """Circle and cross, dark below bright, so that they show on any picture."""
     painter.setBrush(Qt.BrushStyle.NoBrush)
     for colour, width in ((QColor(0, 0, 0, 180), 4.0), (QColor(MARK), 1.8)):

@@ -134,16 +134,12 @@ class ExerciseController(QObject):
         if view is not None:
             views.bullseye.show_view(view)
         rate = self._rate.read(now, snapshot.device.tick) if snapshot.device is not None else 0.0
-        pictures_due = views.tracker.due(now)
-        status_due = now - self._status_time >= STATUS_PERIOD
-        if not (pictures_due or status_due):
-            return
-        pictures = tuple(run.pictures()) if run.pictures is not None else ()
-        if pictures_due:
-            views.tracker.show_tracker(pictures, tracker_figures(snapshot, pictures), now)
-        if status_due:
+        if views.tracker.due(now):
+            pictures = tuple(run.pictures()) if run.pictures is not None else ()
+            views.tracker.show_tracker(pictures, tracker_figures(snapshot), now)
+        if now - self._status_time >= STATUS_PERIOD:
             self._status_time = now
-            views.status.show_items(status_items(snapshot, rate, late, pictures))
+            views.status.show_items(status_items(snapshot, rate, late))
 
     def _drain(self, run: ExerciseRun) -> None:
         for event in run.trainer.events.drain():

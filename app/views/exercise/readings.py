@@ -1,13 +1,15 @@
 """From a snapshot of the trainer to what the widgets show. Pure; nothing here judges anything."""
 
-from collections.abc import Sequence
 from math import inf
 
 import numpy as np
 
 from app.device.control.safety import Fault
 from app.session.snapshot import Snapshot
-from app.views.exercise.camera_view import CameraPicture
+from app.tracking.fix import FixStatus
+from app.tracking.statistics import TrackerStatistics
+from app.tracking.watch import CameraState
+from app.views.exercise.camera_view import camera_name
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.pad_view import PadView
 from app.views.exercise.status_items import (
@@ -23,6 +25,7 @@ from app.views.exercise.tracker_panel import TrackerFigures
 from app.views.text import tr
 
 SEEN = ("tracked", "held")
+_BAD_STATES = (CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED)
 
 
 def figures(snapshot: Snapshot, force_limit: float) -> LiveFigures:
@@ -67,16 +70,13 @@ def pad_view(snapshot: Snapshot, needle_length: float, force_limit: float) -> Pa
     )
 
 
-def status_items(
-    snapshot: Snapshot, rate: float, heartbeat_age: float, pictures: Sequence[CameraPicture] = ()
-) -> tuple[StatusItem, ...]:
+def status_items(snapshot: Snapshot, rate: float, heartbeat_age: float) -> tuple[StatusItem, ...]:
     """Health of every part, for the status strip.
 
     Args:
         snapshot: newest state.
         rate: measured rate of the loop [Hz].
         heartbeat_age: since the window's last sign of life [s].
-        pictures: newest camera pictures: they tell which camera does not see the marker.
     """
     device, timing, pose = snapshot.device, snapshot.timing, snapshot.pose
     items = []
@@ -84,7 +84,7 @@ def status_items(
         items.append(loop_item(rate, timing.median, timing.p99, timing.missed, timing.ticks))
     fault = int(device.fault) if device is not None else 0
     items.append(encoder_item(pose.orientation_age, fault_text(fault)))
-    items.append(tracker_status(snapshot, pictures))
+    items.append(tracker_status(snapshot))
     items.append(depth_item(str(pose.depth_source), pose.depth_age))
     items.append(heartbeat_item(heartbeat_age))
     record = snapshot.recording
@@ -96,38 +96,44 @@ def status_items(
     return tuple(items)
 
 
-def tracker_status(snapshot: Snapshot, pictures: Sequence[CameraPicture]) -> StatusItem:
+def tracker_status(snapshot: Snapshot) -> StatusItem:
     """Health of the cameras."""
     statistics, pose = snapshot.tracker, snapshot.pose
     age = pose.depth_age if str(pose.depth_source) in SEEN else inf
     if statistics is None:
         return tracker_item(0.0, 0.0, inf, tr("no cameras"))
-    return tracker_item(
-        statistics.rate_hz, statistics.valid_share, age, problem(snapshot.fix_status, pictures)
-    )
+    return tracker_item(statistics.rate, statistics.valid_share, age, problem(statistics))
 
 
-def tracker_figures(snapshot: Snapshot, pictures: Sequence[CameraPicture]) -> TrackerFigures:
+def tracker_figures(snapshot: Snapshot) -> TrackerFigures:
     """Figures below the camera pictures."""
-    statistics = snapshot.tracker
-    residual = float(getattr(statistics, "residual_px", None) or np.nan)
+    statistics: TrackerStatistics | None = snapshot.tracker
+    if statistics is None:
+        return TrackerFigures(0.0, None, tracker_status(snapshot))
+    measured = statistics.status in (FixStatus.VALID, FixStatus.INCONSISTENT)
     return TrackerFigures(
-        rate=statistics.rate_hz if statistics is not None else 0.0,
-        residual_px=residual if np.isfinite(residual) else None,
-        item=tracker_status(snapshot, pictures),
+        rate=statistics.rate,
+        residual_px=statistics.residual_px if measured else None,
+        item=tracker_status(snapshot),
     )
 
 
-def problem(fix_status: str, pictures: Sequence[CameraPicture]) -> str:
-    """Say what keeps the cameras from a fix, naming the cameras; empty if nothing does."""
-    blind = [picture.name for picture in pictures if picture.marker is None]
-    if fix_status in ("out_of_view", "one_camera"):
-        if not blind:
-            return tr("marker out of view")
-        return tr("marker out of view ({cameras})", cameras=", ".join(blind))
-    if fix_status == "inconsistent":
+def problem(statistics: TrackerStatistics) -> str:
+    """Say what keeps the cameras from a fix, naming the cameras; empty if nothing does.
+
+    A camera that has stopped or failed is said before anything about the marker.
+    """
+    troubled = [c for c in statistics.cameras if c.state in _BAD_STATES]
+    if statistics.fault or troubled:
+        return statistics.reason
+    if statistics.status is FixStatus.OUT_OF_VIEW:
+        return tr("marker out of view (both cameras)")
+    if statistics.status is FixStatus.ONE_CAMERA:
+        names = ", ".join(camera_name(name) for name in statistics.missing)
+        return tr("marker out of view ({cameras})", cameras=names)
+    if statistics.status is FixStatus.INCONSISTENT:
         return tr("the cameras disagree")
-    return "" if fix_status in ("", "valid") else fix_status
+    return statistics.reason
 
 
 def fault_text(code: int) -> str:

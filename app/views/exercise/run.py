@@ -9,7 +9,7 @@ from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
-from app.views.exercise.camera_view import CameraPicture
+from app.tracking.tracker import TrackedPicture
 from app.views.exercise.hand import HandLimits
 from app.views.exercise.pad_geometry import PadScale, path_frame
 from app.views.exercise.pad_view import PadScene, rings
@@ -73,7 +73,7 @@ class ExerciseRun:
     profile: DeviceProfile
     interactive: bool = True
     rings: tuple[float, ...] = field(default_factory=rings)
-    pictures: Callable[[], Sequence[CameraPicture]] | None = None
+    pictures: Callable[[], Sequence[TrackedPicture]] | None = None
 
     def scene(self) -> PadScene:
         """Return the pad of this run."""

@@ -6,8 +6,9 @@ from typing import Final
 
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from app.tracking.tracker import TrackedPicture
 from app.views import theme
-from app.views.exercise.camera_view import CameraPicture, CameraView
+from app.views.exercise.camera_view import CameraView
 from app.views.exercise.status_items import StatusItem
 from app.views.text import tr
 
@@ -54,7 +55,7 @@ class TrackerPanel(QWidget):
         return self.isVisible() and now - self._shown >= REFRESH
 
     def show_tracker(
-        self, pictures: Sequence[CameraPicture], figures: TrackerFigures, now: float
+        self, pictures: Sequence[TrackedPicture], figures: TrackerFigures, now: float
     ) -> None:
         """Show the newest pictures and figures."""
         self._shown = now

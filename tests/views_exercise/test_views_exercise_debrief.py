@@ -1,0 +1,217 @@
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from attempts import placed_plan, review, score
+from PySide6.QtCore import QPointF
+from PySide6.QtWidgets import QPushButton
+
+from app.core.disclaimer import DISCLAIMER
+from app.core.events import Event
+from app.session.curves import Curves
+from app.views import theme
+from app.views.debrief.curves import CurvesView, curves_of, value_range
+from app.views.debrief.page import DebriefPage, date_text
+from app.views.debrief.print_plot import polylines, ticks
+from app.views.debrief.report import report_bytes, write_report
+from app.views.debrief.review import marks, spans
+from app.views.debrief.score_words import number, row_texts, verdict
+
+
+@pytest.fixture
+def page(qt):
+    widget = DebriefPage()
+    widget.resize(1400, 900)
+    yield widget
+    widget.close()
+    widget.deleteLater()
+
+
+def empty() -> Curves:
+    nothing = np.empty(0)
+    return Curves(nothing, nothing, nothing, nothing, nothing, nothing)
+
+
+def column(page, index):
+    return [page.table.item(row, index).text() for row in range(page.table.rowCount())]
+
+
+def test_the_table_shows_value_band_points_and_weight_of_every_metric(page):
+    shown = review()
+    page.show_review(shown)
+    assert page.table.rowCount() == len(shown.score.rows)
+    assert column(page, 1)[:4] == ["2.40 mm", "-0.90 mm", "2.70°", "1.72"]
+    assert column(page, 2)[:4] == ["✔ good", "★ expert", "▲ pass", "✖ fail"]
+    points = [float(text.split(" / ")[0]) for text in column(page, 3) if "/" in text]
+    assert sum(points) == pytest.approx(shown.score.total, abs=0.2)
+    assert "held" in page.table.item(page.table.rowCount() - 1, 0).toolTip()
+
+
+def test_passed_not_passed_void_and_unscored_are_told_apart_in_words():
+    failed = review(
+        score=score().recomputed(rules=score().rules.model_copy(update={"pass_mark": 99.0}))
+    )
+    verdicts = [
+        verdict(r) for r in (review(), failed, review(score=score(void=True)), review(score=None))
+    ]
+    assert [v[1] for v in verdicts] == ["✔ Passed", "✖ Not passed", "▲ Void", "–"]
+    assert "99" in verdicts[1][2]
+    assert "aborted" in verdicts[2][2]
+    assert len({v[0] for v in verdicts}) == 4
+
+
+def test_the_page_says_it_is_for_training_only(page):
+    labels = [w.text() for w in page.findChildren(type(page._title))]
+    assert DISCLAIMER in labels
+
+
+def test_the_buttons_hand_over_the_attempt_shown(page):
+    got = []
+    page.report_requested.connect(got.append)
+    page.export_requested.connect(got.append)
+    page.report.click()
+    assert got == []
+    shown = review()
+    page.show_review(shown)
+    page.report.click()
+    page.export.click()
+    assert got == [shown, shown]
+    assert {b.text() for b in page.findChildren(QPushButton)} >= {"Try again", "Sessions"}
+
+
+def test_the_pointer_reads_every_curve_and_the_state(qt):
+    view = CurvesView()
+    view.resize(900, 700)
+    view.show_review(review())
+    text = view.read_out(20.0)
+    assert text.startswith("20.0 s")
+    for word in ("Inserting", "depth", "off the path", "angle", "force", "mm", "°", "N"):
+        assert word in text
+    assert "–" in view.read_out(30.4)
+    view._hover(QPointF(450.0, 300.0))
+    assert all(cursor.isVisible() for cursor in view._cursors)
+    view.deleteLater()
+
+
+def test_an_attempt_without_samples_is_shown_and_printed(page):
+    shown = review(curves=empty(), tip=np.empty((0, 3)), spans=(), marks=(), score=None)
+    page.show_review(shown)
+    assert not page.grab().isNull()
+    assert report_bytes(shown).startswith(b"%PDF")
+    assert page.curves.read_out(1.0) == ""
+
+
+def test_an_attempt_that_was_never_measured_is_shown(page):
+    some = review()
+    blank = np.full_like(some.curves.depth, np.nan)
+    figures = Curves(some.curves.time, blank, blank, blank, blank, blank)
+    shown = review(curves=figures, tip=np.full((len(blank), 3), np.nan))
+    page.show_review(shown)
+    assert not page.grab().isNull()
+    assert np.isnan(shown.track()).all()
+    assert report_bytes(shown).startswith(b"%PDF")
+
+
+def test_the_track_is_where_the_pad_would_draw_the_tip():
+    shown = review()
+    track, frame, scale = shown.track(), shown.frame, shown.scale
+    for i in (0, 700, 3000):
+        offset = frame.offset(shown.tip[i], shown.placed.p_entry)
+        assert np.allclose(track[i], scale.place_of_offset(offset), atol=1e-12)
+    assert np.isnan(track[1510]).all()
+    assert np.nanmax(np.hypot(*track.T)) <= 1.0
+
+
+def test_a_tip_on_the_path_is_in_the_middle():
+    placed = placed_plan()
+    tip = placed.p_entry + np.linspace(0.0, 0.05, 5)[:, None] * placed.axis
+    assert np.allclose(review(tip=tip).track(), 0.0, atol=1e-12)
+
+
+def test_rings_follow_the_tolerances_of_the_attempt():
+    assert review().rings == pytest.approx((0.002, 0.005))
+    assert review(score=None).rings == pytest.approx((0.002, 0.005))
+    rows = tuple(
+        replace(row, tolerance=row.tolerance.model_copy(update={"expert": 1.0}))
+        if row.name == "lateral_error"
+        else row
+        for row in score().rows
+    )
+    assert review(score=replace(score(), rows=rows)).rings == pytest.approx((0.001, 0.005))
+
+
+def test_spans_cover_the_whole_time_without_gaps():
+    time = np.arange(6.0)
+    found = spans(time, np.array(["a", "a", "b", "b", "a", "a"]))
+    assert [(s.state, s.start, s.end) for s in found] == [("a", 0, 2), ("b", 2, 4), ("a", 4, 5)]
+    assert spans(np.empty(0), np.empty(0, dtype=np.str_)) == ()
+
+
+def test_scans_are_numbered_and_other_events_left_out():
+    events = [Event(11.0, "scan", "x"), Event(12.0, "state", "y"), Event(13.5, "scan", "z")]
+    assert [(m.time, m.label) for m in marks(events, 10.0, ("scan",))] == [(1.0, "1"), (3.5, "2")]
+
+
+def test_the_report_is_a_pdf_of_two_pages_and_names_no_patient(qt, tmp_path):
+    path = tmp_path / "report.pdf"
+    write_report(review(), path)
+    data = path.read_bytes()
+    assert data.startswith(b"%PDF")
+    assert data.count(b"/Type /Page\n") == 2
+    assert b"PatientName" not in data
+
+
+def test_a_report_survives_any_text(qt):
+    shown = review(
+        exercise="A" * 300,
+        reason="B" * 2000,
+        student="ß–★",
+        problems=("C" * 500,) * 4,
+        state="aborted",
+    )
+    assert report_bytes(shown).startswith(b"%PDF")
+
+
+def test_thinning_keeps_every_peak_and_gap():
+    time = np.linspace(0.0, 60.0, 60_000)
+    values = np.zeros_like(time)
+    values[31_234] = 7.0
+    values[100:200] = np.nan
+    parts = polylines(time, values)
+    assert len(parts) == 2
+    assert sum(len(part) for part in parts) < 4000
+    assert max(part[:, 1].max() for part in parts) == 7.0
+    assert polylines(time, np.full_like(time, np.nan)) == []
+
+
+@pytest.mark.parametrize("span", [(0.0, 1.0), (-3.0, 97.0), (0.0, 1e-9), (-1e6, 1e6), (2.0, 2.0)])
+def test_ticks_are_few_round_and_inside(span):
+    found = ticks(*span)
+    assert len(found) <= 7
+    assert all(span[0] - 1e-12 <= value <= span[1] + 1e-12 for value in found)
+
+
+def test_the_range_of_a_plot_holds_its_line_and_is_never_empty():
+    for curve in curves_of(review()):
+        low, high = value_range(curve)
+        assert low < high
+        assert curve.line is None or low < curve.line < high
+    flat = SimpleNamespace(values=np.array([np.nan]), line=None)
+    low, high = value_range(flat)
+    assert low < high
+
+
+def test_numbers_have_three_digits():
+    assert [number(v) for v in (0.031, -0.9, 12.34, 250.4)] == ["0.03", "-0.90", "12.3", "250"]
+
+
+def test_a_date_that_is_none_stands_as_it_is():
+    assert date_text("yesterday") == "yesterday"
+    assert date_text("2026-11-21T10:15:00.000+00:00").startswith("2026-11-2")
+
+
+def test_bands_differ_by_symbol_as_well_as_colour():
+    texts = [row_texts(row, score()) for row in score().rows[:4]]
+    assert len({t.band[0] for t in texts}) == 4
+    assert texts[3].colour == theme.BAD
