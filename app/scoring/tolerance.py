@@ -36,7 +36,7 @@ class Bands(Strict):
         zero: here and beyond it is 0; default twice `pass` where lower is better, else half of it.
     """
 
-    model_config = ConfigDict(validate_by_name=True, validate_by_alias=True)
+    model_config = ConfigDict(populate_by_name=True)
 
     expert: float
     good: float
