@@ -1,5 +1,6 @@
 """What the debrief shows of one attempt, as values; page and report draw the same ones."""
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2
@@ -24,6 +25,9 @@ from app.views.exercise.pad_view import rings
 
 SHOWN_EVENTS: Final = ("scan", "fault", "abort")
 """Kinds of events that are marked on the curves."""
+
+DEVICE_FILE: Final = "device.json"
+"""Attachment that holds the device profile."""
 
 FORCE_LIMIT: Final = 5.0
 """Limit of the force at the hand [N] where the record names none."""
@@ -225,8 +229,8 @@ def _score(recording: Recording) -> tuple[Score | None, tuple[str, ...]]:
 
 
 def _force_limit(recording: Recording) -> float:
-    text = recording.metadata.get("device", {}).get("force_limit_n", "")
+    """Largest force at the hand [N] of the recorded device profile."""
     try:
-        return float(text) if text else FORCE_LIMIT
-    except ValueError:
+        return float(json.loads(recording.attachments[DEVICE_FILE])["limits"]["hand_force"])
+    except (KeyError, TypeError, ValueError):
         return FORCE_LIMIT

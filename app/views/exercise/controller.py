@@ -83,8 +83,8 @@ class ExerciseController(QObject):
         self._rate = RateMeter()
         self._views.bullseye.set_scene(run.scene(), run.interactive)
         self._views.panel.set_ready(True)
+        self._views.panel.set_assistance(run.trainer.snapshot().assistance)
         self._timer.start()
-        self.set_assistance(self._views.panel.assistance.value() / 100)
 
     def detach(self) -> None:
         """Let go of the trainer, without closing it; idempotent."""
