@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import atexit
-import sys
 import threading
 from collections.abc import Iterable, Mapping
-from enum import StrEnum
 from types import TracebackType
 from typing import Any
 
@@ -15,6 +13,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock, VirtualClock
 from app.device.control import kernel
 from app.device.control.history import History
+from app.device.control.host import THREAD_RATE_HZ, Host, Priority, default_host
 from app.device.control.inbox import Inbox
 from app.device.control.kernel import MISSED, STOP
 from app.device.control.state import DeviceState
@@ -22,36 +21,7 @@ from app.device.control.table import Table
 from app.device.control.timing import Timing, measure
 from app.device.errors import LoopError
 
-THREAD_RATE_HZ = 250.0
-"""Highest rate that the plain thread promises, where the compiled loop does not exist."""
-
 _STOP_TIMEOUT = 5.0
-
-
-class Host(StrEnum):
-    """What runs the ticks.
-
-    `COMPILED`: a compiled kernel with absolute deadlines, without the interpreter lock (Linux).
-    `THREAD`: a plain thread, at most `THREAD_RATE_HZ`. `STEPPED`: `Loop.step` on a virtual clock.
-    """
-
-    COMPILED = "compiled"
-    THREAD = "thread"
-    STEPPED = "stepped"
-
-
-class Priority(StrEnum):
-    """Priority of the compiled loop's thread. `REALTIME` is done without where it is refused."""
-
-    REALTIME = "realtime"
-    NORMAL = "normal"
-
-
-def default_host(clock: Clock) -> Host:
-    """Host for a clock on this platform."""
-    if isinstance(clock, VirtualClock):
-        return Host.STEPPED
-    return Host.COMPILED if sys.platform == "linux" else Host.THREAD
 
 
 class Loop:
