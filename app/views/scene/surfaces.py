@@ -12,7 +12,7 @@ from scipy import ndimage
 
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
-from app.imaging.body import body_mask
+from app.imaging.body import Body, body_mask
 from app.imaging.volume import Volume
 from app.views.scene.mesh import Mesh, coarser, isosurface
 
@@ -41,14 +41,14 @@ class Surfaces:
         return self.skin.count + self.bone.count
 
 
-def extract_surfaces(volume: Volume, progress: Progress) -> Surfaces:
+def extract_surfaces(volume: Volume, body: Body, progress: Progress) -> Surfaces:
     """Make the surfaces of a volume; lasts a few seconds, meant for a thread of its own.
 
     Raises:
         Cancelled: if `progress` was cancelled.
     """
     progress.report(0.0, "body")
-    mask = body_mask(volume)
+    mask = body_mask(volume, body)
     progress.report(0.2, "skin")
     soft, affine = reduced(mask.astype(np.float32), volume, SKIN_STEP_MM)
     skin = isosurface(_closed(soft, 0.0), _shifted(affine), 0.5, SKIN_TRIANGLES)

@@ -1,0 +1,228 @@
+"""What happens between the parts of the workspace: patient, plan, robot, needle."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QObject, Signal
+
+from app.core.arrays import FloatArray
+from app.core.errors import AcusError
+from app.core.transform import RigidTransform
+from app.exercises.scene import device_of, plan_of
+from app.exercises.schema import Exercise
+from app.imaging.body import skin_entry
+from app.mechanisms.profile import DeviceProfile
+from app.planning.limits import ReachLimits
+from app.session.machine import RUNNING
+from app.session.snapshot import Snapshot
+from app.views.background import Indicator, Task, run_in_background
+from app.views.exercise.controller import ExerciseController
+from app.views.exercise.run import ExerciseRun
+from app.views.needle_overlay import NeedleOverlay
+from app.views.patient import Patient
+from app.views.plan.editor import PlanEditor
+from app.views.runs import Runs
+from app.views.scene.robot import RobotShape
+from app.views.scene.surfaces import Surfaces, extract_surfaces
+from app.views.services import RunSetup
+from app.views.slices.slab import as_point
+from app.views.slices.viewing import Tool
+from app.views.text import tr
+from app.views.workspace import Workspace
+
+SCENE_DEAD_BAND_MM = 0.25
+"""The 3D picture is made anew when the needle moved more than this."""
+
+SIGHT_MM = 2000.0
+
+
+class Conductor(QObject):
+    """Keeps the views of one workspace in step.
+
+    Signals:
+        failed(object): an error to show; nothing was lost.
+        patient_changed(): another patient is shown.
+    """
+
+    failed = Signal(object)
+    patient_changed = Signal()
+
+    def __init__(
+        self,
+        workspace: Workspace,
+        editor: PlanEditor,
+        runs: Runs,
+        indicator: Indicator,
+        parent: QObject,
+    ) -> None:
+        super().__init__(parent)
+        self._workspace, self._editor, self._runs = workspace, editor, runs
+        self._indicator = indicator
+        self.controller = ExerciseController(workspace.exercise_views, parent=self)
+        self.patient: Patient | None = None
+        self.exercise: Exercise | None = None
+        self._profile: DeviceProfile | None = None
+        self._surfaces_task: Task | None = None
+        self._drawn: NDArray[np.float64] | None = None
+        self._connect()
+
+    def _connect(self) -> None:
+        viewing, scene = self._workspace.viewing, self._workspace.scene
+        viewing.point_placed.connect(self._editor.place)
+        scene.clicked.connect(self._click_in_scene)
+        self._editor.changed.connect(self._show_plan)
+        self._editor.refused.connect(self.failed)
+        self._runs.ready.connect(self._attach)
+        self._runs.moved.connect(self._moved)
+        self._runs.gone.connect(self._detach)
+        self._runs.failed.connect(self.failed)
+        self.controller.snapshot_taken.connect(self.show_snapshot)
+
+    # --- patient and exercise -----------------------------------------------------------------
+    def set_patient(self, patient: Patient) -> None:
+        """Show another patient with the plan that belongs to it, or with none."""
+        self._runs.want(None)
+        self.patient = patient
+        self._workspace.viewing.set_needle(None)
+        self._workspace.viewing.set_volume(patient.volume)
+        self._workspace.scene.set_volume(patient.volume)
+        self._extract(patient)
+        self._editor.set_body(patient.body)
+        self._start_plan(patient)
+        self.patient_changed.emit()
+
+    def set_exercise(self, exercise: Exercise) -> None:
+        """Take an exercise's device, effects and tolerances; its plan, if its patient is shown.
+
+        Raises:
+            AcusError: if its device cannot be used.
+        """
+        self._profile = device_of(exercise)
+        self.exercise = exercise
+        self._editor.set_limits(ReachLimits.of(self._profile))
+        self._workspace.exercise_panel.set_assistance(exercise.assistance)
+        if self.patient is not None and self.fits(self.patient):
+            self._start_plan(self.patient)
+
+    def fits(self, patient: Patient) -> bool:
+        """Whether the exercise is made for this patient."""
+        if self.exercise is None:
+            return False
+        ct = self.exercise.ct
+        if ct.phantom is not None:
+            return patient.phantom_seed == ct.phantom.seed
+        return ct.folder is not None and patient.folder == ct.folder
+
+    def _start_plan(self, patient: Patient) -> None:
+        plan, placement = patient.proposed, None
+        try:
+            if self.exercise is not None and self.fits(patient):
+                plan, placement = plan_of(self.exercise), self.exercise.placement.placement()
+        except AcusError as error:
+            self.failed.emit(error)
+        self._editor.start(plan, placement)
+        if plan is not None:
+            self._workspace.viewing.set_cursor(plan.target_mm)
+
+    def _extract(self, patient: Patient) -> None:
+        if self._surfaces_task is not None:
+            self._surfaces_task.close(timeout=0.0)
+        scene = self._workspace.scene
+
+        def done(surfaces: Surfaces | None) -> None:
+            self._surfaces_task = None
+            scene.set_note("")
+            if surfaces is not None:
+                scene.set_surfaces(surfaces)
+
+        def failed(error: Exception) -> None:
+            done(None)
+            self.failed.emit(error)
+
+        self._surfaces_task = run_in_background(
+            self,
+            lambda progress: extract_surfaces(patient.volume, patient.body, progress),
+            done,
+            failed,
+            lambda: done(None),
+        )
+        self._surfaces_task.progressed.connect(
+            lambda share, _: scene.set_note(tr("Surfaces {percent:.0f} %", percent=100 * share))
+        )
+
+    # --- plan ---------------------------------------------------------------------------------
+    def _show_plan(self) -> None:
+        editor, workspace = self._editor, self._workspace
+        workspace.viewing.set_draft(editor.edit.draft)
+        workspace.scene.set_plan(editor.edit.draft)
+        placed = editor.verdict.placed
+        note = "" if placed is not None else tr("Finish a plan that the robot can follow first.")
+        workspace.exercise_panel.set_ready(placed is not None and self._runs.run is not None, note)
+        if editor.locked or placed is None or self.exercise is None or self.patient is None:
+            return  # a run that is open stays with its plan until there is a better one
+        pseudonym = self.patient.volume.series.pseudonym
+        self._runs.want(RunSetup(self.exercise, placed, pseudonym))
+
+    def _click_in_scene(self, point: FloatArray, direction: FloatArray) -> None:
+        """Take a click on the skin in 3D as the entry, if one is being placed."""
+        if self._workspace.viewing.tool is not Tool.ENTRY or self.patient is None:
+            return
+        try:
+            start, end = point - SIGHT_MM * direction, point + SIGHT_MM * direction
+            skin = skin_entry(self.patient.body, start, end)
+        except AcusError as error:
+            self.failed.emit(error)
+            return
+        self._editor.place(Tool.ENTRY, as_point(skin), True)
+        self._workspace.viewing.set_cursor(skin)
+        self._workspace.viewing.set_tool(Tool.NAVIGATE)
+
+    # --- robot and needle ---------------------------------------------------------------------
+    def _attach(self, run: ExerciseRun) -> None:
+        self._drawn = None
+        self.controller.attach(run)
+        self._show_plan()
+
+    def _moved(self, run: ExerciseRun) -> None:
+        self._drawn = None
+        self.controller.replan(run)
+
+    def _detach(self) -> None:
+        self.controller.detach()
+        self._workspace.viewing.set_needle(None)
+        self._workspace.scene.set_needle(None)
+        self._workspace.scene.set_robot(None, RigidTransform.identity())
+        self._show_plan()
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Draw needle and robot where a snapshot says they are."""
+        run = self.controller.run
+        if run is None:
+            return
+        self._editor_lock(snapshot)
+        pose, transform = snapshot.pose, run.placed.T_world_patient
+        length = run.profile.geometry.needle_length
+        needle = NeedleOverlay.of_world(pose.p_tip, pose.axis, length, transform, pose.valid)
+        self._workspace.viewing.set_needle(needle)
+        ends = np.concatenate([needle.start_mm, needle.tip_mm])
+        if self._drawn is None or np.abs(ends - self._drawn).max() > SCENE_DEAD_BAND_MM:
+            self._drawn = ends
+            self._workspace.scene.set_needle(needle)
+            q = None if snapshot.device is None else snapshot.device.q
+            robot = RobotShape.of(run.profile.pantograph, q)
+            self._workspace.scene.set_robot(robot, transform.inverse())
+
+    def _editor_lock(self, snapshot: Snapshot) -> None:
+        running = snapshot.state in RUNNING
+        if running != self._editor.locked:
+            self._editor.set_locked(running)
+
+    def close(self) -> None:
+        """Let go of everything that runs; idempotent."""
+        self.controller.detach()
+        if self._surfaces_task is not None:
+            self._surfaces_task.close()
+            self._surfaces_task = None
+        self._runs.close()
+        self._workspace.scene.close_renderer()

@@ -1,0 +1,137 @@
+"""The menus: every command of the window with its key, in one table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QMenu
+
+from app.views.slices.presets import menu_windows
+from app.views.slices.viewing import Tool
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.views.window import MainWindow
+
+Entry = tuple[str, str, Callable[[], object]]
+
+
+class Menus:
+    """Builds the menu bar of a window and keeps what changes in it up to date."""
+
+    def __init__(self, window: MainWindow) -> None:
+        self._window = window
+        self.recent_cts, self.recent_plans = self._file()
+        self.undo, self.redo = self._edit()
+        self.follow, self.bullseye = self._view()
+        self._sessions()
+        self._help()
+
+    def _menu(self, title: str) -> QMenu:
+        return self._window.menuBar().addMenu(title)
+
+    def _add(self, menu: QMenu, entries: Sequence[Entry | None]) -> list[QAction]:
+        actions = []
+        for entry in entries:
+            if entry is None:
+                menu.addSeparator()
+                continue
+            text, keys, command = entry
+            action = menu.addAction(text)
+            if keys:
+                action.setShortcuts([QKeySequence(key) for key in keys.split(" | ")])
+            action.triggered.connect(lambda _=False, command=command: command())
+            actions.append(action)
+        return actions
+
+    def _file(self) -> tuple[QMenu, QMenu]:
+        window, files = self._window, self._window.plan_files
+        menu = self._menu(tr("&File"))
+        self._add(menu, [
+            (tr("Start page"), "", window.show_start),
+            (tr("Open CT folder…"), "Ctrl+O", window.open_ct.ask),
+        ])  # fmt: skip
+        recent_cts = menu.addMenu(tr("Recent CTs"))
+        self._add(menu, [(tr("Phantom patient"), "", window.open_phantom), None])
+        self._add(menu, [
+            (tr("New plan"), "Ctrl+N", files.new),
+            (tr("Open plan…"), "Ctrl+Shift+O", files.ask_open),
+        ])  # fmt: skip
+        recent_plans = menu.addMenu(tr("Recent plans"))
+        self._add(menu, [
+            (tr("Save plan"), "Ctrl+S", files.save),
+            (tr("Save plan as…"), "Ctrl+Shift+S", files.save_as),
+            None,
+            (tr("Quit"), "Ctrl+Q", window.close),
+        ])  # fmt: skip
+        recent_cts.aboutToShow.connect(
+            lambda: self._fill(recent_cts, window.recent_cts.paths(), window.open_ct.open_folder)
+        )
+        recent_plans.aboutToShow.connect(
+            lambda: self._fill(recent_plans, window.recent_plans.paths(), files.open)
+        )
+        return recent_cts, recent_plans
+
+    def _fill(self, menu: QMenu, paths: Sequence[Path], command: Callable[[Path], object]) -> None:
+        menu.clear()
+        for path in paths:
+            action = menu.addAction(path.name)
+            action.setToolTip(str(path))
+            action.triggered.connect(lambda _=False, path=path: command(path))
+        menu.setToolTipsVisible(True)
+        if not paths:
+            menu.addAction(tr("none yet")).setEnabled(False)
+
+    def _edit(self) -> tuple[QAction, QAction]:
+        window, viewing = self._window, self._window.workspace.viewing
+        undo, redo, *_ = self._add(self._menu(tr("&Edit")), [
+            (tr("Undo"), "Ctrl+Z", window.editor.undo),
+            (tr("Redo"), "Ctrl+Y | Ctrl+Shift+Z", window.editor.redo),
+            None,
+            (tr("Place entry"), "E", lambda: viewing.set_tool(Tool.ENTRY)),
+            (tr("Place target"), "T", lambda: viewing.set_tool(Tool.TARGET)),
+        ])  # fmt: skip
+        return undo, redo
+
+    def _view(self) -> tuple[QAction, QAction]:
+        window, viewing = self._window, self._window.workspace.viewing
+        menu = self._menu(tr("&View"))
+        presets = menu.addMenu(tr("Window presets"))
+        presets.aboutToShow.connect(lambda: self._fill_presets(presets))
+        follow, bullseye = self._add(menu, [
+            (tr("Slices follow the needle tip"), "F", lambda: None),
+            (tr("Bull's-eye beside the slices"), "B", lambda: None),
+        ])  # fmt: skip
+        follow.setCheckable(True)
+        follow.toggled.connect(viewing.set_follows_tip)
+        bullseye.setCheckable(True)
+        bullseye.toggled.connect(window.workspace.show_bullseye)
+        self._add(menu, [
+            None,
+            (tr("Crosshair to target"), "", window.cursor_to_target),
+            (tr("Full screen"), "F11", window.toggle_full_screen),
+        ])  # fmt: skip
+        return follow, bullseye
+
+    def _fill_presets(self, menu: QMenu) -> None:
+        menu.clear()
+        viewing = self._window.workspace.viewing
+        for name, key, window in menu_windows(viewing.volume):
+            action = menu.addAction(f"{name}  {window.width:g} / {window.level:g}\t{key}")
+            action.triggered.connect(lambda _=False, w=window: viewing.set_window(w))
+
+    def _sessions(self) -> None:
+        window = self._window
+        self._add(self._menu(tr("&Sessions")), [
+            (tr("Workspace"), "F6", window.show_workspace),
+            (tr("Past sessions"), "F7", window.show_sessions),
+        ])  # fmt: skip
+
+    def _help(self) -> None:
+        self._add(self._menu(tr("&Help")), [
+            (tr("Keys and mouse"), "F1 | ?", self._window.show_shortcuts),
+            (tr("About Acus"), "", self._window.show_about),
+        ])  # fmt: skip

@@ -1,0 +1,110 @@
+"""Keeps a trainer running for the exercise and plan on screen; building one never blocks."""
+
+from __future__ import annotations
+
+import threading
+
+from PySide6.QtCore import QObject, Signal
+
+from app.core.errors import AcusError
+from app.exercises.schema import Exercise
+from app.planning.placement import PlacedPlan
+from app.views.background import Indicator, Task, run_in_background
+from app.views.exercise.run import ExerciseRun
+from app.views.services import OpenRun, RunSetup, Services
+from app.views.text import tr
+
+
+class Runs(QObject):
+    """At most one open run; asked for another plan it moves, asked for another exercise it changes.
+
+    Signals:
+        ready(ExerciseRun): a trainer runs with this plan.
+        moved(ExerciseRun): the same trainer took another plan.
+        gone(): there is no trainer now.
+        failed(object): the error that kept one from running.
+    """
+
+    ready = Signal(object)
+    moved = Signal(object)
+    gone = Signal()
+    failed = Signal(object)
+
+    def __init__(self, services: Services, indicator: Indicator, parent: QObject) -> None:
+        super().__init__(parent)
+        self._services, self._indicator = services, indicator
+        self._open: OpenRun | None = None
+        self._exercise: Exercise | None = None
+        self._task: Task | None = None
+        self._wanted: RunSetup | None = None
+
+    @property
+    def run(self) -> ExerciseRun | None:
+        """The run that is open."""
+        return None if self._open is None else self._open.run
+
+    def want(self, setup: RunSetup | None) -> None:
+        """Have a trainer for this setup; None wants none."""
+        self._wanted = setup
+        if self._task is not None:
+            return  # `_built` looks again
+        if setup is None:
+            self._drop()
+        elif self._open is not None and setup.exercise == self._exercise:
+            self._move(setup.placed)
+        else:
+            self._drop()
+            self._build(setup)
+
+    def close(self) -> None:
+        """End the run and wait for it; for the end of the window; idempotent."""
+        self._wanted = None
+        if self._task is not None:
+            self._task.close()
+            self._task = None
+        opened, self._open = self._open, None
+        if opened is not None:
+            opened.close()
+
+    def _build(self, setup: RunSetup) -> None:
+        self._exercise = setup.exercise
+        self._task = run_in_background(
+            self,
+            lambda progress: self._services.open_run(setup, progress),
+            lambda opened: self._built(setup, opened),
+            self._not_built,
+            lambda: self._not_built(None),
+            title=tr("Starting robot and cameras"),
+            indicator=self._indicator,
+        )
+
+    def _built(self, setup: RunSetup, opened: OpenRun) -> None:
+        self._task, self._open = None, opened
+        if self._wanted is None or self._wanted.exercise != setup.exercise:
+            self.want(self._wanted)
+            return
+        self.ready.emit(opened.run)
+        self._move(self._wanted.placed)
+
+    def _not_built(self, error: Exception | None) -> None:
+        self._task, self._exercise = None, None
+        if error is not None:
+            self.failed.emit(error)
+
+    def _move(self, placed: PlacedPlan) -> None:
+        if self._open is None or _same(self._open.run.placed, placed):
+            return
+        try:
+            self.moved.emit(self._open.place(placed))
+        except AcusError as error:
+            self.failed.emit(error)
+
+    def _drop(self) -> None:
+        opened, self._open = self._open, None
+        if opened is not None:
+            self.gone.emit()
+            threading.Thread(target=opened.close, name="acus-run-close", daemon=True).start()
+
+
+def _same(placed: PlacedPlan, other: PlacedPlan) -> bool:
+    return placed.plan == other.plan and placed.placement == other.placement

@@ -1,0 +1,127 @@
+"""The sheet of keys and mouse buttons, and the sentence about what this program is."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.disclaimer import DISCLAIMER
+from app.views import theme
+from app.views.text import tr
+
+Group = tuple[str, list[tuple[str, str]]]
+
+
+def groups() -> list[Group]:
+    """Headings with what to press and what it does."""
+    return [
+        (
+            tr("Slices: mouse"),
+            [
+                (tr("Left drag"), tr("window (right: wider) and level (up: higher)")),
+                (tr("Wheel"), tr("scroll through slices")),
+                (tr("Right drag, Ctrl+wheel"), tr("zoom")),
+                (tr("Middle drag, Ctrl+left drag"), tr("pan")),
+                (tr("Shift+move, Shift+click"), tr("crosshair in all views")),
+                (tr("Right click"), tr("presets")),
+                (tr("Double click"), tr("maximise or restore a pane")),
+            ],
+        ),
+        (
+            tr("Slices: keys"),
+            [
+                ("↑ ↓", tr("one slice")),
+                (tr("Page Up, Page Down"), tr("ten slices")),
+                (tr("Home, End"), tr("first and last slice")),
+                ("1 … 9", tr("window presets")),
+                ("=", tr("fit to pane")),
+                (tr("Space"), tr("reset zoom and window")),
+            ],
+        ),
+        (
+            tr("Plan"),
+            [
+                ("E, T", tr("place entry, place target: then click in any view")),
+                (tr("Drag a mark"), tr("move it")),
+                (tr("Esc"), tr("stop placing")),
+                ("Ctrl+Z, Ctrl+Y", tr("undo, redo")),
+                ("Ctrl+S, Ctrl+Shift+S", tr("save plan, save as")),
+                ("Ctrl+O, Ctrl+Shift+O", tr("open CT folder, open plan")),
+            ],
+        ),
+        (
+            tr("3D view"),
+            [
+                (tr("Left, middle, right drag"), tr("turn, pan, zoom")),
+                ("A P L R S I", tr("look from that side")),
+                ("r, " + tr("Space"), tr("reset")),
+                (tr("Click with E pressed before"), tr("entry on the skin")),
+            ],
+        ),
+        (
+            tr("Attempt"),
+            [
+                ("F5", tr("start the attempt")),
+                ("S", tr("control scan")),
+                (tr("Enter"), tr("end the attempt")),
+                (tr("Hold Esc"), tr("abort: force to zero at once")),
+                (tr("Drag in the bull's-eye"), tr("tilt the needle")),
+                (tr("Wheel, Page keys in the bull's-eye"), tr("depth 1 mm, with Shift 0.2 mm")),
+            ],
+        ),
+    ]
+
+
+class ShortcutSheet(QDialog):
+    """All keys and buttons on one page."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("Keys and mouse"))
+        columns = QHBoxLayout()
+        columns.setSpacing(4 * theme.SPACING)
+        content = groups()
+        for part in (content[:2], content[2:4], content[4:]):
+            column = QVBoxLayout()
+            for group in part:
+                column.addLayout(_table(group))
+            column.addStretch(1)
+            columns.addLayout(column)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close, parent=self)
+        buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        layout.addLayout(columns)
+        layout.addWidget(disclaimer_label(self))
+        layout.addWidget(buttons)
+
+
+def disclaimer_label(parent: QWidget | None = None) -> QLabel:
+    """Return the sentence as a label."""
+    label = QLabel(tr(DISCLAIMER), parent)
+    label.setProperty("role", "disclaimer")
+    label.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    return label
+
+
+def _table(group: Group) -> QGridLayout:
+    heading, rows = group
+    grid = QGridLayout()
+    grid.setVerticalSpacing(4)
+    title = QLabel(heading)
+    title.setProperty("role", "heading")
+    grid.addWidget(title, 0, 0, 1, 2)
+    for number, (key, meaning) in enumerate(rows, start=1):
+        pressed, does = QLabel(key), QLabel(meaning)
+        pressed.setStyleSheet(f"color: {theme.ACCENT};")
+        grid.addWidget(pressed, number, 0)
+        grid.addWidget(does, number, 1)
+    grid.setColumnStretch(1, 1)
+    return grid

@@ -1,0 +1,270 @@
+"""The main window: start page, workspace, debrief and sessions, and what stands around them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
+
+from app import __version__
+from app.core.disclaimer import DISCLAIMER
+from app.core.errors import AcusError
+from app.exercises.schema import Exercise
+from app.imaging.window import WindowLevel
+from app.session.result import AttemptResult
+from app.views.conductor import Conductor
+from app.views.debrief.controller import DebriefController
+from app.views.debrief.page import DebriefPage
+from app.views.debrief.sessions import SessionsPage
+from app.views.menus import Menus
+from app.views.message_bar import MessageBar
+from app.views.open_ct import OpenCt
+from app.views.patient import Patient
+from app.views.plan.editor import PlanEditor
+from app.views.plan.files import PlanFiles
+from app.views.progress_strip import ProgressStrip
+from app.views.runs import Runs
+from app.views.services import Services
+from app.views.settings import Recents, open_settings
+from app.views.shortcuts import ShortcutSheet
+from app.views.start_page import StartPage
+from app.views.text import tr
+from app.views.workspace import Workspace
+
+SMALLEST = (1180, 700)
+
+
+class MainWindow(QMainWindow):
+    """Composes pages and parts; everything else is theirs."""
+
+    def __init__(self, services: Services, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.services = services
+        self.settings = open_settings()
+        self.recent_cts = Recents(self.settings, "recent/cts")
+        self.recent_plans = Recents(self.settings, "recent/plans")
+        self.editor = PlanEditor(self)
+        self.message_bar, self.progress = MessageBar(self), ProgressStrip(self)
+        self.workspace = Workspace(self.editor, self)
+        self.runs = Runs(services, self.progress, self)
+        self.conductor = Conductor(self.workspace, self.editor, self.runs, self.progress, self)
+        self.plan_files = PlanFiles(self.editor, self.recent_plans, self)
+        self.open_ct = OpenCt(self.recent_cts, self.progress, self)
+        self.start_page, self.debrief_page = StartPage(self), DebriefPage(self)
+        self.sessions_page = SessionsPage(services.sessions(), self)
+        self.debrief = DebriefController(
+            self.debrief_page, self.sessions_page, services.sessions(), parent=self
+        )
+        self.exercises = {exercise.id: exercise for exercise in services.exercises()}
+        self._lay_out()
+        self.menus = Menus(self)
+        self._connect()
+        self._restore()
+        self.show_start()
+
+    # --- pages --------------------------------------------------------------------------------
+    def show_start(self) -> None:
+        """Go to the start page."""
+        self.start_page.set_recents(self.recent_cts.paths())
+        self.pages.setCurrentWidget(self.start_page)
+
+    def show_workspace(self) -> None:
+        """Go to the panes."""
+        self.pages.setCurrentWidget(self.workspace)
+        self.workspace.panes[0].canvas.setFocus()
+
+    def show_sessions(self) -> None:
+        """Go to the past attempts."""
+        self.sessions_page.refresh()
+        self.pages.setCurrentWidget(self.sessions_page)
+
+    def show_debrief(self) -> None:
+        """Go to the attempt that the debrief shows."""
+        self.pages.setCurrentWidget(self.debrief_page)
+
+    # --- commands -----------------------------------------------------------------------------
+    def open_phantom(self) -> None:
+        """Open the phantom of the present exercise, or the first."""
+        exercise = self.conductor.exercise
+        phantom = exercise.ct.phantom if exercise is not None else None
+        self.open_ct.open_phantom(phantom.seed if phantom is not None else 1)
+
+    def begin_exercise(self, identifier: str) -> None:
+        """Take an exercise and open its patient, unless it is shown already."""
+        exercise = self.exercises.get(identifier)
+        if exercise is None:
+            names = ", ".join(self.exercises)
+            self.message_bar.show_error(tr("There is no exercise {name}; there are: {names}",
+                                           name=identifier, names=names))  # fmt: skip
+        elif self.plan_files.after_question(lambda: self._begin(exercise)):
+            self.workspace.exercise_panel.set_exercises(self._titles(), identifier)
+
+    def _begin(self, exercise: Exercise) -> None:
+        try:
+            self.conductor.set_exercise(exercise)
+        except AcusError as error:
+            self.message_bar.show_error(error)
+            return
+        patient = self.conductor.patient
+        if patient is not None and self.conductor.fits(patient):
+            self.show_workspace()
+        elif exercise.ct.phantom is not None:
+            self.open_ct.open_phantom(exercise.ct.phantom.seed)
+        elif exercise.ct.folder is not None:
+            self.open_ct.open_folder(exercise.ct.folder)
+
+    def cursor_to_target(self) -> None:
+        """Let the slices pass through the target."""
+        target = self.editor.edit.draft.target_mm
+        if target is not None:
+            self.workspace.viewing.set_cursor(target)
+
+    def toggle_full_screen(self) -> None:
+        """Fill the screen, or stop doing so."""
+        if self.isFullScreen():
+            self.showNormal()
+        else:
+            self.showFullScreen()
+
+    def show_shortcuts(self) -> None:
+        """Open the sheet of keys."""
+        sheet = ShortcutSheet(self)
+        sheet.finished.connect(sheet.deleteLater)
+        sheet.open()
+
+    def show_about(self) -> None:
+        """Say what this is and what it is not."""
+        text = tr("Acus {version}", version=__version__)
+        box = QMessageBox(QMessageBox.Icon.NoIcon, tr("About Acus"), text, parent=self)
+        box.setInformativeText(tr(DISCLAIMER))
+        box.finished.connect(box.deleteLater)
+        box.open()
+
+    # --- what happens -------------------------------------------------------------------------
+    def show_patient(self, patient: Patient) -> None:
+        """Show a patient that was opened."""
+        if self.conductor.exercise is None and self.exercises:
+            self._take_first_exercise()
+        self.conductor.set_patient(patient)
+        self.show_workspace()
+
+    def _take_first_exercise(self) -> None:
+        exercise = next(iter(self.exercises.values()))
+        try:
+            self.conductor.set_exercise(exercise)
+        except AcusError as error:
+            self.message_bar.show_error(error)
+
+    def _finished(self, result: AttemptResult) -> None:
+        self.editor.set_locked(False)
+        self.debrief.show_result(result)
+
+    def _refresh(self) -> None:
+        name = self.conductor.patient.label if self.conductor.patient else ""
+        self.setWindowTitle(f"{name} – Acus" if name else "Acus")
+        self.menus.undo.setEnabled(self.editor.can_undo)
+        self.menus.redo.setEnabled(self.editor.can_redo)
+
+    def _titles(self) -> list[tuple[str, str]]:
+        return [(exercise.id, exercise.title) for exercise in self.exercises.values()]
+
+    # --- set-up -------------------------------------------------------------------------------
+    def _lay_out(self) -> None:
+        self.pages = QStackedWidget(self)
+        for page in (self.start_page, self.workspace, self.debrief_page, self.sessions_page):
+            self.pages.addWidget(page)
+        centre = QWidget(self)
+        column = QVBoxLayout(centre)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        for widget in (self.message_bar, self.progress):
+            column.addWidget(widget)
+        column.addWidget(self.pages, 1)
+        self.setCentralWidget(centre)
+        self.setAcceptDrops(True)
+        self.start_page.set_exercises(tuple(self.exercises.values()))
+        self.workspace.exercise_panel.set_exercises(self._titles())
+        self.workspace.exercise_panel.buttons.watch(self)
+
+    def _connect(self) -> None:
+        bar, conductor = self.message_bar, self.conductor
+        for failure in (self.open_ct.failed, conductor.failed, self.plan_files.failed,
+                        self.debrief.failed, conductor.controller.failed):  # fmt: skip
+            failure.connect(bar.show_error)
+        for note in (self.plan_files.noted, self.debrief.saved):
+            note.connect(bar.show_note)
+        self.open_ct.opened.connect(
+            lambda patient: self.plan_files.after_question(lambda: self.show_patient(patient))
+        )
+        conductor.patient_changed.connect(self._refresh)
+        self.editor.changed.connect(self._refresh)
+        self._connect_pages()
+        panel = self.workspace.plan_panel
+        panel.new_wanted.connect(self.plan_files.new)
+        panel.open_wanted.connect(self.plan_files.ask_open)
+        panel.save_wanted.connect(self.plan_files.save)
+        panel.save_as_wanted.connect(self.plan_files.save_as)
+
+    def _connect_pages(self) -> None:
+        controller = self.conductor.controller
+        controller.began.connect(lambda _: self.menus.bullseye.setChecked(True))
+        controller.began.connect(lambda _: self.workspace.show_exercise())
+        controller.finished.connect(self._finished)
+        self.workspace.exercise_panel.exercise_chosen.connect(self.begin_exercise)
+        self.start_page.exercise_chosen.connect(self.begin_exercise)
+        self.start_page.open_wanted.connect(self.open_ct.ask)
+        self.start_page.recent_chosen.connect(self.open_ct.open_folder)
+        self.start_page.sessions_wanted.connect(self.show_sessions)
+        self.debrief.shown.connect(self.show_debrief)
+        self.debrief_page.retry_requested.connect(self.show_workspace)
+        self.debrief_page.sessions_requested.connect(self.show_sessions)
+        self.sessions_page.closed.connect(self.show_workspace)
+
+    # --- remembered ---------------------------------------------------------------------------
+    def _restore(self) -> None:
+        self.setMinimumSize(*SMALLEST)
+        self.resize(1400, 900)
+        geometry = self.settings.value("window/geometry")
+        if geometry is not None:
+            self.restoreGeometry(geometry)
+        try:
+            width = float(str(self.settings.value("slices/width")))
+            level = float(str(self.settings.value("slices/level")))
+            self.workspace.viewing.set_window(WindowLevel(width, level))
+        except (ValueError, AcusError):  # nothing was remembered, or nothing usable
+            return
+
+    def _remember(self) -> None:
+        window = self.workspace.viewing.window
+        self.settings.setValue("window/geometry", self.saveGeometry())
+        self.settings.setValue("slices/width", window.width)
+        self.settings.setValue("slices/level", window.level)
+        self.settings.sync()
+
+    # --- events -------------------------------------------------------------------------------
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Accept a folder or a file from it."""
+        if any(url.isLocalFile() for url in event.mimeData().urls()):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open a dropped folder, or a dropped plan."""
+        for url in event.mimeData().urls():
+            if url.isLocalFile():
+                path = Path(url.toLocalFile())
+                if path.suffix == ".json":
+                    self.plan_files.open(path)
+                else:
+                    self.open_ct.open_folder(path)
+                event.acceptProposedAction()
+                return
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Ask about an unsaved plan, then end everything."""
+        if not self.plan_files.after_question(self._remember):
+            event.ignore()
+            return
+        self.open_ct.close()
+        self.conductor.close()
+        event.accept()

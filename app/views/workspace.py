@@ -1,0 +1,113 @@
+"""The page where one works: panes in the middle, plan and exercise beside them, status below."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QScrollArea,
+    QSplitter,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.imaging.orthogonal import View
+from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.controller import ExerciseViews
+from app.views.exercise.messages import MessageList
+from app.views.exercise.panel import ExercisePanel
+from app.views.exercise.status import StatusStrip
+from app.views.exercise.tracker_panel import TrackerPanel
+from app.views.grid import FIVE, FOUR, ViewGrid
+from app.views.plan.editor import PlanEditor
+from app.views.plan.panel import PlanPanel
+from app.views.scene.renderer import SceneRenderer
+from app.views.scene.view import SceneView
+from app.views.shortcuts import disclaimer_label
+from app.views.slices.pane import SlicePane
+from app.views.slices.presets import default_window
+from app.views.slices.viewing import Viewing
+from app.views.text import tr
+
+SIDE_WIDTH = 372
+ORDER = (View.AXIAL, View.SAGITTAL, View.CORONAL)
+
+
+class Workspace(QWidget):
+    """Owns the panes and panels; what they do together stands in `Conductor`."""
+
+    def __init__(self, editor: PlanEditor, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.viewing = Viewing(default_window(), self)
+        self.panes = tuple(SlicePane(self.viewing, view, self) for view in ORDER)
+        self.scene = SceneView(SceneRenderer(), self)
+        self.bullseye = Bullseye(self)
+        self.grid = ViewGrid([*self.panes, self.scene, self.bullseye], self)
+        for pane in (*self.panes, self.scene):
+            pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
+        self.plan_panel = PlanPanel(editor, self.viewing, self)
+        self.exercise_panel = ExercisePanel(self)
+        self.tracker_panel = TrackerPanel(self)
+        self.messages = MessageList(self)
+        self.status = StatusStrip(self)
+        self.side = self._side()
+        self._lay_out()
+
+    @property
+    def exercise_views(self) -> ExerciseViews:
+        """The widgets that the exercise controller feeds."""
+        return ExerciseViews(
+            self.bullseye, self.exercise_panel, self.status, self.tracker_panel, self.messages
+        )
+
+    def show_bullseye(self, shown: bool) -> None:
+        """Arrange the panes with the bull's-eye, or two by two without it."""
+        self.grid.arrange(FIVE if shown else FOUR)
+
+    def show_exercise(self) -> None:
+        """Bring the exercise panel and the bull's-eye to the front."""
+        self.side.setCurrentIndex(1)
+        self.show_bullseye(True)
+
+    def show_plan(self) -> None:
+        """Bring the plan panel to the front."""
+        self.side.setCurrentIndex(0)
+
+    def _side(self) -> QTabWidget:
+        cameras = QSplitter(Qt.Orientation.Vertical)
+        cameras.addWidget(self.tracker_panel)
+        cameras.addWidget(self.messages)
+        tabs = QTabWidget(self)
+        tabs.setFixedWidth(SIDE_WIDTH)
+        tabs.addTab(_scrolled(self.plan_panel), tr("Plan"))
+        tabs.addTab(_scrolled(self.exercise_panel), tr("Exercise"))
+        tabs.addTab(cameras, tr("Cameras"))
+        tabs.tabBar().setExpanding(True)
+        return tabs
+
+    def _lay_out(self) -> None:
+        right = QVBoxLayout()
+        right.setContentsMargins(0, 0, 0, 0)
+        right.setSpacing(0)
+        right.addWidget(self.grid, 1)
+        right.addWidget(disclaimer_label(self))
+        row = QHBoxLayout()
+        row.setSpacing(3)
+        row.addWidget(self.side)
+        row.addLayout(right, 1)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(0, 0, 0, 0)
+        page.setSpacing(0)
+        page.addLayout(row, 1)
+        page.addWidget(self.status)
+
+
+def _scrolled(panel: QWidget) -> QScrollArea:
+    area = QScrollArea()
+    area.setFrameShape(QFrame.Shape.NoFrame)
+    area.setWidgetResizable(True)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    area.setWidget(panel)
+    return area
