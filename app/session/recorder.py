@@ -12,6 +12,7 @@ import numpy as np
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
+from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.transform import RigidTransform
 from app.session import blocks, sample
@@ -126,7 +127,7 @@ class Recorder:
                 return
             try:
                 self._write()
-            except (OSError, RecordingError) as error:
+            except (OSError, AcusError) as error:
                 self._fail(error)
 
     def finish(
@@ -145,7 +146,7 @@ class Recorder:
                 self._write()
                 self._write_end(attachments, result)
                 self._file.close()
-            except (OSError, RecordingError) as error:
+            except (OSError, AcusError) as error:
                 self._fail(error)
             self._active = False
 
@@ -161,8 +162,12 @@ class Recorder:
         )
 
     def _run(self) -> None:
-        while not self._stop.wait(DRAIN_PERIOD):
-            self.drain()
+        try:
+            while not self._stop.wait(DRAIN_PERIOD):
+                self.drain()
+        except Exception as error:  # a fault of the program: said like any other, then raised
+            self._fail(error)
+            raise
 
     def _put(self, item: Sample | Event) -> None:
         with self._lock:
@@ -225,6 +230,7 @@ class Recorder:
         self, attachments: tuple[Attachment, ...], result: dict[str, str] | None
     ) -> None:
         self._write_patient(self._clock.now())
+        self._file.flush()  # the result stands behind the data that it sums up, never before
         for attachment in attachments:
             self._file.attach(attachment, self.header.nanoseconds(self._clock.now()))
         counts = {

@@ -52,6 +52,13 @@ class Sample:
     assistance: float = 0.0
     enabled: bool = False
 
+    @property
+    def pose_valid(self) -> bool:
+        """Whether the pose is valid and all its numbers are finite."""
+        pose = self.pose
+        numbers = (pose.depth, *pose.p_tip, *pose.axis)
+        return pose.valid and all(map(isfinite, numbers))
+
 
 def encode(document: Any) -> bytes:
     """JSON without NaN or infinity; such a number becomes null."""
@@ -77,7 +84,7 @@ def messages(sample: Sample, stamp: dict[str, int]) -> list[tuple[str, bytes]]:
         ("/attempt", _attempt(sample, stamp)),
         ("/tracking/quality", _quality(sample, stamp)),
     ]
-    if sample.pose.valid:
+    if sample.pose_valid:
         documents += [
             ("/tf", _needle_tf(sample.pose, stamp)),
             ("/needle/tip", _tip(sample.pose, stamp)),
@@ -176,16 +183,16 @@ def _tip(pose: NeedlePose, stamp: dict[str, int]) -> dict[str, Any]:
 
 
 def _attempt(sample: Sample, stamp: dict[str, int]) -> dict[str, Any]:
-    pose = sample.pose
+    pose, valid = sample.pose, sample.pose_valid
     return {
         "timestamp": stamp,
         "time": sample.time,
         "state": sample.state.value,
-        "valid": pose.valid,
+        "valid": valid,
         "depth_source": pose.depth_source.value,
-        "depth": pose.depth if pose.valid else None,
-        "tip": _vector(pose.p_tip) if pose.valid else None,
-        "axis": _vector(pose.axis) if pose.valid else None,
+        "depth": pose.depth if valid else None,
+        "tip": _vector(pose.p_tip) if valid else None,
+        "axis": _vector(pose.axis) if valid else None,
         "hub": _vector(sample.device.hub) if sample.device else None,
         "target": _vector(sample.p_target),
     }

@@ -66,15 +66,15 @@ class History:
     def arrays(self) -> Samples:
         """All samples so far."""
         kept = tuple(self._samples)
-        poses = [s.pose for s in kept]
+        poses = [s.pose if s.pose_valid else None for s in kept]
         return Samples(
             time=floats([s.time for s in kept]),
             state=words([s.state.value for s in kept]),
-            valid=read_only(np.array([p.valid for p in poses], dtype=np.bool_)),
-            depth_source=words([p.depth_source.value for p in poses]),
-            depth=floats([p.depth if p.valid else None for p in poses]),
-            tip=vectors([xyz(p.p_tip) if p.valid else None for p in poses]),
-            axis=vectors([xyz(p.axis) if p.valid else None for p in poses]),
+            valid=read_only(np.array([p is not None for p in poses], dtype=np.bool_)),
+            depth_source=words([s.pose.depth_source.value for s in kept]),
+            depth=floats([p.depth if p else None for p in poses]),
+            tip=vectors([xyz(p.p_tip) if p else None for p in poses]),
+            axis=vectors([xyz(p.axis) if p else None for p in poses]),
             target=vectors([xyz(s.p_target) for s in kept]),
             hub=vectors([xyz(s.device.hub) if s.device else None for s in kept]),
             guide=vectors([xyz(s.device.guide) if s.device else None for s in kept]),
