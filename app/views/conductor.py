@@ -13,7 +13,6 @@ from app.exercises.scene import device_of, plan_of
 from app.exercises.schema import Exercise
 from app.imaging.body import skin_entry
 from app.mechanisms.profile import DeviceProfile
-from app.planning.limits import ReachLimits
 from app.session.machine import RUNNING
 from app.session.snapshot import Snapshot
 from app.views.background import Indicator, Task, run_in_background
@@ -100,7 +99,7 @@ class Conductor(QObject):
         """
         self._profile = device_of(exercise)
         self.exercise = exercise
-        self._editor.set_limits(ReachLimits.of(self._profile))
+        self._editor.set_profile(self._profile)
         self._workspace.exercise_panel.set_assistance(exercise.assistance)
         if self.patient is not None and self.fits(self.patient):
             self._start_plan(self.patient)

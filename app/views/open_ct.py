@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
+from app.core.progress import Progress
 from app.imaging.errors import ImagingError
 from app.imaging.reading import choose
 from app.imaging.scanning import scan_folder
@@ -16,6 +19,8 @@ from app.views.patient import Patient, load_phantom, read_patient
 from app.views.series_dialog import SeriesDialog
 from app.views.settings import Recents
 from app.views.text import tr
+
+T = TypeVar("T")
 
 
 class OpenCt(QObject):
@@ -73,7 +78,9 @@ class OpenCt(QObject):
             self._task.close()
             self._task = None
 
-    def _start(self, title: str, operation: object, on_success: object) -> None:
+    def _start(
+        self, title: str, operation: Callable[[Progress], T], on_success: Callable[[T], object]
+    ) -> None:
         self.close()
         self._task = run_in_background(
             self, operation, on_success, self._fail, title=title, indicator=self._indicator

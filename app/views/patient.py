@@ -7,7 +7,6 @@ from pathlib import Path
 
 from app.core.progress import Progress
 from app.imaging.body import Body, find_body
-from app.imaging.phantom import anatomy, phantom_series
 from app.imaging.reading import load_ct, read_series
 from app.imaging.series import Series
 from app.imaging.volume import Volume
@@ -42,6 +41,8 @@ def load_phantom(seed: int, progress: Progress) -> Patient:
         AcusError: if it cannot be written or read; says why.
         Cancelled: if `progress` was cancelled.
     """
+    from app.imaging.phantom import anatomy, phantom_series  # heavy, and not for CTs of one's own
+
     folder = phantom_series(seed, progress.part(0.0, 0.6))
     volume = load_ct(folder, progress=progress.part(0.6, 0.9))
     known = anatomy(seed)

@@ -42,8 +42,8 @@ class SeriesDialog(QDialog):
         self.tree.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         for series in sorted(listing.series, key=lambda s: not s.usable):
             self.tree.addTopLevelItem(_row(series))
-        for column, width in enumerate(COLUMN_WIDTHS):
-            self.tree.setColumnWidth(column, width)
+        for number, width in enumerate(COLUMN_WIDTHS):
+            self.tree.setColumnWidth(number, width)
         buttons = QDialogButtonBox.StandardButton
         self._buttons = QDialogButtonBox(buttons.Open | buttons.Cancel, parent=self)
         note = tr("{count} other files are not part of any series.", count=len(listing.ignored))
@@ -57,7 +57,9 @@ class SeriesDialog(QDialog):
         self._buttons.rejected.connect(self.reject)
         self.tree.itemDoubleClicked.connect(lambda *_: self.accept())
         self.tree.itemSelectionChanged.connect(self._enable)
-        self.tree.setCurrentItem(self.tree.topLevelItem(0))
+        first = self.tree.topLevelItem(0)
+        if first is not None:
+            self.tree.setCurrentItem(first)
         self._enable()
 
     def selected(self) -> Series | None:

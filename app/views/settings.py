@@ -27,7 +27,7 @@ class Recents:
     def paths(self) -> list[Path]:
         """Those that still exist, newest first."""
         stored = self._settings.value(self._key) or []
-        names = [stored] if isinstance(stored, str) else [str(name) for name in list(stored)]  # type: ignore[call-overload]
+        names = [stored] if isinstance(stored, str) else [str(name) for name in list(stored)]
         return [Path(name) for name in names if Path(name).exists()]
 
     def add(self, path: Path) -> None:

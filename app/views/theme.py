@@ -90,7 +90,7 @@ VERDICTS = {"good": (GOOD, "✔"), "warning": (WARNING, "▲"), "bad": (BAD, "�
 
 
 def style_sheet() -> str:
-    """Return the application's style sheet: `resources/theme/dark.qss` with the colours filled in."""
+    """Return the style sheet: `resources/theme/dark.qss` with the colours filled in."""
     template = (paths.resources() / "theme" / "dark.qss").read_text(encoding="utf-8")
     return Template(template).substitute(
         background=BACKGROUND, surface=SURFACE, raised=RAISED, border=BORDER, text=TEXT,

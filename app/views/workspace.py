@@ -45,8 +45,9 @@ class Workspace(QWidget):
         self.scene = SceneView(SceneRenderer(), self)
         self.bullseye = Bullseye(self)
         self.grid = ViewGrid([*self.panes, self.scene, self.bullseye], self)
-        for pane in (*self.panes, self.scene):
+        for pane in self.panes:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
+        self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
         self.plan_panel = PlanPanel(editor, self.viewing, self)
         self.exercise_panel = ExercisePanel(self)
         self.tracker_panel = TrackerPanel(self)

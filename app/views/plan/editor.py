@@ -12,9 +12,9 @@ from PySide6.QtCore import QObject, Signal
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.imaging.body import Body, is_inside, snap_to_skin
+from app.mechanisms.profile import DeviceProfile
 from app.planning.draft import DraftPlan
 from app.planning.history import History
-from app.planning.limits import ReachLimits
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.planning.reach import Reach, reach
@@ -66,7 +66,7 @@ class PlanEditor(QObject):
         self._history = History(Edit())
         self._saved = Edit()
         self._body: Body | None = None
-        self._limits: ReachLimits | None = None
+        self._profile: DeviceProfile | None = None
         self.path: Path | None = None
         self.locked = False
         self._fresh = True  # no point of the present gesture was accepted yet
@@ -99,9 +99,9 @@ class PlanEditor(QObject):
         self._body = body
         self._announce()
 
-    def set_limits(self, limits: ReachLimits) -> None:
+    def set_profile(self, profile: DeviceProfile) -> None:
         """Take the device whose reach is judged."""
-        self._limits = limits
+        self._profile = profile
         self._announce()
 
     def set_locked(self, locked: bool) -> None:
@@ -185,11 +185,11 @@ class PlanEditor(QObject):
 
     def _judge(self) -> Verdict:
         draft = self.edit.draft
-        if not draft.complete or self._limits is None:
+        if not draft.complete or self._profile is None:
             return Verdict(None)
         try:
             plan = draft.plan()
-            reached = reach(plan, self.edit.placement, self._limits)
+            reached = reach(plan, self.edit.placement, self._profile)
             if self._body is not None:
                 plan.require_inside(self._inside)
         except AcusError as error:

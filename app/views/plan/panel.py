@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
-    QButtonGroup,
     QComboBox,
     QDoubleSpinBox,
     QGridLayout,
@@ -35,9 +34,7 @@ class PlanPanel(QWidget):
     save_wanted = Signal()
     save_as_wanted = Signal()
 
-    def __init__(
-        self, editor: PlanEditor, viewing: Viewing, parent: QWidget | None = None
-    ) -> None:
+    def __init__(self, editor: PlanEditor, viewing: Viewing, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._editor, self._viewing = editor, viewing
         self.title = _label("heading")
@@ -60,7 +57,11 @@ class PlanPanel(QWidget):
     # --- shown --------------------------------------------------------------------------------
     def refresh(self) -> None:
         """Show the editor's present state."""
-        editor, draft, placement = self._editor, self._editor.edit.draft, self._editor.edit.placement
+        editor, draft, placement = (
+            self._editor,
+            self._editor.edit.draft,
+            self._editor.edit.placement,
+        )
         name = editor.path.name if editor.path else draft.name
         self.title.setText(f"{name} •" if editor.dirty else name)
         self.title.setToolTip(tr("• unsaved changes") if editor.dirty else "")
@@ -190,9 +191,7 @@ def _angle_box(axis: str) -> QDoubleSpinBox:
     box.setPrefix(f"{axis} ")
     box.setSuffix(" °")
     box.setKeyboardTracking(False)
-    box.setToolTip(
-        tr("Free rotation about the robot's {axis} axis (rotation vector)", axis=axis)
-    )
+    box.setToolTip(tr("Free rotation about the robot's {axis} axis (rotation vector)", axis=axis))
     return box
 
 

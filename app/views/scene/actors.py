@@ -7,13 +7,18 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 from PySide6.QtGui import QColor
-from vtkmodules.vtkFiltersSources import vtkCylinderSource, vtkSphereSource
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
+from vtkmodules.vtkFiltersSources import vtkCylinderSource, vtkSphereSource
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
+from app.core.arrays import FloatArray
 from app.core.transform import rotation_between
 from app.views.scene.mesh import Mesh, to_polydata
 from app.views.theme import Mark
+
+SHORTEST_MM = 1e-6
+"""Rods shorter than this have no direction and are not shown."""
 
 
 def colour(name: str) -> tuple[float, float, float]:
@@ -33,15 +38,18 @@ class Rod:
 
     def place(self, start: ArrayLike | None, end: ArrayLike | None) -> None:
         """Run from `start` to `end` [mm]; hidden without both or without length."""
-        known = start is not None and end is not None
-        path = np.subtract(end, start) if known else np.zeros(3)
-        length = float(np.linalg.norm(path))
-        self._actor.SetVisibility(length > 1e-6)
-        if length > 1e-6:
+        self._actor.VisibilityOff()
+        if start is None or end is None:
+            return
+        first, last = np.asarray(start, np.float64), np.asarray(end, np.float64)
+        length = float(np.linalg.norm(last - first))
+        if length > SHORTEST_MM:
+            turn = rotation_between([0.0, 1.0, 0.0], last - first)
             placed = np.eye(4)
-            placed[:3, :3] = rotation_between([0.0, 1.0, 0.0], path) @ np.diag([1.0, length, 1.0])
-            placed[:3, 3] = np.asarray(start) + path / 2
+            placed[:3, :3] = turn @ np.diag([1.0, length, 1.0])
+            placed[:3, 3] = (first + last) / 2
             self._actor.SetUserMatrix(_matrix(placed))
+            self._actor.VisibilityOn()
 
     def set_colour(self, mark: Mark) -> None:
         """Take the colour of `mark`."""
@@ -70,7 +78,7 @@ class SurfaceActor:
 
     def __init__(self, renderer: vtkRenderer, mark: Mark, opacity: float) -> None:
         self._mapper = vtkPolyDataMapper()
-        self._meshes = None
+        self._meshes: tuple[vtkPolyData, ...] | None = None
         actor = vtkActor()
         actor.SetMapper(self._mapper)
         look = actor.GetProperty()
@@ -86,14 +94,14 @@ class SurfaceActor:
 
     def set_meshes(self, meshes: Sequence[Mesh] | None) -> None:
         """Take the fine and the coarse mesh, or show none."""
-        shown = meshes is not None and meshes[0].count > 0
-        self._meshes = tuple(to_polydata(mesh) for mesh in meshes) if shown else None
-        self._actor.SetVisibility(shown)
+        shown = tuple(mesh for mesh in meshes or () if mesh.count > 0)
+        self._meshes = tuple(to_polydata(mesh) for mesh in shown) or None
+        self._actor.SetVisibility(bool(shown))
 
     def choose(self, moving: bool) -> None:
         """Show the coarse version while `moving`."""
         if self._meshes is not None:
-            self._mapper.SetInputData(self._meshes[moving])
+            self._mapper.SetInputData(self._meshes[-1 if moving else 0])
 
 
 def _actor(renderer: vtkRenderer, port: object, mark: Mark) -> vtkActor:
@@ -108,7 +116,7 @@ def _actor(renderer: vtkRenderer, port: object, mark: Mark) -> vtkActor:
     return actor
 
 
-def _matrix(values: np.ndarray) -> vtkMatrix4x4:
+def _matrix(values: FloatArray) -> vtkMatrix4x4:
     matrix = vtkMatrix4x4()
-    matrix.DeepCopy(values.ravel())
+    matrix.DeepCopy(values.ravel().tolist())
     return matrix

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersCore import (
     vtkBinnedDecimation,
@@ -16,7 +17,6 @@ from vtkmodules.vtkFiltersCore import (
     vtkQuadricDecimation,
     vtkWindowedSincPolyDataFilter,
 )
-from vtkmodules.vtkCommonCore import vtkPoints
 
 from app.core.arrays import FloatArray
 

@@ -29,7 +29,7 @@ class Shot:
 
 
 class SceneRenderer:
-    """Owns the stage's thread. Requests never wait and never queue up: the newest of each kind wins.
+    """Owns the stage's thread. Requests neither wait nor queue up: the newest wins.
 
     Attributes:
         error: why no pictures come, one line; empty while all is well.
@@ -62,7 +62,7 @@ class SceneRenderer:
             self._thread = None
 
     def change(self, kind: str, change: Change) -> None:
-        """Have `change(stage)` called before the next picture; replaces a waiting one of its kind."""
+        """Have `change(stage)` called before the next picture; the newest of a kind wins."""
         with self._wake:
             self._changes[kind] = change
 

@@ -51,7 +51,7 @@ class RobotShape:
         return cls(motors, elbows, tool, fulcrum)
 
     def links(self) -> list[tuple[FloatArray, FloatArray]]:
-        """Ends of the rods to draw: base, proximal, distal; five where all is known."""
+        """Return the ends of the rods to draw: base, proximal, distal; five where all is known."""
         rods = [self.motors]
         if self.elbows is not None:
             rods += list(zip(self.motors, self.elbows, strict=True))

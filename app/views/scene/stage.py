@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  registers the OpenGL factory
 from numpy.typing import NDArray
+from vtkmodules import vtkRenderingOpenGL2  # its import registers the OpenGL classes
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
@@ -61,8 +61,8 @@ class Stage:
 
     def set_surfaces(self, surfaces: Surfaces | None) -> None:
         """Show skin and bone, or none."""
-        self._skin.set_meshes(surfaces and (surfaces.skin, surfaces.skin_moving))
-        self._bone.set_meshes(surfaces and (surfaces.bone, surfaces.bone_moving))
+        self._skin.set_meshes((surfaces.skin, surfaces.skin_moving) if surfaces else None)
+        self._bone.set_meshes((surfaces.bone, surfaces.bone_moving) if surfaces else None)
 
     def set_plan(self, draft: DraftPlan) -> None:
         """Show entry, target and the path between them."""
@@ -72,10 +72,13 @@ class Stage:
 
     def set_needle(self, needle: NeedleOverlay | None) -> None:
         """Show the needle, grey where its pose is not valid."""
-        self._needle.place(needle and needle.start_mm, needle and needle.tip_mm)
-        self._tip.place(needle and needle.tip_mm)
-        mark = theme.ROBOT if needle is not None and not needle.valid else theme.NEEDLE
-        self._needle.set_colour(mark)
+        if needle is None:
+            self._needle.place(None, None)
+            self._tip.place(None)
+            return
+        self._needle.place(needle.start_mm, needle.tip_mm)
+        self._tip.place(needle.tip_mm)
+        self._needle.set_colour(theme.NEEDLE if needle.valid else theme.ROBOT)
 
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
         """Show the links and the ball; world metres are brought into the patient."""
@@ -86,7 +89,8 @@ class Stage:
                 rod.place(start, end)
             else:
                 rod.place(None, None)
-        self._fulcrum.place(robot and (T_patient_world @ robot.fulcrum) / MILLIMETRE)
+        fulcrum = None if robot is None else (T_patient_world @ robot.fulcrum) / MILLIMETRE
+        self._fulcrum.place(fulcrum)
 
     def render(self, orbit: Orbit, size_px: tuple[int, int], moving: bool) -> NDArray[np.uint8]:
         """Return the picture, RGBA, shape (height, width, 4), top row first.
@@ -104,7 +108,7 @@ class Stage:
         window.SetSize(width, height)
         window.Render()
         pixels = vtkUnsignedCharArray()
-        window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels)
+        window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels, 0)
         picture = vtk_to_numpy(pixels).reshape(height, width, 4)[::-1].copy()
         picture[:, :, 3] = 255
         return picture
@@ -120,11 +124,8 @@ class Stage:
 
 def _off_screen_window() -> vtkRenderWindow:
     """EGL needs no display and works the same with and without one; else what VTK offers."""
-    try:
-        from vtkmodules.vtkRenderingOpenGL2 import vtkEGLRenderWindow as Window
-    except ImportError:  # not on this platform
-        Window = vtkRenderWindow
-    window = Window()
+    kind = getattr(vtkRenderingOpenGL2, "vtkEGLRenderWindow", vtkRenderWindow)
+    window: vtkRenderWindow = kind()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
     return window

@@ -26,7 +26,7 @@ from app.views import theme
 from app.views.needle_overlay import NeedleOverlay
 from app.views.scene.compass import draw_compass
 from app.views.scene.orbit import Orbit
-from app.views.scene.renderer import SceneRenderer, Shot
+from app.views.scene.renderer import Change, SceneRenderer, Shot
 from app.views.scene.robot import RobotShape
 from app.views.scene.surfaces import Surfaces
 from app.views.text import tr
@@ -71,7 +71,7 @@ class SceneView(QWidget):
     # --- what is shown ------------------------------------------------------------------------
     def set_volume(self, volume: Volume) -> None:
         """Look at another patient from the front; the old surfaces go."""
-        corners = volume.lps_mm([(0, 0, 0), np.asarray(volume.size) - 1.0])
+        corners = volume.lps_mm(np.array([(0, 0, 0), volume.size]) - 0.5)
         extent = float(np.abs(corners[1] - corners[0]).max())
         self._home = Orbit.look_from("A", corners.mean(axis=0), 0.55 * extent)
         self.set_surfaces(None)
@@ -113,7 +113,7 @@ class SceneView(QWidget):
         self._renderer.close()
 
     # --- rendering ----------------------------------------------------------------------------
-    def _change(self, kind: str, change: object) -> None:
+    def _change(self, kind: str, change: Change) -> None:
         self._renderer.change(kind, change)
         self._touch()
 
@@ -194,7 +194,7 @@ class SceneView(QWidget):
         self.set_orbit(self.orbit.zoomed(ZOOM_PER_NOTCH**notches))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """A, P, L, R, S, I look from that side (Shift+R or 0 for R); r and Space reset."""
+        """Look from A, P, L, R (Shift+R), S or I; r and Space reset."""
         letter = event.text().upper()
         if event.text() == "r" or event.key() == Qt.Key.Key_Space:
             self.set_orbit(self._home)

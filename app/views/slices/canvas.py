@@ -26,16 +26,16 @@ class Gestures(Protocol):
     """What the canvas hands its mouse events to."""
 
     def press(self, event: QMouseEvent) -> None:
-        """A button went down."""
+        """Take a button that went down."""
 
     def move(self, event: QMouseEvent) -> None:
-        """The mouse moved, with or without a button."""
+        """Take a move, with or without a button."""
 
     def release(self, event: QMouseEvent) -> None:
-        """A button went up."""
+        """Take a button that went up."""
 
     def wheel(self, event: QWheelEvent) -> None:
-        """The wheel turned."""
+        """Take a turn of the wheel."""
 
 
 class SliceCanvas(pyqtgraph.GraphicsView):
@@ -166,7 +166,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         left, top, _, _ = self.camera.visible((self.viewport().width(), self.viewport().height()))
         return QPointF((x - left) * self.camera.scale, (y - top) * self.camera.scale)
 
-    # --- mouse: everything goes to the gestures, nothing to pyqtgraph's own -------------------------
+    # --- mouse: everything goes to the gestures, nothing to pyqtgraph's own -----------------------
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Hand over."""
         if self.gestures is not None:

@@ -26,6 +26,7 @@ class Overlay(QWidget):
         bold: bool = False,
     ) -> None:
         super().__init__(parent)
+        self._outer = parent
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setAttribute(Qt.WidgetAttribute.WA_NoSystemBackground)
         self._alignment, self._colour = alignment, QColor(colour)
@@ -58,7 +59,7 @@ class Overlay(QWidget):
 
     def place(self) -> None:
         """Stand at one's corner or edge of the parent."""
-        outer = self.parentWidget().rect().adjusted(PADDING, PADDING, -PADDING, -PADDING)
+        outer = self._outer.rect().adjusted(PADDING, PADDING, -PADDING, -PADDING)
         size = self.size()
         x, y = outer.center().x() - size.width() // 2, outer.center().y() - size.height() // 2
         if self._alignment & Qt.AlignmentFlag.AlignLeft:

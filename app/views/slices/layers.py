@@ -1,4 +1,4 @@
-"""Layers over the image: crosshair, plan and needle, each placed anew when what it shows changes."""
+"""Layers over the image: crosshair, plan and needle, placed anew when what they show changes."""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
-"""A segment in space as seen from one slice: which part lies in the slab, which before or behind."""
+"""A segment in space as seen from one slice: which parts lie in its slab, which outside."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -36,7 +37,7 @@ def pieces(start: PlanePoint, end: PlanePoint, half_mm: float) -> list[Piece]:
     cuts = [0.0, *_crossings(start.distance, end.distance, half_mm), 1.0]
     return [
         Piece(_between(start, end, a), _between(start, end, b), inside)
-        for a, b in zip(cuts, cuts[1:], strict=False)
+        for a, b in pairwise(cuts)
         if b - a > 1e-9
         for inside in [abs(_mix(start.distance, end.distance, (a + b) / 2)) <= half_mm]
     ]

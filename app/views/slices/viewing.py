@@ -5,6 +5,7 @@ from __future__ import annotations
 from enum import StrEnum
 
 import numpy as np
+from numpy.typing import ArrayLike
 from PySide6.QtCore import QObject, Signal
 
 from app.core.arrays import FloatArray, frozen
@@ -34,8 +35,8 @@ class Viewing(QObject):
 
     Signals:
         volume_changed, cursor_changed, window_changed, tool_changed, plan_changed, needle_changed.
-        point_placed(Tool, tuple, bool): entry or target was clicked or dragged to an LPS point [mm];
-            the flag is True for the first event of a gesture, a new step to undo.
+        point_placed(Tool, tuple, bool): entry or target was clicked or dragged to an LPS point
+            [mm]; the flag is True for the first event of a gesture, a new step to undo.
     """
 
     volume_changed = Signal()
@@ -64,7 +65,7 @@ class Viewing(QObject):
         self.cursor_mm = frozen(volume.lps_mm(middle))
         self.volume_changed.emit()
 
-    def set_cursor(self, lps_mm: FloatArray) -> None:
+    def set_cursor(self, lps_mm: ArrayLike) -> None:
         """Move the crosshair to an LPS point [mm], kept inside the volume."""
         if self.volume is None:
             return
@@ -107,9 +108,10 @@ class Viewing(QObject):
         """Show the live needle (None hides it); the image is not touched unless slices follow."""
         self.needle = needle
         self.needle_changed.emit()
-        if needle is not None and needle.valid and self.follows_tip:
-            if np.linalg.norm(needle.tip_mm - self.cursor_mm) > FOLLOW_DEAD_BAND_MM:
-                self.set_cursor(needle.tip_mm)
+        if needle is None or not needle.valid or not self.follows_tip:
+            return
+        if np.linalg.norm(needle.tip_mm - self.cursor_mm) > FOLLOW_DEAD_BAND_MM:
+            self.set_cursor(needle.tip_mm)
 
     def set_follows_tip(self, follows: bool) -> None:
         """Let the slices pass through the needle's tip from now on, or stay."""
