@@ -61,6 +61,8 @@ def compiled_lateness(seconds: float, priority: Priority) -> tuple[FloatArray, i
     left, right = inverse(profile.pantograph, (0.03, 0.18))
     initial = {"plant_q_left": left, "plant_q_right": right}
     with Loop(table, RATE_HZ, initial=initial, priority=priority) as loop:
+        while loop.latest().tick == 0:  # the kernel is being compiled or loaded
+            time.sleep(0.01)
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             loop.inbox.write(enabled=1.0, assistance=1.0, path_z=-1.0, heartbeat=time.monotonic())
