@@ -102,8 +102,13 @@ def oblique_image(
     linear = volume.inverse_mm[:3, :3]
     start = volume.voxel(plane.corner_mm)
     kernel = _KERNELS[Interpolation(interpolation)]
-    kernel(volume.hu, start, linear @ plane.across_mm, linear @ plane.down_mm, outside_hu, picture)
+    hu = np.ascontiguousarray(volume.hu)  # as it is read: no copy
+    kernel(hu, start, linear @ plane.across_mm, linear @ plane.down_mm, outside_hu, picture)
     return picture
+
+
+# Each kernel has a short way for pixels whose whole neighbourhood lies in the volume (unsigned flat
+# indices: no wrap-around to test, single precision) and a careful one for the rest.
 
 
 @njit
@@ -130,17 +135,16 @@ def _nearest(
     out: NDArray[np.float32],
 ) -> None:
     for row in range(out.shape[0]):
+        i0, j0, k0 = start[0] + row * down[0], start[1] + row * down[1], start[2] + row * down[2]
         for column in range(out.shape[1]):
-            i = start[0] + row * down[0] + column * across[0]
-            j = start[1] + row * down[1] + column * across[1]
-            k = start[2] + row * down[2] + column * across[2]
+            i, j, k = i0 + column * across[0], j0 + column * across[1], k0 + column * across[2]
             if _outside(i, j, k, hu):
                 out[row, column] = outside
                 continue
             out[row, column] = hu[
-                _clamp(int(np.floor(k + 0.5)), hu.shape[0]),
-                _clamp(int(np.floor(j + 0.5)), hu.shape[1]),
-                _clamp(int(np.floor(i + 0.5)), hu.shape[2]),
+                np.uint64(_clamp(int(np.floor(k + 0.5)), hu.shape[0])),
+                np.uint64(_clamp(int(np.floor(j + 0.5)), hu.shape[1])),
+                np.uint64(_clamp(int(np.floor(i + 0.5)), hu.shape[2])),
             ]
 
 
@@ -153,6 +157,26 @@ def _base(at: float, size: int) -> tuple[int, int, float]:
 
 
 @njit
+def _trilinear_at(hu: NDArray[Any], i: float, j: float, k: float) -> float:
+    """Value anywhere in the volume, edges included."""
+    i0, i1, fi = _base(i, hu.shape[2])
+    j0, j1, fj = _base(j, hu.shape[1])
+    k0, k1, fk = _base(k, hu.shape[0])
+    near = (1.0 - fj) * ((1.0 - fi) * hu[k0, j0, i0] + fi * hu[k0, j0, i1])
+    near += fj * ((1.0 - fi) * hu[k0, j1, i0] + fi * hu[k0, j1, i1])
+    far = (1.0 - fj) * ((1.0 - fi) * hu[k1, j0, i0] + fi * hu[k1, j0, i1])
+    far += fj * ((1.0 - fi) * hu[k1, j1, i0] + fi * hu[k1, j1, i1])
+    return (1.0 - fk) * near + fk * far
+
+
+@njit
+def _between(flat: NDArray[Any], at: int, fraction: float) -> Any:
+    """Value between a voxel and the next of its row."""
+    low = np.float32(flat[np.uint64(at)])
+    return low + fraction * (np.float32(flat[np.uint64(at + 1)]) - low)
+
+
+@njit
 def _trilinear(
     hu: NDArray[Any],
     start: FloatArray,
@@ -161,22 +185,24 @@ def _trilinear(
     outside: float,
     out: NDArray[np.float32],
 ) -> None:
+    size_k, size_j, size_i = hu.shape
+    flat, slab = hu.ravel(), size_i * size_j
     for row in range(out.shape[0]):
+        i0, j0, k0 = start[0] + row * down[0], start[1] + row * down[1], start[2] + row * down[2]
         for column in range(out.shape[1]):
-            i = start[0] + row * down[0] + column * across[0]
-            j = start[1] + row * down[1] + column * across[1]
-            k = start[2] + row * down[2] + column * across[2]
-            if _outside(i, j, k, hu):
+            i, j, k = i0 + column * across[0], j0 + column * across[1], k0 + column * across[2]
+            if 0.0 <= i < size_i - 1 and 0.0 <= j < size_j - 1 and 0.0 <= k < size_k - 1:
+                a, b, c = int(i), int(j), int(k)
+                fi, fj, fk = np.float32(i - a), np.float32(j - b), np.float32(k - c)
+                at = c * slab + b * size_i + a
+                near, below = _between(flat, at, fi), _between(flat, at + size_i, fi)
+                far, last = _between(flat, at + slab, fi), _between(flat, at + slab + size_i, fi)
+                near += fj * (below - near)
+                out[row, column] = near + fk * (far + fj * (last - far) - near)
+            elif _outside(i, j, k, hu):
                 out[row, column] = outside
-                continue
-            i0, i1, fi = _base(i, hu.shape[2])
-            j0, j1, fj = _base(j, hu.shape[1])
-            k0, k1, fk = _base(k, hu.shape[0])
-            near = (1.0 - fj) * ((1.0 - fi) * hu[k0, j0, i0] + fi * hu[k0, j0, i1])
-            near += fj * ((1.0 - fi) * hu[k0, j1, i0] + fi * hu[k0, j1, i1])
-            far = (1.0 - fj) * ((1.0 - fi) * hu[k1, j0, i0] + fi * hu[k1, j0, i1])
-            far += fj * ((1.0 - fi) * hu[k1, j1, i0] + fi * hu[k1, j1, i1])
-            out[row, column] = (1.0 - fk) * near + fk * far
+            else:
+                out[row, column] = _trilinear_at(hu, i, j, k)
 
 
 @njit
@@ -189,6 +215,36 @@ def _weights(t: float) -> tuple[float, float, float, float]:
 
 
 @njit
+def _cubic_at(hu: NDArray[Any], i: float, j: float, k: float) -> float:
+    """Value anywhere in the volume; beyond an edge its voxel is taken again."""
+    size_k, size_j, size_i = hu.shape
+    i0, _, fi = _base(i, size_i)
+    j0, _, fj = _base(j, size_j)
+    k0, _, fk = _base(k, size_k)
+    wi, wj, wk = _weights(fi), _weights(fj), _weights(fk)
+    total = 0.0
+    for c in range(4):
+        for b in range(4):
+            for a in range(4):
+                total += (wk[c] * wj[b] * wi[a]) * hu[
+                    _clamp(k0 - 1 + c, size_k),
+                    _clamp(j0 - 1 + b, size_j),
+                    _clamp(i0 - 1 + a, size_i),
+                ]
+    return total
+
+
+@njit
+def _row_of_four(
+    flat: NDArray[Any], at: int, w: tuple[np.float32, np.float32, np.float32, np.float32]
+) -> Any:
+    """Weighted sum of four voxels of a row, the first at `at`."""
+    total = w[0] * np.float32(flat[np.uint64(at)]) + w[1] * np.float32(flat[np.uint64(at + 1)])
+    total += w[2] * np.float32(flat[np.uint64(at + 2)])
+    return total + w[3] * np.float32(flat[np.uint64(at + 3)])
+
+
+@njit
 def _cubic(
     hu: NDArray[Any],
     start: FloatArray,
@@ -198,34 +254,27 @@ def _cubic(
     out: NDArray[np.float32],
 ) -> None:
     size_k, size_j, size_i = hu.shape
+    flat, slab = hu.ravel(), size_i * size_j
     for row in range(out.shape[0]):
+        i0, j0, k0 = start[0] + row * down[0], start[1] + row * down[1], start[2] + row * down[2]
         for column in range(out.shape[1]):
-            i = start[0] + row * down[0] + column * across[0]
-            j = start[1] + row * down[1] + column * across[1]
-            k = start[2] + row * down[2] + column * across[2]
-            if _outside(i, j, k, hu):
+            i, j, k = i0 + column * across[0], j0 + column * across[1], k0 + column * across[2]
+            if 1.0 <= i < size_i - 2 and 1.0 <= j < size_j - 2 and 1.0 <= k < size_k - 2:
+                a, b, c = int(i), int(j), int(k)
+                u, wj, wk = _weights(i - a), _weights(j - b), _weights(k - c)
+                wi = np.float32(u[0]), np.float32(u[1]), np.float32(u[2]), np.float32(u[3])
+                total = 0.0
+                for m in range(4):
+                    at = (c - 1 + m) * slab + (b - 1) * size_i + a - 1
+                    plane = wj[0] * _row_of_four(flat, at, wi)
+                    plane += wj[1] * _row_of_four(flat, at + size_i, wi)
+                    plane += wj[2] * _row_of_four(flat, at + 2 * size_i, wi)
+                    total += wk[m] * (plane + wj[3] * _row_of_four(flat, at + 3 * size_i, wi))
+                out[row, column] = total
+            elif _outside(i, j, k, hu):
                 out[row, column] = outside
-                continue
-            i0, i1, fi = _base(i, size_i)
-            j0, _, fj = _base(j, size_j)
-            k0, _, fk = _base(k, size_k)
-            wi, wj, wk = _weights(fi), _weights(fj), _weights(fk)
-            # The four columns stand in order; at an edge the outermost one is taken twice.
-            before, after = _clamp(i0 - 1, size_i), _clamp(i1 + 1, size_i)
-            total = 0.0
-            for c in range(4):
-                plane = 0.0
-                kk = _clamp(k0 - 1 + c, size_k)
-                for b in range(4):
-                    jj = _clamp(j0 - 1 + b, size_j)
-                    plane += wj[b] * (
-                        wi[0] * hu[kk, jj, before]
-                        + wi[1] * hu[kk, jj, i0]
-                        + wi[2] * hu[kk, jj, i1]
-                        + wi[3] * hu[kk, jj, after]
-                    )
-                total += wk[c] * plane
-            out[row, column] = total
+            else:
+                out[row, column] = _cubic_at(hu, i, j, k)
 
 
 _KERNELS: Final[dict[Interpolation, Any]] = {

@@ -1,0 +1,129 @@
+"""A study's picture: error (x) against time (y), both logarithmic, with both limits as lines."""
+
+from importlib import import_module
+from pathlib import Path
+from typing import Any, Final
+
+from app.studies.errors import StudyError
+from app.studies.study import Point, Result
+from app.studies.table import failure_lines
+
+_COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
+"""Okabe and Ito: told apart by colour-blind eyes; markers differ as well."""
+_MARKERS: Final = "osD^vP"
+_INK: Final = "#222222"
+_LINE: Final = "#777777"
+_LEAST: Final = 1e-16  # an error of exactly zero is drawn here: a logarithm has no zero
+
+
+def draw(result: Result, path: Path) -> Path:
+    """Draw a study's result; the ending of `path` chooses the format (.png, .svg, .pdf).
+
+    Raises:
+        StudyError: if matplotlib is missing, or the file cannot be written.
+    """
+    figure_module, _ = _matplotlib()
+    figure = figure_module.Figure(figsize=(8.0, 6.0), dpi=150, facecolor="white")
+    axes = figure.add_axes((0.11, 0.24, 0.84, 0.68))
+    for number, family in enumerate(_families(result)):
+        style = number % len(_COLOURS)
+        _family(axes, family, _members(result, family), _COLOURS[style], _MARKERS[style])
+    _limits(axes, result)
+    _dress(figure, axes, result)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        figure.savefig(path)
+    except (OSError, ValueError) as error:
+        raise StudyError(f"cannot write the picture {path}: {error}") from error
+    return path
+
+
+def _matplotlib() -> tuple[Any, Any]:
+    try:
+        return import_module("matplotlib.figure"), import_module("matplotlib")
+    except ImportError as error:
+        raise StudyError(
+            "pictures of studies need matplotlib, which is not installed; "
+            "install the extra `plots`: pip install 'acus[plots]'"
+        ) from error
+
+
+def _families(result: Result) -> list[str]:
+    return list(dict.fromkeys(way.family for way in result.study.ways))
+
+
+def _members(result: Result, family: str) -> list[tuple[str, Point]]:
+    """Points of a family with their labels: its ways at their worst, or its one way everywhere."""
+    ways = [way for way in result.study.ways if way.family == family]
+    if len(ways) > 1:
+        return [(p.way, p) for p in result.summary() if p.family == family]
+    return [(p.setting, p) for p in result.points if p.family == family]
+
+
+def _family(
+    axes: Any, family: str, members: list[tuple[str, Point]], colour: str, marker: str
+) -> None:
+    if not members:
+        return
+    errors = [max(point.error, _LEAST) for _, point in members]
+    seconds = [point.seconds for _, point in members]
+    axes.plot(errors, seconds, color=colour, marker=marker, markersize=6, linewidth=1.2)
+    for (label, _), x, y in zip(members, errors, seconds, strict=True):
+        axes.annotate(label, (x, y), (5, -9), textcoords="offset points", fontsize=6, color=colour)
+    last = min(range(len(errors)), key=lambda i: errors[i])
+    axes.annotate(
+        family,
+        (errors[last], seconds[last]),
+        (6, 7),
+        textcoords="offset points",
+        fontsize=9,
+        fontweight="bold",
+        color=colour,
+    )
+
+
+def _limits(axes: Any, result: Result) -> None:
+    study = result.study
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.margins(0.16)
+    axes.axhline(study.deadline.value, color=_LINE, linestyle="--", linewidth=1.0)
+    axes.axvline(study.perception.value, color=_LINE, linestyle=":", linewidth=1.4)
+    axes.annotate(
+        study.deadline.label,
+        (0.01, study.deadline.value),
+        (0, 3),
+        xycoords=("axes fraction", "data"),
+        textcoords="offset points",
+        fontsize=7,
+        color=_INK,
+    )
+    axes.annotate(
+        study.perception.label,
+        (study.perception.value, 0.02),
+        (3, 0),
+        xycoords=("data", "axes fraction"),
+        textcoords="offset points",
+        fontsize=7,
+        color=_INK,
+        rotation=90,
+        va="bottom",
+    )
+
+
+def _dress(figure: Any, axes: Any, result: Result) -> None:
+    study = result.study
+    axes.set_title(study.title, fontsize=11, color=_INK)
+    axes.set_xlabel(study.error_label, color=_INK)
+    axes.set_ylabel("time of one call [s]", color=_INK)
+    axes.grid(True, which="major", color="#DDDDDD", linewidth=0.6)
+    axes.set_axisbelow(True)
+    foot = [f"Reference: {study.reference}", f"Default: {study.default}"]
+    foot += [f"Fails: {line}" for line in failure_lines(result)] or ["No way fails."]
+    figure.text(0.02, 0.015, _wrapped(foot), fontsize=6.5, color=_INK, va="bottom")
+
+
+def _wrapped(lines: list[str], width: int = 150) -> str:
+    from textwrap import fill
+
+    return "\n".join(fill(line, width, subsequent_indent="    ") for line in lines)

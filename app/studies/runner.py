@@ -1,0 +1,95 @@
+"""Find studies and run them."""
+
+import importlib
+import math
+import pkgutil
+import statistics
+import time
+from collections.abc import Callable
+
+from app import studies
+from app.core.errors import AcusError
+from app.core.progress import Progress
+from app.studies.errors import StudyError
+from app.studies.study import Case, Failure, Point, Prepared, Result, Setting, Study, Way
+
+REPEATS = 9
+_MACHINERY = {"errors", "plot", "runner", "study", "table"}
+
+
+def study_names() -> tuple[str, ...]:
+    """Names of all studies, sorted; a folder appended to `studies.__path__` counts as well."""
+    names = {module.name for module in pkgutil.iter_modules(studies.__path__)}
+    return tuple(sorted(names - _MACHINERY))
+
+
+def find_study(name: str) -> Study:
+    """Return a study by name.
+
+    Raises:
+        StudyError: for an unknown name, listing the known ones, or a file without `STUDY`.
+    """
+    if name not in study_names():
+        raise StudyError(f"there is no study {name!r}; there are {', '.join(study_names())}")
+    found = getattr(importlib.import_module(f"{studies.__name__}.{name}"), "STUDY", None)
+    if not isinstance(found, Study) or found.name != name:
+        raise StudyError(f"study file {name}.py must define STUDY, a Study of that name")
+    return found
+
+
+def run(
+    study: str | Study,
+    repeats: int = REPEATS,
+    progress: Progress | None = None,
+    clock: Callable[[], float] = time.perf_counter,
+) -> Result:
+    """Run every way in every setting, after a warm-up, and take medians of repeated timing.
+
+    Args:
+        study: a study, or its name.
+        repeats: timings per way and setting, at least 1.
+        progress: told how far it is; may cancel.
+        clock: source of time [s].
+
+    Raises:
+        StudyError: for an unknown study.
+        Cancelled: when the progress says so.
+    """
+    chosen = find_study(study) if isinstance(study, str) else study
+    points: list[Point] = []
+    failures: list[Failure] = []
+    for number, setting in enumerate(chosen.settings):
+        if progress is not None:
+            progress.report(number / len(chosen.settings), setting.name)
+        case = chosen.case(setting)
+        for way in chosen.ways:
+            try:
+                points.append(_point(chosen, way, setting, case, max(1, repeats), clock))
+            except (AcusError, ArithmeticError, ValueError) as error:
+                failures.append(Failure(way.name, setting.name, str(error)))
+    return Result(chosen, tuple(points), tuple(failures))
+
+
+def _point(
+    study: Study, way: Way, setting: Setting, case: Case, repeats: int, clock: Callable[[], float]
+) -> Point:
+    prepared = way.prepare(case)
+    error = float(case.error(prepared.run()))  # the warm-up: compiles, fills caches
+    if not math.isfinite(error):
+        raise StudyError(f"its result is not finite (error {error})")
+    seconds = statistics.median(_timed(prepared, clock) for _ in range(repeats))
+    return Point(
+        way.name,
+        way.family,
+        setting.name,
+        error,
+        seconds,
+        error <= case.perception,
+        seconds <= study.deadline.value,
+    )
+
+
+def _timed(prepared: Prepared, clock: Callable[[], float]) -> float:
+    start = clock()
+    prepared.run()
+    return (clock() - start) / prepared.calls

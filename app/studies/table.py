@@ -1,0 +1,105 @@
+"""A study's result as a table for people, and as CSV and JSON for programs."""
+
+import csv
+import io
+from typing import Any
+
+from rich.table import Table
+
+from app.studies.study import Point, Result
+
+_COLUMNS = (
+    "way",
+    "family",
+    "setting",
+    "error",
+    "seconds",
+    "within_perception",
+    "within_deadline",
+    "failure",
+)
+
+
+def summary_table(result: Result) -> Table:
+    """Return each way at its worst over all settings."""
+    study = result.study
+    table = Table(title=study.title, caption=_caption(result), caption_justify="left")
+    for heading in ("way", study.error_label, "time", "felt or seen?", "in time?", "worst in"):
+        table.add_column(heading, justify="left" if heading in ("way", "worst in") else "right")
+    for point in result.summary():
+        table.add_row(*_row(point))
+    return table
+
+
+def _row(point: Point) -> tuple[str, ...]:
+    return (
+        point.way,
+        f"{point.error:.3g}",
+        duration(point.seconds),
+        "no" if point.within_perception else "yes",
+        "yes" if point.within_deadline else "no",
+        point.setting,
+    )
+
+
+def _caption(result: Result) -> str:
+    study = result.study
+    lines = [
+        f"Reference: {study.reference}",
+        f"Deadline: {study.deadline.label}. Noticed from: {study.perception.label}.",
+        f"Default: {study.default}",
+    ]
+    lines += [f"Failed: {line}" for line in failure_lines(result)]
+    return "\n".join(lines)
+
+
+def failure_lines(result: Result) -> list[str]:
+    """Return one line per failing way: no answer, too coarse, too slow."""
+    lines = [f"{f.way} in {f.setting}: {f.reason}" for f in result.failures]
+    if result.too_coarse():
+        lines.append(f"error noticed: {', '.join(result.too_coarse())}")
+    if result.too_slow():
+        lines.append(f"deadline missed: {', '.join(result.too_slow())}")
+    return lines
+
+
+def duration(seconds: float) -> str:
+    """Write a time in the unit that suits it: `1.40 µs`."""
+    for scale, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs")):
+        if seconds >= scale:
+            return f"{seconds / scale:.3g} {unit}"
+    return f"{seconds / 1e-9:.3g} ns"
+
+
+def document(result: Result) -> dict[str, Any]:
+    """Return the result for JSON; the keys stand in docs/json.md."""
+    study = result.study
+    return {
+        "study": study.name,
+        "title": study.title,
+        "reference": study.reference,
+        "error_label": study.error_label,
+        "default": study.default,
+        "deadline_s": study.deadline.value,
+        "perception": study.perception.value,
+        "points": [
+            {name: getattr(point, name) for name in _COLUMNS[:-1]} for point in result.points
+        ],
+        "failures": [
+            {"way": f.way, "setting": f.setting, "reason": f.reason} for f in result.failures
+        ],
+        "too_coarse": list(result.too_coarse()),
+        "too_slow": list(result.too_slow()),
+    }
+
+
+def csv_text(result: Result) -> str:
+    """Return all points, and the failures with their reason, as CSV with a heading."""
+    stream = io.StringIO()
+    writer = csv.DictWriter(stream, _COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    for entry in document(result)["points"]:
+        writer.writerow({**entry, "failure": ""})
+    for failure in result.failures:
+        writer.writerow({"way": failure.way, "setting": failure.setting, "failure": failure.reason})
+    return stream.getvalue()
