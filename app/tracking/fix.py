@@ -11,7 +11,7 @@ from app.core.units import MILLIMETRE
 from app.tracking.marker import MarkerFix
 from app.tracking.rig import RigProfile
 from app.tracking.silhouette import centroid_shift
-from app.tracking.stereo import StereoStatus, Triangulation, covariance_radius, triangulate
+from app.tracking.stereo import StereoStatus, Triangulation, Way, covariance_radius, triangulate
 
 GATE = 1e-5
 """Probability with which a good fix is refused by the consistency check."""
@@ -117,7 +117,7 @@ class FixSolver:
         self, sightings: tuple[Sighting, Sighting], axis: FloatArray, time: float
     ) -> NeedleFix:
         pixels = (sightings[0].uv, sightings[1].uv)
-        found = self._triangulate(sightings, (np.zeros(2), np.zeros(2)))
+        found = self._triangulate(sightings, (np.zeros(2), np.zeros(2)), Way.LINEAR)
         if found is not None and found.status is StereoStatus.FOUND:
             found = self._corrected(sightings, found.p_world, axis)
         if found is None or found.status is not StereoStatus.FOUND:
@@ -149,7 +149,10 @@ class FixSolver:
         return self._triangulate(sightings, (first, second))
 
     def _triangulate(
-        self, sightings: tuple[Sighting, Sighting], shifts: tuple[FloatArray, FloatArray]
+        self,
+        sightings: tuple[Sighting, Sighting],
+        shifts: tuple[FloatArray, FloatArray],
+        way: Way = Way.REPROJECTION,
     ) -> Triangulation | None:
         """None if a pixel belongs to no direction (beyond the fold of the distortion)."""
         rays, covariances = np.empty((2, 2)), np.empty((2, 2, 2))
@@ -162,7 +165,7 @@ class FixSolver:
             jacobian = model.ray_jacobian(ray[0])
             rays[i] = ray[0]
             covariances[i] = jacobian @ (sighting.covariance + self._systematic) @ jacobian.T
-        return triangulate(self._poses, rays, covariances)
+        return triangulate(self._poses, rays, covariances, way)
 
     def _contradiction(self, found: Triangulation, axis: FloatArray) -> str:
         """Why the point cannot be the marker; empty if it can."""

@@ -1,13 +1,9 @@
 """Marker extraction by the centroid of the band's outline (the default way).
 
-Redness r = R - (G + B)/2 does not see grey and hardly skin. Shading makes one flank of the band
-darker than the other, so r itself would pull the centroid towards the lamp; the weight of a pixel
-is therefore the share of it that the band covers,
-
-    w = (r - b) / (f - b),
-
-with f the redness of the nearby inside of the band and b that of the nearby background; inside
-it is one. The centroid of w is that of the outline, whatever the light.
+Redness r = R - (G + B)/2 does not see grey and hardly skin: it says where the band is. It does not
+weigh the pixels: one flank of a round band is darker than the other and would count less. The
+weight of a pixel is the share of it that the band covers (see `matting`), one inside, so that the
+centroid is that of the outline, whatever the light. The paint should be matt.
 """
 
 from dataclasses import dataclass
@@ -19,6 +15,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.tracking.camera import Image
 from app.tracking.marker import Extractor, MarkerFix
+from app.tracking.matting import outline_moments
 
 _Float32 = NDArray[np.float32]
 _Mask = NDArray[np.uint8]
@@ -26,9 +23,6 @@ _Mask = NDArray[np.uint8]
 _SQUARE3 = np.ones((3, 3), dtype=np.uint8)
 _SQUARE5 = np.ones((5, 5), dtype=np.uint8)
 _CANDIDATES = 4
-_REACH = 5
-_REDNESS_NOISE = float(np.sqrt(1.5))
-"""Standard deviation of r for one grey level of independent noise in each colour."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +35,7 @@ class OutlineCentroid(Extractor):
         region: half width of the tracked region [px].
         noise_grey: standard deviation of the picture's noise, for the covariance.
         overexposed: largest share of the band with a colour at its end, at which it is refused.
+        quality_min: least share of outline pixels that are mixtures of band and background.
     """
 
     redness: float = 40.0
@@ -49,6 +44,7 @@ class OutlineCentroid(Extractor):
     region: int = 48
     noise_grey: float = 4.0
     overexposed: float = 0.25
+    quality_min: float = 0.6
 
     def find(self, image: Image, predicted: FloatArray | None) -> MarkerFix | None:
         """See `Extractor.find`."""
@@ -97,14 +93,13 @@ class OutlineCentroid(Extractor):
     def _measure(self, window: Image, blob: _Mask, origin: FloatArray) -> MarkerFix | None:
         if _overexposed(window, blob) > self.overexposed:
             return None
-        redness = _redness(window)
         inside = cv2.erode(blob, _SQUARE3, iterations=2)
         support = cv2.dilate(blob, _SQUARE5)
-        weight, contrast = _covered(redness, inside, support)
-        area = float(weight.sum())
-        if not self.area_min <= area <= self.area_max or contrast <= 0.0:
+        area, u, v, uu, uv, vv, quality = outline_moments(window, inside, support, self.noise_grey)
+        if not self.area_min <= area <= self.area_max or quality < self.quality_min:
             return None
-        return _fix(weight, inside, area, _REDNESS_NOISE * self.noise_grey / contrast, origin)
+        covariance = np.array([[uu, uv], [uv, vv]]) + 1e-8 * np.eye(2)
+        return MarkerFix(origin + np.array([u, v]), covariance, area, quality)
 
 
 def _redness(image: Image) -> _Float32:
@@ -150,49 +145,3 @@ def _tight(
 def _overexposed(window: Image, blob: _Mask) -> float:
     saturated = (window[..., 2] >= 254) & (blob > 0)
     return float(saturated.sum()) / max(1.0, float(blob.sum()))
-
-
-def _covered(redness: _Float32, inside: _Mask, support: _Mask) -> tuple[_Float32, float]:
-    """Covered share of each pixel, and the mean contrast f - b along the outline [grey levels]."""
-    band, has_band = _spread(redness, inside, _REACH)
-    ground, has_ground = _spread(redness, np.uint8(1) - support, _REACH)
-    contrast = band - ground
-    edge = (support > 0) & (inside == 0) & has_band & has_ground & (contrast > 10.0)
-    weight = np.where(inside > 0, np.float32(1.0), np.float32(0.0))
-    weight[edge] = np.clip((redness[edge] - ground[edge]) / contrast[edge], -0.5, 1.5)
-    return weight, float(contrast[edge].mean()) if edge.any() else 0.0
-
-
-def _spread(values: _Float32, mask: _Mask, steps: int) -> tuple[_Float32, NDArray[np.bool_]]:
-    """Carry the masked values outwards, one pixel a step, as means of what is already known.
-
-    A pixel so takes the value of the nearest part of the mask: its own side of a shaded band.
-    Returns the values and where there are any.
-    """
-    known = mask.astype(np.float32)
-    total = cv2.boxFilter(values * known, -1, (3, 3), normalize=False)
-    count = cv2.boxFilter(known, -1, (3, 3), normalize=False)
-    mean = np.where(count > 0.5, total / np.maximum(count, 1.0), 0.0)
-    known = (count > 0.5).astype(np.float32)
-    for _ in range(steps - 1):
-        total = cv2.boxFilter(mean * known, -1, (3, 3), normalize=False)
-        count = cv2.boxFilter(known, -1, (3, 3), normalize=False)
-        new = (count > 0.5) & (known < 0.5)
-        mean[new] = total[new] / count[new]
-        known[new] = 1.0
-    return mean, known > 0.5
-
-
-def _fix(
-    weight: _Float32, inside: _Mask, area: float, noise: float, origin: FloatArray
-) -> MarkerFix:
-    """Centroid of the weights and what the noise of the outline's pixels makes of it."""
-    rows, columns = np.arange(weight.shape[0]), np.arange(weight.shape[1])
-    u = float(weight.sum(axis=0) @ columns) / area
-    v = float(weight.sum(axis=1) @ rows) / area
-    edge_v, edge_u = np.nonzero((weight != 0.0) & (inside == 0))
-    lever = np.column_stack([edge_u - u, edge_v - v])
-    covariance = (noise / area) ** 2 * (lever.T @ lever) + 1e-8 * np.eye(2)
-    plausible = np.abs(weight[edge_v, edge_u] - 0.5) <= 0.8
-    quality = float(plausible.mean()) if plausible.size else 0.0
-    return MarkerFix(np.array([u, v]) + origin, covariance, area, quality)

@@ -63,7 +63,9 @@ def _body(needle: NeedleShape, centre: FloatArray, axis: FloatArray) -> FloatArr
 def _moments(polygon: FloatArray) -> tuple[float, FloatArray]:
     """Area of a convex polygon [px²] and its first moments [px³], shape (2,)."""
     x, y = polygon.astype(np.float64).T
-    cross = x * np.roll(y, -1) - np.roll(x, -1) * y
-    first = np.array([((x + np.roll(x, -1)) * cross).sum(), ((y + np.roll(y, -1)) * cross).sum()])
-    sign = 1.0 if cross.sum() >= 0.0 else -1.0
-    return 0.5 * sign * float(cross.sum()), sign * first / 6.0
+    next_x, next_y = np.concatenate([x[1:], x[:1]]), np.concatenate([y[1:], y[:1]])
+    cross = x * next_y - next_x * y
+    first = np.array([(x + next_x) @ cross, (y + next_y) @ cross])
+    total = float(cross.sum())
+    sign = 1.0 if total >= 0.0 else -1.0
+    return 0.5 * sign * total, sign * first / 6.0
