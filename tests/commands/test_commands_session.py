@@ -1,0 +1,132 @@
+"""`acus session list | show | export`."""
+
+import csv
+import json
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.__main__ import main
+from app.core.clock import VirtualClock
+from app.core.disclaimer import DISCLAIMER
+from app.core.events import Event
+from app.planning.placement import PlacedPlan, Placement
+from app.planning.plan import Plan
+from app.session.facts import PLAN, plan_record
+from app.session.header import SessionHeader
+from app.session.recorder import Recorder
+
+
+@pytest.fixture
+def store(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    placed = PlacedPlan.of(Plan(np.zeros(3), np.array([0.0, 60.0, 0.0])), Placement(), np.zeros(3))
+    for name in ("20260115-100000-aaaa", "20260116-100000-bbbb"):
+        started = datetime(2026, 1, int(name[6:8]), 10, tzinfo=UTC)
+        header = SessionHeader(name, started, 0.0, "s-1", "e", metadata={PLAN: plan_record(placed)})
+        recorder = Recorder(tmp_path, header, clock=VirtualClock())
+        recorder.open()
+        recorder.event(Event(0.5, "scan", "control scan 1", {"number": 1}))
+        recorder.finish(result={"state": "ended", "reason": "", "duration_s": "1.5"})
+    (tmp_path / "broken.mcap").write_bytes(b"no")
+    monkeypatch.setenv("ACUS_SESSIONS", str(tmp_path))
+    return tmp_path
+
+
+def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
+    monkeypatch.setattr("sys.argv", ["acus", "session", *arguments])
+    try:
+        main()
+    except SystemExit as stop:
+        return int(stop.code or 0)
+    return 0
+
+
+def test_list_shows_newest_first_and_broken_ones_with_the_reason(
+    store: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    assert run(monkeypatch, "list") == 0
+    text = capsys.readouterr().out
+    assert text.index("bbbb") < text.index("aaaa")
+    assert "not an MCAP file" in text
+
+
+def test_list_as_json_has_the_documented_keys(
+    store: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, "list", "--folder", str(store), "--json") == 0
+    document = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert document["folder"] == str(store)
+    assert {s["state"] for s in document["sessions"]} == {"ended", "broken"}
+    for session in document["sessions"]:
+        assert session.keys() == {
+            "version",
+            "id",
+            "started",
+            "student",
+            "exercise",
+            "state",
+            "reason",
+            "duration_s",
+            "scans",
+            "score",
+            "problems",
+            "software",
+            "note",
+        }
+
+
+def test_show_takes_the_beginning_of_an_id(
+    store: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(monkeypatch, "show", "20260115") == 0
+    text = capsys.readouterr().out
+    assert "control scan 1" in text
+    assert DISCLAIMER in text
+    assert run(monkeypatch, "show", "20260115", "--json") == 0
+    document = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
+    assert document["events"][0]["kind"] == "scan"
+    assert document["complete"] is True
+    assert document["duration_s"] == 1.5
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("show", "nope"), "'nope' is no session"),
+        (("show", "2026"), "fits several sessions"),
+        (("show", "broken"), "not an MCAP file"),
+        (("list", "--folder", "/nonexistent"), "is not a folder"),
+        (("export", "--out", "x.txt"), "only .csv can be written"),
+        (("export", "--out", "x.csv", "--trajectory"), "exactly one session id"),
+        (("export", "nope", "--out", "x.csv"), "is no session"),
+    ],
+)
+def test_bad_input_is_one_line_on_stderr_and_exit_code_2(
+    store: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    arguments: tuple[str, ...],
+    said: str,
+) -> None:
+    assert run(monkeypatch, *arguments) == 2
+    captured = capsys.readouterr()
+    assert captured.err.count("\n") == 1
+    assert said in captured.err
+    assert captured.out == ""
+
+
+def test_export_writes_all_or_the_chosen_attempts(
+    store: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    out = tmp_path / "out.csv"
+    assert run(monkeypatch, "export", "--out", str(out)) == 0
+    rows = list(csv.DictReader(out.read_text(encoding="utf-8-sig").splitlines()))
+    assert len(rows) == 3
+    assert {row["note"] for row in rows} == {DISCLAIMER}
+    assert run(monkeypatch, "export", "20260116", "20260115", "--out", str(out)) == 0
+    rows = list(csv.DictReader(out.read_text(encoding="utf-8-sig").splitlines()))
+    assert [row["id"][-4:] for row in rows] == ["bbbb", "aaaa"]
+    assert run(monkeypatch, "export", "20260116", "--trajectory", "--out", str(out)) == 0
