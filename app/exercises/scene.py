@@ -1,5 +1,7 @@
 """From an exercise to what the other rooms work with: plan, placed plan, device, scene."""
 
+import numpy as np
+
 from app.exercises.parts import PlanPoints
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile, load_profile
@@ -16,11 +18,11 @@ def plan_of(exercise: Exercise) -> Plan:
     """Entry and target of an exercise; for `phantom_default`, those of its phantom."""
     if isinstance(exercise.plan, PlanPoints):
         return exercise.plan.plan()
-    from app.imaging.phantom import anatomy  # only for this plan: the phantom is heavy
+    from app.imaging.phantom import anatomy  # only for this plan: placing the lesion takes a second
 
     seed = exercise.ct.phantom.seed if exercise.ct.phantom else 1
     patient = anatomy(seed)
-    return Plan(patient.entry_mm, patient.lesion_mm, exercise.id)
+    return Plan(np.array(patient.entry_mm), np.array(patient.lesion_mm), exercise.id)
 
 
 def device_of(exercise: Exercise) -> DeviceProfile:

@@ -18,6 +18,7 @@ from app.exercises.parts import (
     PlanPoints,
     View,
 )
+from app.planning.placement import Placement
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoringError
 from app.scoring.rows import Rules
@@ -99,3 +100,8 @@ class Exercise(Strict):
                 "plan phantom_default needs ct: {phantom: ...}; give entry_mm and target_mm"
             )
         return self
+
+    def placed_as(self, placement: Placement) -> Exercise:
+        """Return the exercise with the patient placed otherwise."""
+        part = PlacementPart(orientation=placement.orientation, rotation_deg=placement.rotation_deg)
+        return self.model_copy(update={"placement": part})

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from app.exercises.library import load_exercise
+from app.exercises.scene import device_of, plan_of
 from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
+from app.planning.reach import reach
 from app.scoring.result import Score
 from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
@@ -67,3 +69,13 @@ def test_a_bad_attempt_fails_by_its_required_metrics(name: str) -> None:
     result = attempt(load_exercise(name), 1.0, seed=2)
     assert not result.passed
     assert result.failures
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_the_path_of_each_shipped_exercise_is_within_reach(name: str) -> None:
+    exercise = load_exercise(name)
+    plan = plan_of(exercise)
+    answer = reach(plan, exercise.placement.placement(), device_of(exercise))
+    assert answer.reachable, answer.message()
+    assert 50.0 < plan.length_mm < 110.0
+    assert plan.name == name
