@@ -133,8 +133,8 @@ class LoopPort(Protocol):
         """Lateness of the loop and deadlines missed."""
         ...
 
-    def step(self, n: int) -> Any:
-        """Run `n` ticks on the virtual clock, without sleeping."""
+    def step(self, ticks: int) -> Any:
+        """Run ticks on the virtual clock, without sleeping."""
         ...
 
 
@@ -158,7 +158,7 @@ class FixPort(Protocol):
 
     @property
     def status(self) -> str:
-        """`valid`, `out_of_view`, `one_camera` or `inconsistent`."""
+        """`valid`, `out_of_view`, `one_camera`, `inconsistent` or `no_orientation`."""
         ...
 
     @property

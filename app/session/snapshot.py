@@ -62,6 +62,7 @@ _FIX_TEXT = {
     "out_of_view": "marker out of view",
     "one_camera": "marker seen by one camera only",
     "inconsistent": "the cameras disagree about the marker",
+    "no_orientation": "the cameras see the marker, but the robot gives no direction",
 }
 
 

@@ -15,6 +15,7 @@ from app.exchange.markups import SCHEMA, parse_plan, plan_document, read_plan, w
 from app.planning.plan import Plan
 
 # The structural rules of Slicer's markups-schema-v1.0.3.json that concern a Line.
+KINDS = ["Fiducial", "Line", "Angle", "Curve", "ClosedCurve", "Plane", "ROI"]
 POINT = {
     "type": "object",
     "required": ["id", "label", "position", "positionStatus"],
@@ -45,17 +46,7 @@ RULES = {
                 "type": "object",
                 "required": ["type"],
                 "properties": {
-                    "type": {
-                        "enum": [
-                            "Fiducial",
-                            "Line",
-                            "Angle",
-                            "Curve",
-                            "ClosedCurve",
-                            "Plane",
-                            "ROI",
-                        ]
-                    },
+                    "type": {"enum": KINDS},
                     "coordinateSystem": {"enum": ["LPS", "RAS"]},
                     "coordinateUnits": {"enum": ["mm", "um"]},
                     "locked": {"type": "boolean"},
@@ -114,7 +105,7 @@ coordinate = st.floats(-1e4, 1e4)
 def test_reading_gives_back_every_bit_of_what_was_written(
     tmp_path_factory: pytest.TempPathFactory, entry: tuple[float, float, float], name: str
 ) -> None:
-    plan = Plan(np.array(entry), np.array(entry) + [30.0, 40.0, 0.0], name or "Plan")
+    plan = Plan(np.array(entry), np.array(entry) + np.array([30.0, 40.0, 0.0]), name or "Plan")
     path = tmp_path_factory.mktemp("plan", numbered=True) / "plan.mrk.json"
     write_plan(path, plan)
     assert read_plan(path) == plan
@@ -126,9 +117,10 @@ def test_ras_points_are_converted() -> None:
 
 
 def test_micrometres_are_converted() -> None:
+    far = [{"position": [0, 0, 0]}, {"position": [0, 0, 50_000]}]
     for units in ("um", ["um", "UCUM", "micrometer"]):
-        plan = parse_plan(spoilt(coordinateUnits=units), "x")
-        np.testing.assert_allclose(plan.target_mm, PLAN.target_mm * 1e-3)
+        plan = parse_plan(spoilt(coordinateUnits=units, controlPoints=far), "x")
+        assert plan.length_mm == pytest.approx(50.0)
 
 
 @pytest.mark.parametrize(
