@@ -13,6 +13,7 @@ _COLOURS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F
 _MARKERS: Final = "osD^vP"
 _INK: Final = "#222222"
 _LINE: Final = "#777777"
+_MOST_LABELS: Final = 6  # more would lie on top of each other
 _LEAST: Final = 1e-16  # an error of exactly zero is drawn here: a logarithm has no zero
 
 
@@ -67,18 +68,29 @@ def _family(
         return
     errors = [max(point.error, _LEAST) for _, point in members]
     seconds = [point.seconds for _, point in members]
-    axes.plot(errors, seconds, color=colour, marker=marker, markersize=6, linewidth=1.2)
-    for (label, _), x, y in zip(members, errors, seconds, strict=True):
-        axes.annotate(label, (x, y), (5, -9), textcoords="offset points", fontsize=6, color=colour)
-    last = min(range(len(errors)), key=lambda i: errors[i])
+    few = len(members) <= _MOST_LABELS
+    line = 1.2 if few else 0.0
+    axes.plot(errors, seconds, color=colour, marker=marker, markersize=6, linewidth=line)
+    ends = (errors.index(min(errors)), errors.index(max(errors)))
+    for number, ((label, _), x, y) in enumerate(zip(members, errors, seconds, strict=True)):
+        if few or number in ends:
+            _note(axes, label, (x, y), -11, colour, 6)
+    top = seconds.index(max(seconds))
+    _note(axes, family, (errors[top], seconds[top]), 7, colour, 9)
+
+
+def _note(
+    axes: Any, text: str, at: tuple[float, float], above: int, colour: str, size: int
+) -> None:
     axes.annotate(
-        family,
-        (errors[last], seconds[last]),
-        (6, 7),
+        text,
+        at,
+        (0, above),
         textcoords="offset points",
-        fontsize=9,
-        fontweight="bold",
+        fontsize=size,
+        fontweight="bold" if above > 0 else "normal",
         color=colour,
+        ha="center",
     )
 
 
@@ -86,7 +98,7 @@ def _limits(axes: Any, result: Result) -> None:
     study = result.study
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.margins(0.16)
+    axes.margins(0.16, 0.2)
     axes.axhline(study.deadline.value, color=_LINE, linestyle="--", linewidth=1.0)
     axes.axvline(study.perception.value, color=_LINE, linestyle=":", linewidth=1.4)
     axes.annotate(
@@ -100,14 +112,14 @@ def _limits(axes: Any, result: Result) -> None:
     )
     axes.annotate(
         study.perception.label,
-        (study.perception.value, 0.02),
+        (study.perception.value, 0.98),
         (3, 0),
         xycoords=("data", "axes fraction"),
         textcoords="offset points",
         fontsize=7,
         color=_INK,
         rotation=90,
-        va="bottom",
+        va="top",
     )
 
 
