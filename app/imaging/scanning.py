@@ -166,5 +166,5 @@ def _grid(plane: Plane, slices: stack.Stack) -> _Grid:
     return _Grid(
         spacing if len(slices.order) > 1 else None,
         (x, y, z),
-        tuple(np.stack(axes, axis=1).ravel().tolist()),
+        tuple((np.stack(axes, axis=1).ravel() + 0.0).tolist()),  # + 0.0: no negative zeros
     )

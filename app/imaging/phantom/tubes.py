@@ -51,16 +51,18 @@ def tube(knots: Any, radii: Any) -> Tubes:
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     step = max(0.35, _OVERLAP * float(widths.min()))
     along = np.linspace(0.0, length[-1], max(2, int(length[-1] / step) + 1))
-    curve = np.column_stack([_smooth(length, points[:, axis], along) for axis in range(3)])
-    return Tubes(np.column_stack([curve, np.interp(along, length, widths)]))
+    return Tubes(
+        np.column_stack([_smooth(length, points, along), np.interp(along, length, widths)])
+    )
 
 
 def _smooth(s: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
-    """Cubic Hermite interpolation with finite-difference slopes."""
-    slopes = np.gradient(values, s) if len(s) > 2 else np.full(2, np.diff(values)[0] / s[-1])
-    n = np.clip(np.searchsorted(s, at, side="right") - 1, 0, len(s) - 2)
-    h = s[n + 1] - s[n]
-    t = (at - s[n]) / h
+    """Cubic Hermite interpolation of rows of `values` with finite-difference slopes."""
+    chords = np.diff(values, axis=0) / np.diff(s)[:, None]
+    slopes = np.vstack([chords[:1], 0.5 * (chords[1:] + chords[:-1]), chords[-1:]])
+    n = np.minimum(np.searchsorted(s, at, side="right") - 1, len(s) - 2)
+    h = (s[n + 1] - s[n])[:, None]
+    t = (at - s[n])[:, None] / h
     t2, t3 = t * t, t * t * t
     result: FloatArray = (
         (2 * t3 - 3 * t2 + 1) * values[n] + (t3 - 2 * t2 + t) * h * slopes[n]

@@ -1,0 +1,167 @@
+"""`acus ct`: what a folder of CT holds, and where a voxel lies in the patient."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from app.core.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from app.imaging.series import Listing, Series
+    from app.imaging.volume import Volume
+
+app = typer.Typer(help="List the CT series of a folder; find where a voxel lies.")
+
+Folder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder, searched at any depth.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
+
+
+def register(root: typer.Typer) -> None:
+    """Add `ct` to the command line."""
+    root.add_typer(app, name="ct", no_args_is_help=True)
+
+
+@app.command("list")
+def list_series(folder: Folder, as_json: AsJson = False) -> None:
+    """List every series: modality, size, spacing, origin, direction, usable or why not."""
+    from app.imaging.scanning import scan_folder
+
+    listing = scan_folder(folder)
+    if not listing.series:
+        from app.imaging.reading import choose
+
+        choose(listing)  # says what is wrong with the folder
+    if as_json:
+        typer.echo(json.dumps(_listing(listing), indent=2))
+        return
+    for series in listing.series:
+        typer.echo(_line(series))
+    for file in listing.ignored:
+        typer.echo(f"ignored  {_relative(file.path, listing.path)}: {file.reason}")
+
+
+@app.command()
+def point(
+    folder: Folder,
+    series: Annotated[
+        str | None, typer.Option(help="SeriesInstanceUID, where several fit.")
+    ] = None,
+    voxel: Annotated[
+        str | None, typer.Option(metavar="I,J,K", help="Column, row and slice along the normal.")
+    ] = None,
+    sop: Annotated[str | None, typer.Option(help="SOPInstanceUID of one file.")] = None,
+    pixel: Annotated[
+        str | None, typer.Option(metavar="COL,ROW", help="Pixel of that file.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Patient point (LPS, mm) and Hounsfield value of a voxel, or of a pixel of one file."""
+    if (voxel is None) == (sop is None and pixel is None):
+        raise ConfigurationError(
+            "name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW"
+        )
+    if voxel is not None:
+        lps_mm, hu = _voxel(folder, series, _integers(voxel, 3, "--voxel", "I,J,K"))
+    elif sop is None or pixel is None:
+        raise ConfigurationError("--sop UID and --pixel COL,ROW go together; give both")
+    else:
+        lps_mm, hu = _pixel(folder, sop, _integers(pixel, 2, "--pixel", "COL,ROW"))
+    if as_json:
+        typer.echo(json.dumps({"lps_mm": lps_mm, "hu": hu}))
+    else:
+        x, y, z = lps_mm
+        typer.echo(f"LPS {x:.3f} {y:.3f} {z:.3f} mm, {hu:g} HU")
+
+
+def _voxel(folder: Path, series_uid: str | None, ijk: list[int]) -> tuple[list[float], float | int]:
+    from app.imaging.errors import OutsideImageError
+    from app.imaging.reading import load_ct
+
+    volume: Volume = load_ct(folder, series_uid)
+    if not all(0 <= index < size for index, size in zip(ijk, volume.size, strict=True)):
+        limits = ", ".join(
+            f"{name} 0 to {n - 1}" for name, n in zip("IJK", volume.size, strict=True)
+        )
+        raise OutsideImageError(f"voxel {tuple(ijk)} is outside the series: {limits}")
+    i, j, k = ijk
+    return volume.lps_mm(ijk).tolist(), _plain(volume.hu[k, j, i].item())
+
+
+def _pixel(folder: Path, sop: str, place: list[int]) -> tuple[list[float], float | int]:
+    from app.imaging.reading import pixel_lps_mm
+
+    column, row = place
+    lps_mm, hu = pixel_lps_mm(folder, sop, column, row)
+    return lps_mm.tolist(), _plain(hu)
+
+
+def _plain(hu: float) -> float | int:
+    return int(hu) if float(hu).is_integer() else hu
+
+
+def _integers(text: str, count: int, option: str, form: str) -> list[int]:
+    try:
+        numbers = [int(part) for part in text.split(",")]
+    except ValueError:
+        numbers = []
+    if len(numbers) != count:
+        raise ConfigurationError(
+            f"{option} {text!r} is not {form}: {count} whole numbers, no blanks"
+        )
+    return numbers
+
+
+def _listing(listing: "Listing") -> dict[str, Any]:
+    return {
+        "series": [_series(series) for series in listing.series],
+        "ignored": [
+            {"file": _relative(file.path, listing.path), "reason": file.reason}
+            for file in listing.ignored
+        ],
+    }
+
+
+def _series(series: "Series") -> dict[str, Any]:
+    return {
+        "uid": series.uid,
+        "modality": series.modality,
+        "label": series.label,
+        "pseudonym": series.pseudonym,
+        "size": list(series.size),
+        "spacing_mm": _list(series.spacing_mm),
+        "origin_mm": _list(series.origin_mm),
+        "direction": _list(series.direction),
+        "files": len(series.files),
+        "usable": series.usable,
+        "reason": series.reason,
+    }
+
+
+def _list(values: tuple[float, ...] | None) -> list[float] | None:
+    return None if values is None else list(values)
+
+
+def _line(series: "Series") -> str:
+    size = "×".join(str(n) for n in series.size)
+    spacing = "" if series.spacing_mm is None else " ".join(f"{s:.4g}" for s in series.spacing_mm)
+    origin = "" if series.origin_mm is None else " ".join(f"{v:.2f}" for v in series.origin_mm)
+    direction = "" if series.direction is None else " ".join(f"{v:.4g}" for v in series.direction)
+    parts = [
+        "usable " if series.usable else "refused",
+        f"{series.modality} {size}",
+        f"spacing {spacing} mm" if spacing else "",
+        f"origin {origin} mm" if origin else "",
+        f"direction {direction}" if direction else "",
+        f"{series.label}, {series.pseudonym}, {series.uid}",
+        series.reason,
+    ]
+    return "  ".join(part for part in parts if part)
+
+
+def _relative(path: Path, root: Path) -> str:
+    try:
+        return str(path.relative_to(root))
+    except ValueError:
+        return str(path)
