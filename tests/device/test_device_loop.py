@@ -75,6 +75,21 @@ def test_the_plain_thread_declares_a_lower_rate():
     assert Loop([], 100.0, host=Host.THREAD).rate_hz == 100.0
 
 
+@pytest.mark.parametrize("platform", ["win32", "darwin"])
+def test_elsewhere_than_on_linux_the_plain_thread_is_the_host(monkeypatch, platform):
+    monkeypatch.setattr(sys, "platform", platform)
+    loop = Loop([], 1000.0)
+    assert (loop.host, loop.rate_hz) == (Host.THREAD, 250.0)
+    with loop:
+        wait_for(lambda: loop.latest().tick > 3)
+    assert not loop.timing().realtime
+
+
+def test_the_linux_kernel_is_loaded_by_the_loops_own_thread_only():
+    code = "import sys, app.device.control; assert 'app.device.control.realtime' not in sys.modules"
+    assert subprocess.run([sys.executable, "-c", code], timeout=110, check=False).returncode == 0
+
+
 def test_timing_counts_ticks_and_orders_its_percentiles():
     with Loop([], 500.0) as loop:
         assert loop.timing().ticks >= 0
@@ -229,6 +244,24 @@ def test_the_end_of_the_program_closes_the_loop():
     )
     done = subprocess.run([sys.executable, "-c", code], timeout=100, check=False)
     assert done.returncode == 0
+
+
+def test_every_kernel_of_a_second_start_comes_from_the_disk():
+    code = (
+        "import numba.core.dispatcher as d\n"
+        "made = []; start = d.Dispatcher.__init__\n"
+        "d.Dispatcher.__init__ = lambda s, *a, **k: (start(s, *a, **k), made.append(s))[0]\n"
+        "import app.device.control, app.device.links\n"
+        "ours = [k for k in made if k.py_func.__module__.startswith('app.')]\n"
+        "misses = [k.py_func.__name__ for k in ours if k.stats.cache_misses]\n"
+        "assert not misses, misses\n"
+        "assert sum(len(k.stats.cache_hits) for k in ours) > 8"
+    )
+    for _ in range(2):  # the first start compiles what this session has not
+        done = subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, timeout=110, check=False
+        )
+    assert done.returncode == 0, done.stderr.decode()
 
 
 def test_a_loop_at_the_profiles_rate_is_what_the_profile_says():

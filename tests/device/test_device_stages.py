@@ -169,6 +169,13 @@ def test_before_any_valid_pose_the_needle_stands_upright():
     assert state[sv.L_IN] == GEOMETRY.fulcrum[2]
 
 
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_simulated_encoders_pass_on_what_is_no_number(bad):
+    state, stage = sv.empty_state(), SimulatedEncoders(20_000, (3.4, -0.19)).stage()
+    tick(state, stage, plant_q_left=bad)
+    assert not np.isfinite(state[sv.Q_LEFT])
+
+
 def test_simulated_encoders_give_whole_counts_from_home():
     state, stage = sv.empty_state(), SimulatedEncoders(20_000, (3.4, -0.19)).stage()
     count = 2.0 * np.pi / 20_000

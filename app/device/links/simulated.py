@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import floor, pi
+from math import pi
 from typing import Any
 
 import numpy as np
@@ -20,8 +20,9 @@ _COUNT, _HOME_LEFT, _HOME_RIGHT = range(3)
 def encoder_stage(state: FloatArray, p: FloatArray) -> None:
     """Copy PLANT_Q_* into Q_*, as whole counts from the home offsets, and stamp Q_TIME."""
     count = p[_COUNT]
-    left = floor((state[sv.PLANT_Q_LEFT] - p[_HOME_LEFT]) / count + 0.5)
-    right = floor((state[sv.PLANT_Q_RIGHT] - p[_HOME_RIGHT]) / count + 0.5)
+    # numpy's floor stays a float: a NaN stays NaN and is seen by safety, not turned into a count.
+    left = np.floor((state[sv.PLANT_Q_LEFT] - p[_HOME_LEFT]) / count + 0.5)
+    right = np.floor((state[sv.PLANT_Q_RIGHT] - p[_HOME_RIGHT]) / count + 0.5)
     state[sv.Q_LEFT] = p[_HOME_LEFT] + left * count
     state[sv.Q_RIGHT] = p[_HOME_RIGHT] + right * count
     state[sv.Q_TIME] = state[sv.TIME]
