@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from app.core.arrays import FloatArray
+from app.core.events import EventQueue
 from app.core.latest import Stamped
 from app.scoring.rows import Rules
 from app.scoring.tolerance import Tolerance
@@ -181,6 +182,11 @@ class TrackerPort(Protocol):
     @property
     def latest(self) -> LatestFixPort:
         """Newest fix."""
+        ...
+
+    @property
+    def events(self) -> EventQueue:
+        """What happened to cameras and tracker; kind `fault` for what ends an attempt."""
         ...
 
     def open(self) -> None:

@@ -41,7 +41,7 @@ class Trainer:
     thread; `end` and `abort` write files, the others only take a lock for a moment.
 
     Attributes:
-        events: for the window to drain: `state`, `abort`, `scan`, `recorder`.
+        events: for the window to drain: `state`, `abort`, `scan`, `recorder`, and the tracker's.
         result: of the attempt that finished last; None before the first.
     """
 
@@ -210,7 +210,7 @@ class Trainer:
         with self._lock:
             try:
                 self._seen = self._observe(now)
-                reason = self._running.look(self._seen, self._inputs)
+                reason = self._running.look(self._seen, self._inputs) or self._tracker_fault()
             except AcusError as error:
                 reason = str(error)
             if reason:
@@ -225,6 +225,16 @@ class Trainer:
             self.on_fix(stamped.value)
         last = self._seen.pose if self._seen is not None else None
         return observe(self._loop.latest(), self._fixes, self._placed, now, last)
+
+    def _tracker_fault(self) -> str:
+        """Pass on what the tracker tells; returns its fault, if there is one."""
+        if self._tracker is None or self._tracker.events is self.events:
+            return ""  # a queue of one's own is drained by the window already
+        reason = ""
+        for event in self._tracker.events.drain():
+            self._running.say(event.kind, event.message, event.time, dict(event.data))
+            reason = reason or (event.message if event.kind == "fault" else "")
+        return reason
 
     def _publish(self, now: float) -> Snapshot:
         """Publish what the last look saw, with the attempt as it is now."""

@@ -11,6 +11,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
+from app.core.events import EventQueue
 from app.core.latest import Latest
 from app.device.control.state import DeviceState
 from app.planning.placement import PlacedPlan, Placement
@@ -138,6 +139,7 @@ class FakeTracker:
     loop: FakeLoop
     status: str = "valid"
     latest: Latest[FakeFix] = field(default_factory=Latest)
+    events: EventQueue = field(default_factory=EventQueue)
     opened: int = 0
     seen: float = -1.0
 

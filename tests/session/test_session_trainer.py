@@ -10,6 +10,7 @@ import pytest
 from session_fakes import Bench
 
 from app.core.errors import NumericalError
+from app.core.events import Event
 from app.core.transform import rotation_between
 from app.planning.placement import PlacedPlan, Placement
 from app.session.errors import IllegalTransitionError, SessionError
@@ -137,6 +138,26 @@ def test_a_fault_of_the_device_aborts_with_its_reason(bench: Bench) -> None:
     assert bench.trainer.result is not None
     assert bench.trainer.result.score.void_reason.startswith("the attempt was aborted")
     assert list_sessions(bench.folder)[0].state == "aborted"
+
+
+def test_a_fault_of_the_tracker_aborts_with_its_reason_and_other_news_do_not(bench: Bench) -> None:
+    bench.run(0.1)
+    bench.tracker.events.put(Event(100.0, "fault", "before the attempt"))
+    bench.run(0.02)
+    bench.trainer.begin()
+    bench.tracker.events.put(Event(bench.clock.now(), "tracker", "marker lost"))
+    assert bench.run(0.1).state is State.ALIGNING
+    bench.tracker.events.put(Event(bench.clock.now(), "fault", "camera left was unplugged"))
+    assert bench.run(0.02).reason == "camera left was unplugged"
+    messages = [event.message for event in bench.trainer.events.drain()]
+    assert {"before the attempt", "marker lost", "camera left was unplugged"} <= set(messages)
+
+
+def test_a_queue_shared_with_the_tracker_is_not_drained_in_circles(bench: Bench) -> None:
+    bench.tracker.events = bench.trainer.events
+    bench.trainer.begin()
+    bench.run(0.2)
+    assert len(bench.trainer.events.drain()) == 1
 
 
 def test_a_loop_that_stands_still_aborts_the_attempt(bench: Bench) -> None:
