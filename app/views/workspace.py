@@ -31,7 +31,7 @@ from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
 from app.views.text import tr
 
-SIDE_WIDTH = 372
+SIDE_WIDTH = 376
 ORDER = (View.AXIAL, View.SAGITTAL, View.CORONAL)
 
 

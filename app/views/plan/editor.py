@@ -55,11 +55,11 @@ class PlanEditor(QObject):
 
     Signals:
         changed(): draft, placement, verdict, dirty or path is another.
-        refused(str): a point could not be placed there, and why.
+        refused(object): why something was not done, as text.
     """
 
     changed = Signal()
-    refused = Signal(str)
+    refused = Signal(object)
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)

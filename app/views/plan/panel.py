@@ -39,8 +39,10 @@ class PlanPanel(QWidget):
         self._editor, self._viewing = editor, viewing
         self.title = _label("heading")
         self.entry, self.target, self.length = _label(), _label(), _label("dim")
-        self.place_entry = _button(tr("Place entry (E)"), checkable=True)
-        self.place_target = _button(tr("Place target (T)"), checkable=True)
+        self.place_entry = _button(tr("Place  E"), checkable=True)
+        self.place_target = _button(tr("Place  T"), checkable=True)
+        self.place_entry.setToolTip(tr("Then click near the skin in any view (key E)"))
+        self.place_target.setToolTip(tr("Then click inside the patient in any view (key T)"))
         self.orientation = _orientation_box()
         self.turns = tuple(_angle_box(axis) for axis in "xyz")
         self.verdict = QLabel(self)
@@ -190,7 +192,10 @@ def _angle_box(axis: str) -> QDoubleSpinBox:
     box.setSingleStep(1.0)
     box.setPrefix(f"{axis} ")
     box.setSuffix(" °")
+    box.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)  # wheel and arrow keys do
     box.setKeyboardTracking(False)
+    box.setMinimumWidth(70)
+    box.setStyleSheet("padding: 1px 2px;")
     box.setToolTip(tr("Free rotation about the robot's {axis} axis (rotation vector)", axis=axis))
     return box
 
@@ -205,5 +210,6 @@ def _label(role: str = "") -> QLabel:
 def _button(text: str, checkable: bool = False) -> QPushButton:
     button = QPushButton(text)
     button.setCheckable(checkable)
-    button.setStyleSheet("padding: 4px 8px;")
+    button.setStyleSheet("padding: 4px 6px;")
+    button.setMinimumWidth(48)
     return button

@@ -59,6 +59,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         self.gestures: Gestures | None = None
         self._fitted = True
         self._shown: tuple[object, ...] = ()
+        self.setCentralItem(None)  # layers stand in the scene itself; its end would crash Qt
         scene = self.scene()
         scene.setItemIndexMethod(scene.ItemIndexMethod.NoIndex)  # a dozen items, moved often
         self._image = ImageItem()

@@ -1,0 +1,77 @@
+"""One application for all tests of the views, small volumes, and a look at what they leave behind."""
+
+import os
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+from PySide6.QtCore import QCoreApplication, QEvent
+from PySide6.QtWidgets import QApplication
+
+from app.imaging.series import Series
+from app.imaging.volume import Volume
+from app.views.theme import apply_theme
+
+Settle = Callable[..., bool]
+
+
+@pytest.fixture(scope="session")
+def application() -> QApplication:
+    existing = QApplication.instance()
+    app = existing if isinstance(existing, QApplication) else QApplication([])
+    apply_theme(app)
+    return app
+
+
+@pytest.fixture(autouse=True)
+def no_window_is_left_open(application: QApplication) -> Iterator[None]:
+    before = set(application.topLevelWidgets())
+    yield
+    for widget in set(application.topLevelWidgets()) - before:
+        widget.close()
+        widget.deleteLater()
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    application.processEvents()
+    left = [w for w in set(application.topLevelWidgets()) - before if w.isVisible()]
+    assert not left, f"windows left open: {left}"
+
+
+@pytest.fixture
+def settle(application: QApplication) -> Settle:
+    def process(until: Callable[[], bool] = lambda: False, timeout: float = 0.05) -> bool:
+        end = time.monotonic() + timeout
+        while not until() and time.monotonic() < end:
+            application.processEvents()
+            time.sleep(0.002)
+        return until()
+
+    return process
+
+
+def series_of(hu: NDArray[np.generic]) -> Series:
+    depth, height, width = hu.shape
+    return Series(
+        uid="1.2.3", modality="CT", label="test", size=(width, height, depth),
+        spacing_mm=None, origin_mm=None, direction=None, usable=True, reason="", slices=(),
+        pseudonym="CT-TEST", frame_of_reference="1.2", windows=((300.0, 30.0),),
+    )  # fmt: skip
+
+
+def box_volume(shape: tuple[int, int, int] = (40, 60, 64)) -> Volume:
+    """Air with a block of tissue and a rod of bone; 0.8 × 1.0 × 2.0 mm, supine, head first."""
+    hu = np.full(shape, -1000, np.int16)
+    hu[2:-2, 12:-12, 10:-10] = 40
+    hu[4:-4, 28:34, 28:36] = 700
+    affine = np.diag([0.8, 1.0, 2.0, 1.0])
+    affine[:3, 3] = (-20.0, -30.0, 100.0)
+    return Volume(hu, affine, series_of(hu))
+
+
+@pytest.fixture
+def volume() -> Volume:
+    return box_volume()
