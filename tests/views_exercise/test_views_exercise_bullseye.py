@@ -1,3 +1,4 @@
+from dataclasses import replace
 from math import radians
 
 import numpy as np
@@ -7,10 +8,13 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
 
+from app.core import state_vector as sv
 from app.core.arrays import angle_between
+from app.device.control.state import DeviceState
 from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.hand import HandPose
 from app.views.exercise.pad_painter import PadArea, spring
-from app.views.exercise.readings import pad_view
+from app.views.exercise.readings import hand_pose, pad_view
 
 
 @pytest.fixture
@@ -145,6 +149,28 @@ def test_without_a_simulated_hand_the_mouse_moves_nothing(qt):
     widget.show_view(pad_view(snapshot(), 0.2, 5.0))
     widget.pad.dragged.emit(0.5, 0.5)
     assert widget.hand is None
+
+
+def test_a_depth_that_is_only_the_models_never_moves_the_hand(qt):
+    widget = Bullseye()
+    widget.set_scene(run().scene(), interactive=True)
+    guess = replace(pad_view(snapshot(), 0.2, 5.0), measured=False, depth=0.11)
+    widget.show_view(guess)
+    assert widget.hand is None
+    widget.take_hand(HandPose(np.array([0.0, 0.0, -1.0]), -0.015, True))
+    widget.show_view(guess)
+    widget.pad.homed.emit()
+    assert widget.hand.depth == pytest.approx(-0.015)
+    assert angle_between(widget.hand.direction, guess.direction) < 1e-12
+
+
+def test_the_hand_goes_on_from_where_the_loop_has_it():
+    row = np.zeros(sv.SLOTS)
+    row[[sv.HAND_X, sv.HAND_Y, sv.HAND_DEPTH, sv.HAND_HOLDS]] = 0.1, -0.2, -0.015, 1.0
+    hand = hand_pose(snapshot(device=DeviceState.from_row(row)))
+    assert np.allclose(hand.direction[:2], (0.1, -0.2))
+    assert hand.direction[2] < 0.0
+    assert (hand.depth, hand.holds) == (-0.015, True)
 
 
 def test_a_pad_without_a_plan_is_drawn_and_ignores_the_mouse(qt):

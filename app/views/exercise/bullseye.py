@@ -59,15 +59,20 @@ class Bullseye(QWidget):
             label.clear()
 
     def show_view(self, view: PadView) -> None:
-        """Draw a new moment. The first one gives the hand the needle, without a jump."""
+        """Draw a new moment. Without a hand so far, the first measured one gives it the needle."""
         if self._scene is None:
             return
         self._view = view
-        if self._interactive and self._hand is None:
-            pose = HandPose(view.direction, view.depth, True)
+        if self._hand is None and view.measured:
+            # Never a depth that is only the model's: the hand would push the needle there.
+            self.take_hand(HandPose(view.direction, view.depth, True))
+        self._show(self._scene, view)
+
+    def take_hand(self, pose: HandPose) -> None:
+        """Go on from where the simulated hand is, without a jump."""
+        if self._scene is not None and self._interactive:
             self._hand = Hand(self._scene.frame, self._scene.scale, self._scene.limits, pose)
             self._intent.start()
-        self._show(self._scene, view)
 
     @property
     def hand(self) -> HandPose | None:
@@ -98,7 +103,8 @@ class Bullseye(QWidget):
     def _home(self) -> None:
         view = self._view
         if view is not None:
-            self._move(lambda hand: hand.follow(view.direction, view.depth))
+            depth = view.depth if view.measured else None
+            self._move(lambda hand: hand.follow(view.direction, depth))
 
     def _move(self, change: Callable[[Hand], None]) -> None:
         if self._hand is None or self._scene is None or self._view is None:

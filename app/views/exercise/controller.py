@@ -16,7 +16,7 @@ from app.views.exercise.hand import HandPose
 from app.views.exercise.messages import MessageList
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.rate_meter import RateMeter
-from app.views.exercise.readings import figures, pad_view, status_items, tracker_figures
+from app.views.exercise.readings import figures, hand_pose, pad_view, status_items, tracker_figures
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.tracker_panel import TrackerPanel
@@ -130,6 +130,9 @@ class ExerciseController(QObject):
         limit = run.profile.limits.hand_force
         views = self._views
         views.panel.show_figures(figures(snapshot, limit))
+        hand = hand_pose(snapshot) if views.bullseye.hand is None else None
+        if hand is not None:
+            views.bullseye.take_hand(hand)
         view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
         if view is not None:
             views.bullseye.show_view(view)

@@ -88,9 +88,10 @@ class Hand:
             raise NumericalError(f"depth step {step} is not finite")
         self._pose = self._limited(self._pose.direction, self._pose.depth + step, True)
 
-    def follow(self, direction: ArrayLike, depth: float) -> None:
-        """Go to where the needle is, so that no spring is stretched."""
-        self._pose = self._limited(direction, depth, True)
+    def follow(self, direction: ArrayLike, depth: float | None) -> None:
+        """Go to where the needle is, so that no spring is stretched; None keeps the depth."""
+        wanted = self._pose.depth if depth is None else depth
+        self._pose = self._limited(direction, wanted, True)
 
     def release(self) -> None:
         """Let go of the needle; the pose stays for when it is taken again."""

@@ -4,13 +4,17 @@ from math import inf
 
 import numpy as np
 
+from app.core import state_vector as sv
 from app.device.control.safety import Fault
+from app.device.control.state import DeviceState
 from app.session.snapshot import Snapshot
 from app.tracking.fix import FixStatus
 from app.tracking.statistics import TrackerStatistics
 from app.tracking.watch import CameraState
 from app.views.exercise.camera_view import camera_name
+from app.views.exercise.hand import HandPose
 from app.views.exercise.live import LiveFigures
+from app.views.exercise.pad_geometry import downward
 from app.views.exercise.pad_view import PadView
 from app.views.exercise.status_items import (
     StatusItem,
@@ -68,6 +72,15 @@ def pad_view(snapshot: Snapshot, needle_length: float, force_limit: float) -> Pa
         force=felt(snapshot),
         force_limit=force_limit,
     )
+
+
+def hand_pose(snapshot: Snapshot) -> HandPose | None:
+    """Where the loop has the simulated hand now; None where the robot does not tell."""
+    device = snapshot.device
+    if not isinstance(device, DeviceState):
+        return None
+    x, y, depth, holds = device.row[[sv.HAND_X, sv.HAND_Y, sv.HAND_DEPTH, sv.HAND_HOLDS]].tolist()
+    return HandPose(downward(x, y), depth, bool(holds))
 
 
 def status_items(snapshot: Snapshot, rate: float, heartbeat_age: float) -> tuple[StatusItem, ...]:
