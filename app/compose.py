@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Final
 
 from app.core import paths
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
-from app.device.control import Loop, VirtualFixture, pantograph_stages
-from app.device.links.link import Triple
+from app.core.progress import Progress
+from app.device.control import Loop, Table, VirtualFixture, pantograph_stages
+from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
+from app.exercises.library import library
 from app.exercises.scene import compile_exercise, device_of
 from app.exercises.schema import Exercise
+from app.mechanisms.pantograph import system_forward
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.context import RunContext
 from app.session.header import Attachment
-from app.session.scored import scorer
 from app.session.trainer import Trainer
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.trainee import trainee_stage
@@ -29,7 +32,14 @@ from app.tracking.scene import MarkerScene, Scene
 from app.tracking.simulated import simulated_cameras
 from app.tracking.tracker import Tracker
 
-START_DEPTH = -0.015
+if TYPE_CHECKING:
+    from app.views.exercise.run import ExerciseRun
+    from app.views.services import RunSetup
+
+UPRIGHT: Final = (0.0, 0.0, -1.0)
+"""Needle direction at the start, hub to tip."""
+
+START_DEPTH: Final = -0.015
 """Where the needle waits: tip 15 mm above the skin [m]."""
 
 
@@ -63,53 +73,79 @@ def build_trainer(setup: TrainerSetup) -> Trainer:
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
-    profile, rig = device_of(setup.exercise), load_rig(setup.exercise.rig)
+    return _build(setup).trainer
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rig:
+    """What was built for one setup: the trainer and the parts behind it."""
+
+    setup: TrainerSetup
+    profile: DeviceProfile
+    loop: Loop
+    tracker: Tracker
+    trainer: Trainer
+
+    def place(self, placed: PlacedPlan) -> Rig:
+        """Take another plan: the trainer's aim, the effects' directions, the trainee's script.
+
+        Raises:
+            AcusError: if an attempt is running, or the trainee cannot follow the plan.
+        """
+        setup = replace(self.setup, placed=placed)
+        table = loop_table(setup, self.profile)
+        self.trainer.place(placed)
+        reopen = self.loop.is_open
+        self.loop.close()
+        self.loop.swap(table)
+        if reopen:
+            self.loop.open()
+        return replace(self, setup=setup)
+
+
+def _build(setup: TrainerSetup) -> Rig:
+    profile, cameras = device_of(setup.exercise), load_rig(setup.exercise.rig)
     loop = build_loop(setup, profile)
-    trainer: Trainer | None = None
-    tracker = build_tracker(loop, rig, profile, setup)
-    trainer = Trainer(
-        loop,
-        tracker,
-        setup.placed,
-        setup.exercise,
-        scorer(setup.exercise),
-        _context(setup, profile, rig),
+    scene = needle_scene(loop, profile, cameras.needle.marker_offset)
+    tracker = Tracker(
+        simulated_cameras(cameras, scene, setup.clock, setup.seed),
+        cameras,
         setup.clock,
+        axis=_measured_axis(loop),
+        fulcrum=profile.pantograph.fulcrum,
+        on_fix=lambda fix: trainer.on_fix(fix),
     )
+    context = _context(setup, profile, cameras)
+    trainer = Trainer(loop, tracker, setup.placed, setup.exercise, context, setup.clock)
+    tracker.events = trainer.events
     trainer.assistance(setup.exercise.assistance)
-    return trainer
+    return Rig(setup, profile, loop, tracker, trainer)
 
 
 def build_loop(setup: TrainerSetup, profile: DeviceProfile) -> Loop:
-    """Build the control loop of the simulated robot, with the effects the exercise calls for."""
-    axis = setup.placed.axis
-    start = (0.0, 0.0, -1.0)
-    plan = compile_exercise(setup.exercise, profile)
-    link = simulated_link(profile, [plant_stage(profile, start, START_DEPTH)])
-    if setup.skill is not None:
-        trainee = trainee_stage(axis, setup.placed.length, setup.skill, setup.seed)
-        link = type(link).of([trainee, *link.read], link.write)
-    laws: list[Triple] = [VirtualFixture.of(profile).stage()]
-    table = pantograph_stages(profile, laws, plan.stages(), link)
-    initial = initial_plant(profile, start, START_DEPTH)
+    """Build the control loop of the simulated robot, the needle waiting upright over the skin."""
+    initial = initial_plant(profile, UPRIGHT, START_DEPTH)
+    table = loop_table(setup, profile)
     loop = Loop(table, profile.rate_hz, setup.clock, initial=initial)
     loop.inbox.write(hand_depth=START_DEPTH, hand_holds=1.0)
     return loop
 
 
-def build_tracker(
-    loop: Loop, rig: RigProfile, profile: DeviceProfile, setup: TrainerSetup
-) -> Tracker:
-    """Build the tracker on two simulated cameras that look at the simulated needle."""
-    scene = needle_scene(loop, profile, rig.needle.marker_offset)
-    cameras = simulated_cameras(rig, scene, setup.clock, setup.seed)
-    return Tracker(cameras, rig, setup.clock, axis=_measured_axis(loop))
+def loop_table(setup: TrainerSetup, profile: DeviceProfile) -> Table:
+    """Table of a tick: trainee, encoders, fixture, the effects the exercise calls for, plant."""
+    exercise = setup.exercise.placed_as(setup.placed.placement)
+    link = simulated_link(profile, [plant_stage(profile, UPRIGHT, START_DEPTH)])
+    if setup.skill is not None:
+        placed = setup.placed
+        trainee = trainee_stage(placed.axis, placed.length, setup.skill, setup.seed)
+        link = Link.of([trainee, *link.read], link.write)
+    laws = [VirtualFixture.of(profile).stage()]
+    effects = compile_exercise(exercise, profile).stages()
+    return pantograph_stages(profile, laws, effects, link)
 
 
 def needle_scene(loop: Loop, profile: DeviceProfile, marker_offset: float) -> Scene:
-    """What the cameras see: the true needle of the simulated robot, not what its encoders say."""
-    from app.mechanisms.pantograph import system_forward
-
+    """Return what the cameras see: the true needle of the robot, not what its encoders say."""
     geometry = profile.pantograph
 
     def scene(_: float) -> MarkerScene:
@@ -151,3 +187,70 @@ def _context(setup: TrainerSetup, profile: DeviceProfile, rig: RigProfile) -> Ru
             for name, document in documents.items()
         ),
     )
+
+
+class Desktop:
+    """What the window asks for (`views.services.Services`), on the simulated devices.
+
+    Args:
+        skill: a scripted trainee inserts the needle instead of the mouse; None for the mouse.
+        seed: of everything random; None takes each exercise's own.
+        sessions: folder of the records.
+    """
+
+    def __init__(
+        self, skill: str | None = None, seed: int | None = None, sessions: Path | None = None
+    ) -> None:
+        self._skill, self._seed = skill, seed
+        self._sessions = sessions or paths.sessions()
+
+    def exercises(self) -> tuple[Exercise, ...]:
+        """Exercises to choose from, easiest first."""
+        return tuple(library())
+
+    def sessions(self) -> Path:
+        """Folder of the recorded attempts."""
+        return self._sessions
+
+    def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
+        """Build and start a trainer; called beside the window, may take seconds."""
+        progress.report(0.1, "compiling the loop")
+        seed = setup.exercise.seed if self._seed is None else self._seed
+        rig = _build(
+            TrainerSetup(setup.exercise, setup.placed, setup.ct, self._skill, seed, self._sessions)
+        )
+        progress.report(0.8, "starting robot and cameras")
+        rig.trainer.open()
+        return DesktopRun(rig)
+
+
+class DesktopRun:
+    """A trainer that runs for the window (`views.services.OpenRun`)."""
+
+    def __init__(self, rig: Rig) -> None:
+        self._rig = rig
+
+    @property
+    def run(self) -> ExerciseRun:
+        """What its views need."""
+        from app.views.exercise.pad_view import rings  # Qt only for who has a window
+        from app.views.exercise.run import ExerciseRun
+
+        setup = self._rig.setup
+        return ExerciseRun(
+            self._rig.trainer,
+            setup.placed,
+            self._rig.profile,
+            interactive=setup.skill is None,
+            rings=rings(setup.exercise.tolerances),
+            pictures=self._rig.tracker.pictures,
+        )
+
+    def place(self, placed: PlacedPlan) -> ExerciseRun:
+        """Take another plan and return the run with it."""
+        self._rig = self._rig.place(placed)
+        return self.run
+
+    def close(self) -> None:
+        """End everything at zero force; idempotent."""
+        self._rig.trainer.close()

@@ -1,6 +1,7 @@
 """The scripted trainee as a stage of the tick: plays a script into HAND_* and TRAINEE_PHASE.
 
-It runs on TIME since its first tick, so a run is the same on every machine and at every rate.
+It runs on TIME since the attempt was armed, so a run is the same on every machine and at every
+rate; it begins afresh with every attempt.
 """
 
 from typing import Final
@@ -70,6 +71,9 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     """Write the wanted direction and depth, that the hand holds, and the phase."""
     time = state[sv.TIME]
     if not np.isfinite(time):
+        return
+    if not state[sv.ENABLED] > 0.0:  # between attempts the hand stays as it is told
+        parameters[START] = np.nan
         return
     if np.isnan(parameters[START]):
         parameters[START] = time

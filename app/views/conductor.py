@@ -78,6 +78,11 @@ class Conductor(QObject):
         self._runs.failed.connect(self.failed)
         self.controller.snapshot_taken.connect(self.show_snapshot)
 
+    @property
+    def settled(self) -> bool:
+        """Whether nothing is being worked out any more: surfaces extracted, robot and cameras on."""
+        return self._surfaces_task is None and self.controller.run is not None
+
     # --- patient and exercise -----------------------------------------------------------------
     def set_patient(self, patient: Patient) -> None:
         """Show another patient with the plan that belongs to it, or with none."""

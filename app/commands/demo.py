@@ -1,0 +1,94 @@
+"""`acus demo`: a whole exercise shown by a scripted trainee."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from app.session.result import AttemptResult
+    from app.views.demonstration import Script
+
+
+class SkillName(StrEnum):
+    """Skills of the scripted trainee."""
+
+    NOVICE = "novice"
+    EXPERT = "expert"
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("demo")(demo)
+
+
+def demo(
+    ct: Annotated[
+        Path | None, typer.Option("--ct", help="Folder of a CT; default: the built-in patient.")
+    ] = None,
+    headless: Annotated[
+        bool, typer.Option("--headless", help="Draw into memory; needs no display.")
+    ] = False,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="Folder for pictures, session and report.")
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Seed of everything random.", min=0)] = 1,
+    skill: Annotated[SkillName, typer.Option(help="Skill of the scripted trainee.")] = (
+        SkillName.EXPERT
+    ),
+) -> None:
+    """Show a whole exercise: patient, plan, guided insertion, score, debrief.
+
+    Without a display it runs as with --headless.
+    """
+    from app.views.application import has_display
+
+    hidden = headless or not has_display()
+    folder = out or (Path("out") / "demo" if hidden else None)
+    _show(ct, hidden, folder, seed, skill)
+
+
+def _show(ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: SkillName) -> None:
+    from app.compose import Desktop
+    from app.core.errors import AcusError
+    from app.imaging.errors import ImagingError
+    from app.views.application import start
+    from app.views.demonstration import Demonstration, Script
+    from app.views.window import MainWindow
+
+    if ct is not None and not ct.is_dir():
+        raise ImagingError(f"there is no folder {ct}; give the folder of a CT series")
+    application = start(offscreen=hidden)
+    sessions = None if out is None else out / "sessions"
+    window = MainWindow(Desktop(skill.value, seed, sessions))
+    script = Script(ct=ct, pictures=out)
+    show = Demonstration(window, script)
+    failures: list[str] = []
+    show.told.connect(lambda text: typer.echo(f"{text} …"))
+    show.failed.connect(failures.append)
+    show.finished.connect(lambda result: _tell(result, script))
+    if hidden:
+        show.failed.connect(lambda _: application.exit(2))
+        show.finished.connect(lambda _: application.quit())
+    window.show()
+    show.start()
+    code = application.exec()
+    window.close()
+    if failures and hidden:
+        raise AcusError(failures[0])
+    raise typer.Exit(code)
+
+
+def _tell(result: AttemptResult, script: Script) -> None:
+    score = result.score
+    if score is not None:
+        for row in score.rows:
+            value = "–" if row.value is None else f"{row.value:.2f} {row.unit}"
+            typer.echo(f"  {row.label:<28} {value}")
+        total = "void" if score.total is None else f"{score.total:.0f} of 100"
+        typer.echo(f"  {'Score':<28} {total}, {'passed' if score.passed else 'not passed'}")
+    if script.pictures is not None:
+        typer.echo(f"pictures, report and session are in {script.pictures}")

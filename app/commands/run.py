@@ -1,0 +1,32 @@
+"""`acus run`: the trainer."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("run")(run)
+
+
+def run(
+    ct: Annotated[
+        Path | None, typer.Option("--ct", help="Folder of a CT to open; default: the start page.")
+    ] = None,
+    exercise: Annotated[str, typer.Option(help="Exercise to begin with.")] = "",
+) -> None:
+    """Open the trainer; the mouse moves a simulated hand."""
+    from app.compose import Desktop
+    from app.views.application import start
+    from app.views.window import MainWindow
+
+    application = start()
+    window = MainWindow(Desktop())
+    window.show()
+    if exercise:
+        window.begin_exercise(exercise)
+    if ct is not None:
+        window.open_ct.open_folder(ct)
+    raise typer.Exit(application.exec())

@@ -1,0 +1,57 @@
+"""Starting Qt: one application, its theme and its language."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+
+from app import __version__
+from app.core.errors import AcusError
+from app.views.text import install_translation
+from app.views.theme import apply_theme
+
+
+class NoDisplayError(AcusError):
+    """A window was asked for where there is no screen."""
+
+
+def has_display() -> bool:
+    """Whether a window can be shown: a display server, or another platform than X and Wayland."""
+    if os.environ.get("QT_QPA_PLATFORM"):
+        return True
+    if sys.platform != "linux":
+        return True
+    return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def start(offscreen: bool = False) -> QApplication:
+    """Return the application, with theme and translation; Ctrl+C in the terminal ends it.
+
+    Args:
+        offscreen: draw into memory, without a display.
+
+    Raises:
+        NoDisplayError: if a window is wanted and there is no display.
+    """
+    if offscreen:
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    elif not has_display():
+        raise NoDisplayError(
+            "there is no display (DISPLAY is not set); start it on a desktop,"
+            " or run `acus demo --headless`"
+        )
+    application = QApplication(sys.argv[:1])
+    application.setApplicationName("acus")
+    application.setApplicationDisplayName("Acus")
+    application.setApplicationVersion(__version__)
+    apply_theme(application)
+    install_translation(application)
+    signal.signal(signal.SIGINT, lambda *_: application.quit())
+    awake = QTimer(application, interval=200)  # lets Python see the signal
+    awake.timeout.connect(lambda: None)
+    awake.start()
+    return application

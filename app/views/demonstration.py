@@ -1,0 +1,169 @@
+"""A whole exercise shown in the window by itself: patient, plan, attempt, debrief.
+
+It presses what a user would press. With a folder for pictures it leaves one of each moment there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from app.core import state_vector as sv
+from app.core.errors import AcusError
+from app.planning.placement import Placement
+from app.planning.proposal import demonstration_plan
+from app.session.machine import State
+from app.session.needle import DepthSource
+from app.session.result import AttemptResult
+from app.session.snapshot import Snapshot
+from app.views.debrief.report import write_report
+from app.views.debrief.review import review_of_result
+from app.views.window import MainWindow
+
+PERIOD_MS: Final = 50
+PATIENCE_S: Final = 300.0
+"""A step that takes longer than this has failed (a first start compiles every kernel)."""
+
+TRAINEE_DONE: Final = 9.0
+
+
+@dataclass(frozen=True, slots=True)
+class Script:
+    """What is demonstrated.
+
+    Attributes:
+        exercise: identifier of the exercise.
+        ct: folder of another CT; None for the exercise's own patient.
+        student: pseudonym.
+        pictures: folder for pictures and report; None for none.
+    """
+
+    exercise: str = "first-insertion"
+    ct: Path | None = None
+    student: str = "demo"
+    pictures: Path | None = None
+
+
+class Demonstration(QObject):
+    """Leads a window through one attempt.
+
+    Signals:
+        told(str): what is happening, one line.
+        finished(AttemptResult): the debrief is on screen, everything is written.
+        failed(str): why it ended early.
+    """
+
+    told = Signal(str)
+    finished = Signal(object)
+    failed = Signal(str)
+
+    def __init__(self, window: MainWindow, script: Script, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._window, self._script = window, script
+        self._timer = QTimer(self, interval=PERIOD_MS)
+        self._timer.timeout.connect(self._look)
+        self._step: Callable[[], bool] = self._patient_is_open
+        self._waited = 0.0
+        self._taken: set[str] = set()
+        self._result: AttemptResult | None = None
+        window.conductor.controller.finished.connect(self._take_result)
+        for failure in (
+            window.open_ct.failed,
+            window.conductor.failed,
+            window.conductor.controller.failed,
+        ):
+            failure.connect(self._stop)
+
+    def start(self) -> None:
+        """Begin; the rest follows by itself."""
+        self.told.emit("opening the patient")
+        if self._script.ct is None:
+            self._window.begin_exercise(self._script.exercise)
+        else:
+            self._window.open_ct.open_folder(self._script.ct)
+        self._timer.start()
+
+    # --- steps: each says whether it is over ----------------------------------------------------
+    def _patient_is_open(self) -> bool:
+        patient = self._window.conductor.patient
+        if patient is None:
+            return False
+        if self._script.ct is not None:
+            self.told.emit("no plan comes with this CT: taking a demonstration path")
+            plan = demonstration_plan(patient.volume, patient.body)
+            self._window.editor.start(plan, Placement())
+            self._window.workspace.viewing.set_cursor(plan.target_mm)
+        return self._then("waiting for robot, cameras and surfaces", self._everything_runs)
+
+    def _everything_runs(self) -> bool:
+        snapshot = self._snapshot()
+        if snapshot is None or snapshot.pose.depth_source is not DepthSource.TRACKED:
+            return False
+        if not self._window.conductor.settled:
+            return False
+        self._picture("1-plan")
+        self._window.workspace.exercise_panel.start_requested.emit(self._script.student)
+        return self._then("attempt", self._needle_is_in)
+
+    def _needle_is_in(self) -> bool:
+        snapshot = self._snapshot()
+        if snapshot is None or snapshot.device is None:
+            return False
+        length = snapshot.pose.depth + snapshot.offset.remaining
+        if snapshot.state is State.ALIGNING and snapshot.elapsed > 3.0:
+            self._picture("2-aligning")
+        if snapshot.pose.depth > 0.5 * length:
+            self._picture("3-inserting")
+        if snapshot.device.row[sv.TRAINEE_PHASE] != TRAINEE_DONE:
+            return False
+        self._picture("4-at-the-target")
+        self._window.conductor.controller.end()
+        return self._then("scoring", self._debrief_is_shown)
+
+    def _debrief_is_shown(self) -> bool:
+        if self._result is None or self._waited < 1.0:
+            return False
+        self._picture("5-debrief")
+        folder = self._script.pictures
+        if folder is not None:
+            write_report(review_of_result(self._result), folder / "report.pdf")
+        self._timer.stop()
+        self.finished.emit(self._result)
+        return True
+
+    # --- helpers --------------------------------------------------------------------------------
+    def _look(self) -> None:
+        self._waited += PERIOD_MS * 1e-3
+        try:
+            if not self._step() and self._waited > PATIENCE_S:
+                self._stop(f"nothing has happened for {PATIENCE_S:g} s")
+        except AcusError as error:
+            self._stop(str(error))
+
+    def _then(self, text: str, step: Callable[[], bool]) -> bool:
+        self._step, self._waited = step, 0.0
+        self.told.emit(text)
+        return True
+
+    def _stop(self, reason: object) -> None:
+        if self._timer.isActive():
+            self._timer.stop()
+            self.failed.emit(str(reason))
+
+    def _take_result(self, result: AttemptResult) -> None:
+        self._result, self._waited = result, 0.0
+
+    def _snapshot(self) -> Snapshot | None:
+        run = self._window.conductor.controller.run
+        return None if run is None else run.trainer.snapshot()
+
+    def _picture(self, name: str) -> None:
+        if self._script.pictures is None or name in self._taken:
+            return
+        self._taken.add(name)
+        self._script.pictures.mkdir(parents=True, exist_ok=True)
+        self._window.grab().save(str(self._script.pictures / f"{name}.png"))
