@@ -69,7 +69,7 @@ class PlanEditor(QObject):
         self._profile: DeviceProfile | None = None
         self.path: Path | None = None
         self.locked = False
-        self._fresh = True  # no point of the present gesture was accepted yet
+        self._fresh = True  # the present gesture has changed nothing yet
         self.verdict = Verdict(None)
 
     # --- what is there ------------------------------------------------------------------------
@@ -141,6 +141,8 @@ class PlanEditor(QObject):
             self.refused.emit(str(error))
             return
         edit = replace(self.edit, draft=draft)
+        if edit == self.edit:
+            return
         self._history = self._history.do(edit) if self._fresh else self._history.amend(edit)
         self._fresh = False
         self._announce()

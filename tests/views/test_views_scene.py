@@ -1,0 +1,258 @@
+import threading
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtTest import QSignalSpy, QTest
+
+from app.core.progress import Cancelled, Progress
+from app.core.transform import RigidTransform
+from app.imaging.body import find_body
+from app.mechanisms.pantograph import inverse
+from app.mechanisms.profile import load_profile
+from app.planning.draft import DraftPlan
+from app.views.needle_overlay import NeedleOverlay
+from app.views.scene.compass import compass_ends
+from app.views.scene.mesh import coarser, isosurface
+from app.views.scene.orbit import Orbit
+from app.views.scene.renderer import SceneRenderer, Shot
+from app.views.scene.robot import RobotShape
+from app.views.scene.stage import SceneError, Stage
+from app.views.scene.surfaces import Surfaces, extract_surfaces, reduced
+from app.views.scene.view import SceneView
+
+SIZE = (120, 90)
+
+
+def ball(radius=10.0, n=30):
+    grid = np.indices((n, n, n)) - (n - 1) / 2
+    return (radius - np.sqrt((grid**2).sum(axis=0))).astype(np.float32)
+
+
+@pytest.fixture(scope="module")
+def surfaces():
+    mesh = isosurface(ball(), np.eye(4), 0.0, 4000)
+    return Surfaces(mesh, coarser(mesh, 300), mesh, coarser(mesh, 300))
+
+
+@pytest.mark.parametrize("mirror", [1.0, -1.0])
+def test_a_surface_faces_outwards_whether_or_not_the_grid_is_mirrored(mirror):
+    mesh = isosurface(ball(), np.diag([1.0, 1.0, mirror, 1.0]), 0.0, 100_000)
+    outwards = mesh.points - mesh.points.mean(axis=0)
+    assert (np.einsum("ij,ij->i", mesh.normals, outwards) > 0).all()
+    corners = mesh.points[mesh.triangles]
+    facing = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    middles = corners.mean(axis=1) - mesh.points.mean(axis=0)
+    assert (np.einsum("ij,ij->i", facing, middles) > 0).all()
+
+
+def test_a_surface_lies_at_its_level_and_within_its_bound():
+    mesh = isosurface(ball(), np.eye(4), 0.0, 1000)
+    radius = np.linalg.norm(mesh.points - 14.5, axis=1)
+    assert mesh.count <= 1000
+    assert_allclose(radius, 10.0, atol=0.5)
+    assert coarser(mesh, 200).count <= 200
+
+
+def test_an_empty_volume_gives_an_empty_surface():
+    mesh = isosurface(np.zeros((5, 5, 5), np.float32), np.eye(4), 0.5, 100)
+    assert mesh.count == 0
+    assert coarser(mesh, 10).count == 0
+
+
+def test_block_means_keep_their_place(volume):
+    values = np.broadcast_to(np.arange(volume.size[0], dtype=float), volume.hu.shape)
+    small, affine = reduced(values, volume, 4.0)
+    middle = small[5, 5, 6]
+    place = affine @ [6, 5, 5, 1]
+    assert volume.voxel(place[:3])[0] == pytest.approx(middle, abs=0.01)
+
+
+def test_skin_and_bone_of_a_block_stay_where_the_block_is(volume):
+    found = extract_surfaces(volume, find_body(volume), Progress())
+    low, high = found.skin.points.min(axis=0), found.skin.points.max(axis=0)
+    corners = volume.lps_mm([(9.5, 11.5, 1.5), (53.5, 47.5, 37.5)])
+    assert_allclose(low, corners[0], atol=3.0)
+    assert_allclose(high, corners[1], atol=3.0)
+    assert found.bone.count > 0
+    assert found.count <= 200_000
+
+
+def test_extraction_can_be_cancelled(volume):
+    progress = Progress()
+    progress.cancel()
+    with pytest.raises(Cancelled):
+        extract_surfaces(volume, find_body(volume), progress)
+
+
+@given(st.lists(st.tuples(st.floats(-500, 500), st.floats(-500, 500)), max_size=20))
+@settings(derandomize=True, deadline=None, max_examples=50)
+def test_the_eye_stays_square_however_it_is_turned(turns):
+    orbit = Orbit.look_from("A", np.zeros(3), 100.0)
+    for right, down in turns:
+        orbit = orbit.turned(right, down)
+    basis = np.array([orbit.right, orbit.up, orbit.backwards])
+    assert_allclose(basis @ basis.T, np.eye(3), atol=1e-9)
+
+
+@pytest.mark.parametrize("letter", list("APLRSI"))
+def test_each_letter_points_at_the_viewer_on_its_own_side(letter):
+    orbit = Orbit.look_from("A", np.zeros(3), 100.0).seen_from(letter)
+    assert compass_ends(orbit)[-1][0] == letter
+
+
+def test_the_line_of_sight_through_the_middle_goes_through_the_focus():
+    focus = np.array([1.0, 2.0, 3.0])
+    orbit = Orbit.look_from("L", focus, 50.0).turned(30, 20)
+    point, direction = orbit.ray(50.0, 40.0, (100, 80))
+    assert_allclose(point, focus, atol=1e-12)
+    assert_allclose(direction, -orbit.backwards)
+    assert_allclose(orbit.ray(50, 0, (100, 80))[0], focus + 50.0 * orbit.up, atol=1e-12)
+
+
+def test_the_links_have_their_lengths_and_meet_at_the_tool():
+    geometry = load_profile("icube").pantograph
+    shape = RobotShape.of(geometry, inverse(geometry, [0.01, 0.15]))
+    lengths = [np.linalg.norm(end - start) for start, end in shape.links()]
+    expected = [geometry.base, *[geometry.proximal] * 2, *[geometry.distal] * 2]
+    assert_allclose(lengths, expected, atol=1e-9)
+    assert_allclose(shape.tool, [0.01, 0.15, 0.0], atol=1e-9)
+
+
+@pytest.mark.parametrize("q", [None, [np.nan, 1.0], [np.inf, 0.0]])
+def test_without_usable_angles_only_the_base_is_drawn(q):
+    shape = RobotShape.of(load_profile("icube").pantograph, q)
+    assert len(shape.links()) == 1
+
+
+def test_angles_that_do_not_close_show_the_driven_links_only():
+    geometry = load_profile("icube").pantograph
+    shape = RobotShape.of(geometry, [np.pi, 0.0])
+    assert len(shape.links()) in (3, 5)
+    assert all(np.isfinite(point).all() for rod in shape.links() for point in rod)
+
+
+@pytest.fixture
+def stage():
+    stage = Stage()
+    stage.open()
+    yield stage
+    stage.close()
+    stage.close()
+
+
+def test_a_picture_shows_what_stands_on_the_stage(stage, surfaces):
+    orbit = Orbit.look_from("A", np.full(3, 14.5), 20.0)
+    empty = stage.render(orbit, SIZE, moving=False)
+    assert empty.shape == (90, 120, 4)
+    assert empty[:, :, :3].max() == 0
+    stage.set_surfaces(surfaces)
+    for moving in (False, True):
+        shown = stage.render(orbit, SIZE, moving)
+        assert shown[45, 60, :3].max() > 60
+        assert shown[2, 2, :3].max() == 0
+    stage.set_surfaces(None)
+    assert stage.render(orbit, SIZE, moving=False)[:, :, :3].max() == 0
+
+
+def test_needle_plan_and_robot_appear_and_go(stage):
+    orbit = Orbit.look_from("A", np.zeros(3), 60.0)
+    stage.set_needle(NeedleOverlay([0, 0, 50], [0, 0, 0]))
+    upper = stage.render(orbit, SIZE, False)[20, 55:65, :3].astype(int)
+    assert (upper[:, 0] > upper[:, 2] + 60).any()  # orange
+    stage.set_needle(None)
+    assert stage.render(orbit, SIZE, False)[:, :, :3].max() == 0
+    stage.set_plan(DraftPlan((0, 0, 20), (0, 0, -20)))
+    assert stage.render(orbit, SIZE, False)[:, :, :3].max() > 60
+    stage.set_plan(DraftPlan())
+    geometry = load_profile("icube").pantograph
+    robot = RobotShape.of(geometry, inverse(geometry, [0.0, 0.15]))
+    stage.set_robot(robot, RigidTransform.from_translation([0.0, 0.0, -0.1]))
+    assert stage.render(Orbit.look_from("S", np.zeros(3), 300.0), SIZE, False)[:, :, :3].max() > 60
+    stage.set_robot(None, RigidTransform.identity())
+    assert stage.render(orbit, SIZE, False)[:, :, :3].max() == 0
+
+
+def test_a_needle_without_length_is_not_drawn(stage):
+    stage.set_needle(NeedleOverlay([0, 0, 0], [0, 0, 0]))
+    assert np.isfinite(stage.render(Orbit.look_from("A", np.zeros(3), 9.0), SIZE, False)).all()
+
+
+def test_a_closed_stage_says_so():
+    with pytest.raises(SceneError, match="closed"):
+        Stage().render(Orbit.look_from("A", np.zeros(3), 10.0), SIZE, False)
+
+
+def shot(half=20.0, moving=False):
+    return Shot(Orbit.look_from("A", np.full(3, 14.5), half), SIZE, moving)
+
+
+def test_the_render_thread_answers_with_the_newest_request(surfaces):
+    renderer = SceneRenderer()
+    renderer.open()
+    renderer.open()
+    renderer.change("surfaces", lambda stage: stage.set_surfaces(None))
+    renderer.change("surfaces", lambda stage: stage.set_surfaces(surfaces))
+    for half in (500.0, 100.0, 20.0):
+        renderer.request(shot(half))
+    assert renderer.wait(20.0)
+    picture = renderer.take()
+    assert picture is not None
+    assert picture[45, 60, :3].max() > 60
+    assert renderer.take() is None
+    renderer.close()
+    renderer.close()
+    assert not [t for t in threading.enumerate() if t.name == "acus-scene"]
+
+
+def test_a_fault_in_the_3d_view_is_told_and_stops_only_it():
+    renderer = SceneRenderer()
+    renderer.open()
+
+    def broken(_):
+        raise SceneError("the graphics are gone")
+
+    renderer.change("x", broken)
+    renderer.request(shot())
+    assert renderer.wait(10.0)
+    assert renderer.error == "the graphics are gone"
+    renderer.close()
+
+
+@pytest.fixture
+def view(application, surfaces, volume):
+    view = SceneView(SceneRenderer())
+    view.resize(*SIZE)
+    view.set_volume(volume)
+    view.set_surfaces(surfaces)
+    view.show()
+    yield view
+    view.close_renderer()
+
+
+def test_the_pane_shows_a_picture_of_its_own_size(view, settle):
+    assert settle(lambda: not view.picture().isNull(), 20.0)
+    assert settle(lambda: view.picture().width() == view.width(), 5.0)
+    assert view.grab().width() == view.width()
+
+
+def test_mouse_and_keys_turn_pan_zoom_and_reset(view):
+    home = view.orbit
+    view.set_orbit(home.turned(40, 0))
+    QTest.keyClick(view, Qt.Key.Key_S)
+    assert_allclose(view.orbit.backwards, [0, 0, 1], atol=1e-12)
+    QTest.keyClick(view, "r")
+    assert_allclose(view.orbit.backwards, home.backwards)
+    assert view.orbit.panned(10, 0, 90).focus_mm[0] < home.focus_mm[0]
+    assert home.zoomed(2.0).half_height_mm == pytest.approx(home.half_height_mm / 2)
+
+
+def test_a_click_in_place_gives_the_line_of_sight(view):
+    spy = QSignalSpy(view.clicked)
+    QTest.mouseClick(view, Qt.MouseButton.LeftButton, pos=QPointF(60, 45).toPoint())
+    point, direction = spy.at(0)
+    assert_allclose(direction, -view.orbit.backwards)
+    assert np.linalg.norm(point - view.orbit.focus_mm) < 5.0
