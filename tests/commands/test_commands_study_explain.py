@@ -1,0 +1,51 @@
+"""`acus study` and `acus explain`."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from app.commands import build
+from app.core.errors import AcusError
+
+RUN = CliRunner()
+
+
+def test_studies_are_listed() -> None:
+    done = RUN.invoke(build(), ["study", "list", "--json"])
+    assert done.exit_code == 0
+    assert {row["name"] for row in json.loads(done.stdout)} >= {
+        "lateral_tissue",
+        "slice_interpolation",
+    }
+
+
+def test_a_study_prints_json_and_writes_table_and_picture(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    arguments = ["study", "lateral_tissue", "--json", "--repeats", "1", "--out", str(tmp_path)]
+    done = RUN.invoke(build(), arguments)
+    assert done.exit_code == 0
+    assert json.loads(done.stdout)["study"] == "lateral_tissue"
+    assert {path.suffix for path in tmp_path.iterdir()} == {".csv", ".json", ".png"}
+
+
+def test_an_unknown_study_or_exercise_is_refused_with_the_known_names() -> None:
+    for arguments in (["study", "nothing"], ["explain", "nothing"]):
+        with pytest.raises(AcusError, match="there are"):
+            RUN.invoke(build(), arguments, catch_exceptions=False)
+
+
+def test_explain_says_what_is_simulated_why_and_at_what_cost() -> None:
+    done = RUN.invoke(build(), ["explain", "first-insertion", "--json"])
+    assert done.exit_code == 0
+    document = json.loads(done.stdout)
+    assert {row["effect"] for row in document["simulated"]} == {"lateral_tissue", "shaft_friction"}
+    assert all(row["cost_ns"] > 0.0 and row["why"] for row in document["simulated"])
+    assert document["dropped"][0]["effect"] == "breathing"
+
+
+def test_explain_for_the_real_robot_drops_what_it_cannot_render() -> None:
+    done = RUN.invoke(build(), ["explain", "first-insertion", "--real"])
+    assert done.exit_code == 0
+    assert "shaft_friction\n    dropped: it writes axial_force" in done.stdout

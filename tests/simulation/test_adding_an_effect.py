@@ -1,0 +1,78 @@
+"""An effect is added just the way docs/architecture.md says: the file on the page, nothing else."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.core import state_vector as sv
+from app.simulation import effects
+from app.simulation.compiler import compile
+from app.simulation.consumers import DevicePort
+from app.simulation.errors import SimulationError
+from app.simulation.registry import declaration, effect_names
+from app.simulation.scene import EffectRequest, Scene
+
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "architecture.md"
+
+
+def from_the_page(heading: str) -> tuple[str, str]:
+    """Name and content of the file that a section of the page says to save."""
+    section = PAGE.read_text(encoding="utf-8").split(f"## {heading}\n")[1].split("\n## ")[0]
+    name = re.search(r"Save this as\s+`[\w/]+/(\w+\.py)`", section)
+    code = re.search(r"```python\n(.*?)```", section, re.DOTALL)
+    assert name is not None
+    assert code is not None
+    return name.group(1), code.group(1)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(effects, "__path__", [*effects.__path__, str(tmp_path)])
+    return tmp_path
+
+
+def test_an_effect_is_added_just_the_way_the_page_says(folder: Path) -> None:
+    name, code = from_the_page("How to add an effect")
+    (folder / name).write_text(code, encoding="utf-8")
+    assert "hand_tremor" in effect_names()
+    scene = Scene(effects=(EffectRequest("hand_tremor", {"amplitude": 0.3}),))
+    plan = compile(scene, DevicePort("icube"))
+    assert plan.kept[0].parameters == {"amplitude": 0.3, "frequency": 9.0}
+    state = sv.empty_state()
+    state[sv.TIME] = 0.01
+    for _, function, parameters in plan.stages():
+        function(state, parameters)
+    assert state[sv.FORCE_X] == pytest.approx(0.3 * np.sin(2.0 * np.pi * 0.09))
+
+
+@pytest.mark.parametrize(
+    ("code", "message"),
+    [
+        ("x = 1\n", "has no DECLARATION"),
+        ("DECLARATION = {'title': f()}\n", "is not a literal"),
+        ("DECLARATION = {'title': ''}\n", "must have exactly the keys"),
+        ("def\n", "cannot be read"),
+    ],
+)
+def test_a_broken_effect_file_is_named(folder: Path, code: str, message: str) -> None:
+    (folder / "broken.py").write_text(code, encoding="utf-8")
+    with pytest.raises(SimulationError, match=message):
+        declaration("broken")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"force_x"', '"force_w"', "'force_w' is not a slot"),
+        ("class HandTremor", "class Tremor", "has no dataclass HandTremor"),
+        ("amplitude: float = 0.2", "amplitude: float = np.pi", "no literal number as default"),
+        ("amplitude: float = 0.2", "size: float = 0.2", "differ in"),
+    ],
+)
+def test_a_wrong_declaration_is_named(folder: Path, old: str, new: str, message: str) -> None:
+    name, code = from_the_page("How to add an effect")
+    (folder / name).write_text(code.replace(old, new), encoding="utf-8")
+    with pytest.raises(SimulationError, match=message):
+        declaration("hand_tremor")
