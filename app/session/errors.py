@@ -11,6 +11,10 @@ class IllegalTransitionError(SessionError):
     """An event that the attempt's state does not know; the message names the legal ones."""
 
 
+class NotReadyError(SessionError):
+    """The robot's loop has not reported yet (its kernels are being loaded)."""
+
+
 class RecordingError(SessionError):
     """A record cannot be written (disk full, folder not writable, name already taken)."""
 

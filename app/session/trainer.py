@@ -12,6 +12,7 @@ from app.core.latest import Latest
 from app.planning.placement import PlacedPlan
 from app.session.attempt_log import AttemptLog
 from app.session.context import RunContext
+from app.session.errors import NotReadyError
 from app.session.fixes import Fixes
 from app.session.inputs import LoopInputs
 from app.session.machine import Event
@@ -126,9 +127,12 @@ class Trainer:
 
         Raises:
             IllegalTransitionError: if an attempt is running.
+            NotReadyError: if loop and ticker were opened but the loop has not run its first tick.
         """
         with self._lock:
             self._running.require_idle("an attempt cannot begin")
+            if self._ticker is not None and self._loop.latest().tick == 0:
+                raise NotReadyError("the robot is still starting: begin once it reports its pose")
             self._prepare()
             now = self._clock.now()
             log = self._new_log(student, now)

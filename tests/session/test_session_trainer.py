@@ -13,7 +13,7 @@ from app.core.errors import NumericalError
 from app.core.events import Event
 from app.core.transform import rotation_between
 from app.planning.placement import PlacedPlan, Placement
-from app.session.errors import IllegalTransitionError, SessionError
+from app.session.errors import IllegalTransitionError, NotReadyError, SessionError
 from app.session.machine import State
 from app.session.recording import read_recording
 from app.session.store import list_sessions
@@ -294,6 +294,9 @@ def test_open_and_close_start_and_stop_everything_once(tmp_path: Path) -> None:
     bench.trainer.open()
     assert (bench.loop.opened, bench.tracker.opened) == (1, 1)
     assert any(thread.name == "acus-ticker" for thread in threading.enumerate())
+    with pytest.raises(NotReadyError, match="still starting"):
+        bench.trainer.begin()
+    bench.loop.step(20)
     bench.trainer.begin()
     bench.trainer.close()
     bench.trainer.close()
