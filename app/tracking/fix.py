@@ -16,6 +16,7 @@ from app.tracking.stereo import StereoStatus, Triangulation, Way, covariance_rad
 GATE = 1e-5
 """Probability with which a good fix is refused by the consistency check."""
 
+_GROSS_PX = 2.0
 _LINE_LIMIT = float(chi2.ppf(1.0 - GATE, 2))
 _RESIDUAL_LIMIT = float(chi2.ppf(1.0 - GATE, 1))
 
@@ -169,14 +170,16 @@ class FixSolver:
 
     def _contradiction(self, found: Triangulation, axis: FloatArray) -> str:
         """Why the point cannot be the marker; empty if it can."""
-        if found.chi_square > _RESIDUAL_LIMIT:
-            residual = self._residual_px(found)
-            return f"the pictures disagree by {residual:.1f} px: two red things, or a moved camera"
+        residual = self._residual_px(found)
         offset = found.p_world - self._fulcrum
         across = np.eye(3) - np.outer(axis, axis)
         beside = across @ offset
         spread = across @ found.covariance @ across + self._line_variance * np.eye(3)
-        if float(beside @ np.linalg.solve(spread, beside)) > _LINE_LIMIT:
+        off_line = float(beside @ np.linalg.solve(spread, beside)) > _LINE_LIMIT
+        apart = found.chi_square > _RESIDUAL_LIMIT
+        if apart and (residual > _GROSS_PX or not off_line):
+            return f"the pictures disagree by {residual:.1f} px: two red things, or a moved camera"
+        if off_line:  # a wrong axis also spoils the outline correction, by a pixel at most
             distance = float(np.linalg.norm(beside)) / MILLIMETRE
             return f"the marker seems {distance:.1f} mm beside the needle's line"
         return ""

@@ -47,10 +47,10 @@ class MarkerFollower:
                 sightings.append(Sighting.of(marker))
         return sightings[0], sightings[1]
 
-    def forget(self) -> None:
+    def doubt(self) -> None:
         """Search the whole pictures next time."""
         for track in self._tracks:
-            track.forget()
+            track.doubt()
 
     def _search(
         self,

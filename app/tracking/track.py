@@ -18,18 +18,24 @@ class PixelTrack:
 
     def __init__(self) -> None:
         self._fixes: list[tuple[float, MarkerFix]] = []
+        self._doubted = False
 
     def add(self, time: float, marker: MarkerFix | None) -> None:
         """Remember a find; a picture without the marker ends the track."""
         self._fixes = [] if marker is None else [*self._fixes[-1:], (time, marker)]
+        self._doubted = False
 
-    def forget(self) -> None:
-        """End the track: the next search looks at the whole picture."""
-        self._fixes = []
+    def doubt(self) -> None:
+        """Predict nothing next time, so that the whole picture is searched.
+
+        The finds are kept: with unsynchronised cameras the first pair of a moving needle always
+        looks inconsistent, until there are two finds to interpolate between.
+        """
+        self._doubted = True
 
     def predict(self, time: float) -> FloatArray | None:
         """Pixel where the marker should be at `time` [s], at constant speed; None if lost."""
-        if not self._fixes:
+        if not self._fixes or self._doubted:
             return None
         last_time, last = self._fixes[-1]
         if not 0.0 <= time - last_time <= _GAP:

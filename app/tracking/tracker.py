@@ -119,7 +119,7 @@ class Tracker:
         sightings = self._follower.sightings(frames, markers, time)
         fix = self._solver.solve(sightings, axis, time)
         if fix.status is FixStatus.INCONSISTENT:
-            self._follower.forget()
+            self._follower.doubt()
         self._show(frames, markers)
         return self._without_picture(fix, frames)
 

@@ -53,12 +53,12 @@ def test_the_reprojection_jacobian_agrees_with_finite_differences(thesis):
 @pytest.mark.parametrize("name", ["wide", "thesis"])
 def test_the_covariance_agrees_with_monte_carlo(name, request):
     poses = _poses(request.getfixturevalue(name))
-    p = FULCRUM + [0.01, -0.015, -0.07]
+    p = FULCRUM + np.array([0.01, -0.015, -0.07])
     exact = _observe(poses, p)
     rng = np.random.default_rng(11)
     roots = np.linalg.cholesky(SIGMA)
     points = []
-    for _ in range(4000):
+    for _ in range(2500):
         noisy = exact + np.einsum("kij,kj->ki", roots, rng.standard_normal((2, 2)))
         points.append(triangulate(poses, noisy, SIGMA).p_world)
     sample = np.cov(np.array(points).T)

@@ -1,0 +1,152 @@
+"""Tracker against the thesis' extractor: stereo pairs a second on one core, and error of the tip.
+
+Both sides get the same rendered pictures (640x480, 4 grey levels of noise). A pair is: marker in
+both pictures, undistortion, triangulation, covariance, consistency; rendering is not timed. Run as
+`python -m tests.bench.bench_tracker`.
+"""
+
+import os
+import time
+
+import cv2
+import numpy as np
+
+from app.core.clock import VirtualClock
+from app.tracking.camera import Frame
+from app.tracking.fix import FixStatus, NeedleFix
+from app.tracking.marker import Extractor
+from app.tracking.picture_effects import NoiseTile, noise
+from app.tracking.rig import RigProfile, load_rig
+from app.tracking.scene import MarkerScene
+from app.tracking.simulated import NeedleRenderer, simulated_cameras
+from app.tracking.thesis_marker import ThesisMarker
+from app.tracking.tracker import Tracker
+
+FULCRUM = np.array([0.0, 0.16056, 0.090])
+PAIRS_TO_REACH = 60.0
+ERROR_TO_REACH_MM = 0.15
+COUNT = 200
+
+Shot = tuple[Frame, Frame, np.ndarray, np.ndarray]  # pictures, tip, axis
+
+
+def pin_to_one_core() -> None:
+    cv2.setNumThreads(1)
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+
+
+def everywhere(rig: RigProfile, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """A tip and an axis, uniform in the rig's declared depth and tilt."""
+    depth = rng.uniform(rig.range.depth_min_mm, rig.range.depth_max_mm) * 1e-3
+    tilt, azimuth = np.deg2rad(rng.uniform(0.0, rig.range.tilt_max_deg)), rng.uniform(0, 2 * np.pi)
+    across = np.sin(tilt)
+    axis = np.array([across * np.cos(azimuth), across * np.sin(azimuth), -np.cos(tilt)])
+    return FULCRUM + depth * axis, axis
+
+
+def along(step: int) -> tuple[np.ndarray, np.ndarray]:
+    """A needle being inserted and turned: what the tracker follows from picture to picture."""
+    t = step / 30.0
+    tilt, azimuth = 0.4, 0.7 * t
+    across = np.sin(tilt)
+    axis = np.array([across * np.cos(azimuth), across * np.sin(azimuth), -np.cos(tilt)])
+    return FULCRUM + (0.055 + 0.05 * np.sin(t)) * axis, axis
+
+
+def shoot(rig: RigProfile, poses: list[tuple[np.ndarray, np.ndarray]]) -> list[Shot]:
+    rng = np.random.default_rng(2)
+    renderers = [NeedleRenderer(m, rig.needle, rig.blur_px, i) for i, m in enumerate(rig.models)]
+    tiles = [NoiseTile.make(m.image_size, rig.noise_grey, i) for i, m in enumerate(rig.models)]
+    shots = []
+    for step, (tip, axis) in enumerate(poses):
+        scene = MarkerScene.from_tip(tip, axis, rig.needle.marker_offset)
+        if not all(model.sees(scene.p_world, 20.0)[0] for model in rig.models):
+            continue  # the figure is for where both cameras see it
+        left, right = (
+            Frame(noise(renderer.render(scene), tile, rng), step / 30.0)
+            for renderer, tile in zip(renderers, tiles, strict=True)
+        )
+        shots.append((left, right, tip, axis))
+    return shots
+
+
+def run(
+    rig: RigProfile, shots: list[Shot], extractor: Extractor | None, fresh: bool
+) -> tuple[np.ndarray, list[NeedleFix]]:
+    """Times [s] and fixes; `fresh` starts a new tracker for every pair (no memory)."""
+    holder = {"axis": shots[0][3]}
+    clock = VirtualClock()
+    cameras = simulated_cameras(rig, lambda t: None, clock)
+
+    def new() -> Tracker:
+        return Tracker(cameras, rig, clock, lambda t: holder["axis"], FULCRUM, extractor=extractor)
+
+    tracker, times, fixes = new(), [], []
+    tracker.process(shots[0][0], shots[0][1])  # kernels loaded
+    for left, right, _, axis in shots:
+        tracker = new() if fresh else tracker
+        holder["axis"] = axis
+        start = time.perf_counter()
+        fixes.append(tracker.process(left, right))
+        times.append(time.perf_counter() - start)
+    return np.array(times), fixes
+
+
+def report_error(label: str, shots: list[Shot], fixes: list[NeedleFix]) -> float:
+    errors = np.array(
+        [
+            np.linalg.norm(fix.p_tip_world - tip) * 1e3
+            for fix, (_, _, tip, _) in zip(fixes, shots, strict=True)
+            if fix.has_point
+        ]
+    )
+    valid = np.mean([fix.status is FixStatus.VALID for fix in fixes])
+    if not errors.size:
+        print(f"  {label:<28} nothing found")
+        return float("nan")
+    rms = float(np.sqrt(np.mean(errors**2)))
+    print(
+        f"  {label:<28} RMS {rms:.3f} mm   median {np.median(errors):.3f}   "
+        f"p99 {np.percentile(errors, 99):.3f}   found {errors.size}/{len(shots)}   "
+        f"valid {valid:.0%}"
+    )
+    return rms
+
+
+def report_rate(label: str, times: np.ndarray) -> float:
+    median = float(np.median(times))
+    print(
+        f"  {label:<28} {1.0 / median:7.1f} pairs/s   median {median * 1e3:.2f} ms   "
+        f"p99 {np.percentile(times, 99) * 1e3:.2f} ms"
+    )
+    return median
+
+
+def bench(name: str) -> None:
+    rig = load_rig(name)
+    scale = (0.136e-3 * rig.models[0].intrinsics[0] / 0.42) ** 2 if name == "wide" else 1.0
+    thesis = ThesisMarker(200.0 * scale, 2000.0 * max(scale, 1.0))
+    print(f"rig {name}: {rig.noise_grey:g} grey levels of noise, 640x480, one core")
+    moving = shoot(rig, [along(step) for step in range(COUNT)])
+    print(f" speed (to reach: >= {PAIRS_TO_REACH:g} pairs/s)")
+    ours = report_rate("outline centroid, following", run(rig, moving, None, False)[0])
+    report_rate("outline centroid, searching", run(rig, moving, None, True)[0])
+    peer = report_rate("thesis' extractor", run(rig, moving, thesis, False)[0])
+    print(f"  the thesis' extractor takes {peer / ours:.1f} times as long")
+    rng = np.random.default_rng(7)
+    shots = shoot(rig, [everywhere(rig, rng) for _ in range(2 * COUNT)])
+    print(f" 3D error of the tip, whole declared range (to reach: <= {ERROR_TO_REACH_MM:g} mm RMS)")
+    error = report_error("outline centroid", shots, run(rig, shots, None, True)[1])
+    other = report_error("thesis' extractor", shots, run(rig, shots, thesis, True)[1])
+    print(f"  the thesis' extractor errs {other / error:.1f} times as much")
+
+
+def main() -> None:
+    pin_to_one_core()
+    for name in ("wide", "thesis"):
+        bench(name)
+
+
+if __name__ == "__main__":
+    main()

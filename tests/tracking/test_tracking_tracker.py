@@ -1,0 +1,298 @@
+"""The tracker: accuracy of the tip, pairing, and cameras that fail."""
+
+import threading
+import time as real_time
+
+import numpy as np
+import pytest
+
+from app.core.clock import SystemClock, VirtualClock
+from app.tracking.camera import Camera, Frame
+from app.tracking.errors import CameraError, TrackingError
+from app.tracking.fix import FixStatus
+from app.tracking.picture_effects import NoiseTile, noise
+from app.tracking.scene import MarkerScene
+from app.tracking.simulated import SimulatedCamera
+from app.tracking.tracker import Tracker
+
+FULCRUM = np.array([0.0, 0.16056, 0.090])
+
+
+def _axis(tilt, azimuth):
+    across = np.sin(tilt)
+    return np.array([across * np.cos(azimuth), across * np.sin(azimuth), -np.cos(tilt)])
+
+
+class _Needle:
+    """A needle that moves; `at(t)` its scene."""
+
+    def __init__(self, offset, depth=0.05, speed=0.0, tilt=0.3, azimuth=0.8):
+        self.offset, self.depth, self.speed = offset, depth, speed
+        self.axis = _axis(tilt, azimuth)
+        self.visible = True
+
+    def tip(self, t):
+        return FULCRUM + (self.depth + self.speed * t) * self.axis
+
+    def at(self, t):
+        scene = MarkerScene.from_tip(self.tip(t), self.axis, self.offset)
+        return MarkerScene(scene.p_world, scene.axis_world, self.visible)
+
+
+def _cameras(renderers, rig, scene, clock, skew=0.0):
+    cameras = []
+    for i, renderer in enumerate(renderers):
+        tile = NoiseTile.make((640, 480), rig.noise_grey, 50 + i)
+        cameras.append(
+            SimulatedCamera(
+                renderer, scene, clock, rig.rate_hz, 0.0, i * skew, [(noise, tile)], seed=i
+            )
+        )
+    return cameras
+
+
+@pytest.fixture
+def needle(wide):
+    return _Needle(wide.needle.marker_offset)
+
+
+def _stepped(wide, renderers, needle, skew=0.0, **options):
+    clock = VirtualClock()
+    cameras = _cameras(renderers, wide, needle.at, clock, skew)
+    for camera in cameras:
+        camera.open()
+    tracker = Tracker(
+        cameras, wide, clock, options.pop("axis", lambda t: needle.axis), FULCRUM, **options
+    )
+    return tracker, cameras
+
+
+def test_the_tip_is_within_its_figure_over_the_whole_range(wide, wide_renderers):
+    rng = np.random.default_rng(6)
+    tile = NoiseTile.make((640, 480), wide.noise_grey, 1)
+    errors, valid = [], 0
+    for _ in range(40):
+        needle = _Needle(
+            wide.needle.marker_offset,
+            rng.uniform(-0.03, 0.12),
+            0.0,
+            np.deg2rad(rng.uniform(0, 39)),
+            rng.uniform(0, 6.28),
+        )
+        tracker, _ = _stepped(wide, wide_renderers, needle)
+        frames = [Frame(noise(r.render(needle.at(0.0)), tile, rng), 0.0) for r in wide_renderers]
+        fix = tracker.process(*frames)
+        valid += fix.status is FixStatus.VALID
+        errors.append(np.linalg.norm(fix.p_tip_world - needle.tip(0.0)))
+        assert abs(fix.depth - needle.depth) < 0.5e-3
+    assert np.sqrt(np.mean(np.square(errors))) < 0.15e-3
+    assert valid >= 38
+
+
+def test_the_stated_radius_is_of_the_size_of_the_error(wide, wide_renderers, needle):
+    tracker, cameras = _stepped(wide, wide_renderers, needle)
+    fixes = [tracker.process(cameras[0].read(), cameras[1].read()) for _ in range(20)]
+    errors = np.array([np.linalg.norm(fix.p_tip_world - needle.tip(0)) for fix in fixes])
+    radius = fixes[0].radius()
+    assert (errors < radius).mean() >= 0.9
+    assert radius < 0.3e-3
+
+
+def test_skewed_cameras_are_brought_to_one_time(wide, wide_renderers):
+    needle = _Needle(wide.needle.marker_offset, depth=0.01, speed=0.08)
+    tracker, cameras = _stepped(wide, wide_renderers, needle, skew=0.015)
+    fixes = [tracker.process(cameras[0].read(), cameras[1].read()) for _ in range(12)]
+    errors = [np.linalg.norm(fix.p_tip_world - needle.tip(fix.time)) for fix in fixes[2:]]
+    assert max(errors) < 0.3e-3  # 0.015 s at 0.08 m/s would be 1.2 mm
+    assert all(fix.status is FixStatus.VALID for fix in fixes[2:])
+
+
+def test_a_needle_out_of_view_is_reported_with_the_camera_that_misses_it(
+    wide, wide_renderers, needle
+):
+    tracker, cameras = _stepped(wide, wide_renderers, needle)
+    left, right = cameras[0].read(), cameras[1].read()
+    needle.visible = False
+    gone_left, gone_right = cameras[0].read(), cameras[1].read()
+    fix = tracker.process(gone_left, gone_right)
+    assert fix.status is FixStatus.OUT_OF_VIEW
+    assert fix.missing == ("left", "right")
+    fix = tracker.process(left, gone_right)
+    assert fix.status is FixStatus.ONE_CAMERA
+    assert fix.missing == ("right",)
+    assert "right" in fix.reason
+    assert not fix.has_point
+    assert tracker.process(left, right).status is FixStatus.VALID
+
+
+def test_a_wrong_axis_makes_the_fix_inconsistent(wide, wide_renderers, needle):
+    tracker, cameras = _stepped(wide, wide_renderers, needle, axis=lambda t: _axis(0.5, 2.0))
+    fix = tracker.process(cameras[0].read(), cameras[1].read())
+    assert fix.status is FixStatus.INCONSISTENT
+    assert "beside" in fix.reason
+
+
+def test_without_an_axis_there_is_no_tip(wide, wide_renderers, needle):
+    tracker, cameras = _stepped(wide, wide_renderers, needle, axis=lambda t: None)
+    assert tracker.process(cameras[0].read(), cameras[1].read()).status is FixStatus.NO_ORIENTATION
+
+
+def test_of_two_red_things_the_one_on_the_needle_is_taken(wide, wide_renderers, needle):
+    tracker, _ = _stepped(wide, wide_renderers, needle)
+    images = [renderer.render(needle.at(0.0)) for renderer in wide_renderers]
+    for image in images:
+        image[60:85, 500:512] = (40, 25, 190)
+    fix = tracker.process(*(Frame(image, 0.0) for image in images))
+    assert fix.status is FixStatus.VALID
+    assert np.linalg.norm(fix.p_tip_world - needle.tip(0.0)) < 0.3e-3
+
+
+def test_a_step_without_any_picture_is_an_error(wide, wide_renderers, needle):
+    tracker, cameras = _stepped(wide, wide_renderers, needle)
+    with pytest.raises(TrackingError):
+        tracker.process(None, None)
+    with pytest.raises(TrackingError, match="two cameras"):
+        Tracker(cameras[:1], wide, VirtualClock(), lambda t: None, FULCRUM)
+
+
+def test_a_simulated_camera_must_be_open_and_repeats_its_pictures(wide, wide_renderers, needle):
+    def first_pictures():
+        camera = _cameras(wide_renderers, wide, needle.at, VirtualClock())[0]
+        with pytest.raises(CameraError, match="open"):
+            camera.read()
+        camera.open()
+        return camera.read(), camera.read()
+
+    one, two = first_pictures(), first_pictures()
+    assert one[1].time - one[0].time == pytest.approx(1.0 / 30.0)
+    assert not one[0].image.flags.writeable
+    for first, second in zip(one, two, strict=True):
+        assert np.array_equal(first.image, second.image)
+    assert not np.array_equal(one[0].image, one[1].image)
+
+
+class _StillCamera(Camera):
+    """Hands out prepared pictures at 30 Hz, and can be told to misbehave."""
+
+    def __init__(self, picture):
+        self.picture, self.mode = picture, "live"
+        self.opened = self.closed = 0
+        self._rng = np.random.default_rng(0)
+        self._last = None
+        self.released = threading.Event()
+
+    def open(self):
+        self.opened += 1
+        if self.mode == "missing":
+            raise CameraError("camera is not there")
+
+    def read(self):
+        real_time.sleep(0.033)
+        if self.mode == "hang":
+            self.released.wait(3.0)
+            raise CameraError("no picture came")
+        if self.mode == "error":
+            raise OSError("unplugged")
+        if self.mode == "live" or self._last is None:
+            self._last = self.picture.copy()
+            self._last[::16, ::16, 0] ^= self._rng.integers(0, 4, (30, 40)).astype(np.uint8)
+        return Frame(self._last.copy(), real_time.monotonic())
+
+    def close(self):
+        self.closed += 1
+        self.released.set()
+
+
+@pytest.fixture
+def running(wide, wide_renderers, needle):
+    cameras = [_StillCamera(renderer.render(needle.at(0.0))) for renderer in wide_renderers]
+    fixes = []
+    tracker = Tracker(
+        cameras, wide, SystemClock(), lambda t: needle.axis, FULCRUM, on_fix=fixes.append
+    )
+    yield tracker, cameras, fixes
+    tracker.close()
+
+
+def _until(condition, seconds=8.0):
+    end = real_time.monotonic() + seconds
+    while not condition():
+        assert real_time.monotonic() < end, "it did not happen"
+        real_time.sleep(0.01)
+
+
+def _faults(tracker, text, found):
+    found.extend(event.message for event in tracker.events.drain() if event.kind == "fault")
+    return any(text in message for message in found)
+
+
+def test_the_thread_publishes_fixes_pictures_and_figures_and_closes_twice(running):
+    tracker, cameras, fixes = running
+    tracker.open()
+    tracker.open()
+    _until(lambda: len(fixes) >= 5)
+    latest = tracker.latest.read()
+    assert latest.value.status is FixStatus.VALID
+    assert latest.time == latest.value.time
+    figures = tracker.statistics()
+    assert figures.counts["valid"] >= 5
+    assert figures.valid_share > 0.5
+    assert figures.status is FixStatus.VALID
+    pictures = tracker.pictures()
+    assert [picture.name for picture in pictures] == ["left", "right"]
+    assert not pictures[0].image.flags.writeable
+    assert pictures[0].pixel is not None
+    tracker.close()
+    tracker.close()
+    count = len(fixes)
+    real_time.sleep(0.1)
+    assert len(fixes) == count
+    assert all(camera.closed for camera in cameras)
+
+
+@pytest.mark.parametrize(
+    ("mode", "text"), [("hang", "no picture"), ("frozen", "change"), ("error", "unplugged")]
+)
+def test_a_camera_that_hangs_freezes_or_fails_is_noticed_and_the_other_goes_on(running, mode, text):
+    tracker, cameras, fixes = running
+    tracker.open()
+    _until(lambda: len(fixes) >= 3)
+    cameras[1].mode = mode
+    found = []
+    _until(lambda: _faults(tracker, text, found))
+    _until(lambda: fixes[-1].status is FixStatus.ONE_CAMERA)
+    assert fixes[-1].missing == ("right",)
+    assert text in tracker.statistics().reason
+    if mode == "frozen":
+        cameras[1].mode = "live"
+        _until(lambda: fixes[-1].status is FixStatus.VALID)
+
+
+def test_a_camera_that_is_not_there_is_an_error_and_the_other_is_closed(running):
+    tracker, cameras, _ = running
+    cameras[1].mode = "missing"
+    with pytest.raises(CameraError, match="not there"):
+        tracker.open()
+    assert cameras[0].closed == 1
+
+
+def test_an_error_in_the_thread_becomes_a_fault_and_the_tracker_goes_on(
+    wide, wide_renderers, needle
+):
+    cameras = [_StillCamera(renderer.render(needle.at(0.0))) for renderer in wide_renderers]
+    fixes = []
+
+    def axis(t):
+        if len(fixes) == 2 and not found:
+            raise ValueError("encoder table lost")
+        return needle.axis
+
+    found = []
+    tracker = Tracker(cameras, wide, SystemClock(), axis, FULCRUM, on_fix=fixes.append)
+    tracker.open()
+    try:
+        _until(lambda: _faults(tracker, "encoder table lost", found))
+        _until(lambda: len(fixes) > 3)
+        assert tracker.statistics().fault == ""
+    finally:
+        tracker.close()
