@@ -3,10 +3,10 @@ from math import radians
 
 import numpy as np
 import pytest
-from fakes import FakeTrainer, run, snapshot
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
+from views_exercise_fakes import FakeTrainer, run, snapshot
 
 from app.core import state_vector as sv
 from app.core.arrays import angle_between

@@ -3,9 +3,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from attempts import placed_plan
-from fakes import FakeTrainer, pose, run, snapshot
 from PySide6.QtTest import QTest
+from views_exercise_attempts import placed_plan
+from views_exercise_fakes import FakeTrainer, pose, run, snapshot
 
 from app.core.clock import VirtualClock
 from app.session.machine import State

@@ -1,21 +1,26 @@
 from dataclasses import replace
-from types import SimpleNamespace
+from pathlib import Path
+from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
 import pytest
-from attempts import placed_plan, review, score
 from PySide6.QtCore import QPointF
 from PySide6.QtWidgets import QPushButton
+from views_exercise_attempts import placed_plan, review, score
 
 from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
 from app.session.curves import Curves
+from app.session.facts import plan_record
+from app.session.recording import Inputs, Recording
+from app.session.samples import Samples
 from app.views import theme
 from app.views.debrief.curves import CurvesView, curves_of, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.print_plot import polylines, ticks
 from app.views.debrief.report import report_bytes, write_report
-from app.views.debrief.review import marks, spans
+from app.views.debrief.review import marks, only_measured, spans
+from app.views.debrief.review import review as review_of
 from app.views.debrief.score_words import number, row_texts, verdict
 
 
@@ -129,6 +134,17 @@ def test_a_tip_on_the_path_is_in_the_middle():
     assert np.allclose(review(tip=tip).track(), 0.0, atol=1e-12)
 
 
+def test_a_depth_that_was_only_the_models_is_a_gap_and_the_angle_is_kept():
+    figures = review().curves
+    measured = np.ones(len(figures.time), dtype=bool)
+    measured[10:20] = False
+    kept = only_measured(figures, measured)
+    for values in (kept.depth, kept.lateral, kept.remaining):
+        assert np.isnan(values[10:20]).all()
+        assert np.isfinite(values[:10]).all()
+    assert np.array_equal(kept.angle, figures.angle, equal_nan=True)
+
+
 def test_rings_follow_the_tolerances_of_the_attempt():
     assert review().rings == pytest.approx((0.002, 0.005))
     assert review(score=None).rings == pytest.approx((0.002, 0.005))
@@ -215,3 +231,48 @@ def test_bands_differ_by_symbol_as_well_as_colour():
     texts = [row_texts(row, score()) for row in score().rows[:4]]
     assert len({t.band[0] for t in texts}) == 4
     assert texts[3].colour == theme.BAD
+
+
+def recording(**changes):
+    """A record as it is read back: two samples from the cameras, one from the model."""
+    placed = placed_plan()
+    nothing = np.zeros((3, 3))
+    samples = Samples(
+        time=np.array([5.0, 5.1, 5.2]), state=np.array(["aligning", "inserting", "inserting"]),
+        valid=np.ones(3, dtype=bool), depth_source=np.array(["tracked", "held", "model"]),
+        depth=np.array([0.0, 0.01, 0.09]), tip=np.tile(placed.p_entry, (3, 1)),
+        axis=np.tile(placed.axis, (3, 1)), target=np.tile(placed.p_target, (3, 1)),
+        felt=nothing, hub=nothing, guide=nothing,
+    )  # fmt: skip
+    values = {
+        "path": Path("s1.mcap"), "complete": True, "problems": (),
+        "metadata": MappingProxyType({
+            "session": {"id": "s1", "student": "student-07", "started": "2026-11-21T10:15:00Z"},
+            "exercise": {"id": "x", "title": "First insertion"}, "plan": plan_record(placed),
+            "result": {"state": "ended", "duration_s": "0.2"},
+        }),
+        "attachments": MappingProxyType({
+            "score.json": score().to_json().encode(),
+            "device.json": b'{"limits": {"hand_force": 4.0}}',
+        }),
+        "events": (Event(5.1, "scan", "control scan 1"),), "samples": samples,
+        "inputs": Inputs((), np.empty((0, 0)), 0),
+    }  # fmt: skip
+    return Recording(**(values | changes))
+
+
+def test_a_record_is_gathered_with_score_marks_limits_and_gaps():
+    shown = review_of(recording())
+    assert (shown.id, shown.student, shown.exercise) == ("s1", "student-07", "First insertion")
+    assert shown.score.total == pytest.approx(score().total)
+    assert shown.force_limit == 4.0
+    assert [(m.kind, round(m.time, 6)) for m in shown.marks] == [("scan", 0.1)]
+    assert np.isfinite(shown.curves.depth).tolist() == [True, True, False]
+    assert shown.scans == 1
+
+
+def test_a_stored_score_that_cannot_be_read_becomes_a_problem_line():
+    shown = review_of(recording(attachments=MappingProxyType({"score.json": b"{}"})))
+    assert shown.score is None
+    assert "score" in shown.problems[0]
+    assert shown.force_limit == 5.0

@@ -2,9 +2,9 @@ from dataclasses import replace
 from math import inf, nan, radians
 
 import pytest
-from fakes import snapshot, statistics
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from views_exercise_fakes import snapshot, statistics
 
 from app.session.machine import State
 from app.tracking.fix import FixStatus

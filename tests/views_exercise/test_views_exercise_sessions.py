@@ -3,9 +3,9 @@ from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
 import pytest
-from attempts import placed_plan, review, score
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
+from views_exercise_attempts import placed_plan, review, score
 
 from app.scoring.trajectory import Trajectory
 from app.session.errors import SessionError
@@ -180,7 +180,7 @@ def test_saying_no_in_the_dialog_writes_nothing(desk, page, tmp_path):
 
 
 def result(trajectory):
-    from attempts import curves
+    from views_exercise_attempts import curves
 
     figures, _, _ = curves(placed_plan())
     return SimpleNamespace(

@@ -128,7 +128,7 @@ def facts(review: Review) -> str:
             date_text(review.started),
             state_word(review.state),
             clock_text(review.duration),
-            tr("{n} control scans", n=review.scans),
+            tr("control scans: {n}", n=review.scans),
         )
     )
 

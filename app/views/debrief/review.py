@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import atan2
 from typing import Final
 
@@ -25,6 +25,9 @@ from app.views.exercise.pad_view import rings
 
 SHOWN_EVENTS: Final = ("scan", "fault", "abort")
 """Kinds of events that are marked on the curves."""
+
+MEASURED: Final = ("tracked", "held")
+"""Sources of a depth that the cameras vouch for."""
 
 DEVICE_FILE: Final = "device.json"
 """Attachment that holds the device profile."""
@@ -156,7 +159,8 @@ def review(recording: Recording) -> Review:
     """
     summary, placed = derive(recording), recording.placed_plan()
     samples = recording.samples
-    figures = curves(samples, placed)
+    measured = np.isin(samples.depth_source, MEASURED)
+    figures = only_measured(curves(samples, placed), measured)
     origin = float(samples.time[0]) if len(samples.time) else 0.0
     score, problem = _score(recording)
     return Review(
@@ -175,8 +179,18 @@ def review(recording: Recording) -> Review:
         spans=spans(figures.time, samples.state),
         marks=marks(recording.events, origin, SHOWN_EVENTS),
         placed=placed,
-        tip=samples.tip,
+        tip=np.where(measured[:, None], samples.tip, np.nan),
         force_limit=_force_limit(recording),
+    )
+
+
+def only_measured(figures: Curves, measured: NDArray[np.bool_]) -> Curves:
+    """Leave out what rests on a depth that the cameras did not vouch for, shape (n,): gaps."""
+    return replace(
+        figures,
+        depth=np.where(measured, figures.depth, np.nan),
+        lateral=np.where(measured, figures.lateral, np.nan),
+        remaining=np.where(measured, figures.remaining, np.nan),
     )
 
 

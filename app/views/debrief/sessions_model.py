@@ -18,6 +18,7 @@ SORT_ROLE: Final = Qt.ItemDataRole.UserRole
 SUMMARY_ROLE: Final = Qt.ItemDataRole.UserRole + 1
 DATE, STUDENT, EXERCISE, SCORE, STATE, DURATION, NOTE = range(7)
 _RIGHT: Final = frozenset({SCORE, DURATION})
+_RIGHTWARDS: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 _STATE_LOOKS: Final = {
     "ended": (theme.TEXT, "✔"),
     "aborted": (theme.WARNING, "▲"),
@@ -50,7 +51,9 @@ class SessionsModel(QAbstractTableModel):
     def headerData(
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
     ) -> Any:
-        """Titles of the columns."""
+        """Titles of the columns, aligned as their cells."""
+        if role == Qt.ItemDataRole.TextAlignmentRole and section in _RIGHT:
+            return _RIGHTWARDS
         if orientation is not Qt.Orientation.Horizontal or role != Qt.ItemDataRole.DisplayRole:
             return None
         return (
@@ -70,7 +73,7 @@ class SessionsModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.ToolTipRole:
             return "\n".join(filter(None, (summary.id, summary.reason, *summary.problems)))
         if role == Qt.ItemDataRole.TextAlignmentRole and column in _RIGHT:
-            return Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+            return _RIGHTWARDS
         if role == Qt.ItemDataRole.ForegroundRole and column == STATE:
             return QColor(_STATE_LOOKS.get(summary.state, (theme.TEXT, ""))[0])
         return None

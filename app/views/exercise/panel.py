@@ -115,7 +115,7 @@ class ExercisePanel(QWidget):
     def _prepare_inputs(self) -> None:
         pattern = QRegularExpression(f"^{PSEUDONYM}$")
         self.student.setValidator(QRegularExpressionValidator(pattern, self.student))
-        self.student.setPlaceholderText(tr("pseudonym (empty: anonymous)"))
+        self.student.setPlaceholderText(tr("anonymous"))
         self.student.setToolTip(
             tr("A pseudonym, never a name: it goes into every record. Letters, digits, . _ -")
         )

@@ -7,6 +7,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.device.control.safety import Fault
 from app.device.control.state import DeviceState
+from app.session.needle import DepthSource
 from app.session.snapshot import Snapshot
 from app.tracking.fix import FixStatus
 from app.tracking.statistics import TrackerStatistics
@@ -28,7 +29,7 @@ from app.views.exercise.status_items import (
 from app.views.exercise.tracker_panel import TrackerFigures
 from app.views.text import tr
 
-SEEN = ("tracked", "held")
+SEEN = (DepthSource.TRACKED, DepthSource.HELD)
 _BAD_STATES = (CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED)
 
 
@@ -112,7 +113,7 @@ def status_items(snapshot: Snapshot, rate: float, heartbeat_age: float) -> tuple
 def tracker_status(snapshot: Snapshot) -> StatusItem:
     """Health of the cameras."""
     statistics, pose = snapshot.tracker, snapshot.pose
-    age = pose.depth_age if str(pose.depth_source) in SEEN else inf
+    age = pose.depth_age if pose.depth_source in SEEN else inf
     if statistics is None:
         return tracker_item(0.0, 0.0, inf, tr("no cameras"))
     return tracker_item(statistics.rate, statistics.valid_share, age, problem(statistics))

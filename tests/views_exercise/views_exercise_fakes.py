@@ -6,7 +6,7 @@ from types import MappingProxyType, SimpleNamespace
 from typing import Any
 
 import numpy as np
-from attempts import placed_plan
+from views_exercise_attempts import placed_plan
 
 from app.core.events import Event, EventQueue
 from app.mechanisms.profile import load_profile
