@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from app.core import paths
 from app.core import state_vector as sv
@@ -16,6 +16,7 @@ from app.core.progress import Progress
 from app.device.control import Loop, Table, VirtualFixture, pantograph_stages
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
+from app.exchange.markups import plan_document
 from app.exercises.library import library
 from app.exercises.scene import compile_exercise, device_of
 from app.exercises.schema import Exercise
@@ -117,7 +118,6 @@ def _build(setup: TrainerSetup) -> Rig:
     )
     context = _context(setup, profile, cameras)
     trainer = Trainer(loop, tracker, setup.placed, setup.exercise, context, setup.clock)
-    tracker.events = trainer.events
     trainer.assistance(setup.exercise.assistance)
     return Rig(setup, profile, loop, tracker, trainer)
 
@@ -178,15 +178,18 @@ def _context(setup: TrainerSetup, profile: DeviceProfile, rig: RigProfile) -> Ru
             "ct": {"pseudonym": setup.ct},
             "trainee": {"scripted": setup.skill or ""},
         },
-        attachments=tuple(
-            Attachment(
-                f"{name}.json",
-                "application/json",
-                json.dumps(document.model_dump(mode="json"), indent=1).encode(),
-            )
-            for name, document in documents.items()
+        attachments=(
+            _attachment("plan.mrk.json", plan_document(setup.placed.plan)),
+            *(
+                _attachment(f"{name}.json", document.model_dump(mode="json"))
+                for name, document in documents.items()
+            ),
         ),
     )
+
+
+def _attachment(name: str, document: Any) -> Attachment:
+    return Attachment(name, "application/json", json.dumps(document, indent=1).encode())
 
 
 class Desktop:

@@ -12,7 +12,7 @@ M = TypeVar("M", bound="Strict")
 
 
 class Strict(BaseModel):
-    """Base of everything that is read from YAML: frozen, unknown keys and loose types refused."""
+    """Base of everything that is read from YAML: frozen; unknown keys, NaN and infinity refused."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
