@@ -62,6 +62,8 @@ class Services(Protocol):
     def open_run(self, setup: RunSetup, progress: Progress) -> OpenRun:
         """Build and start a trainer; called beside the window, may take seconds.
 
+        Returns once the loop has made its first ticks, so that an attempt can begin at once.
+
         Raises:
             AcusError: whatever keeps it from running; nothing stays open then.
             Cancelled: if `progress` was cancelled.

@@ -1,0 +1,455 @@
+import sys
+import threading
+import time
+from pathlib import Path
+from types import MappingProxyType, SimpleNamespace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QLocale, QMimeData, QObject, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent
+from PySide6.QtWidgets import QMessageBox, QWidget
+
+from app.core.disclaimer import DISCLAIMER
+from app.core.errors import AcusError
+from app.core.events import EventQueue
+from app.core.progress import Progress
+from app.exercises.library import library
+from app.exercises.scene import device_of
+from app.imaging.body import find_body
+from app.imaging.errors import ImagingError
+from app.imaging.orthogonal import View
+from app.imaging.series import Listing
+from app.session.curves import Offset
+from app.session.machine import State
+from app.session.needle import DepthSource, NeedlePose
+from app.session.snapshot import Snapshot
+from app.views import open_ct, theme
+from app.views.background import run_in_background
+from app.views.exercise.run import ExerciseRun
+from app.views.grid import FIVE, FOUR, ViewGrid
+from app.views.message_bar import MessageBar
+from app.views.needle_overlay import NeedleOverlay
+from app.views.patient import Patient
+from app.views.progress_strip import ProgressStrip
+from app.views.series_dialog import SeriesDialog
+from app.views.shortcuts import ShortcutSheet
+from app.views.slices.viewing import Tool
+from app.views.text import install_translation, tr
+from app.views.window import MainWindow
+
+
+# --- text, theme, background -------------------------------------------------------------------
+def test_text_is_filled_in_after_translation():
+    assert tr("Slice {number} / {count}", number=1, count=2) == "Slice 1 / 2"
+
+
+def test_a_missing_translation_is_said_and_changes_nothing(application, tmp_path):
+    assert not install_translation(application, QLocale("xx"), tmp_path)
+    assert tr("Entry") == "Entry"
+
+
+def test_marks_differ_in_more_than_colour():
+    planes = [theme.AXIAL, theme.SAGITTAL, theme.CORONAL]
+    assert len({mark.dash for mark in planes}) == 3
+    points = [theme.ENTRY, theme.TARGET, theme.NEEDLE_TIP]
+    assert len({mark.symbol for mark in points}) == 3
+
+
+def test_the_style_sheet_has_no_hole():
+    assert "$" not in theme.style_sheet()
+
+
+def test_work_beside_the_window_reports_and_answers_on_its_thread(application, settle):
+    parent, seen = QObject(), []
+
+    def work(progress: Progress) -> str:
+        progress.report(0.5, "half")
+        time.sleep(0.05)
+        return threading.current_thread().name
+
+    task = run_in_background(
+        parent, work, lambda name: seen.append((name, threading.current_thread())), seen.append
+    )
+    reports = []
+    task.progressed.connect(lambda share, text: reports.append((share, text)))
+    assert settle(lambda: bool(seen), 5.0)
+    assert seen == [("acus-background", threading.main_thread())]
+    assert reports == [(0.5, "half")]
+
+
+def test_an_error_beside_the_window_is_handed_over(application, settle):
+    parent, errors = QObject(), []
+
+    def work(_: Progress) -> None:
+        raise AcusError("no such thing")
+
+    run_in_background(parent, work, lambda _: None, errors.append)
+    assert settle(lambda: bool(errors), 5.0)
+    assert str(errors[0]) == "no such thing"
+
+
+def test_cancelling_ends_the_work_without_an_error(application, settle):
+    parent, ended = QObject(), []
+
+    def work(progress: Progress) -> None:
+        while True:
+            progress.report(0.1)
+            time.sleep(0.002)
+
+    task = run_in_background(parent, work, ended.append, ended.append, lambda: ended.append("off"))
+    task.cancel()
+    assert settle(lambda: bool(ended), 5.0)
+    assert ended == ["off"]
+    assert settle(lambda: "acus-background" not in {t.name for t in threading.enumerate()}, 5.0)
+
+
+def test_a_closed_task_calls_nobody(application, settle):
+    parent, ended = QObject(), []
+    task = run_in_background(parent, lambda p: time.sleep(0.05), ended.append, ended.append)
+    task.close()
+    settle(timeout=0.15)
+    assert not ended
+
+
+def test_the_strip_shows_a_task_and_its_cancel(application, settle):
+    strip, ended = ProgressStrip(), []
+    gate = threading.Event()
+    run_in_background(strip, lambda _: gate.wait(5.0), ended.append, ended.append,
+                      title="Reading", indicator=strip)  # fmt: skip
+    assert strip.count == 1
+    assert not strip.isHidden()
+    gate.set()
+    assert settle(lambda: strip.count == 0, 5.0)
+    assert strip.isHidden()
+
+
+def test_the_message_bar_says_what_happened_and_keeps_the_details(application):
+    bar = MessageBar()
+    bar.show_error(ImagingError("no DICOM files in x: choose the folder that holds them"))
+    assert "choose the folder" in bar.text
+    bar.show_error("y" * 1000)
+    assert len(bar.text) <= 260
+    bar.show_error(KeyError("k"))
+    assert "KeyError" in bar.text
+    bar.deleteLater()
+
+
+def test_the_grid_arranges_maximises_and_restores(application):
+    panes = [QWidget() for _ in range(5)]
+    grid = ViewGrid(panes)
+    assert [not pane.isHidden() for pane in panes] == [True] * 4 + [False]
+    grid.arrange(FIVE)
+    assert not any(pane.isHidden() for pane in panes)
+    grid.toggle(panes[2])
+    assert [not pane.isHidden() for pane in panes] == [False, False, True, False, False]
+    grid.toggle(panes[2])
+    assert not any(pane.isHidden() for pane in panes)
+    grid.arrange(FOUR)
+    assert panes[4].isHidden()
+    grid.deleteLater()
+
+
+def test_qt_calls_that_return_nothing_take_no_reference_of_none(application):
+    """PySide6 6.12.0 loses one at every void call on CPython 3.11 and aborts within minutes."""
+    widget = QWidget()
+    before = sys.getrefcount(None)
+    for _ in range(1000):
+        widget.update()
+    assert sys.getrefcount(None) >= before - 50
+    widget.deleteLater()
+
+
+# --- series chooser ----------------------------------------------------------------------------
+def test_the_chooser_says_why_a_series_cannot_be_used(application, volume):
+    good = volume.series
+    bad = type(good)(**{name: getattr(good, name) for name in good.__slots__}
+                     | {"uid": "9", "usable": False, "reason": "slices are missing"})  # fmt: skip
+    dialog = SeriesDialog(Listing(Path("x"), (bad, good), ()))
+    assert dialog.tree.topLevelItem(1).text(4) == "✖  slices are missing"
+    assert dialog.selected() is good
+    chosen = []
+    dialog.chosen.connect(chosen.append)
+    dialog.accept()
+    assert chosen == [good]
+    dialog.deleteLater()
+
+
+# --- the whole window --------------------------------------------------------------------------
+class FakeTrainer:
+    def __init__(self, placed):
+        self.placed, self.events, self.result, self.state = placed, EventQueue(), None, State.READY
+
+    def snapshot(self):
+        placed = self.placed
+        axis, tip = placed.axis, placed.p_entry + 0.01 * placed.axis
+        pose = NeedlePose(tip, axis, 0.01, 1.0, 0.0, 0.0, DepthSource.TRACKED, True,
+                          1e-9 * np.eye(3))  # fmt: skip
+        device = SimpleNamespace(tick=9, q=np.array([3.0, 0.1]), hub=tip - 0.2 * axis,
+                                 felt=np.zeros(3), fault=0)  # fmt: skip
+        timing = SimpleNamespace(median=8e-5, p99=2e-4, missed=0, ticks=9)
+        offset = Offset(*[0.0] * len(Offset.__dataclass_fields__))
+        return Snapshot(1.0, self.state, "", 0.0, MappingProxyType({}), pose, offset,
+                        placed.p_target, device, timing, None, "valid", 0, 1.0, False, None,
+                        ())  # fmt: skip
+
+    def begin(self, student=""):
+        self.state = State.ALIGNING
+        return "session-1"
+
+    def heartbeat(self): ...
+    def assistance(self, value): ...
+    def hand(self, *_): ...
+
+
+class FakeOpen:
+    def __init__(self, setup):
+        self.closed = threading.Event()
+        self.run = ExerciseRun(
+            FakeTrainer(setup.placed), setup.placed, device_of(setup.exercise), interactive=True
+        )
+
+    def place(self, placed):
+        self.run.trainer.placed = placed
+        self.run = ExerciseRun(self.run.trainer, placed, self.run.profile)
+        return self.run
+
+    def close(self):
+        self.closed.set()
+
+
+class FakeServices:
+    def __init__(self, folder):
+        self.folder, self.opened, self.refuses = folder, [], ""
+
+    def exercises(self):
+        return tuple(library().exercises)
+
+    def sessions(self):
+        return self.folder
+
+    def open_run(self, setup, progress):
+        if self.refuses:
+            raise AcusError(self.refuses)
+        self.opened.append(FakeOpen(setup))
+        return self.opened[-1]
+
+
+@pytest.fixture
+def services(tmp_path):
+    return FakeServices(tmp_path)
+
+
+@pytest.fixture
+def window(application, services):
+    window = MainWindow(services)
+    window.show()
+    yield window
+    window.editor.saved(Path("kept"))
+    window.close()
+
+
+@pytest.fixture
+def patient(volume):
+    return Patient(volume, find_body(volume), "CT-TEST")
+
+
+def plan(window):
+    window.editor.place(Tool.ENTRY, (5.0, -18.0, 140.0), True)
+    window.editor.place(Tool.TARGET, (5.0, 5.0, 140.0), True)
+
+
+def test_the_start_page_carries_the_disclaimer_and_the_exercises(window):
+    labels = [
+        label.text() for label in window.start_page.findChildren(type(QMessageBox()).mro()[0])
+    ]
+    texts = {w.text() for w in window.start_page.findChildren(QWidget) if hasattr(w, "text")}
+    assert DISCLAIMER in texts or DISCLAIMER in labels
+    assert window.start_page.exercises.count() == len(window.exercises)
+    assert window.pages.currentWidget() is window.start_page
+
+
+def test_a_patient_comes_up_in_all_panes(window, patient, settle):
+    window.show_patient(patient)
+    assert window.pages.currentWidget() is window.workspace
+    assert all(pane.canvas.plane is not None for pane in window.workspace.panes)
+    assert "CT-TEST" in window.windowTitle()
+    assert settle(lambda: window.conductor._surfaces_task is None, 20.0)
+
+
+def test_a_finished_plan_starts_robot_and_needle(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert window.editor.verdict.placed is not None
+    assert settle(lambda: window.workspace.viewing.needle is not None, 10.0)
+    needle = window.workspace.viewing.needle
+    draft = window.editor.edit.draft
+    path = np.subtract(draft.target_mm, draft.entry_mm)
+    expected = draft.entry_mm + 10.0 * path / np.linalg.norm(path)
+    assert needle.tip_mm == pytest.approx(expected, abs=1e-6)
+    assert len(services.opened) == 1
+
+
+def test_another_plan_moves_the_same_trainer(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.editor.place(Tool.TARGET, (6.0, 6.0, 141.0), True)
+    assert len(services.opened) == 1
+    assert tuple(window.runs.run.placed.plan.target_mm) == (6.0, 6.0, 141.0)
+
+
+def test_the_plan_is_locked_while_an_attempt_runs(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.workspace.exercise_panel.buttons.start.click()
+    assert settle(lambda: window.editor.locked, 5.0)
+    assert window.workspace.grid.cells == FIVE
+    window.editor.undo()
+    assert "attempt" in window.message_bar.text
+
+
+def test_a_trainer_that_cannot_start_is_told_and_the_program_goes_on(
+    window, patient, services, settle
+):
+    services.refuses = "no robot answers on /dev/x: connect it"
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: "no robot answers" in window.message_bar.text, 10.0)
+    assert window.workspace.viewing.draft.complete
+
+
+def test_another_patient_ends_the_trainer_of_the_last(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.editor.saved(Path("kept"))
+    window.show_patient(patient)
+    assert services.opened[0].closed.wait(5.0)
+    assert window.workspace.viewing.needle is None
+
+
+@pytest.mark.parametrize("kind", ["empty", "missing", "text"])
+def test_a_folder_that_cannot_be_opened_is_told(window, tmp_path, settle, kind):
+    folder = tmp_path / kind
+    if kind != "missing":
+        folder.mkdir()
+    if kind == "text":
+        (folder / "notes.dcm").write_text("not an image")
+    window.open_ct.open_folder(folder)
+    assert settle(lambda: window.message_bar.text != "", 20.0)
+    assert window.pages.currentWidget() is window.start_page
+
+
+def test_a_dropped_folder_is_opened(window, tmp_path, monkeypatch):
+    opened = []
+    monkeypatch.setattr(window.open_ct, "open_folder", opened.append)
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(tmp_path))])
+    window.dropEvent(QDropEvent(QPointF(), Qt.DropAction.CopyAction, data,
+                                Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier))  # fmt: skip
+    assert opened == [tmp_path]
+
+
+def test_several_usable_series_are_offered(window, volume, monkeypatch, settle):
+    other = type(volume.series)(**{n: getattr(volume.series, n) for n in volume.series.__slots__}
+                                | {"uid": "7"})  # fmt: skip
+    listing = Listing(Path("x"), (volume.series, other), ())
+    monkeypatch.setattr(open_ct, "scan_folder", lambda *_: listing)
+    window.open_ct.open_folder(Path("x"))
+    assert settle(lambda: bool(window.findChildren(SeriesDialog)), 5.0)
+    for dialog in window.findChildren(SeriesDialog):
+        dialog.reject()
+
+
+def test_a_click_on_the_skin_in_3d_places_the_entry(window, patient):
+    window.show_patient(patient)
+    viewing = window.workspace.viewing
+    viewing.set_tool(Tool.ENTRY)
+    window.workspace.scene.clicked.emit(np.array([5.0, -100.0, 140.0]), np.array([0.0, 1.0, 0.0]))
+    assert window.editor.edit.draft.entry_mm == pytest.approx((5.0, -18.5, 140.0), abs=1.0)
+    assert viewing.tool is Tool.NAVIGATE
+
+
+def test_a_click_beside_the_patient_in_3d_is_told(window, patient):
+    window.show_patient(patient)
+    window.workspace.viewing.set_tool(Tool.ENTRY)
+    window.workspace.scene.clicked.emit(np.array([500.0, 0.0, 140.0]), np.array([0.0, 1.0, 0.0]))
+    assert window.editor.edit.draft.entry_mm is None
+    assert "body" in window.message_bar.text
+
+
+def test_window_and_level_are_remembered(application, services, window, patient):
+    window.show_patient(patient)
+    window.workspace.panes[0].viewing.set_window(type(window.workspace.viewing.window)(123, 45))
+    window.close()
+    again = MainWindow(services)
+    assert (again.workspace.viewing.window.width, again.workspace.viewing.window.level) == (123, 45)
+    again.close()
+
+
+def test_an_unsaved_plan_can_keep_the_window_open(window, patient, monkeypatch):
+    window.show_patient(patient)
+    plan(window)
+    monkeypatch.setattr(QMessageBox, "question", lambda *_: QMessageBox.StandardButton.Cancel)
+    assert not window.close()
+
+
+def test_closing_leaves_no_thread_behind(application, services, patient, settle):
+    window = MainWindow(services)
+    window.show()
+    window.show_patient(patient)
+    plan(window)
+    settle(lambda: window.runs.run is not None, 10.0)
+    window.editor.saved(Path("kept"))
+    window.close()
+    assert services.opened[0].closed.is_set()
+    ours = lambda: [t for t in threading.enumerate() if t.name.startswith("acus-")]  # noqa: E731
+    assert settle(lambda: not ours(), 10.0), ours()
+
+
+def test_every_key_of_the_menus_is_used_once(window):
+    keys = [
+        key.toString()
+        for action in window.findChildren(type(window.menus.undo))
+        for key in action.shortcuts()
+    ]
+    assert len(keys) == len(set(keys))
+
+
+def test_the_sheet_of_keys_opens(window):
+    window.show_shortcuts()
+    sheet = window.findChild(ShortcutSheet)
+    assert sheet is not None
+    sheet.reject()
+
+
+def test_nothing_sticks_out_of_the_window_at_1366_by_768(window, patient, settle):
+    window.show_patient(patient)
+    window.resize(1366, 768)
+    settle(timeout=0.1)
+    assert window.width() == 1366
+    assert window.height() == 768
+    panel = window.workspace.plan_panel
+    for child in panel.findChildren(QWidget):
+        if child.isVisible():
+            right = child.mapTo(panel, child.rect().topRight()).x()
+            assert right <= panel.width(), child
+    assert window.workspace.panes[0].width() > 450
+
+
+def test_an_overlay_comes_from_world_to_patient():
+    from app.core.transform import RigidTransform
+
+    transform = RigidTransform.from_translation([0.1, 0.0, 0.0])
+    overlay = NeedleOverlay.of_world(
+        np.array([0.1, 0.0, -0.05]), np.array([0.0, 0.0, -1.0]), 0.2, transform
+    )
+    assert overlay.tip_mm == pytest.approx((0, 0, -50))
+    assert overlay.start_mm == pytest.approx((0, 0, 150))
+
+
+def test_the_slices_are_axial_sagittal_and_coronal_in_this_order(window):
+    order = [pane.view for pane in window.workspace.panes]
+    assert order == [View.AXIAL, View.SAGITTAL, View.CORONAL]
