@@ -42,6 +42,7 @@ class Bullseye(QWidget):
         self._gain = _gain_box()
         self._intent = QTimer(self, interval=INTENT_MS, singleShot=True)
         self._intent.timeout.connect(self._emit_hand)
+        self._remaining.setMinimumWidth(230)  # the pad keeps its size whatever is said
         self._lay_out()
         self._connect_pad()
 
@@ -87,7 +88,9 @@ class Bullseye(QWidget):
         in_plane, out_of_plane = corrections(scene.frame, scene.frame.tilts(view.direction))
         self._in_plane.setText(in_plane)
         self._out_of_plane.setText(out_of_plane)
-        self._remaining.setText(remaining(view.depth, scene.target_depth, scene.depth_tolerance))
+        distance = remaining(view.depth, scene.target_depth, scene.depth_tolerance)
+        # A guess is never said as if it were known.
+        self._remaining.setText(distance if view.measured else "–")
         self._source.setText("" if view.measured else tr("◇ depth not measured now"))
 
     def _connect_pad(self) -> None:

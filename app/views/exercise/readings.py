@@ -7,7 +7,6 @@ import numpy as np
 from app.core import state_vector as sv
 from app.device.control.safety import Fault
 from app.device.control.state import DeviceState
-from app.session.needle import DepthSource
 from app.session.snapshot import Snapshot
 from app.tracking.fix import FixStatus
 from app.tracking.statistics import TrackerStatistics
@@ -29,7 +28,6 @@ from app.views.exercise.status_items import (
 from app.views.exercise.tracker_panel import TrackerFigures
 from app.views.text import tr
 
-SEEN = (DepthSource.TRACKED, DepthSource.HELD)
 _BAD_STATES = (CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED)
 
 
@@ -112,10 +110,10 @@ def status_items(snapshot: Snapshot, rate: float, heartbeat_age: float) -> tuple
 
 def tracker_status(snapshot: Snapshot) -> StatusItem:
     """Health of the cameras."""
-    statistics, pose = snapshot.tracker, snapshot.pose
-    age = pose.depth_age if pose.depth_source in SEEN else inf
+    statistics: TrackerStatistics | None = snapshot.tracker
     if statistics is None:
         return tracker_item(0.0, 0.0, inf, tr("no cameras"))
+    age = inf if statistics.age is None else statistics.age
     return tracker_item(statistics.rate, statistics.valid_share, age, problem(statistics))
 
 
