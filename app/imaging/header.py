@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO, Final
@@ -119,9 +120,11 @@ def read_header(path: Path, stream: BinaryIO, forced: bool) -> SliceHeader | Non
         FileDamagedError: if the header cannot be parsed.
     """
     try:
-        header = pydicom.dcmread(
-            stream, stop_before_pixels=True, specific_tags=_TAG_LIST, force=forced
-        )
+        with warnings.catch_warnings():  # what is wrong with a file is said by name, below
+            warnings.simplefilter("ignore")
+            header = pydicom.dcmread(
+                stream, stop_before_pixels=True, specific_tags=_TAG_LIST, force=forced
+            )
     except Exception as error:  # hostile bytes make the parser raise nearly anything
         raise FileDamagedError(f"its header cannot be read ({_brief(error)})") from error
     if not elements.text(header, _TAGS["SeriesInstanceUID"]):

@@ -10,18 +10,17 @@ EXPLICIT_BIG: Final = "1.2.840.10008.1.2.2"
 DEFLATED: Final = "1.2.840.10008.1.2.1.99"
 
 DECODERS: Final = {
-    DEFLATED: "",
-    "1.2.840.10008.1.2.5": "pylibjpeg",  # RLE
-    "1.2.840.10008.1.2.4.50": "gdcm",  # JPEG baseline
-    "1.2.840.10008.1.2.4.51": "gdcm",  # JPEG extended
-    "1.2.840.10008.1.2.4.57": "gdcm",  # JPEG lossless
-    "1.2.840.10008.1.2.4.70": "gdcm",  # JPEG lossless, first-order prediction
-    "1.2.840.10008.1.2.4.80": "pyjpegls",  # JPEG-LS lossless
-    "1.2.840.10008.1.2.4.81": "pyjpegls",  # JPEG-LS near-lossless
-    "1.2.840.10008.1.2.4.90": "pylibjpeg",  # JPEG 2000 lossless
-    "1.2.840.10008.1.2.4.91": "pylibjpeg",  # JPEG 2000
+    "1.2.840.10008.1.2.5": ("pylibjpeg", "pydicom"),  # RLE
+    "1.2.840.10008.1.2.4.50": ("gdcm",),  # JPEG baseline
+    "1.2.840.10008.1.2.4.51": ("gdcm",),  # JPEG extended
+    "1.2.840.10008.1.2.4.57": ("gdcm",),  # JPEG lossless
+    "1.2.840.10008.1.2.4.70": ("gdcm",),  # JPEG lossless, first-order prediction
+    "1.2.840.10008.1.2.4.80": ("pyjpegls", "gdcm"),  # JPEG-LS lossless
+    "1.2.840.10008.1.2.4.81": ("pyjpegls", "gdcm"),  # JPEG-LS near-lossless
+    "1.2.840.10008.1.2.4.90": ("pylibjpeg", "gdcm"),  # JPEG 2000 lossless
+    "1.2.840.10008.1.2.4.91": ("pylibjpeg", "gdcm"),  # JPEG 2000
 }
-"""Encoded transfer syntax -> the pydicom plugin that decodes it ("" = pydicom itself)."""
+"""Encoded transfer syntax -> the pydicom plugins that decode it, the quickest first."""
 
 RAW: Final = (IMPLICIT_LITTLE, EXPLICIT_LITTLE, EXPLICIT_BIG)
 """Transfer syntaxes whose pixels can be read straight from the file."""

@@ -1,0 +1,91 @@
+"""`acus ct list` and `acus ct point`."""
+
+import json
+import sys
+
+import pytest
+
+from app.__main__ import main
+from tests.imaging.dicom_factory import Slices
+
+
+def run(monkeypatch, capsys, *arguments) -> tuple[int, str, str]:
+    monkeypatch.setattr(sys, "argv", ["acus", "ct", *map(str, arguments)])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    out, err = capsys.readouterr()
+    return int(ended.value.code or 0), out, err
+
+
+@pytest.fixture
+def ct(monkeypatch, capsys):
+    return lambda *arguments: run(monkeypatch, capsys, *arguments)
+
+
+def test_list_prints_geometry_and_reason_and_no_name(ct, tmp_path):
+    Slices().write(tmp_path)
+    Slices(series="2.25.7", shear=0.3).write(tmp_path, "t")
+    (tmp_path / "note.txt").write_text("x")
+    code, out, _ = ct("list", tmp_path, "--json")
+    answer = json.loads(out)
+    good, tilted = answer["series"]
+    assert code == 0
+    assert good["usable"] and good["reason"] == ""
+    assert good["size"] == [16, 12, 5]
+    assert good["spacing_mm"] == [0.5, 0.8, 2.0]
+    assert good["origin_mm"] == [-20.0, 30.0, -100.0]
+    assert good["direction"] == [1, 0, 0, 0, 1, 0, 0, 0, 1]
+    assert not tilted["usable"] and "tilted" in tilted["reason"]
+    assert answer["ignored"] == [{"file": "note.txt", "reason": "not a DICOM file"}]
+    code, text, _ = ct("list", tmp_path)
+    assert "usable" in text and "refused" in text and "tilted" in text
+    assert "ecret" not in (out + text).lower()
+
+
+def test_point_finds_a_voxel_and_a_pixel(ct, tmp_path):
+    slices = Slices()
+    slices.write(tmp_path)
+    code, out, _ = ct("point", tmp_path, "--voxel", "3,2,4", "--json")
+    assert code == 0
+    expected = {"lps_mm": [-18.5, 31.6, -92.0], "hu": int(slices.stored(4)[2, 3]) - 1024}
+    answer = json.loads(out)
+    assert answer["hu"] == expected["hu"]
+    assert answer["lps_mm"] == pytest.approx(expected["lps_mm"], abs=1e-9)
+    _, out, _ = ct("point", tmp_path, "--sop", "2.25.1000.5", "--pixel", "3,2", "--json")
+    assert json.loads(out) == answer
+    _, out, _ = ct("point", tmp_path, "--voxel", "3,2,4")
+    assert out.startswith("LPS -18.500 31.600 -92.000 mm")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--voxel", "-1,2,3"), "I 0 to 15"),
+        (("--voxel", "1,2,5"), "K 0 to 4"),
+        (("--voxel", "1,2"), "3 whole numbers"),
+        (("--voxel", "a,b,c"), "3 whole numbers"),
+        (("--sop", "2.25.1000.5", "--pixel", "16,0"), "columns 0 to 15"),
+        (("--sop", "2.25.1000.5", "--pixel=-1,0"), "columns 0 to 15"),
+        (("--sop", "2.25.9", "--pixel", "0,0"), "no file with SOPInstanceUID 2.25.9"),
+        (("--sop", "2.25.9"), "go together"),
+        ((), "name a point"),
+        (("--voxel", "1,2,3", "--series", "2.25.4"), "no series 2.25.4"),
+    ],
+)
+def test_bad_points_are_one_line_and_exit_code_two(ct, tmp_path, arguments, words):
+    Slices().write(tmp_path)
+    code, out, err = ct("point", tmp_path, *arguments)
+    assert (code, out) == (2, "")
+    assert words in err
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("verb", ["list", "point"])
+def test_bad_folders_are_one_line_and_exit_code_two(ct, tmp_path, verb):
+    (tmp_path / "empty").mkdir()
+    for folder, words in (("nowhere", "does not exist"), ("empty", "is empty")):
+        more = ("--voxel", "0,0,0") if verb == "point" else ()
+        code, _, err = ct(verb, tmp_path / folder, *more)
+        assert code == 2
+        assert words in err
+        assert err.count("\n") == 1

@@ -1,0 +1,119 @@
+"""The procedural torso: a real series, a plausible body, a safe default plan."""
+
+import numpy as np
+import pydicom
+import pytest
+
+from app.core.errors import ConfigurationError
+from app.core.progress import Cancelled, Progress
+from app.imaging.body import find_body, is_inside, skin_entry
+from app.imaging.phantom import anatomy, phantom_series
+from app.imaging.scanning import scan_folder
+
+SEEDS = range(1, 6)
+
+
+def test_it_reads_back_as_one_usable_series(small_phantom, phantom_volume):
+    listing = scan_folder(small_phantom)
+    assert [series.usable for series in listing.series] == [True]
+    assert listing.ignored == ()
+    assert phantom_volume.size == (128, 128, 64)
+    assert phantom_volume.hu.dtype == np.int16
+    np.testing.assert_allclose(phantom_volume.spacing_mm, (3.0, 3.0, 4.6875))
+
+
+def test_its_files_carry_every_required_tag_and_a_pseudonym(small_phantom):
+    file = pydicom.dcmread(sorted(small_phantom.iterdir())[0])
+    assert str(file.PatientName) == "Phantom^Seed1"
+    assert file.SeriesInstanceUID.startswith("2.25.")
+    assert len({file.SOPInstanceUID, file.SeriesInstanceUID, file.StudyInstanceUID}) == 3
+    required = """SOPClassUID SOPInstanceUID Modality ImageType SamplesPerPixel RescaleSlope
+        PhotometricInterpretation BitsAllocated BitsStored HighBit PixelRepresentation Rows Columns
+        RescaleIntercept PixelSpacing ImageOrientationPatient ImagePositionPatient
+        FrameOfReferenceUID KVP AcquisitionNumber SliceThickness InstanceNumber PatientPosition"""
+    for name in required.split():
+        assert name in file, name
+    assert file.file_meta.TransferSyntaxUID == "1.2.840.10008.1.2.1"
+
+
+def test_it_is_made_once(small_phantom):
+    before = {path: path.stat().st_mtime_ns for path in small_phantom.iterdir()}
+    assert phantom_series(1, slices=64, rows=128) == small_phantom
+    assert {path: path.stat().st_mtime_ns for path in small_phantom.iterdir()} == before
+
+
+def test_a_cancelled_phantom_leaves_nothing_behind(tmp_path, monkeypatch):
+    monkeypatch.setenv("ACUS_CACHE", str(tmp_path))
+    progress = Progress(lambda fraction, text: progress.cancel() if fraction > 0.3 else None)
+    with pytest.raises(Cancelled):
+        phantom_series(1, progress, slices=8, rows=32)
+    assert list((tmp_path / "phantom").iterdir()) == []
+    assert len(list(phantom_series(1, slices=8, rows=32).iterdir())) == 8
+
+
+def test_the_same_seed_gives_the_same_patient_and_another_seed_another(tmp_path, monkeypatch):
+    def content(cache: str, seed: int) -> list[bytes]:
+        monkeypatch.setenv("ACUS_CACHE", str(tmp_path / cache))
+        folder = phantom_series(seed, slices=3, rows=32)
+        return [path.read_bytes() for path in sorted(folder.iterdir())]
+
+    assert content("a", 4) == content("b", 4)
+    assert content("a", 5) != content("a", 4)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "words"), [({"slices": 1}, "2 to 2000"), ({"rows": 5}, "16 to 2048")]
+)
+def test_sizes_out_of_range_are_refused(numbers, words):
+    with pytest.raises(ConfigurationError, match=words):
+        phantom_series(1, **numbers)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_default_path_is_short_steep_and_ends_in_the_lesion(seed):
+    truth = anatomy(seed)
+    path = np.subtract(truth.lesion_mm, truth.entry_mm)
+    length = np.linalg.norm(path)
+    assert 60.0 <= length <= 90.0
+    assert np.degrees(np.arctan2(np.hypot(path[0], path[2]), path[1])) <= 30.0
+
+
+def test_the_default_path_crosses_neither_bone_nor_air(phantom_volume):
+    truth = anatomy(1)
+    entry, lesion = np.array(truth.entry_mm), np.array(truth.lesion_mm)
+    along = np.linspace(0.08, 1.0, 60)[:, None]
+    values = [phantom_volume.hu_at(point) for point in entry + along * (lesion - entry)]
+    assert min(values) > -250.0
+    assert max(values) < 230.0
+    assert values[-1] < 90.0  # darker than the liver around it
+
+
+def test_the_entry_lies_on_the_skin(phantom_volume):
+    truth = anatomy(1)
+    body = find_body(phantom_volume)
+    entry, lesion = np.array(truth.entry_mm), np.array(truth.lesion_mm)
+    start = entry - 0.5 * (lesion - entry)
+    assert is_inside(body, lesion)
+    assert not is_inside(body, start)
+    assert np.linalg.norm(skin_entry(body, start, lesion) - entry) < 3.0
+
+
+@pytest.mark.parametrize(
+    ("organ", "low", "high"),
+    [
+        ("liver", 70, 190),
+        ("right kidney", 120, 230),
+        ("left kidney", 120, 230),
+        ("spleen", 85, 160),
+        ("aorta", 130, 220),
+        ("vena cava", 90, 170),
+        ("right lung", -960, -700),
+        ("left lung", -960, -700),
+        ("spine", 80, 700),
+    ],
+)
+def test_organs_have_their_density(phantom_volume, organ, low, high):
+    point = np.array(anatomy(1).organs[organ])
+    offsets = np.random.default_rng(0).normal(0.0, 2.0, (30, 3))
+    values = [phantom_volume.hu_at(point + offset) for offset in offsets]
+    assert low < np.median(values) < high
