@@ -17,12 +17,12 @@ from app.tracking.camera import Image
 from app.tracking.marker import Extractor, MarkerFix
 from app.tracking.matting import outline_moments
 
-_Float32 = NDArray[np.float32]
 _Mask = NDArray[np.uint8]
 
 _SQUARE3 = np.ones((3, 3), dtype=np.uint8)
 _SQUARE5 = np.ones((5, 5), dtype=np.uint8)
 _CANDIDATES = 4
+_RED = np.array([[-0.5, -0.5, 1.0]])
 
 
 @dataclass(frozen=True)
@@ -102,13 +102,12 @@ class OutlineCentroid(Extractor):
         return MarkerFix(origin + np.array([u, v]), covariance, area, quality)
 
 
-def _redness(image: Image) -> _Float32:
-    blue, green, red = cv2.split(image)
-    mean = cv2.addWeighted(blue, 0.5, green, 0.5, 0.0, dtype=cv2.CV_32F)
-    return np.asarray(cv2.subtract(red, mean, dtype=cv2.CV_32F), dtype=np.float32)
+def _redness(image: Image) -> _Mask:
+    """R - (G + B)/2, at least 0 [grey levels]."""
+    return np.asarray(cv2.transform(np.ascontiguousarray(image), _RED), dtype=np.uint8)
 
 
-def _threshold(redness: _Float32, limit: float) -> _Mask:
+def _threshold(redness: _Mask, limit: float) -> _Mask:
     return (redness > limit).astype(np.uint8)
 
 

@@ -10,6 +10,7 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray, unit
+from app.core.rotation import skew
 from app.tracking.camera_model import CameraModel
 from app.tracking.rig import NeedleShape
 
@@ -48,8 +49,9 @@ def centroid_shift(
 
 def _body(needle: NeedleShape, centre: FloatArray, axis: FloatArray) -> FloatArray:
     """Corners in the camera frame: both end circles, then the shaft before the near end."""
-    across = unit(np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))]))
-    ring = _CIRCLE[:, :1] * across + _CIRCLE[:, 1:] * np.cross(axis, across)
+    turn = skew(axis)
+    across = unit(turn[:, int(np.argmin(np.abs(axis)))])
+    ring = _CIRCLE @ np.array([across, turn @ across])
     towards = -1.0 if axis @ centre > 0.0 else 1.0  # which end of the band faces the camera
     if towards > 0.0:
         stations = [needle.half, max(needle.half, needle.tip - needle.point), needle.tip]
