@@ -178,13 +178,11 @@ def _context(setup: TrainerSetup, profile: DeviceProfile, rig: RigProfile) -> Ru
             "ct": {"pseudonym": setup.ct},
             "trainee": {"scripted": setup.skill or ""},
         },
-        attachments=(
-            _attachment("plan.mrk.json", plan_document(setup.placed.plan)),
-            *(
-                _attachment(f"{name}.json", document.model_dump(mode="json"))
-                for name, document in documents.items()
-            ),
+        attachments=tuple(
+            _attachment(f"{name}.json", document.model_dump(mode="json"))
+            for name, document in documents.items()
         ),
+        plan_files=lambda placed: (_attachment("plan.mrk.json", plan_document(placed.plan)),),
     )
 
 

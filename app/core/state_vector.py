@@ -43,7 +43,9 @@ TICK: Final = next(_next)  # [-] number of the tick
 LATENESS: Final = next(_next)  # [s] wake-up after the deadline
 MISSED: Final = next(_next)  # [-] deadlines missed so far
 TICK_COST: Final = next(_next)  # [s] time that the stages of this tick took; 0 on a virtual clock
-INPUT_FAULT: Final = next(_next)  # [-] number of inputs that were not finite and kept their last value
+INPUT_FAULT: Final = next(
+    _next
+)  # [-] number of inputs that were not finite and kept their last value
 
 # --- encoders and kinematics ----------------------------------------------------------------------
 Q_LEFT: Final = next(_next)  # [rad] joint angles as the encoders give them

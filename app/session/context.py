@@ -23,7 +23,8 @@ class RunContext:
         folder: of the records; `core.paths.sessions()` by default.
         seed: of every random number of the run.
         metadata: records by name, such as `device`, `cameras`, `ct`; values as text.
-        attachments: plan, exercise and profiles as files.
+        attachments: exercise and profiles as files.
+        plan_files: makes the files of a plan that go beside them.
         wall: wall-clock time, for the head only.
         identify: makes a session id from the wall-clock time.
     """
@@ -32,6 +33,7 @@ class RunContext:
     seed: int = 0
     metadata: Mapping[str, Mapping[str, str]] = field(default_factory=lambda: MappingProxyType({}))
     attachments: tuple[Attachment, ...] = ()
+    plan_files: Callable[[PlacedPlan], tuple[Attachment, ...]] = lambda _: ()
     wall: Callable[[], datetime] = lambda: datetime.now(UTC)
     identify: Callable[[datetime], str] = new_id
 
@@ -50,7 +52,7 @@ class RunContext:
             exercise_version=exercise.version,
             seed=self.seed,
             metadata={PLAN: plan_record(placed), **self.metadata},
-            attachments=self.attachments,
+            attachments=(*self.plan_files(placed), *self.attachments),
         )
 
     def recorder(

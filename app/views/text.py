@@ -6,8 +6,9 @@ from PySide6.QtCore import QCoreApplication, QLocale, QTranslator
 
 from app.core import paths
 
-CONTEXT = "Acus"
-"""The one translation context: the same English text has the same meaning everywhere."""
+CONTEXT = ""
+"""The one translation context, as `lupdate` writes it for a plain function: the same English text
+has the same meaning everywhere."""
 
 
 def tr(text: str, **values: object) -> str:

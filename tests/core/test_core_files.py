@@ -1,3 +1,5 @@
+import os
+
 import pytest
 
 from app.core.configuration import Strict, load
@@ -59,3 +61,12 @@ def test_a_failed_write_leaves_the_old_file_and_no_rubbish(tmp_path, monkeypatch
 
 def _no_space(_):
     raise OSError("no space left")
+
+
+def test_a_written_file_has_the_permissions_that_the_user_wants(tmp_path):
+    old = os.umask(0o022)
+    try:
+        write_atomically(tmp_path / "report.pdf", b"%PDF")
+    finally:
+        os.umask(old)
+    assert (tmp_path / "report.pdf").stat().st_mode & 0o777 == 0o644

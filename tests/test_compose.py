@@ -1,0 +1,103 @@
+"""The composed trainer in virtual time: the same parts as in the window, without threads."""
+
+import numpy as np
+import pytest
+
+from app.compose import TrainerSetup, build_loop, device_of, loop_table
+from app.core import state_vector as sv
+from app.core.clock import VirtualClock
+from app.exercises.library import load_exercise
+from app.exercises.scene import placed_plan_of
+from app.planning.placement import PatientOrientation, PlacedPlan, Placement
+from app.planning.plan import Plan
+from app.session.machine import State
+from app.session.trainer import Trainer
+from app.tracking.fix import FixStatus, NeedleFix
+
+PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
+
+
+def run(skill, exercise="first-insertion", seed=3, assistance=0.7, seconds=60.0):
+    """A whole attempt on the composed loop, the depth measured without cameras."""
+    chosen = load_exercise(exercise)
+    profile = device_of(chosen)
+    placed = placed_plan_of(chosen, profile, PLAN)
+    clock = VirtualClock(100.0)
+    loop = build_loop(TrainerSetup(chosen, placed, skill=skill, seed=seed, clock=clock), profile)
+
+    def measure(now):
+        state = loop.latest()
+        tip = profile.pantograph.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
+        pixels = (np.zeros(2), np.zeros(2))
+        trainer.on_fix(NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0))
+
+    trainer = Trainer(loop, None, placed, chosen, clock=clock, advance=measure)
+    loop.open()
+    trainer.step()
+    trainer.assistance(assistance)
+    trainer.begin("tester")
+    states, felt = [], []
+    while clock.now() < 100.0 + seconds:
+        snapshot = trainer.step()
+        states.append(snapshot.state)
+        felt.append(np.linalg.norm(snapshot.device.felt))
+        if snapshot.device.row[sv.TRAINEE_PHASE] == 9.0:
+            break
+    result = trainer.end()
+    loop.close()
+    return result, states, felt
+
+
+@pytest.mark.parametrize("skill", ["expert", "novice"])
+def test_a_guided_attempt_goes_through_all_states_and_reaches_the_target(skill):
+    result, states, felt = run(skill)
+    assert [s for n, s in enumerate(states) if n == 0 or s is not states[n - 1]][
+        0
+    ] is State.ALIGNING
+    assert {State.ALIGNING, State.INSERTING, State.HOLDING} <= set(states)
+    assert result.state is State.ENDED
+    assert result.score is not None
+    assert result.score.row("lateral_error").value < 5.0
+    assert max(felt) <= 5.0 + 1e-9
+
+
+def test_the_expert_scores_more_than_the_novice():
+    assert run("expert")[0].score.total > run("novice")[0].score.total
+
+
+def test_the_same_seed_is_the_same_attempt_to_the_last_digit():
+    first, again = run("novice")[0], run("novice")[0]
+    np.testing.assert_array_equal(first.trajectory.tip, again.trajectory.tip)
+    assert first.score.total == again.score.total
+
+
+def test_without_guidance_no_force_of_the_fixture_is_felt():
+    result = run("expert", assistance=0.0)[0]
+    assert np.abs(result.trajectory.guide).max() == 0.0
+
+
+def test_breathing_follows_the_way_the_patient_lies():
+    exercise = load_exercise("breathing-liver")
+    profile = device_of(exercise)
+    for orientation, up in ((PatientOrientation.SUPINE, 1.0), (PatientOrientation.PRONE, -1.0)):
+        plan = PLAN if up > 0 else Plan(-PLAN.entry_mm, -PLAN.target_mm, "prone")
+        placed = PlacedPlan.of(plan, Placement(orientation), profile.pantograph.fulcrum)
+        clock = VirtualClock(100.0)
+        loop = build_loop(TrainerSetup(exercise, placed, clock=clock), profile)
+        loop.open()
+        loop.step(8000)
+        shift = loop.rows()[:, sv.TARGET_SHIFT_X : sv.TARGET_SHIFT_Z + 1]
+        loop.close()
+        assert np.ptp(shift[:, 1]) > 5e-3, "head-foot, along world y"
+        anterior = shift[np.argmax(np.abs(shift[:, 2])), 2] * up
+        assert abs(anterior) > 1e-3, "anterior-posterior, along world z"
+
+
+def test_the_table_of_a_real_run_has_the_safety_after_all_forces():
+    exercise = load_exercise("thick-tissue")
+    profile = device_of(exercise)
+    placed = placed_plan_of(exercise, profile, PLAN)
+    names = [s.name for s in loop_table(TrainerSetup(exercise, placed, skill="novice"), profile)]
+    assert names.index("trainee") == 0
+    assert names[-2:] == ["safety", "plant"]
+    assert names.index("fixture") < names.index("lateral_tissue") < names.index("transmission")
