@@ -33,6 +33,7 @@ SNAP_MM: Final = 10.0
 _TABLE_MM: Final = 5.0
 _REFINE_MM: Final = 6.0
 _STEP_MM: Final = 0.25
+_ITERATIONS: Final = 6
 
 Mask = NDArray[np.bool_]
 
@@ -209,10 +210,14 @@ def nearest_skin(body: Body, lps_mm: ArrayLike) -> FloatArray:
     _, cell = body.nearest_cell_mm(point)
     outward = _outward(body, cell)
     skin = _along_normal(body, cell, outward)
-    foot = point + float(np.dot(skin - point, outward)) * outward  # on the skin's tangent plane
-    if np.linalg.norm(foot - skin) > _REFINE_MM:
-        return skin
-    return _along_normal(body, foot, outward)
+    for _ in range(_ITERATIONS):  # to the foot of the perpendicular on the skin's tangent plane
+        outward = _outward(body, skin)
+        foot = point + float(np.dot(skin - point, outward)) * outward
+        nearer = _along_normal(body, foot, outward)
+        if np.linalg.norm(nearer - point) >= np.linalg.norm(skin - point):
+            break
+        skin = nearer
+    return skin
 
 
 def _along_normal(body: Body, near: FloatArray, outward: FloatArray) -> FloatArray:

@@ -30,15 +30,19 @@ def test_list_prints_geometry_and_reason_and_no_name(ct, tmp_path):
     answer = json.loads(out)
     good, tilted = answer["series"]
     assert code == 0
-    assert good["usable"] and good["reason"] == ""
+    assert good["usable"]
+    assert good["reason"] == ""
     assert good["size"] == [16, 12, 5]
     assert good["spacing_mm"] == [0.5, 0.8, 2.0]
     assert good["origin_mm"] == [-20.0, 30.0, -100.0]
     assert good["direction"] == [1, 0, 0, 0, 1, 0, 0, 0, 1]
-    assert not tilted["usable"] and "tilted" in tilted["reason"]
+    assert not tilted["usable"]
+    assert "tilted" in tilted["reason"]
     assert answer["ignored"] == [{"file": "note.txt", "reason": "not a DICOM file"}]
     code, text, _ = ct("list", tmp_path)
-    assert "usable" in text and "refused" in text and "tilted" in text
+    assert "usable" in text
+    assert "refused" in text
+    assert "tilted" in text
     assert "ecret" not in (out + text).lower()
 
 
