@@ -13,9 +13,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.core.disclaimer import DISCLAIMER
 from app.views import theme
-from app.views.text import tr
+from app.views.text import disclaimer, tr
 
 Group = tuple[str, list[tuple[str, str]]]
 
@@ -105,7 +104,7 @@ class ShortcutSheet(QDialog):
 
 def disclaimer_label(parent: QWidget | None = None) -> QLabel:
     """Return the sentence as a label."""
-    label = QLabel(tr(DISCLAIMER), parent)
+    label = QLabel(disclaimer(), parent)
     label.setProperty("role", "disclaimer")
     label.setAlignment(Qt.AlignmentFlag.AlignCenter)
     return label

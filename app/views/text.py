@@ -21,6 +21,14 @@ def tr(text: str, **values: object) -> str:
     return translated.format(**values) if values else translated
 
 
+def disclaimer() -> str:
+    """Return `core.disclaimer.DISCLAIMER` in the user's language.
+
+    It stands here once more, in full, because `lupdate` finds literals only; a test compares them.
+    """
+    return tr("Training only. Not a medical device; not for diagnosis or patient care.")
+
+
 def translations_folder() -> Path:
     """Folder of the shipped `acus_<language>.qm` files."""
     return paths.resources() / "translations"

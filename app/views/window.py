@@ -8,7 +8,6 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
 
 from app import __version__
-from app.core.disclaimer import DISCLAIMER
 from app.core.errors import AcusError
 from app.exercises.schema import Exercise
 from app.imaging.window import WindowLevel
@@ -29,7 +28,7 @@ from app.views.services import Services
 from app.views.settings import Recents, open_settings
 from app.views.shortcuts import ShortcutSheet
 from app.views.start_page import StartPage
-from app.views.text import tr
+from app.views.text import disclaimer, tr
 from app.views.workspace import Workspace
 
 SMALLEST = (1180, 700)
@@ -137,7 +136,7 @@ class MainWindow(QMainWindow):
         """Say what this is and what it is not."""
         text = tr("Acus {version}", version=__version__)
         box = QMessageBox(QMessageBox.Icon.NoIcon, tr("About Acus"), text, parent=self)
-        box.setInformativeText(tr(DISCLAIMER))
+        box.setInformativeText(disclaimer())
         box.finished.connect(box.deleteLater)
         box.open()
 

@@ -5,7 +5,6 @@ from datetime import datetime
 from PySide6.QtCore import Qt, Signal, SignalInstance
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
 
-from app.core.disclaimer import DISCLAIMER
 from app.views import theme
 from app.views.debrief.curves import CurvesView
 from app.views.debrief.path_view import PathView
@@ -14,7 +13,7 @@ from app.views.debrief.score_table import ScoreTable
 from app.views.debrief.score_words import total_text, verdict
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.state_words import state_word
-from app.views.text import tr
+from app.views.text import disclaimer, tr
 
 
 class DebriefPage(QWidget):
@@ -99,7 +98,7 @@ class DebriefPage(QWidget):
         splitter.setStretchFactor(1, 1)
         splitter.setSizes([500, 900])
         buttons = QHBoxLayout()
-        disclaimer = QLabel(tr(DISCLAIMER), self)
+        disclaimer = QLabel(disclaimer(), self)
         disclaimer.setProperty("role", "disclaimer")
         buttons.addWidget(disclaimer, 1)
         for button in (self.sessions, self.export, self.report, self.retry):

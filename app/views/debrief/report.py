@@ -7,7 +7,6 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, Q
 from PySide6.QtGui import QColor, QFont, QPageLayout, QPageSize, QPainter, QPdfWriter, QPen
 
 from app import __version__
-from app.core.disclaimer import DISCLAIMER
 from app.core.files import write_atomically
 from app.scoring.result import Score
 from app.scoring.rows import Row
@@ -20,7 +19,7 @@ from app.views.debrief.review import Review
 from app.views.debrief.score_words import counting, row_texts, shown_only, total_text, verdict
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.state_words import state_word
-from app.views.text import tr
+from app.views.text import disclaimer, tr
 
 WIDTH: Final = 595.0
 HEIGHT: Final = 842.0
@@ -179,7 +178,7 @@ def _footer(painter: QPainter, review: Review, page: int) -> None:
     y = HEIGHT - MARGIN + 8.0
     painter.setPen(QPen(QColor(RULE), 0.6))
     painter.drawLine(QPointF(MARGIN, y - 12.0), QPointF(WIDTH - MARGIN, y - 12.0))
-    _text(painter, MARGIN, y, tr(DISCLAIMER), font(8.5, bold=True))
+    _text(painter, MARGIN, y, disclaimer(), font(8.5, bold=True))
     right = QRectF(MARGIN, y - 9.0, WIDTH - 2 * MARGIN, 12.0)
     painter.setFont(font(8.0))
     painter.setPen(QColor(DIM))
