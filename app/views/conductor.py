@@ -80,7 +80,7 @@ class Conductor(QObject):
 
     @property
     def settled(self) -> bool:
-        """Whether nothing is being worked out any more: surfaces extracted, robot and cameras on."""
+        """Whether everything stands: surfaces extracted, robot and cameras on."""
         return self._surfaces_task is None and self.controller.run is not None
 
     # --- patient and exercise -----------------------------------------------------------------

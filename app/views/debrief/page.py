@@ -98,9 +98,9 @@ class DebriefPage(QWidget):
         splitter.setStretchFactor(1, 1)
         splitter.setSizes([500, 900])
         buttons = QHBoxLayout()
-        disclaimer = QLabel(disclaimer(), self)
-        disclaimer.setProperty("role", "disclaimer")
-        buttons.addWidget(disclaimer, 1)
+        note = QLabel(disclaimer(), self)
+        note.setProperty("role", "disclaimer")
+        buttons.addWidget(note, 1)
         for button in (self.sessions, self.export, self.report, self.retry):
             buttons.addWidget(button)
         page = QVBoxLayout(self)
