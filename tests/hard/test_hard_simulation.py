@@ -280,6 +280,7 @@ def test_the_trainee_wants_a_direction_at_any_time(times: list[float]) -> None:
     axis = unit(np.array([0.0, 0.6, -0.8]))
     _, step, parameters = trainee_stage(axis, 0.08, "novice", 5)
     state = sv.empty_state()
+    state[sv.ENABLED] = 1.0
     for time in times:
         state[sv.TIME] = time
         step(state, parameters)

@@ -45,6 +45,13 @@ def test_the_path_is_a_loop_when_the_front_lags() -> None:
     assert area(shifts(times, anterior_lag=0.0)) < 1e-12
 
 
+@pytest.mark.parametrize("shape", [1.0, 2.0, 3.0, 2.5])
+def test_the_waveform_is_the_power_of_the_sine_for_whole_and_broken_shapes(shape: float) -> None:
+    for phase in np.linspace(-1.0, 4.0, 23):
+        expected = abs(np.sin(phase)) ** (2.0 * shape)
+        assert effect.lujan(phase, shape) == pytest.approx(expected, rel=1e-12, abs=1e-30)
+
+
 def test_it_is_periodic_even_after_a_day() -> None:
     first = shifts(np.array([0.0, 1.3]))[1]
     later = shifts(np.array([0.0, 1.3 + 21_600 * 4.0]))[1]

@@ -1,6 +1,6 @@
 """The ways to compute a needle in a foundation, against higher precision and each other."""
 
-import mpmath
+import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
 
@@ -56,11 +56,12 @@ def test_a_stiff_needle_is_rigid_and_an_endless_one_has_a_limit() -> None:
 
 
 def difference(n: int, ei: float) -> float:
-    return difference_moment(K, ei, 0.1, TURN, np.empty((n, 3)), np.empty(n))
+    return float(difference_moment(K, ei, 0.1, TURN, np.empty((n, 3)), np.empty(n)))
 
 
 def hermite(n: int, ei: float) -> float:
-    return hermite_moment(np.full(n, K), ei, 0.1, TURN, np.empty((2 * n, 4)), np.empty(2 * n))
+    work = np.empty((2 * n, 4)), np.empty(2 * n)
+    return float(hermite_moment(np.full(n, K), ei, 0.1, TURN, *work))
 
 
 @pytest.mark.parametrize(

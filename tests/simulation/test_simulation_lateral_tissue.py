@@ -110,7 +110,8 @@ def test_the_force_is_the_gradient_of_the_stored_energy(
     force = tick(memory, axis, 0.07)
     for direction in (np.cross(axis, [1.0, 0, 0]), np.cross(axis, [0, 1.0, 0])):
         turned = [unit(axis + s * 1e-6 * direction) for s in (1.0, -1.0)]
-        slope = np.subtract(*[effect.stored_energy(memory, n) for n in turned])
+        rise, fall = (effect.stored_energy(memory, n) for n in turned)
+        slope = rise - fall
         moved = (turned[0] - turned[1]) * -(LENGTH - 0.07)  # of the hub
         assert -slope == pytest.approx(force @ moved, rel=1e-7)
 
@@ -145,7 +146,7 @@ def test_any_wandering_takes_no_energy_out_of_the_tissue(
         middle = tick(memory, unit(axis + goal), depth)
         end = tick(memory, goal, depth)
         work = (force + 4.0 * middle + end) / 6.0 @ (goal - axis) * -(LENGTH - depth)
-        given += work  # the tissue's work on the hub
+        given += float(work)  # the tissue's work on the hub
         axis = goal
         depth = float(np.clip(depth + random.normal(0.0005, 4e-3), -0.01, 0.12))
         tick(memory, axis, depth)

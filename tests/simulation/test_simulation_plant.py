@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.core import state_vector as sv
-from app.core.arrays import FloatArray, unit
+from app.core.arrays import FloatArray, angle_between, unit
 from app.mechanisms.pantograph import (
     force_map,
     forward,
@@ -110,7 +110,7 @@ def test_the_hand_turns_the_needle_to_where_it_wants() -> None:
     grip(state, wanted, 0.03)
     rows = run(plant_stage(PROFILE), state, 3000)
     # Coulomb friction of the joints and the seal leave a small part of the way.
-    assert np.arccos(min(1.0, axis_of(state) @ wanted)) < np.deg2rad(0.3)
+    assert angle_between(axis_of(state), wanted) < np.deg2rad(0.3)
     assert state[sv.PLANT_DEPTH] == pytest.approx(0.03, abs=0.3e-3)
     pull = rows[0, sv.PULL_X : sv.PULL_Z + 1]
     assert abs(pull @ axis_of(rows[0])) < 1e-9
@@ -133,7 +133,7 @@ def test_a_hand_that_wants_beyond_the_tilt_limit_is_stopped_without_a_jump() -> 
     state = begin()
     grip(state, unit(np.array([0.95, 0.0, -0.3])), 0.0)
     rows = run(plant_stage(PROFILE, hand=Hand(stiffness=2000.0)), state, 3000)
-    tilts = np.array([np.arccos(-axis_of(row)[2]) for row in rows[::10]])
+    tilts = np.array([angle_between(axis_of(row), DOWN) for row in rows[::10]])
     assert np.rad2deg(tilts.max()) < PROFILE.tilt_limit_deg + 2.0
     peak = int(tilts.argmax())
     assert tilts[peak] - tilts[peak:].min() < np.deg2rad(1.5)  # no bouncing off
@@ -178,7 +178,7 @@ def test_any_hand_is_stable_at_any_step(dt: float, stiffness: float) -> None:
     assert np.isfinite(rows).all()
     tail = rows[-int(0.5 / dt) :]
     assert np.ptp(tail[:, Q], axis=0).max() < 1e-3
-    assert np.arccos(min(1.0, axis_of(state) @ wanted)) < np.deg2rad(0.5)
+    assert angle_between(axis_of(state), wanted) < np.deg2rad(0.5)
 
 
 def test_a_bad_hand_is_refused() -> None:

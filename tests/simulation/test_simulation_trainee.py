@@ -18,6 +18,7 @@ def played(skill: str, seed: int = 0, speed: float = 1.0, start: float = 100.0) 
     """Time, hand direction (3), depth, phase every 2 ms until done, shape (n, 6)."""
     _, step, parameters = trainee_stage(AXIS, DEPTH, skill, seed, speed)
     state, rows = sv.empty_state(), []
+    state[sv.ENABLED] = 1.0
     for k in range(30_000):
         state[sv.TIME] = start + 0.002 * k
         step(state, parameters)
@@ -31,7 +32,8 @@ def played(skill: str, seed: int = 0, speed: float = 1.0, start: float = 100.0) 
 
 def angles(rows: FloatArray) -> FloatArray:
     cross = np.linalg.norm(np.cross(rows[:, 1:4], AXIS), axis=1)
-    return np.rad2deg(np.arctan2(cross, rows[:, 1:4] @ AXIS))
+    result: FloatArray = np.rad2deg(np.arctan2(cross, rows[:, 1:4] @ AXIS))
+    return result
 
 
 def test_an_expert_takes_about_12_s_and_a_novice_about_25() -> None:
@@ -79,6 +81,21 @@ def test_the_hand_never_jumps() -> None:
 
 def test_the_same_seed_is_the_same_run_at_any_starting_time() -> None:
     np.testing.assert_allclose(played("novice", 3), played("novice", 3, start=7.0), atol=1e-9)
+
+
+def test_it_waits_until_armed_and_begins_anew_when_armed_again() -> None:
+    _, step, parameters = trainee_stage(AXIS, DEPTH, "expert")
+    state = sv.empty_state()
+    for enabled, time, phase in (
+        (0, 5.0, 0),
+        (1, 9.0, 1),
+        (1, 11.0, 2),
+        (0, 12.0, 2),
+        (1, 30.0, 1),
+    ):
+        state[sv.ENABLED], state[sv.TIME] = enabled, time
+        step(state, parameters)
+        assert state[sv.TRAINEE_PHASE] == phase
 
 
 def test_another_seed_is_another_run() -> None:
