@@ -14,6 +14,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
 from app.core.progress import Progress
 from app.device.control import Loop, Table, VirtualFixture, pantograph_stages
+from app.device.errors import LoopError
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
 from app.exchange.markups import plan_document
@@ -42,6 +43,10 @@ UPRIGHT: Final = (0.0, 0.0, -1.0)
 
 START_DEPTH: Final = -0.015
 """Where the needle waits: tip 15 mm above the skin [m]."""
+
+
+_PATIENCE: Final = 120.0
+_LOOK: Final = 0.02
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,9 +225,30 @@ class Desktop:
         rig = _build(
             TrainerSetup(setup.exercise, setup.placed, setup.ct, self._skill, seed, self._sessions)
         )
-        progress.report(0.8, "starting robot and cameras")
-        rig.trainer.open()
+        try:
+            rig.trainer.open()
+            _wait_until_alive(rig, progress)
+        except BaseException:
+            rig.trainer.close()
+            raise
         return DesktopRun(rig)
+
+
+def _wait_until_alive(rig: Rig, progress: Progress) -> None:
+    """Wait for the first tick and the first picture: on a first start kernels are compiled there.
+
+    A tracker without a picture is no reason not to begin; the status strip says what it lacks.
+    """
+    clock = rig.setup.clock
+    begin = clock.now()
+    while (waited := clock.now() - begin) < _PATIENCE:
+        progress.report(0.8, "starting robot and cameras")
+        rig.trainer.heartbeat()
+        if rig.loop.latest().tick > 0 and rig.tracker.latest.read() is not None:
+            return
+        clock.sleep(_LOOK)
+    if rig.loop.latest().tick == 0:
+        raise LoopError(f"the control loop has not ticked in {waited:.0f} s; start it again")
 
 
 class DesktopRun:
