@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 from PySide6.QtCore import QCoreApplication, QEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 
 from app.imaging.series import Series
 from app.imaging.volume import Volume
@@ -51,6 +51,20 @@ def settle(application: QApplication) -> Settle:
         return until()
 
     return process
+
+
+@pytest.fixture
+def destroy() -> Iterator[Callable[[QWidget], None]]:
+    """Register a widget to be destroyed while Python still holds all that belongs to it.
+
+    pyqtgraph's items crash Qt when the garbage collector takes their wrappers first.
+    """
+    kept: list[QWidget] = []
+    yield kept.append
+    for widget in kept:
+        widget.close()
+        widget.deleteLater()
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
 
 def series_of(hu: NDArray[np.generic]) -> Series:

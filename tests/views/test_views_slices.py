@@ -34,8 +34,9 @@ def viewing(application, volume):
 
 
 @pytest.fixture
-def pane(viewing, volume, settle):
+def pane(viewing, volume, settle, destroy):
     pane = SlicePane(viewing, View.AXIAL)
+    destroy(pane)
     pane.resize(400, 300)
     pane.show()
     viewing.set_volume(volume)
@@ -297,9 +298,10 @@ def test_slices_follow_the_tip_with_a_dead_band(viewing):
     assert_allclose(viewing.cursor_mm, tip, atol=1e-9)
 
 
-def test_entry_and_target_are_shown_in_every_view(viewing, settle):
+def test_entry_and_target_are_shown_in_every_view(viewing, destroy):
     panes = [SlicePane(viewing, view) for view in View]
     for pane in panes:
+        destroy(pane)
         pane.resize(300, 200)
         pane.canvas.show_volume()
     middle = viewing.cursor_mm
@@ -308,7 +310,6 @@ def test_entry_and_target_are_shown_in_every_view(viewing, settle):
         marks = [i for i in pane.canvas.scene().items()
                  if isinstance(i, MarkItem) and i.isVisible()]  # fmt: skip
         assert len(marks) == 2
-        pane.deleteLater()
 
 
 def test_an_equal_window_is_not_announced_again(viewing):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QLocale, QMimeData, QObject, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
-from PySide6.QtWidgets import QMessageBox, QWidget
+from PySide6.QtWidgets import QLabel, QMessageBox, QWidget
 
 from app.core.disclaimer import DISCLAIMER
 from app.core.errors import AcusError
@@ -241,12 +241,12 @@ def services(tmp_path):
 
 
 @pytest.fixture
-def window(application, services):
+def window(application, services, destroy):
     window = MainWindow(services)
+    destroy(window)
     window.show()
     yield window
     window.editor.saved(Path("kept"))
-    window.close()
 
 
 @pytest.fixture
@@ -380,13 +380,13 @@ def test_a_click_beside_the_patient_in_3d_is_told(window, patient):
     assert "body" in window.message_bar.text
 
 
-def test_window_and_level_are_remembered(application, services, window, patient):
+def test_window_and_level_are_remembered(services, window, patient, destroy):
     window.show_patient(patient)
     window.workspace.panes[0].viewing.set_window(type(window.workspace.viewing.window)(123, 45))
     window.close()
     again = MainWindow(services)
+    destroy(again)
     assert (again.workspace.viewing.window.width, again.workspace.viewing.window.level) == (123, 45)
-    again.close()
 
 
 def test_an_unsaved_plan_can_keep_the_window_open(window, patient, monkeypatch):
@@ -396,8 +396,9 @@ def test_an_unsaved_plan_can_keep_the_window_open(window, patient, monkeypatch):
     assert not window.close()
 
 
-def test_closing_leaves_no_thread_behind(application, services, patient, settle):
+def test_closing_leaves_no_thread_behind(application, services, patient, settle, destroy):
     window = MainWindow(services)
+    destroy(window)
     window.show()
     window.show_patient(patient)
     plan(window)
