@@ -8,6 +8,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+
 from app.core import paths
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
@@ -153,8 +155,8 @@ def needle_scene(loop: Loop, profile: DeviceProfile, marker_offset: float) -> Sc
     """Return what the cameras see: the true needle of the robot, not what its encoders say."""
     geometry = profile.pantograph
 
-    def scene(_: float) -> MarkerScene:
-        row = loop.latest().row
+    def scene(time: float) -> MarkerScene:
+        row = row_at(loop, time)
         depth = float(row[sv.PLANT_DEPTH])
         q = row[sv.PLANT_Q_LEFT : sv.PLANT_Q_LEFT + 2]
         needle = system_forward(geometry, q, geometry.needle_length - depth)
@@ -164,10 +166,25 @@ def needle_scene(loop: Loop, profile: DeviceProfile, marker_offset: float) -> Sc
     return scene
 
 
+def row_at(loop: Loop, time: float) -> FloatArray:
+    """Return the tick nearest before a monotonic time [s]: both pictures show one moment.
+
+    The newest tick for a time to come, the oldest of the last tenth of a second for one long past.
+    """
+    newest = loop.latest()
+    if newest.time <= time or newest.tick == 0:
+        return newest.row
+    rows = loop.rows(newest.tick - round(0.1 * loop.rate_hz))
+    index = int(np.searchsorted(rows[:, sv.TIME], time, side="right")) - 1
+    row: FloatArray = rows[max(index, 0)]
+    return row
+
+
 def _measured_axis(loop: Loop) -> Callable[[float], FloatArray | None]:
-    def axis(_: float) -> FloatArray | None:
-        state = loop.latest()
-        return state.axis if state.tick and state.kinematics == 0 else None
+    def axis(time: float) -> FloatArray | None:
+        row = row_at(loop, time)
+        known = row[sv.TICK] > 0.0 and row[sv.KINEMATICS] == 0.0
+        return row[sv.AXIS_X : sv.AXIS_X + 3] if known else None
 
     return axis
 

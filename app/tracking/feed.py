@@ -10,8 +10,9 @@ from app.tracking.watch import CameraHealth, CameraReader, CameraState
 _WAIT = 0.1
 """Longest wait [s] for a picture before the cameras' health is looked at."""
 
-_PAIRING = 0.05
-"""Time [s] that the faster camera waits for the other before it goes on alone."""
+_PAIRING = 0.15
+"""Time [s] that the faster camera waits for the other before it goes on alone: a picture that is
+late beside a busy window is not a marker out of view, and 0.2 s are bridged anyway."""
 
 _TROUBLE = frozenset({CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED})
 
