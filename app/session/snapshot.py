@@ -60,6 +60,7 @@ class Snapshot:
 
 _FIX_TEXT = {
     "out_of_view": "marker out of view",
+    "no_picture": "a camera's picture is late",
     "one_camera": "marker seen by one camera only",
     "inconsistent": "the cameras disagree about the marker",
     "no_orientation": "the cameras see the marker, but the robot gives no direction",

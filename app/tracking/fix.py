@@ -27,6 +27,7 @@ class FixStatus(StrEnum):
     VALID = "valid"
     OUT_OF_VIEW = "out_of_view"  # no camera shows the marker
     ONE_CAMERA = "one_camera"  # one does; `missing` names the other
+    NO_PICTURE = "no_picture"  # a camera has given no picture in time
     INCONSISTENT = "inconsistent"  # the pictures contradict each other or the robot
     NO_ORIENTATION = "no_orientation"  # the robot gives no axis, so the tip cannot be told
 

@@ -139,7 +139,8 @@ class Tracker:
         absent = [name for name, f in zip(self._names, frames, strict=True) if f is None]
         if not absent:
             return fix
-        return replace(fix, reason=f"no picture from the {absent[0]} camera")
+        reason = f"no picture from the {absent[0]} camera"
+        return replace(fix, status=FixStatus.NO_PICTURE, reason=reason)
 
     def _show(self, frames: Pair, markers: Markers) -> None:
         for name, frame, marker in zip(self._names, frames, markers, strict=True):

@@ -260,7 +260,7 @@ def test_a_camera_that_hangs_freezes_or_fails_is_noticed_and_the_other_goes_on(r
     cameras[1].mode = mode
     found = []
     _until(lambda: _faults(tracker, text, found))
-    _until(lambda: fixes[-1].status is FixStatus.ONE_CAMERA)
+    _until(lambda: fixes[-1].status is FixStatus.NO_PICTURE)
     assert fixes[-1].missing == ("right",)
     assert text in tracker.statistics().reason
     if mode == "frozen":

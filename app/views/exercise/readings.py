@@ -140,6 +140,8 @@ def problem(statistics: TrackerStatistics) -> str:
         return statistics.reason
     if statistics.status is FixStatus.OUT_OF_VIEW:
         return tr("marker out of view (both cameras)")
+    if statistics.status is FixStatus.NO_PICTURE:
+        return tr("a picture is late")
     if statistics.status is FixStatus.ONE_CAMERA:
         names = ", ".join(camera_name(name) for name in statistics.missing)
         return tr("marker out of view ({cameras})", cameras=names)

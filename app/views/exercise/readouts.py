@@ -73,12 +73,15 @@ def _rows() -> dict[str, tuple[str, str]]:
 
 
 def _texts(figures: LiveFigures) -> dict[str, str]:
+    def measured_mm(value: float) -> str:  # a guess is never said as if it were known
+        return tr("{mm:.1f} mm", mm=1e3 * value) if figures.measured else "– ◇"
+
     return {
         "elapsed": clock_text(figures.elapsed),
-        "depth": tr("{mm:.1f} mm", mm=1e3 * figures.depth) + ("" if figures.measured else " ◇"),
+        "depth": measured_mm(figures.depth),
         "angle": tr("{deg:.1f}°", deg=degrees(figures.angle_error)),
-        "lateral": tr("{mm:.1f} mm", mm=1e3 * figures.lateral),
-        "to_target": tr("{mm:.1f} mm", mm=1e3 * figures.to_target),
+        "lateral": measured_mm(figures.lateral),
+        "to_target": measured_mm(figures.to_target),
         "scans": str(figures.scans),
     }
 
