@@ -35,6 +35,14 @@ _REFINE_MM: Final = 6.0
 _STEP_MM: Final = 0.25
 _ITERATIONS: Final = 6
 
+_PAD: Final = 4
+
+_CORNERS: Final = np.argwhere(np.ones((3, 3, 3), bool)) - 1.0
+_AROUND: Final = np.vstack(
+    [radius * v / np.linalg.norm(v) for radius in (3.0, 6.0) for v in _CORNERS if v.any()]
+)
+"""Points around one, evenly to all sides, shape (52, 3) [mm]."""
+
 Mask = NDArray[np.bool_]
 
 
@@ -105,9 +113,6 @@ def find_body(volume: Volume, progress: Progress | None = None) -> Body:
         plane[...] = ndimage.binary_fill_holes(plane)
     progress.report(1.0, "body found")
     return Body(volume, (i, j, k), read_only(body))
-
-
-_PAD: Final = 4
 
 
 def _ball(spacing: FloatArray) -> Mask:
@@ -230,10 +235,9 @@ def _along_normal(body: Body, near: FloatArray, outward: FloatArray) -> FloatArr
 
 def _outward(body: Body, point: FloatArray) -> FloatArray:
     """Direction out of the body at its skin, unit vector, or zero where there is none."""
-    offsets = np.vstack([np.eye(3), -np.eye(3)]) * (1.5 * GRID_MM)
-    share = body.share(point + offsets)
-    gradient = share[3:] - share[:3]
-    return unit(gradient) if float(np.abs(gradient).max()) > 1e-6 else np.zeros(3)
+    share = body.share(point + _AROUND)
+    inward = share @ _AROUND  # centre of mass of the body around the point
+    return unit(-inward) if float(np.abs(inward).max()) > 1e-6 else np.zeros(3)
 
 
 def snap_to_skin(body: Body, lps_mm: ArrayLike, tolerance_mm: float = SNAP_MM) -> FloatArray:

@@ -2,16 +2,108 @@
 
 import math
 import struct
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, BinaryIO, Final
 
+import pydicom
 from pydicom.dataelem import RawDataElement
 from pydicom.dataset import Dataset
+from pydicom.filereader import data_element_generator
+from pydicom.tag import BaseTag
 
 from app.imaging.errors import FileDamagedError
+from app.imaging.pixel_data import DECODERS, EXPLICIT_BIG, EXPLICIT_LITTLE, IMPLICIT_LITTLE
+
+_PREAMBLE: Final = 132
+_TRANSFER_SYNTAX: Final = 0x00020010
+_FIRST_PIXEL_TAG: Final = 0x7FE00008
 
 
-def text(header: Dataset, tag: int) -> str:
+@dataclass(frozen=True, slots=True)
+class Elements:
+    """Elements of one file's header.
+
+    Attributes:
+        values: raw elements by tag.
+        syntax: transfer syntax UID.
+    """
+
+    values: Mapping[int, Any]
+    syntax: str
+
+
+def read_elements(stream: BinaryIO, wanted: Sequence[int], forced: bool) -> Elements:
+    """Read the wanted elements before the pixels; the stream then stands at the pixels.
+
+    Args:
+        stream: the file, at its start.
+        wanted: tags.
+        forced: read although the DICOM preamble is missing.
+
+    Raises:
+        FileDamagedError: if the header cannot be parsed.
+    """
+    try:
+        quick = None if forced else _quick(stream, wanted)
+        return quick or _thorough(stream, wanted, forced)
+    except Exception as error:  # hostile bytes make the parser raise nearly anything
+        brief = " ".join(f"{type(error).__name__}: {error}".split())[:120]
+        raise FileDamagedError(f"its header cannot be read ({brief})") from error
+
+
+def _quick(stream: BinaryIO, wanted: Sequence[int]) -> Elements | None:
+    """Read a file that is what it says; None for one that needs pydicom's whole care."""
+    stream.seek(_PREAMBLE)
+    meta = data_element_generator(
+        stream, False, True, _after_meta, None, "iso8859", [_TRANSFER_SYNTAX]
+    )
+    syntax = text(Elements({int(e.tag): e for e in meta}, ""), _TRANSFER_SYNTAX)
+    if syntax not in DECODERS and syntax not in (IMPLICIT_LITTLE, EXPLICIT_LITTLE, EXPLICIT_BIG):
+        return None
+    start = stream.read(6)
+    stream.seek(-len(start), 1)
+    implicit, little = syntax == IMPLICIT_LITTLE, syntax != EXPLICIT_BIG
+    if (start[4:6].isalpha() and start[4:6].isupper()) == implicit:
+        return None
+    found = data_element_generator(
+        stream, implicit, little, _at_pixels, None, "iso8859", list(wanted)
+    )
+    return Elements({int(element.tag): element for element in found}, syntax)
+
+
+def _after_meta(tag: BaseTag, vr: str | None, length: int) -> bool:
+    return tag >> 16 != 2
+
+
+def _at_pixels(tag: BaseTag, vr: str | None, length: int) -> bool:
+    return tag >= _FIRST_PIXEL_TAG
+
+
+def _thorough(stream: BinaryIO, wanted: Sequence[int], forced: bool) -> Elements:
+    stream.seek(0)
+    with warnings.catch_warnings():  # what is wrong with a file is said by name, by us
+        warnings.simplefilter("ignore")
+        header = pydicom.dcmread(
+            stream, stop_before_pixels=True, specific_tags=list(wanted), force=forced
+        )
+    values = {tag: header.get_item(tag) for tag in wanted if tag in header}
+    meta: Dataset = getattr(header, "file_meta", Dataset())
+    syntax = str(meta.get("TransferSyntaxUID", "") or "")
+    return Elements(values, syntax or _assumed_syntax(header))
+
+
+def _assumed_syntax(header: Dataset) -> str:
+    implicit, little = header.original_encoding
+    if little is False:
+        return EXPLICIT_BIG
+    return IMPLICIT_LITTLE if implicit else EXPLICIT_LITTLE
+
+
+def text(header: Elements, tag: int) -> str:
     """Value of a text element, trimmed; empty where absent."""
-    element = header.get_item(tag)
+    element = header.values.get(tag)
     value = getattr(element, "value", None)
     if value is None:
         return ""
@@ -20,13 +112,13 @@ def text(header: Dataset, tag: int) -> str:
     return str(value).strip(" \0")
 
 
-def parts(header: Dataset, tag: int) -> tuple[str, ...]:
+def parts(header: Elements, tag: int) -> tuple[str, ...]:
     """Values of a multi-valued text element."""
     whole = text(header, tag)
     return tuple(part.strip(" \0") for part in whole.split("\\")) if whole else ()
 
 
-def numbers(header: Dataset, tag: int, name: str, count: int | None = None) -> tuple[float, ...]:
+def numbers(header: Elements, tag: int, name: str, count: int | None = None) -> tuple[float, ...]:
     """Values of a decimal string; empty where absent.
 
     Raises:
@@ -45,13 +137,13 @@ def numbers(header: Dataset, tag: int, name: str, count: int | None = None) -> t
     return values
 
 
-def integer(header: Dataset, tag: int, name: str, signed: bool = False) -> int | None:
+def integer(header: Elements, tag: int, name: str, signed: bool = False) -> int | None:
     """Value of an unsigned or signed 16-bit element, or of an integer string; None where absent.
 
     Raises:
         FileDamagedError: if it has another length; names the element.
     """
-    element = header.get_item(tag)
+    element = header.values.get(tag)
     value = getattr(element, "value", None)
     if value is None or value == b"":
         return None
@@ -65,7 +157,7 @@ def integer(header: Dataset, tag: int, name: str, signed: bool = False) -> int |
     return int(value)
 
 
-def integer_string(header: Dataset, tag: int, name: str) -> int | None:
+def integer_string(header: Elements, tag: int, name: str) -> int | None:
     """Value of an integer string; None where absent.
 
     Raises:

@@ -1,5 +1,7 @@
 """Series to volume: each slice is read into its place, then scaled there to Hounsfield units."""
 
+import contextlib
+import mmap
 from pathlib import Path
 from typing import Any
 
@@ -123,25 +125,40 @@ def _hounsfield(series: Series, progress: Progress) -> NDArray[Any]:
 
 def _filled(series: Series, dtype: np.dtype[Any], progress: Progress) -> NDArray[Any]:
     columns, rows, count = series.size
-    hu: NDArray[Any] = np.empty((count, rows, columns), dtype)
+    hu = _fresh((count, rows, columns), dtype)
+    stored: dict[np.dtype[Any], NDArray[Any]] = {}
     for k, header in enumerate(series.slices):
         progress.report(k / count, f"slice {k + 1} of {count}")
-        _fill(header, hu[k])
+        wanted = stored_type(header.format)
+        _fill(header, hu[k], stored.setdefault(wanted, np.empty((rows, columns), wanted)))
     progress.report(1.0, f"{count} slices read")
     return hu
 
 
-def _fill(header: SliceHeader, out: NDArray[Any]) -> None:
-    """Read one slice and scale it to Hounsfield units, in place where the types allow."""
-    dtype = stored_type(header.format)
-    in_place = out.dtype.itemsize == dtype.itemsize and out.dtype.kind == "i"
-    stored = out.view(dtype) if in_place else np.empty(out.shape, dtype)
+def _fresh(shape: tuple[int, int, int], dtype: np.dtype[Any]) -> NDArray[Any]:
+    """Uninitialised array on ordinary memory pages.
+
+    For large arrays numpy asks for huge pages; on a machine whose memory is full of cached files
+    the kernel has to make room for those first, which was measured to take up to ten times as long.
+    """
+    flags = getattr(mmap, "MAP_PRIVATE", 0) | getattr(mmap, "MAP_ANONYMOUS", 0)
+    if not flags:  # no such choice on this system
+        return np.empty(shape, dtype)
+    memory = mmap.mmap(-1, int(np.prod(shape)) * dtype.itemsize, flags=flags)
+    return np.frombuffer(memory, dtype).reshape(shape)
+
+
+def _fill(header: SliceHeader, out: NDArray[Any], stored: NDArray[Any]) -> None:
+    """Read one slice and scale it to Hounsfield units.
+
+    The stored values go through one small array that stays in the processor's cache: reading them
+    straight into the fresh pages of the volume costs several times as much.
+    """
     read_stored(header, stored)
-    rescale = _rescale(header)
     if out.dtype == np.float32:
-        _scale_float(header, stored, rescale, out)
+        _scale_float(stored, _rescale(header), out)
     else:
-        _scale_exact(header, stored, rescale, out)
+        _scale_exact(header, stored, _rescale(header), out)
 
 
 def _rescale(header: SliceHeader) -> Rescale:
@@ -168,11 +185,11 @@ def _scale_exact(
         if not _fits((int(stored.min()), int(stored.max())), slope, intercept):
             raise _NotExactError
     if stored.dtype.itemsize == 1:
-        np.copyto(out, stored)
-    values = out if stored.dtype.itemsize == 1 else out.view(stored.dtype)
-    if slope != 1:  # two's complement: the result fits, so wrapping on the way does no harm
-        np.multiply(values, np.array(slope % 65536, np.uint16).astype(values.dtype), out=values)
-    np.add(values, np.array(intercept % 65536, np.uint16).astype(values.dtype), out=values)
+        stored = stored.astype(np.int16)
+    out = out.view(stored.dtype)  # two's complement: the result fits, so wrapping does no harm
+    if slope != 1:
+        stored = np.multiply(stored, np.array(slope % 65536, np.uint16).astype(stored.dtype))
+    np.add(stored, np.array(intercept % 65536, np.uint16).astype(stored.dtype), out=out)
 
 
 def _fits(bounds: tuple[int, int], slope: int, intercept: int) -> bool:
@@ -198,9 +215,7 @@ def _scale_padded(
     np.copyto(out, np.clip(scaled, _INT16.min, _INT16.max).astype(np.int16))
 
 
-def _scale_float(
-    header: SliceHeader, stored: NDArray[Any], rescale: Rescale, out: NDArray[Any]
-) -> None:
+def _scale_float(stored: NDArray[Any], rescale: Rescale, out: NDArray[Any]) -> None:
     scaled = stored.astype(np.float64) * rescale.slope + rescale.intercept  # one slice only
     np.copyto(out, scaled.astype(np.float32))
 
@@ -260,13 +275,12 @@ def _instance(listing: Listing, sop_uid: str) -> SliceHeader:
 
 def _single(header: SliceHeader) -> NDArray[Any]:
     shape = (header.format.rows, header.format.columns)
+    stored = np.empty(shape, stored_type(header.format))
     if _integral(header):
-        try:
+        with contextlib.suppress(_NotExactError):  # then a wider type is needed
             hu: NDArray[Any] = np.empty(shape, np.int16)
-            _fill(header, hu)
+            _fill(header, hu, stored)
             return hu
-        except _NotExactError:
-            pass  # read again below with a wider type
     hu = np.empty(shape, np.float32)
-    _fill(header, hu)
+    _fill(header, hu, stored)
     return hu

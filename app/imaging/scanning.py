@@ -12,7 +12,8 @@ import numpy as np
 from app.core.progress import Progress
 from app.imaging import stack
 from app.imaging.errors import FileDamagedError, FolderError
-from app.imaging.header import Plane, Point, SliceHeader, read_header
+from app.imaging.header import Plane, Point, SliceHeader
+from app.imaging.header_reading import read_header
 from app.imaging.series import Ignored, Listing, Series
 from app.imaging.suitability import refusal
 

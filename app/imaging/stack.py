@@ -73,6 +73,10 @@ def mixed(planes: Sequence[Plane]) -> str:
     """Why planes cannot share one stack: another orientation or pixel spacing; "" if they can."""
     first = planes[0]
     for plane in planes:
+        if plane.orientation == first.orientation and (
+            plane.pixel_spacing_mm == first.pixel_spacing_mm
+        ):
+            continue
         turn = np.abs(np.subtract(plane.orientation, first.orientation)).max()
         if turn > _SAME_DIRECTION:
             return f"mixed orientations: {first.orientation} and {plane.orientation}"
@@ -132,7 +136,7 @@ def _tilted(slices: Stack, plane_normal: FloatArray) -> str:
 
 
 def _missing(gaps: FloatArray, names: Sequence[str]) -> str:
-    usual = float(np.median(gaps)) if len(gaps) > 2 else float(gaps.min())
+    usual = float(np.sort(gaps)[(len(gaps) - 1) // 2])  # lower median: of two gaps the smaller
     for k, gap in enumerate(gaps):
         times = round(float(gap) / usual)
         if times >= 2 and abs(gap - times * usual) <= times * tolerance_mm(usual):

@@ -1,0 +1,191 @@
+"""Reading the header of one DICOM image file."""
+
+import hashlib
+import os
+from pathlib import Path
+from typing import BinaryIO, Final
+
+from app.imaging import elements
+from app.imaging.elements import Elements
+from app.imaging.errors import FileDamagedError
+from app.imaging.header import Identity, Plane, Rescale, SliceHeader
+from app.imaging.pixel_data import PixelFormat, find_pixels
+
+_TAGS: Final = {
+    "SOPClassUID": 0x00080016,
+    "SOPInstanceUID": 0x00080018,
+    "ImageType": 0x00080008,
+    "Modality": 0x00080060,
+    "PatientID": 0x00100020,
+    "BodyPartExamined": 0x00180015,
+    "ConvolutionKernel": 0x00181210,
+    "StudyInstanceUID": 0x0020000D,
+    "SeriesInstanceUID": 0x0020000E,
+    "SeriesNumber": 0x00200011,
+    "ImagePositionPatient": 0x00200032,
+    "ImageOrientationPatient": 0x00200037,
+    "FrameOfReferenceUID": 0x00200052,
+    "SamplesPerPixel": 0x00280002,
+    "PhotometricInterpretation": 0x00280004,
+    "NumberOfFrames": 0x00280008,
+    "Rows": 0x00280010,
+    "Columns": 0x00280011,
+    "PixelSpacing": 0x00280030,
+    "BitsAllocated": 0x00280100,
+    "BitsStored": 0x00280101,
+    "HighBit": 0x00280102,
+    "PixelRepresentation": 0x00280103,
+    "PixelPaddingValue": 0x00280120,
+    "PixelPaddingRangeLimit": 0x00280121,
+    "WindowCenter": 0x00281050,
+    "WindowWidth": 0x00281051,
+    "RescaleIntercept": 0x00281052,
+    "RescaleSlope": 0x00281053,
+    "RescaleType": 0x00281054,
+}
+_TAG_LIST: Final = list(_TAGS.values())
+
+
+def read_header(path: Path, stream: BinaryIO, forced: bool) -> SliceHeader | None:
+    """Read the header of one file up to its pixels; None if it is no instance of a series.
+
+    Args:
+        path: the file, for messages.
+        stream: the file, opened for reading at its start.
+        forced: read although the DICOM preamble is missing.
+
+    Raises:
+        FileDamagedError: if the header cannot be parsed.
+    """
+    header = elements.read_elements(stream, _TAG_LIST, forced)
+    if not elements.text(header, _TAGS["SeriesInstanceUID"]):
+        return None
+    return _slice_header(path, stream, header)
+
+
+def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader:
+    problems: list[str] = []
+    identity = _identity(header)
+    pixel_format = _guarded(_format, header, problems) or PixelFormat.unknown()
+    size = os.fstat(stream.fileno()).st_size
+    pixels = find_pixels(stream, size, header.syntax, pixel_format)
+    plane = _guarded(_plane, header, problems)
+    rescale = _guarded(_rescale, header, problems)
+    damage = "; ".join([*problems, *([pixels.damage] if pixels.damage else [])])
+    return SliceHeader(
+        path, identity, pixel_format, plane, rescale, _windows(header), pixels, damage
+    )
+
+
+def _guarded(read, header: Elements, problems: list[str]):  # type: ignore[no-untyped-def]
+    try:
+        return read(header)
+    except FileDamagedError as error:
+        problems.append(str(error))
+        return None
+
+
+def _identity(header: Elements) -> Identity:
+    def get(name: str) -> str:
+        return elements.text(header, _TAGS[name])
+
+    return Identity(
+        sop_uid=get("SOPInstanceUID"),
+        sop_class=get("SOPClassUID"),
+        series_uid=get("SeriesInstanceUID"),
+        modality=get("Modality"),
+        image_type=elements.parts(header, _TAGS["ImageType"]),
+        label=_label(get("SeriesNumber"), get("BodyPartExamined"), get("ConvolutionKernel")),
+        pseudonym=pseudonym(get("PatientID"), get("StudyInstanceUID")),
+        frame_of_reference=get("FrameOfReferenceUID"),
+    )
+
+
+def pseudonym(patient_id: str, study_uid: str) -> str:
+    """Name for a patient's study: tells nothing about the patient, the same at every reading."""
+    digest = hashlib.sha256(f"acus pseudonym\0{patient_id}\0{study_uid}".encode())
+    return f"CT-{digest.hexdigest()[:6].upper()}"
+
+
+def _label(number: str, body_part: str, kernel: str) -> str:
+    """Built from coded elements only: the free-text SeriesDescription may hold a name."""
+    kernel = f"kernel {kernel.split(chr(92))[0]}" if kernel else ""
+    return ", ".join(part for part in (f"Series {number or '?'}", body_part, kernel) if part)
+
+
+def _format(header: Elements) -> PixelFormat:
+    def get(name: str, default: int) -> int:
+        value = elements.integer(header, _TAGS[name], name)
+        return default if value is None else value
+
+    signed = get("PixelRepresentation", 0) == 1
+    allocated = get("BitsAllocated", 0)
+    stored = get("BitsStored", allocated)
+    frames = elements.integer_string(header, _TAGS["NumberOfFrames"], "NumberOfFrames")
+    padding = elements.integer(header, _TAGS["PixelPaddingValue"], "PixelPaddingValue", signed)
+    limit = elements.integer(
+        header, _TAGS["PixelPaddingRangeLimit"], "PixelPaddingRangeLimit", signed
+    )
+    return PixelFormat(
+        rows=get("Rows", 0),
+        columns=get("Columns", 0),
+        samples=get("SamplesPerPixel", 1),
+        frames=1 if frames is None else frames,
+        bits_allocated=allocated,
+        bits_stored=stored,
+        high_bit=get("HighBit", stored - 1),
+        signed=signed,
+        photometric=elements.text(header, _TAGS["PhotometricInterpretation"]),
+        padding=None if padding is None else _range(padding, padding if limit is None else limit),
+    )
+
+
+def _range(a: int, b: int) -> tuple[int, int]:
+    return min(a, b), max(a, b)
+
+
+def _plane(header: Elements) -> Plane | None:
+    def get(name: str, count: int) -> tuple[float, ...]:
+        return elements.numbers(header, _TAGS[name], name, count)
+
+    position = get("ImagePositionPatient", 3)
+    orientation = get("ImageOrientationPatient", 6)
+    spacing = get("PixelSpacing", 2)
+    if not (position and orientation and spacing):
+        return None
+    if min(spacing) <= 0.0:
+        raise FileDamagedError(f"PixelSpacing is {spacing}; both must be above zero")
+    _check_orientation(orientation)
+    return Plane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
+
+
+def _check_orientation(orientation: tuple[float, ...]) -> None:
+    row, column = orientation[:3], orientation[3:]
+    norms = [sum(v * v for v in vector) ** 0.5 for vector in (row, column)]
+    dot = sum(a * b for a, b in zip(row, column, strict=True))
+    if max(abs(norm - 1.0) for norm in norms) > 1e-3 or abs(dot) > 1e-3:
+        raise FileDamagedError(
+            f"ImageOrientationPatient {orientation} is not two perpendicular unit vectors"
+        )
+
+
+def _rescale(header: Elements) -> Rescale | None:
+    slope = elements.numbers(header, _TAGS["RescaleSlope"], "RescaleSlope", 1)
+    intercept = elements.numbers(header, _TAGS["RescaleIntercept"], "RescaleIntercept", 1)
+    kind = elements.text(header, _TAGS["RescaleType"]).upper()
+    if not (slope and intercept) or kind not in ("", "HU"):
+        return None
+    if slope[0] == 0.0:
+        raise FileDamagedError("RescaleSlope is 0; every pixel would have the same value")
+    return Rescale(slope[0], intercept[0])
+
+
+def _windows(header: Elements) -> tuple[tuple[float, float], ...]:
+    """Width and level pairs; a window that cannot be used is no reason to refuse a file."""
+    try:
+        levels = elements.numbers(header, _TAGS["WindowCenter"], "WindowCenter")
+        widths = elements.numbers(header, _TAGS["WindowWidth"], "WindowWidth")
+    except FileDamagedError:
+        return ()
+    pairs = zip(widths, levels, strict=False)
+    return tuple(dict.fromkeys((width, level) for width, level in pairs if width >= 1.0))
