@@ -1,7 +1,6 @@
 """Series to volume: each slice is read into its place, then scaled there to Hounsfield units."""
 
 import contextlib
-import mmap
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray, read_only
 from app.core.progress import Progress
 from app.imaging import stack
-from app.imaging.decoding import read_stored, stored_type
+from app.imaging.decoding import stored_type
 from app.imaging.errors import (
     FileDamagedError,
     FolderError,
@@ -20,16 +19,11 @@ from app.imaging.errors import (
     SeriesRefusedError,
     SeriesUnknownError,
 )
-from app.imaging.header import Rescale, SliceHeader
+from app.imaging.header import SliceHeader
+from app.imaging.rescaling import NotExactError, fill_slice, fresh_array, integral
 from app.imaging.scanning import scan_folder
 from app.imaging.series import Listing, Series
 from app.imaging.volume import Volume
-
-_INT16 = np.iinfo(np.int16)
-
-
-class _NotExactError(Exception):
-    """A value does not fit 16 bits; the volume is read again as float32."""
 
 
 def load_ct(
@@ -115,109 +109,24 @@ def read_series(series: Series, progress: Progress | None = None) -> Volume:
 
 
 def _hounsfield(series: Series, progress: Progress) -> NDArray[Any]:
-    if all(_integral(header) for header in series.slices):
+    if all(integral(header) for header in series.slices):
         try:
             return _filled(series, np.dtype(np.int16), progress)
-        except _NotExactError:
+        except NotExactError:
             progress.report(0.0, "values beyond 16 bits: reading as float32")
     return _filled(series, np.dtype(np.float32), progress)
 
 
 def _filled(series: Series, dtype: np.dtype[Any], progress: Progress) -> NDArray[Any]:
     columns, rows, count = series.size
-    hu = _fresh((count, rows, columns), dtype)
+    hu = fresh_array((count, rows, columns), dtype)
     stored: dict[np.dtype[Any], NDArray[Any]] = {}
     for k, header in enumerate(series.slices):
         progress.report(k / count, f"slice {k + 1} of {count}")
         wanted = stored_type(header.format)
-        _fill(header, hu[k], stored.setdefault(wanted, np.empty((rows, columns), wanted)))
+        fill_slice(header, hu[k], stored.setdefault(wanted, np.empty((rows, columns), wanted)))
     progress.report(1.0, f"{count} slices read")
     return hu
-
-
-def _fresh(shape: tuple[int, int, int], dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Uninitialised array on ordinary memory pages.
-
-    For large arrays numpy asks for huge pages; on a machine whose memory is full of cached files
-    the kernel has to make room for those first, which was measured to take up to ten times as long.
-    """
-    flags = getattr(mmap, "MAP_PRIVATE", 0) | getattr(mmap, "MAP_ANONYMOUS", 0)
-    if not flags:  # no such choice on this system
-        return np.empty(shape, dtype)
-    memory = mmap.mmap(-1, int(np.prod(shape)) * dtype.itemsize, flags=flags)
-    return np.frombuffer(memory, dtype).reshape(shape)
-
-
-def _fill(header: SliceHeader, out: NDArray[Any], stored: NDArray[Any]) -> None:
-    """Read one slice and scale it to Hounsfield units.
-
-    The stored values go through one small array that stays in the processor's cache: reading them
-    straight into the fresh pages of the volume costs several times as much.
-    """
-    read_stored(header, stored)
-    if out.dtype == np.float32:
-        _scale_float(stored, _rescale(header), out)
-    else:
-        _scale_exact(header, stored, _rescale(header), out)
-
-
-def _rescale(header: SliceHeader) -> Rescale:
-    if header.rescale is None:
-        raise FileDamagedError(f"{header.path} gives no Hounsfield units")
-    return header.rescale
-
-
-def _integral(header: SliceHeader) -> bool:
-    rescale = _rescale(header)
-    limit = 1 << 20
-    return all(v.is_integer() and abs(v) < limit for v in (rescale.slope, rescale.intercept))
-
-
-def _scale_exact(
-    header: SliceHeader, stored: NDArray[Any], rescale: Rescale, out: NDArray[Any]
-) -> None:
-    slope, intercept = int(rescale.slope), int(rescale.intercept)
-    if not _fits(header.format.stored_range, slope, intercept):
-        padding = _padding(header, stored)
-        if padding is not None and padding.any():  # padding is no measurement: it may saturate
-            _scale_padded(stored, padding, slope, intercept, out)
-            return
-        if not _fits((int(stored.min()), int(stored.max())), slope, intercept):
-            raise _NotExactError
-    if stored.dtype.itemsize == 1:
-        stored = stored.astype(np.int16)
-    out = out.view(stored.dtype)  # two's complement: the result fits, so wrapping does no harm
-    if slope != 1:
-        stored = np.multiply(stored, np.array(slope % 65536, np.uint16).astype(stored.dtype))
-    np.add(stored, np.array(intercept % 65536, np.uint16).astype(stored.dtype), out=out)
-
-
-def _fits(bounds: tuple[int, int], slope: int, intercept: int) -> bool:
-    ends = [slope * value + intercept for value in bounds]
-    return min(ends) >= _INT16.min and max(ends) <= _INT16.max
-
-
-def _padding(header: SliceHeader, stored: NDArray[Any]) -> NDArray[np.bool_] | None:
-    if header.format.padding is None:
-        return None
-    low, high = header.format.padding
-    result: NDArray[np.bool_] = (stored >= low) & (stored <= high)
-    return result
-
-
-def _scale_padded(
-    stored: NDArray[Any], padding: NDArray[np.bool_], slope: int, intercept: int, out: NDArray[Any]
-) -> None:
-    scaled = stored.astype(np.int64) * slope + intercept  # one slice only
-    measured = scaled[~padding]
-    if measured.size and not _fits((int(measured.min()), int(measured.max())), 1, 0):
-        raise _NotExactError
-    np.copyto(out, np.clip(scaled, _INT16.min, _INT16.max).astype(np.int16))
-
-
-def _scale_float(stored: NDArray[Any], rescale: Rescale, out: NDArray[Any]) -> None:
-    scaled = stored.astype(np.float64) * rescale.slope + rescale.intercept  # one slice only
-    np.copyto(out, scaled.astype(np.float32))
 
 
 def pixel_lps_mm(
@@ -276,11 +185,11 @@ def _instance(listing: Listing, sop_uid: str) -> SliceHeader:
 def _single(header: SliceHeader) -> NDArray[Any]:
     shape = (header.format.rows, header.format.columns)
     stored = np.empty(shape, stored_type(header.format))
-    if _integral(header):
-        with contextlib.suppress(_NotExactError):  # then a wider type is needed
+    if integral(header):
+        with contextlib.suppress(NotExactError):  # then a wider type is needed
             hu: NDArray[Any] = np.empty(shape, np.int16)
-            _fill(header, hu, stored)
+            fill_slice(header, hu, stored)
             return hu
     hu = np.empty(shape, np.float32)
-    _fill(header, hu, stored)
+    fill_slice(header, hu, stored)
     return hu

@@ -42,6 +42,17 @@ def test_it_is_made_once(small_phantom):
     assert {path: path.stat().st_mtime_ns for path in small_phantom.iterdir()} == before
 
 
+def test_what_an_earlier_version_made_is_cleared_away(tmp_path, monkeypatch):
+    monkeypatch.setenv("ACUS_CACHE", str(tmp_path))
+    old = tmp_path / "phantom" / "seed1-3x32-0123456789"
+    other = tmp_path / "phantom" / "seed1-3x320-0123456789"
+    for folder in (old, other):
+        folder.mkdir(parents=True)
+    phantom_series(1, slices=3, rows=32)
+    assert not old.exists()
+    assert other.exists()
+
+
 def test_a_cancelled_phantom_leaves_nothing_behind(tmp_path, monkeypatch):
     monkeypatch.setenv("ACUS_CACHE", str(tmp_path))
     progress = Progress(lambda fraction, text: progress.cancel() if fraction > 0.3 else None)

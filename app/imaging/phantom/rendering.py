@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from app.imaging.phantom import trunk
-from app.imaging.phantom.canvas import AIR, Canvas, Grid
+from app.imaging.phantom.canvas import AIR, Canvas
+from app.imaging.phantom.grid import Grid
 from app.imaging.phantom.patient import Patient
 from app.imaging.phantom.shapes import Field, cover
 from app.imaging.phantom.vessels import vasculature

@@ -40,9 +40,12 @@ def phantom_series(
             f"phantom seed {seed}, {slices} slices, {rows} rows: the seed must be 0 or more, "
             "slices 2 to 2000 and rows 16 to 2048"
         )
-    folder = paths.cache() / "phantom" / f"seed{seed}-{slices}x{rows}-{_version()}"
+    name = f"seed{seed}-{slices}x{rows}"
+    folder = paths.cache() / "phantom" / f"{name}-{_version()}"
     if not folder.is_dir():
         _make(folder, seed, slices, rows, progress or Progress())
+        for older in set(folder.parent.glob(f"{name}-*")) - {folder}:
+            shutil.rmtree(older, ignore_errors=True)  # made by an earlier version of the program
     return folder
 
 
