@@ -4,16 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtWidgets import QGridLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
 GAP_PX = 3
-COLUMNS = 6
+ROWS, COLUMNS = 11, 12
 
-Cell = tuple[int, int, int]
-"""Row, first column and width in columns, of `COLUMNS`."""
+Cell = tuple[int, int, int, int]
+"""First row and column, height in `ROWS` and width in `COLUMNS`."""
 
-FOUR: tuple[Cell, ...] = ((0, 0, 3), (0, 3, 3), (1, 0, 3), (1, 3, 3))
-FIVE: tuple[Cell, ...] = ((0, 0, 2), (0, 2, 2), (0, 4, 2), (1, 0, 2), (1, 2, 4))
+FOUR: tuple[Cell, ...] = ((0, 0, 1, 6), (0, 6, 1, 6), (1, 0, 1, 6), (1, 6, 1, 6))
+FIVE: tuple[Cell, ...] = (
+    (0, 0, 5, 4),
+    (0, 4, 5, 4),
+    (0, 8, 5, 4),
+    (5, 0, 6, 4),
+    (5, 4, 6, 8),
+)
 
 
 class ViewGrid(QWidget):
@@ -26,12 +32,11 @@ class ViewGrid(QWidget):
         self._maximised: QWidget | None = None
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setSpacing(GAP_PX)
-        for column in range(COLUMNS):  # equal shares, whatever the panes would like
+        self._grid.setSpacing(0)
+        for pane in panes:  # the cells give the sizes, whatever the panes would like
+            pane.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
+        for column in range(COLUMNS):
             self._grid.setColumnStretch(column, 1)
-            self._grid.setColumnMinimumWidth(column, 1)
-        for row in range(2):
-            self._grid.setRowStretch(row, 1)
         self.arrange(FOUR)
 
     @property
@@ -47,11 +52,13 @@ class ViewGrid(QWidget):
     def arrange(self, cells: tuple[Cell, ...]) -> None:
         """Put the first panes into these cells and hide the rest."""
         self._cells, self._maximised = cells, None
+        rows = max(row + height for row, _, height, _ in cells)
+        for row in range(ROWS):
+            self._grid.setRowStretch(row, 1 if row < rows else 0)
         for number, pane in enumerate(self._panes):
             self._grid.removeWidget(pane)
             if number < len(cells):
-                row, column, width = cells[number]
-                self._grid.addWidget(pane, row, column, 1, width)
+                self._grid.addWidget(pane, *cells[number])
             pane.setVisible(number < len(cells))
 
     def toggle(self, pane: QWidget) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.core.arrays import frozen
 from app.core.progress import Progress
 from app.imaging.body import Body, find_body
 from app.imaging.reading import load_ct, read_series
@@ -46,7 +47,7 @@ def load_phantom(seed: int, progress: Progress) -> Patient:
     folder = phantom_series(seed, progress.part(0.0, 0.6))
     volume = load_ct(folder, progress=progress.part(0.6, 0.9))
     known = anatomy(seed)
-    plan = Plan(known.entry_mm, known.lesion_mm, f"phantom-{seed}")
+    plan = Plan(frozen(known.entry_mm), frozen(known.lesion_mm), f"phantom-{seed}")
     body = find_body(volume, progress.part(0.9, 1.0))
     return Patient(volume, body, f"Phantom {seed}", plan, phantom_seed=seed)
 

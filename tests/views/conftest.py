@@ -1,4 +1,4 @@
-"""One application for all tests of the views, small volumes, and a look at what they leave behind."""
+"""One application for all tests of the views, small volumes, and what tests leave behind."""
 
 import os
 import time

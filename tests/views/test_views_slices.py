@@ -1,3 +1,5 @@
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -105,7 +107,7 @@ def test_the_pieces_of_a_segment_join_up_and_lie_on_their_side_of_the_slab(x, y,
     assert 1 <= len(parts) <= 3
     assert_allclose(parts[0].start, (x, y), atol=1e-6)
     assert_allclose(parts[-1].end, (u, v), atol=1e-6)
-    for first, second in zip(parts, parts[1:], strict=False):
+    for first, second in pairwise(parts):
         assert first.end == second.start
         assert first.inside != second.inside
 

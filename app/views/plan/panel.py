@@ -192,10 +192,8 @@ def _angle_box(axis: str) -> QDoubleSpinBox:
     box.setSingleStep(1.0)
     box.setPrefix(f"{axis} ")
     box.setSuffix(" °")
-    box.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)  # wheel and arrow keys do
     box.setKeyboardTracking(False)
-    box.setMinimumWidth(70)
-    box.setStyleSheet("padding: 1px 2px;")
+    box.setMinimumSize(70, theme.CONTROL_HEIGHT)
     box.setToolTip(tr("Free rotation about the robot's {axis} axis (rotation vector)", axis=axis))
     return box
 

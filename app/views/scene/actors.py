@@ -84,7 +84,7 @@ class SurfaceActor:
         look = actor.GetProperty()
         look.SetColor(*colour(mark.colour))
         look.SetOpacity(opacity)
-        look.SetAmbient(0.15)
+        look.SetAmbient(0.2)
         look.SetSpecular(0.15)
         if opacity < 1.0:  # far sides of a translucent skin would only veil what is inside
             look.BackfaceCullingOn()

@@ -37,7 +37,7 @@ class Stage:
         self._renderer.SetBackground(*colour(theme.IMAGE_BACKGROUND))
         self._renderer.GetActiveCamera().ParallelProjectionOn()
         self._window: vtkRenderWindow | None = None
-        self._skin = SurfaceActor(self._renderer, theme.SKIN, opacity=0.32)
+        self._skin = SurfaceActor(self._renderer, theme.SKIN, opacity=0.4)
         self._bone = SurfaceActor(self._renderer, theme.BONE, opacity=1.0)
         self._links = [Rod(self._renderer, theme.ROBOT, LINK_RADIUS_MM) for _ in range(5)]
         self._fulcrum = Ball(self._renderer, theme.ROBOT, FULCRUM_RADIUS_MM)

@@ -19,8 +19,8 @@ from app.views.scene.mesh import Mesh, coarser, isosurface
 SKIN_TRIANGLES, BONE_TRIANGLES = 70_000, 120_000
 """Bounds of the still picture: at most 200 000 in all."""
 
-MOVING_TRIANGLES = 12_000
-"""Bound of each surface while the picture moves."""
+SKIN_MOVING, BONE_MOVING = 15_000, 45_000
+"""Bounds while the picture moves."""
 
 SKIN_STEP_MM, BONE_STEP_MM = 3.5, 2.4
 BONE_HU = 180.0
@@ -56,7 +56,7 @@ def extract_surfaces(volume: Volume, body: Body, progress: Progress) -> Surfaces
     hard, affine = reduced(np.where(mask, volume.hu, -1000), volume, BONE_STEP_MM)
     bone = isosurface(_closed(hard, -1000.0), _shifted(affine), BONE_HU, BONE_TRIANGLES)
     progress.report(0.9, "coarse versions")
-    moving = [coarser(mesh, MOVING_TRIANGLES) for mesh in (skin, bone)]
+    moving = coarser(skin, SKIN_MOVING), coarser(bone, BONE_MOVING)
     progress.report(1.0, "surfaces")
     return Surfaces(skin, moving[0], bone, moving[1])
 

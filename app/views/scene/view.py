@@ -33,7 +33,13 @@ from app.views.text import tr
 
 POLL_MS = 25
 SETTLE_S = 0.3
-"""How long the picture must rest before it is drawn fine."""
+"""How long the view must not be turned before it is drawn fine."""
+
+SHORTEST_PAUSE_S, SHARE = 0.1, 0.25
+"""Fine pictures come at most this often, and take at most this share of the time."""
+
+HOME_TURN_PX = (-50.0, 30.0)
+"""From the front one first looks a little from the left and from above, for depth."""
 
 ZOOM_PER_PX, ZOOM_PER_NOTCH, NOTCH = 1.01, 1.15, 120
 
@@ -59,9 +65,8 @@ class SceneView(QWidget):
         self._home = Orbit.look_from("A", np.zeros(3), 250.0)
         self.orbit = self._home
         self.note = ""
-        self._changed_at = monotonic()
-        self._fine = False
-        self._pending = False
+        self._turned_at = self._fine_at = -SETTLE_S
+        self._fine, self._pending = False, False
         self._pressed, self._last = QPointF(), QPointF()
         self._timer = QTimer(self, interval=POLL_MS)
         self._timer.timeout.connect(self._look)
@@ -70,10 +75,11 @@ class SceneView(QWidget):
 
     # --- what is shown ------------------------------------------------------------------------
     def set_volume(self, volume: Volume) -> None:
-        """Look at another patient from the front; the old surfaces go."""
+        """Look at another patient; the old surfaces go."""
         corners = volume.lps_mm(np.array([(0, 0, 0), volume.size]) - 0.5)
         extent = float(np.abs(corners[1] - corners[0]).max())
-        self._home = Orbit.look_from("A", corners.mean(axis=0), 0.55 * extent)
+        front = Orbit.look_from("A", corners.mean(axis=0), 0.55 * extent)
+        self._home = front.turned(*HOME_TURN_PX)
         self.set_surfaces(None)
         self.set_orbit(self._home)
 
@@ -96,7 +102,8 @@ class SceneView(QWidget):
     def set_orbit(self, orbit: Orbit) -> None:
         """Look from somewhere else."""
         self.orbit = orbit
-        self._touch()
+        self._turned_at = monotonic()
+        self._pending = True
 
     def set_note(self, note: str) -> None:
         """Write a line at the bottom, such as the progress of the surfaces."""
@@ -115,11 +122,7 @@ class SceneView(QWidget):
     # --- rendering ----------------------------------------------------------------------------
     def _change(self, kind: str, change: Change) -> None:
         self._renderer.change(kind, change)
-        self._touch()
-
-    def _touch(self) -> None:
-        self._changed_at = monotonic()
-        self._pending, self._fine = True, False
+        self._pending = True
 
     def _look(self) -> None:
         picture = self._renderer.take()
@@ -130,16 +133,23 @@ class SceneView(QWidget):
             self.update()
         if not self.isVisible() or not self._renderer.idle:
             return
-        if self._pending:
-            self._pending = False
-            self._request(moving=True)
-        elif not self._fine and monotonic() - self._changed_at > SETTLE_S:
-            self._fine = True
+        now = monotonic()
+        if now - self._turned_at < SETTLE_S:
+            if self._pending:
+                self._request(moving=True)
+                self._fine = False
+        elif (self._pending or not self._fine) and now - self._fine_at >= self._pause():
             self._request(moving=False)
+            self._fine, self._fine_at = True, now
+
+    def _pause(self) -> float:
+        """Shortest time between fine pictures [s]: a live needle must not take a whole core."""
+        return max(SHORTEST_PAUSE_S, self._renderer.seconds / SHARE)
 
     def _request(self, moving: bool) -> None:
         ratio = self.devicePixelRatioF()
         size = (max(1, int(self.width() * ratio)), max(1, int(self.height() * ratio)))
+        self._pending = False
         self._renderer.request(Shot(self.orbit, size, moving))
 
     # --- events -------------------------------------------------------------------------------
@@ -159,7 +169,7 @@ class SceneView(QWidget):
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Ask for a picture of the new size."""
-        self._touch()
+        self._pending = True
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin to turn, pan or zoom."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Any, Protocol
 
+import numpy as np
 import pyqtgraph
+from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QTransform, QWheelEvent
 from PySide6.QtWidgets import QFrame, QGraphicsView, QWidget
@@ -59,6 +61,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         self.gestures: Gestures | None = None
         self._fitted = True
         self._shown: tuple[object, ...] = ()
+        self._hu: NDArray[Any] = np.zeros((1, 1), np.int16)
         self.setCentralItem(None)  # layers stand in the scene itself; its end would crash Qt
         scene = self.scene()
         scene.setItemIndexMethod(scene.ItemIndexMethod.NoIndex)  # a dozen items, moved often
@@ -102,7 +105,9 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         moved = self._shown[:1] != (index,)
         if self._shown != (index, window):
             self._shown = (index, window)
-            self._image.set_grey(to_grey(self.plane.image(index), window), self.plane.extent_mm)
+            if moved:  # kept contiguous: changing the window then needs no second gather
+                self._hu = np.ascontiguousarray(self.plane.image(index))
+            self._image.set_grey(to_grey(self._hu, window), self.plane.extent_mm)
             self.changed.emit()
         point = self.plane.point(self.viewing.cursor_mm, index)
         self._crosshair.place(point, self.plane.extent_mm, self.camera.scale)
