@@ -4,21 +4,27 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from scipy.stats import chi2
 
 from app.core.arrays import FloatArray, frozen, unit
 from app.core.units import MILLIMETRE
 from app.tracking.marker import MarkerFix
 from app.tracking.rig import RigProfile
 from app.tracking.silhouette import centroid_shift
-from app.tracking.stereo import StereoStatus, Triangulation, Way, covariance_radius, triangulate
+from app.tracking.stereo import (
+    StereoStatus,
+    Triangulation,
+    Way,
+    chi_square_quantile,
+    covariance_radius,
+    triangulate,
+)
 
 GATE = 1e-5
 """Probability with which a good fix is refused by the consistency check."""
 
 _GROSS_PX = 2.0
-_LINE_LIMIT = float(chi2.ppf(1.0 - GATE, 2))
-_RESIDUAL_LIMIT = float(chi2.ppf(1.0 - GATE, 1))
+_LINE_LIMIT = chi_square_quantile(1.0 - GATE, 2)
+_RESIDUAL_LIMIT = chi_square_quantile(1.0 - GATE, 1)
 
 
 class FixStatus(StrEnum):
