@@ -44,7 +44,7 @@ class Workspace(QWidget):
         self.panes = tuple(SlicePane(self.viewing, view, self) for view in ORDER)
         self.scene = SceneView(SceneRenderer(), self)
         self.bullseye = Bullseye(self)
-        self.grid = ViewGrid([*self.panes, self.scene, self.bullseye], self)
+        self.grid = ViewGrid([*self.panes, self.scene, _Cell(self.bullseye)], self)
         for pane in self.panes:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
         self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
@@ -103,6 +103,20 @@ class Workspace(QWidget):
         page.setSpacing(0)
         page.addLayout(row, 1)
         page.addWidget(self.status)
+
+
+class _Cell(QWidget):
+    """Gives a widget whose texts wrap the size of its cell, not the height it would like."""
+
+    def __init__(self, content: QWidget) -> None:
+        super().__init__()
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(content)
+
+    def hasHeightForWidth(self) -> bool:
+        """Return False: the grid's shares decide."""
+        return False
 
 
 def _scrolled(panel: QWidget) -> QScrollArea:
