@@ -88,7 +88,7 @@ class ShortcutSheet(QDialog):
         columns = QHBoxLayout()
         columns.setSpacing(4 * theme.SPACING)
         content = groups()
-        for part in (content[:2], content[2:4], content[4:]):
+        for part in ([content[0], content[1], content[3]], [content[2], content[4]]):
             column = QVBoxLayout()
             for group in part:
                 column.addLayout(_table(group))

@@ -23,7 +23,8 @@ SKIN_MOVING, BONE_MOVING = 15_000, 45_000
 """Bounds while the picture moves."""
 
 SKIN_STEP_MM, BONE_STEP_MM = 3.5, 2.4
-BONE_HU = 180.0
+BONE_HU = 240.0
+"""Above organs with contrast agent, below cancellous bone."""
 
 
 @dataclass(frozen=True, slots=True)
