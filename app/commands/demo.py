@@ -71,6 +71,7 @@ def _show(ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: Ski
     show.failed.connect(failures.append)
     show.finished.connect(lambda result: _tell(result, script))
     if hidden:
+        window.resize(1400, 900)
         show.failed.connect(lambda _: application.exit(2))
         show.finished.connect(lambda _: application.quit())
     window.show()
