@@ -33,6 +33,15 @@ def test_a_good_file_is_read(tmp_path):
         ("", ["(document)"]),
         ("name: x\n", ["rate_hz", "required"]),
         ("!!python/object/apply:os.system [ls]\n", ["not valid YAML"]),
+        ("rate_hz: true\n", ["rate_hz", "number", "True"]),
+        ("rate_hz: yes\n", ["rate_hz", "number"]),
+        ("rate_hz: 2026-99-99\n", ["not valid YAML", "month"]),
+        ("rate_hz: !!int abc\n", ["not valid YAML", "abc"]),
+        ("rate_hz: !!bool x\n", ["not valid YAML"]),
+        ("rate_hz: " + "9" * 5000 + "\n", ["not valid YAML", "digits"]),
+        ("? [1, 2]\n: 3\n", ["not valid YAML", "a key must be a name", "line 1"]),
+        ("? {a: 1}\n: 3\n", ["not valid YAML", "a key must be a name"]),
+        ("name: " + "[" * 3000 + "]" * 3000 + "\n", ["nested too deeply"]),
     ],
 )
 def test_a_bad_file_is_refused_naming_file_field_and_value(tmp_path, text, parts):
