@@ -76,7 +76,7 @@ def load_exercise(name_or_path: str | Path) -> Exercise:
             what would be valid.
     """
     path = Path(name_or_path)
-    if path.suffix in (".yaml", ".yml"):
+    if _is_path(str(name_or_path)):
         return read_exercise(path)
     known = library()
     for exercise in known:
@@ -92,7 +92,7 @@ def load_exercise(name_or_path: str | Path) -> Exercise:
 
 
 def read_exercise(path: Path) -> Exercise:
-    """Read one exercise file; a relative CT folder is taken from the file's own folder.
+    """Read one exercise file; paths in it (CT, device, cameras) are taken from its own folder.
 
     Raises:
         ConfigurationError: naming the file, the field, the value and what would be valid.
@@ -100,15 +100,24 @@ def read_exercise(path: Path) -> Exercise:
     exercise = load(path, Exercise)
     _check_profile(path, "device", exercise.device, "devices")
     _check_profile(path, "rig", exercise.rig, "cameras")
-    if exercise.ct.folder is None or exercise.ct.folder.is_absolute():
-        return exercise
-    folder = (path.parent / exercise.ct.folder).resolve()
-    return exercise.model_copy(update={"ct": exercise.ct.model_copy(update={"folder": folder})})
+    found = {
+        field: str(path.parent.resolve() / name)
+        for field, name in (("device", exercise.device), ("rig", exercise.rig))
+        if _is_path(name)
+    }
+    ct = exercise.ct
+    if ct.folder is not None:
+        ct = ct.model_copy(update={"folder": path.parent.resolve() / ct.folder})
+    return exercise.model_copy(update={**found, "ct": ct})
+
+
+def _is_path(profile: str) -> bool:
+    return Path(profile).suffix in (".yaml", ".yml")
 
 
 def _check_profile(path: Path, field: str, value: str, folder: str) -> None:
     names = sorted(file.stem for file in (paths.resources() / folder).glob("*.yaml"))
-    if value not in names and Path(value).suffix not in (".yaml", ".yml"):
+    if value not in names and not _is_path(value):
         raise ExerciseError(
             f"{path}: {field}: {value!r} is not known; valid names are {', '.join(names)}, "
             "or the path of a .yaml file"

@@ -56,6 +56,8 @@ class Ct(Strict):
     def _one_of_two(self) -> "Ct":
         if (self.phantom is None) == (self.folder is None):
             raise ValueError("give either phantom: {seed: ...} or folder: ..., one of the two")
+        if "\0" in str(self.folder):
+            raise ValueError("folder holds a character that no path has")
         if self.series is not None and self.folder is None:
             raise ValueError("series goes with folder; the phantom has one series only")
         return self

@@ -77,6 +77,10 @@ class Exercise(Strict):
     def _bare_names(cls, effects: object) -> object:
         """Let `breathing:` alone, or a list of names, stand for an effect with its defaults."""
         if isinstance(effects, list):
+            if not all(isinstance(name, str) for name in effects):
+                raise ValueError("a list of effects holds names only")
+            if len(set(effects)) < len(effects):
+                raise ValueError("an effect is named twice")
             effects = dict.fromkeys(effects)
         if isinstance(effects, Mapping):
             return {name: {} if part is None else part for name, part in effects.items()}

@@ -70,6 +70,14 @@ def test_a_profile_elsewhere_is_chosen_by_the_path_of_its_file(tmp_path: Path) -
     assert device_of(read_exercise(exercise)).name == "mine"
 
 
+def test_the_path_of_a_profile_is_taken_from_the_folder_of_the_exercise(tmp_path: Path) -> None:
+    (tmp_path / "school").mkdir()
+    add_profile(tmp_path / "school" / "mine.yaml")
+    exercise = tmp_path / "school" / "exercise.yaml"
+    exercise.write_text(EXERCISE.format(device="mine.yaml"), encoding="utf-8")
+    assert device_of(read_exercise(exercise)).name == "mine"
+
+
 def test_a_profile_that_does_not_exist_is_refused_with_the_names_that_do(tmp_path: Path) -> None:
     exercise = tmp_path / "exercise.yaml"
     exercise.write_text(EXERCISE.format(device="phantomx"), encoding="utf-8")

@@ -76,3 +76,16 @@ def test_a_name_that_does_not_exist_is_refused_with_the_names_that_do(own: Path)
 def test_a_file_that_does_not_exist_is_refused_by_path(tmp_path: Path) -> None:
     with pytest.raises(ConfigurationError, match=r"cannot read .*absent.yaml: No such file"):
         load_exercise(tmp_path / "absent.yaml")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"\xff\xfe", b"? [1]\n: 2\n", b"id: !!bool x\n", b"seed: " + b"9" * 5000, b"[" * 3000],
+)
+def test_no_file_however_broken_hides_the_others(own: Path, content: bytes) -> None:
+    own.mkdir(parents=True, exist_ok=True)
+    (own / "broken.yaml").write_bytes(content)
+    (own / "folder.yaml").mkdir()
+    found = library()
+    assert len(found) == 3
+    assert [item.path.name for item in found.broken] == ["broken.yaml", "folder.yaml"]
