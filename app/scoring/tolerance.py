@@ -11,6 +11,9 @@ from pydantic import ConfigDict, Field, model_validator
 from app.core.configuration import Strict
 from app.core.errors import NumericalError
 
+LARGEST_WEIGHT = 1e9
+"""Sums of such weights stay finite."""
+
 EXPERT_UTILITY, GOOD_UTILITY, PASS_UTILITY = 1.0, 0.8, 0.6
 
 
@@ -51,6 +54,11 @@ class Bands(Strict):
                 "expert, good, pass and zero must rise or fall strictly in this order; they are "
                 + ", ".join(f"{knot:g}" for knot in self.knots)
             )
+        if min(self.knots) < 0.0 or not np.isfinite(self.knots).all():
+            raise ValueError(
+                "expert, good, pass and zero must be finite and 0 or more, as the sign of a value "
+                "does not count; they are " + ", ".join(f"{knot:g}" for knot in self.knots)
+            )
         return self
 
     @property
@@ -74,7 +82,7 @@ class Tolerance(Bands):
         required: whether the attempt fails when the value lies beyond `pass`, whatever the total.
     """
 
-    weight: Annotated[float, Field(ge=0.0)] = 1.0
+    weight: Annotated[float, Field(ge=0.0, le=LARGEST_WEIGHT)] = 1.0
     required: bool = False
 
 
