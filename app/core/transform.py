@@ -114,14 +114,23 @@ def rotation_between(start: ArrayLike, end: ArrayLike) -> FloatArray:
     For opposite directions, where the axis is free, any axis perpendicular to `start` serves.
     """
     u, v = unit(start), unit(end)
-    if (
-        np.dot(u, v) < 0.0
-    ):  # via the mirrored end: the half turn first, so that 1 + u·v never nears 0
-        axis = _any_perpendicular(u)
+    if np.dot(u, v) < 0.0:
+        # A half turn first, about the same axis, so that 1 + u·v never nears 0.
+        axis = _common_perpendicular(u, v)
         half_turn = 2.0 * np.outer(axis, axis) - np.eye(3)
         return rotation_between(-u, v) @ half_turn
     w = skew(np.cross(u, v))
     return np.eye(3) + w + w @ w / (1.0 + float(np.dot(u, v)))
+
+
+def _common_perpendicular(u: FloatArray, v: FloatArray) -> FloatArray:
+    """Direction of u x v, exactly perpendicular to u; any one where u and v lie on one line."""
+    axis = np.cross(u, v)
+    length = float(np.linalg.norm(axis))
+    if length < 1e-12:
+        return _any_perpendicular(u)
+    axis = axis / length
+    return unit(axis - np.dot(axis, u) * u)
 
 
 def _any_perpendicular(u: FloatArray) -> FloatArray:

@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.core.arrays import angle_between
 from app.core.errors import NumericalError
 from app.core.rotation import rotation_exp, rotation_log
 from app.core.transform import RigidTransform, rotation_between
@@ -76,6 +77,16 @@ def test_the_smallest_rotation_turns_one_direction_onto_the_other(a, b):
     R = rotation_between(a, b)
     assert R @ a / np.linalg.norm(a) == pytest.approx(b / np.linalg.norm(b), abs=1e-12)
     assert R @ R.T == pytest.approx(np.eye(3), abs=1e-12)
+    assert np.linalg.norm(rotation_log(R)) == pytest.approx(angle_between(a, b), abs=1e-9)
+
+
+def test_the_smallest_rotation_does_not_jump_at_a_right_angle():
+    start = np.array([0.0, 0.0, -1.0])
+    before, after = (
+        rotation_between(start, [np.sin(t) * 0.6, np.sin(t) * 0.8, -np.cos(t)])
+        for t in (0.5 * np.pi - 1e-9, 0.5 * np.pi + 1e-9)
+    )
+    assert before == pytest.approx(after, abs=1e-8)
 
 
 @pytest.mark.parametrize("direction", [*np.eye(3), *-np.eye(3), np.array([1.0, 1.0, 1.0])])
