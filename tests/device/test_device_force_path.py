@@ -6,6 +6,7 @@ from device.device_rig import GEOMETRY, HAND_LIMIT, TORQUE_LIMIT, Rig
 
 from app.core import state_vector as sv
 from app.device.control import Fault
+from app.device.control.safety import fade
 from app.mechanisms.pantograph import ForceLaw
 
 
@@ -159,6 +160,17 @@ def test_a_silent_window_holds_the_force_at_zero_after_a_second(rig):
     rig.beating = True
     rig.step(1)
     assert rig.loop.latest().fault is Fault.NONE
+
+
+def test_a_heartbeat_or_a_reading_from_the_future_is_not_trusted(rig):
+    rig.arm()
+    rig.beating = False
+    rig.write(heartbeat=rig.clock.now() + 1e6)
+    rig.step()
+    assert rig.loop.latest().fault is Fault.HEARTBEAT_LOST
+    assert rig.felt == 0.0
+    assert fade(-0.01, 0.02, 0.1) == 1.0
+    assert fade(-0.2, 0.02, 0.1) == 0.0
 
 
 def test_a_silent_window_is_no_fault_while_disarmed():

@@ -136,6 +136,38 @@ def test_turning_the_dial_never_moves_the_force_further_than_the_dial():
             previous, dial = felt, turned
 
 
+def test_a_dial_that_is_clicked_to_its_end_does_not_jerk_the_hand():
+    rig = Rig(tilt=0.3)
+    with rig.loop:
+        rig.arm(tracked_depth=0.03)
+        rig.write(assistance=0.0)
+        rig.step(300)
+        assert rig.felt == 0.0
+        rig.write(assistance=1.0)
+        rig.step(300)
+        felt = rig.loop.rows()[-600:, sv.FELT_X : sv.FELT_Z + 1]
+    steps = np.linalg.norm(np.diff(felt, axis=0), axis=1)
+    assert np.linalg.norm(felt[-1]) == pytest.approx(HAND_LIMIT)
+    assert steps.max() < 0.04, "N per millisecond"
+
+
+@pytest.mark.parametrize("reading", [1e308, -1e308, 1e200])
+def test_one_absurd_reading_of_an_encoder_is_forgotten(reading):
+    rig = Rig()
+    with rig.loop:
+        rig.arm()
+        home = rig.loop._state[sv.PLANT_Q_LEFT]
+        rig.loop._state[sv.PLANT_Q_LEFT] = reading
+        rig.step()
+        rig.loop._state[sv.PLANT_Q_LEFT] = home
+        rig.step(1500)
+        state = rig.loop.latest()
+        assert_safe(rig.loop.rows())
+    assert state.fault is Fault.NONE
+    assert np.isfinite(state.row).all()
+    assert np.abs(state.qd).max() < 1.0
+
+
 def test_losing_the_marker_does_not_make_the_force_jump():
     rig = Rig(force=(0.0, 0.0, 0.0))
     with rig.loop:

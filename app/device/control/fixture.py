@@ -12,7 +12,7 @@ from app.core.compiled import njit, stage
 from app.device.control.vectors import norm_kernel, shrink_kernel, unit_kernel
 from app.mechanisms.profile import DeviceProfile
 
-_STIFFNESS, _DAMPING, _LIMIT = range(3)
+_STIFFNESS, _DAMPING, _LIMIT, _DIAL_RATE, _DIAL, _STARTED, _SIZE = range(7)
 
 
 @njit
@@ -54,10 +54,22 @@ def fixture_potential(angle: float, stiffness: float, l_out: float) -> float:
     return stiffness * l_out * (pi * pi / 8.0 - 1.0 + sin(angle) - angle * cos(angle))
 
 
+@njit
+def _dial(state: FloatArray, p: FloatArray) -> float:
+    """Return the assistance in use: it follows the input at a limited rate; at once at first."""
+    wanted = min(max(state[sv.ASSISTANCE], 0.0), 1.0)
+    if p[_STARTED] == 0.0:
+        p[_STARTED], p[_DIAL] = 1.0, wanted
+        return wanted
+    step = p[_DIAL_RATE] * max(state[sv.DT], 0.0)
+    p[_DIAL] = min(max(wanted, p[_DIAL] - step), p[_DIAL] + step)
+    return p[_DIAL]
+
+
 @stage
 def fixture_stage(state: FloatArray, p: FloatArray) -> None:
     """Write GUIDE_* and add it to FORCE_*: assistance times (spring - damper), limited."""
-    assistance = min(max(state[sv.ASSISTANCE], 0.0), 1.0)
+    assistance = _dial(state, p)
     if not assistance > 0.0:
         return
     px, py, pz = unit_kernel(state[sv.PATH_X], state[sv.PATH_Y], state[sv.PATH_Z])
@@ -84,11 +96,14 @@ class VirtualFixture:
         stiffness: force at the hub per angle error [N/rad].
         damping: against the hub's velocity across the needle [N·s/m].
         limit: largest force at the hand [N].
+        dial_rate: how fast the assistance follows its dial [1/s], so that a click on the dial's
+            end does not jerk the hand. Disarming is the way to zero at once.
     """
 
     stiffness: float
     damping: float
     limit: float
+    dial_rate: float = 4.0
 
     @classmethod
     def of(cls, profile: DeviceProfile) -> "VirtualFixture":
@@ -97,5 +112,7 @@ class VirtualFixture:
         return cls(section.stiffness, section.damping, profile.limits.hand_force)
 
     def stage(self) -> tuple[str, Any, FloatArray]:
-        """Return the stage for a loop's table."""
-        return "fixture", fixture_stage, np.array([self.stiffness, self.damping, self.limit])
+        """Return the stage for a loop's table, with memory of its own."""
+        parameters = np.zeros(_SIZE)
+        parameters[:_DIAL] = self.stiffness, self.damping, self.limit, self.dial_rate
+        return "fixture", fixture_stage, parameters

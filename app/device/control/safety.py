@@ -80,7 +80,11 @@ _OF_STATUS = np.array(
 
 @njit
 def fade(age: float, start: float, end: float) -> float:
-    """Factor on the force for data of an age [s]: 1 up to `start`, falling to 0 at `end`."""
+    """Factor on the force for data of an age [s]: 1 up to `start`, falling to 0 at `end`.
+
+    A time as far in the future comes from another clock, and counts like one in the past.
+    """
+    age = abs(age)
     if not age < end:  # also for NaN
         return 0.0
     return 1.0 if age <= start else (end - age) / (end - start)
@@ -161,7 +165,7 @@ def safety_stage(state: FloatArray, p: FloatArray) -> None:
     scale = fade(now - state[sv.Q_TIME], p[_FADE_FROM], p[_FADE_TO])
     if fault == 0 and scale == 0.0:
         fault = _ENCODERS_STALE
-    if fault == 0 and armed and not now - state[sv.HEARTBEAT] <= p[_HEARTBEAT]:
+    if fault == 0 and armed and not abs(now - state[sv.HEARTBEAT]) <= p[_HEARTBEAT]:
         fault = _HEARTBEAT_LOST
     arming = ramp(state[sv.ARMING], state[sv.DT], p[_ARMING], armed and fault == 0)
     state[sv.ARMING] = arming

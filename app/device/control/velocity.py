@@ -17,6 +17,9 @@ _TIME_CONSTANT, _STARTED, _LAST_LEFT, _LAST_RIGHT, _SIZE = range(5)
 @njit
 def _filtered(velocity: float, difference: float, dt: float, time_constant: float) -> float:
     # Backward Euler of a first-order low-pass on the difference quotient, without dividing by dt.
+    # More than half a turn in a tick is no movement, and must not stay in the memory for seconds.
+    if not (abs(difference) < pi and isfinite(velocity)):
+        return 0.0
     return snapped(velocity + (difference - velocity * dt) / (time_constant + dt))
 
 
