@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QWidget
 
 from app.core import state_vector as sv
 from app.core.errors import AcusError
@@ -27,6 +28,9 @@ from app.views.window import MainWindow
 PERIOD_MS: Final = 50
 PATIENCE_S: Final = 300.0
 """A step that takes longer than this has failed (a first start compiles every kernel)."""
+
+SETTLE_S: Final = 1.5
+"""Time for the first picture in 3D after everything stands [s]."""
 
 TRAINEE_DONE: Final = 9.0
 
@@ -67,7 +71,7 @@ class Demonstration(QObject):
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self._look)
         self._step: Callable[[], bool] = self._patient_is_open
-        self._waited = 0.0
+        self._waited = self._settled_at = 0.0
         self._taken: set[str] = set()
         self._result: AttemptResult | None = None
         window.conductor.controller.finished.connect(self._take_result)
@@ -104,22 +108,23 @@ class Demonstration(QObject):
         if snapshot is None or snapshot.pose.depth_source is not DepthSource.TRACKED:
             return False
         if not self._window.conductor.settled:
+            self._settled_at = self._waited
+        if self._waited < self._settled_at + SETTLE_S:
             return False
         self._picture("1-plan")
-        self._window.workspace.exercise_panel.start_requested.emit(self._script.student)
+        panel = self._window.workspace.exercise_panel
+        panel.set_student(self._script.student)
+        panel.start_requested.emit(self._script.student)
         return self._then("attempt", self._needle_is_in)
 
     def _needle_is_in(self) -> bool:
         snapshot = self._snapshot()
         if snapshot is None or snapshot.device is None:
             return False
-        length = snapshot.pose.depth + snapshot.offset.remaining
-        if snapshot.state is State.ALIGNING and snapshot.elapsed > 3.0:
-            self._picture("2-aligning")
-        if snapshot.pose.depth > 0.5 * length:
-            self._picture("3-inserting")
+        self._picture_on_the_way(snapshot)
         if snapshot.device.row[sv.TRAINEE_PHASE] != TRAINEE_DONE:
             return False
+        self._window.workspace.show_exercise()
         self._picture("4-at-the-target")
         self._window.conductor.controller.end()
         return self._then("scoring", self._debrief_is_shown)
@@ -131,9 +136,27 @@ class Demonstration(QObject):
         folder = self._script.pictures
         if folder is not None:
             write_report(review_of_result(self._result), folder / "report.pdf")
+        self._window.show_sessions()
+        self._picture("6-sessions")
+        self._window.show_debrief()
         self._timer.stop()
         self.finished.emit(self._result)
         return True
+
+    def _picture_on_the_way(self, snapshot: Snapshot) -> None:
+        workspace = self._window.workspace
+        if snapshot.state is State.ALIGNING and snapshot.elapsed > 3.0:
+            self._picture("2-aligning")
+        if snapshot.pose.depth_source is not DepthSource.TRACKED:
+            return
+        length = snapshot.pose.depth + snapshot.offset.remaining
+        if snapshot.pose.depth > 0.7 * length and "3-inserting" in self._taken:
+            self._picture("3-cameras")
+            workspace.show_exercise()
+        elif snapshot.pose.depth > 0.4 * length and self._script.pictures is not None:
+            self._picture("3-inserting")
+            self._picture("3-bullseye", workspace.bullseye)
+            workspace.show_cameras()
 
     # --- helpers --------------------------------------------------------------------------------
     def _look(self) -> None:
@@ -161,9 +184,9 @@ class Demonstration(QObject):
         run = self._window.conductor.controller.run
         return None if run is None else run.trainer.snapshot()
 
-    def _picture(self, name: str) -> None:
+    def _picture(self, name: str, widget: QWidget | None = None) -> None:
         if self._script.pictures is None or name in self._taken:
             return
         self._taken.add(name)
         self._script.pictures.mkdir(parents=True, exist_ok=True)
-        self._window.grab().save(str(self._script.pictures / f"{name}.png"))
+        (widget or self._window).grab().save(str(self._script.pictures / f"{name}.png"))

@@ -72,6 +72,10 @@ class Workspace(QWidget):
         self.side.setCurrentIndex(1)
         self.show_bullseye(True)
 
+    def show_cameras(self) -> None:
+        """Bring the camera pictures to the front."""
+        self.side.setCurrentIndex(2)
+
     def show_plan(self) -> None:
         """Bring the plan panel to the front."""
         self.side.setCurrentIndex(0)

@@ -1,0 +1,67 @@
+"""Makes the pictures of README and docs: `make docs-pictures`."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+PICTURES = ROOT / "docs" / "pictures"
+DATA = Path(os.environ.get("ACUS_TEST_DATA", ROOT.parent / "shared" / "data"))
+CHEST = DATA / "ct_chest_lidc0314"
+
+FROM_DEMO = {
+    "1-plan": "plan",
+    "3-inserting": "inserting",
+    "3-bullseye": "bullseye",
+    "3-cameras": "cameras",
+    "4-at-the-target": "at-the-target",
+    "5-debrief": "debrief",
+    "6-sessions": "sessions",
+}
+
+
+def acus(*arguments: str | Path) -> None:
+    """Run the command line, its output to the terminal."""
+    subprocess.run([sys.executable, "-m", "app", *map(str, arguments)], check=True, cwd=ROOT)
+
+
+FROM_CHEST = ("3-inserting", "4-at-the-target")
+
+
+def demonstration(name: str, moments: Iterable[str], *arguments: str | Path) -> None:
+    """Run a demonstration and keep some of its pictures as docs/pictures/<name>-<moment>.png."""
+    with tempfile.TemporaryDirectory() as folder:
+        acus("demo", "--headless", "--out", folder, *arguments)
+        for moment in moments:
+            kept = PICTURES / f"{name}-{FROM_DEMO[moment]}.png"
+            shutil.copyfile(Path(folder) / f"{moment}.png", kept)
+
+
+def studies() -> None:
+    """Keep each study's picture as docs/pictures/study-<name>.png."""
+    from app.studies.runner import study_names
+
+    for name in study_names():
+        with tempfile.TemporaryDirectory() as folder:
+            acus("study", name, "--out", folder)
+            picture = next(Path(folder).rglob("*.png"))
+            shutil.copyfile(picture, PICTURES / f"study-{name}.png")
+
+
+def main() -> None:
+    """Make them all; without the shared data the chest's are left as they are."""
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    demonstration("phantom", FROM_DEMO, "--skill", "novice")
+    if CHEST.is_dir():
+        demonstration("chest", FROM_CHEST, "--ct", CHEST)
+    else:
+        print(f"no chest CT in {CHEST}: its pictures stay as they are", file=sys.stderr)
+    studies()
+
+
+if __name__ == "__main__":
+    main()
