@@ -5,10 +5,10 @@ from app.device.control.fixture import VirtualFixture
 from app.device.control.host import Host, Priority
 from app.device.control.inbox import INPUT_NAMES, Inbox
 from app.device.control.loop import Loop
-from app.device.control.safety import Fault
-from app.device.control.state import DeviceState
 from app.device.control.table import Stage, Table, pantograph_stages
 from app.device.control.timing import Timing
+from app.device.faults import Fault
+from app.device.state import DeviceState
 
 __all__ = [
     "INPUT_NAMES",

@@ -12,7 +12,7 @@ from app.core.compiled import njit, stage
 from app.device.control.vectors import norm_kernel, shrink_kernel, unit_kernel
 from app.mechanisms.profile import DeviceProfile
 
-_STIFFNESS, _DAMPING, _LIMIT, _DIAL_RATE, _DIAL, _STARTED, _SIZE = range(7)
+_STIFFNESS, _DAMPING, _LIMIT, _DIAL_RATE, _DIAL, _SIZE = range(6)
 
 
 @njit
@@ -56,10 +56,10 @@ def fixture_potential(angle: float, stiffness: float, l_out: float) -> float:
 
 @njit
 def _dial(state: FloatArray, p: FloatArray) -> float:
-    """Return the assistance in use: it follows the input at a limited rate; at once at first."""
+    """Return the assistance in use: it follows its input, at a limited rate while force is on."""
     wanted = min(max(state[sv.ASSISTANCE], 0.0), 1.0)
-    if p[_STARTED] == 0.0:
-        p[_STARTED], p[_DIAL] = 1.0, wanted
+    if state[sv.ARMING] == 0.0:
+        p[_DIAL] = wanted
         return wanted
     step = p[_DIAL_RATE] * max(state[sv.DT], 0.0)
     p[_DIAL] = min(max(wanted, p[_DIAL] - step), p[_DIAL] + step)

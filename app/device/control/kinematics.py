@@ -10,7 +10,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.device.control.vectors import norm_kernel, unit_kernel
-from app.mechanisms.pantograph.geometry import Geometry
+from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph.kernels import (
     axis_kernel,
     forward_kernel,

@@ -16,10 +16,10 @@ from app.device.control.history import History
 from app.device.control.host import THREAD_RATE_HZ, Host, Priority, default_host
 from app.device.control.inbox import Inbox
 from app.device.control.kernel import MISSED, STOP
-from app.device.control.state import DeviceState
 from app.device.control.table import Table
 from app.device.control.timing import Timing, measure
 from app.device.errors import LoopError
+from app.device.state import DeviceState
 
 _STOP_TIMEOUT = 5.0
 

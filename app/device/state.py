@@ -8,7 +8,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, read_only
-from app.device.control.safety import Fault
+from app.device.faults import Fault
 
 
 @dataclass(frozen=True, slots=True, eq=False)

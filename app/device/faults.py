@@ -1,0 +1,39 @@
+"""Why the robot gives no force: names and messages of the loop's faults."""
+
+from enum import IntEnum
+from typing import Final
+
+
+class Fault(IntEnum):
+    """Why the force is held at zero; the value of the slot `FAULT`."""
+
+    NONE = 0
+    INPUT_NOT_FINITE = 1
+    ENCODER_NOT_FINITE = 2
+    UNREACHABLE = 3
+    SINGULAR = 4
+    NO_GRIP = 5
+    DEGENERATE = 6
+    FORCE_NOT_FINITE = 7
+    ENCODERS_STALE = 8
+    HEARTBEAT_LOST = 9
+
+    @property
+    def message(self) -> str:
+        """Say what happened and what to do, for people."""
+        return _MESSAGES[self]
+
+
+_MESSAGES: Final = {
+    Fault.NONE: "no fault",
+    Fault.INPUT_NOT_FINITE: "an input of the loop (hand, path, tracker or dial) is not a number;"
+    " check the camera calibration and the plan",
+    Fault.ENCODER_NOT_FINITE: "an encoder gives no number; check its cable",
+    Fault.UNREACHABLE: "the encoders report a pose that the links cannot take; check their offsets",
+    Fault.SINGULAR: "the pantograph is in a singular pose; move the needle back towards the middle",
+    Fault.NO_GRIP: "nothing of the needle stands out of the fulcrum; pull it out",
+    Fault.DEGENERATE: "the needle has no direction; check the encoder offsets",
+    Fault.FORCE_NOT_FINITE: "a force law or an effect gave no number; leave out the effect",
+    Fault.ENCODERS_STALE: "the encoders have not been read for 100 ms; check the link to the robot",
+    Fault.HEARTBEAT_LOST: "the window has given no sign of life for 1 s; it is busy or has ended",
+}
