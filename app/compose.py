@@ -190,7 +190,7 @@ def _measured_axis(loop: Loop) -> Callable[[float], FloatArray | None]:
 
 
 def _context(setup: TrainerSetup, profile: DeviceProfile, rig: RigProfile) -> RunContext:
-    documents = {"exercise": setup.exercise, "device": profile, "cameras": rig}
+    documents = {"exercise": _anonymous(setup.exercise), "device": profile, "cameras": rig}
     return RunContext(
         folder=setup.sessions,
         seed=setup.seed,
@@ -206,6 +206,12 @@ def _context(setup: TrainerSetup, profile: DeviceProfile, rig: RigProfile) -> Ru
         ),
         plan_files=lambda placed: (_attachment("plan.mrk.json", plan_document(placed.plan)),),
     )
+
+
+def _anonymous(exercise: Exercise) -> Exercise:
+    """Without folder and series of its CT, which may name a patient; the record has a pseudonym."""
+    ct = exercise.ct.model_copy(update={"folder": None, "series": None})
+    return exercise.model_copy(update={"ct": ct})
 
 
 def _attachment(name: str, document: Any) -> Attachment:

@@ -1,9 +1,11 @@
 """The composed trainer in virtual time: the same parts as in the window, without threads."""
 
+import json
+
 import numpy as np
 import pytest
 
-from app.compose import TrainerSetup, build_loop, device_of, loop_table
+from app.compose import TrainerSetup, build_loop, build_trainer, device_of, loop_table
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
@@ -11,6 +13,7 @@ from app.exercises.scene import placed_plan_of
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.session.machine import State
+from app.session.recording import read_recording
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 
@@ -51,9 +54,7 @@ def run(skill, exercise="first-insertion", seed=3, assistance=0.7, seconds=60.0)
 @pytest.mark.parametrize("skill", ["expert", "novice"])
 def test_a_guided_attempt_goes_through_all_states_and_reaches_the_target(skill):
     result, states, felt = run(skill)
-    assert [s for n, s in enumerate(states) if n == 0 or s is not states[n - 1]][
-        0
-    ] is State.ALIGNING
+    assert states[0] is State.ALIGNING
     assert {State.ALIGNING, State.INSERTING, State.HOLDING} <= set(states)
     assert result.state is State.ENDED
     assert result.score is not None
@@ -101,3 +102,29 @@ def test_the_table_of_a_real_run_has_the_safety_after_all_forces():
     assert names.index("trainee") == 0
     assert names[-2:] == ["safety", "plant"]
     assert names.index("fixture") < names.index("lateral_tissue") < names.index("transmission")
+
+
+def test_no_record_names_the_folder_or_the_series_of_a_ct(tmp_path):
+    exercise = load_exercise("first-insertion")
+    ct = exercise.ct.model_copy(
+        update={"phantom": None, "folder": tmp_path / "Doe_Jane_19600101", "series": "1.2.840.9"}
+    )
+    exercise = exercise.model_copy(update={"ct": ct, "plan": "phantom_default"})
+    profile = device_of(exercise)
+    placed = placed_plan_of(load_exercise("first-insertion"), profile, PLAN)
+    trainer = build_trainer(
+        TrainerSetup(
+            exercise, placed, ct="ct-1", sessions=tmp_path / "kept", clock=VirtualClock(100.0)
+        )
+    )
+    trainer.begin("tester")
+    trainer.abort()
+    (path,) = (tmp_path / "kept").glob("*.mcap")
+    recording = read_recording(path)
+    head = repr(recording.metadata) + "".join(
+        data.decode() for data in recording.attachments.values()
+    )
+    assert recording.metadata["ct"] == {"pseudonym": "ct-1"}
+    assert json.loads(recording.attachments["exercise.json"])["id"] == exercise.id
+    assert "Doe" not in head
+    assert "1.2.840.9" not in head
