@@ -11,7 +11,8 @@ from app.core import paths
 from app.core.arrays import frozen
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
-from app.mechanisms.pantograph import Geometry, LumpedInertia
+from app.mechanisms.geometry import Geometry
+from app.mechanisms.inertia import LumpedInertia
 
 Positive = Annotated[float, Field(gt=0.0)]
 NotNegative = Annotated[float, Field(ge=0.0)]
@@ -48,7 +49,7 @@ class Section(Strict):
 
 
 class GeometrySection(Section):
-    """Lengths [m]; see `pantograph.Geometry`."""
+    """Lengths [m]; see `geometry.Geometry`."""
 
     proximal: Positive
     distal: Positive

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, frozen
 from app.mechanisms.errors import MechanismError
-from app.mechanisms.pantograph import Geometry, forward, inverse
+from app.mechanisms.geometry import Geometry
 from app.mechanisms.profile import DeviceProfile
 
 
@@ -66,6 +66,8 @@ def in_workspace(geometry: Geometry, x: float, y: float) -> bool:
     Where both arms reach but the links would have to pass through each other, forward kinematics
     of the joint angles gives another point back: that counts as outside.
     """
+    from app.mechanisms.pantograph import forward, inverse  # compiled: loaded when first asked
+
     try:
         back = forward(geometry, inverse(geometry, (x, y)))
     except MechanismError:

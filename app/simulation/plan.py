@@ -5,9 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from app.core import state_vector as sv
 from app.core.arrays import FloatArray
-from app.core.compiled import stage
 from app.simulation.declaration import Declaration, class_name
 from app.simulation.registry import implementation
 from app.simulation.scene import Binding, Scene
@@ -64,6 +62,8 @@ class SimulationPlan:
         """
         if not self.kept:
             return []
+        from app.simulation.clearing import clear  # compiled; the plan itself is needed sooner
+
         return [("clear_effects", clear, np.zeros(1)), *(self._stage(kept) for kept in self.kept)]
 
     def _stage(self, kept: Kept) -> Stage:
@@ -74,12 +74,3 @@ class SimulationPlan:
             module.step,
             effect.parameters(Binding(self.scene, self.depth_slot, kept.model)),
         )
-
-
-@stage
-def clear(state: FloatArray, parameters: FloatArray) -> None:
-    """Zero what only effects add to."""
-    state[sv.AXIAL_FORCE] = 0.0
-    state[sv.TARGET_SHIFT_X] = 0.0
-    state[sv.TARGET_SHIFT_Y] = 0.0
-    state[sv.TARGET_SHIFT_Z] = 0.0

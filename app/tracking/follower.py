@@ -2,8 +2,9 @@
 
 from app.core.arrays import FloatArray
 from app.tracking.feed import Pair
-from app.tracking.fix import FixSolver, FixStatus, Sighting
+from app.tracking.fix import FixStatus
 from app.tracking.marker import Extractor, MarkerFix
+from app.tracking.solver import FixSolver, Sighting
 from app.tracking.track import PixelTrack
 
 _SYNCHRONOUS = 0.5e-3

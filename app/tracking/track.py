@@ -3,8 +3,8 @@
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.tracking.fix import Sighting
 from app.tracking.marker import MarkerFix
+from app.tracking.solver import Sighting
 
 _GAP = 0.1
 """Longest time [s] between two pictures over which positions are interpolated or predicted."""

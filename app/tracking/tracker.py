@@ -11,11 +11,12 @@ from app.core.latest import Latest
 from app.tracking.camera import Camera, Frame, Image
 from app.tracking.errors import TrackingError
 from app.tracking.feed import CameraFeed, Pair
-from app.tracking.fix import FixSolver, FixStatus, NeedleFix
+from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.follower import MarkerFollower, Markers
 from app.tracking.marker import Extractor
 from app.tracking.outline_centroid import OutlineCentroid
 from app.tracking.rig import RigProfile
+from app.tracking.solver import FixSolver
 from app.tracking.statistics import TrackerMeter, TrackerStatistics
 
 _PAUSE = 0.1

@@ -9,9 +9,10 @@ from app.core.transform import RigidTransform
 from app.tracking.camera import Frame
 from app.tracking.distortion import distort_point, fold_radius, undistort_point
 from app.tracking.errors import CameraError
-from app.tracking.fix import FixSolver, FixStatus, Sighting
+from app.tracking.fix import FixStatus
 from app.tracking.outline_centroid import OutlineCentroid
 from app.tracking.rig import load_rig
+from app.tracking.solver import FixSolver, Sighting
 from app.tracking.stereo import StereoStatus, Way, triangulate
 from app.tracking.thesis_marker import ThesisMarker
 

@@ -13,7 +13,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.events import EventQueue
 from app.core.latest import Latest
-from app.device.control.state import DeviceState
+from app.device.state import DeviceState
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.scoring.defaults import DEFAULT_TOLERANCES

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from session_fakes import FULCRUM, FakeFix, row
 
 from app.core import state_vector as sv
-from app.device.control.state import DeviceState
+from app.device.state import DeviceState
 from app.session.needle import (
     ENCODER_LIMIT,
     HOLD_LIMIT,

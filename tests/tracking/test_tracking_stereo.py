@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.tracking.confidence import covariance_radius
 from app.tracking.stereo import (
     StereoStatus,
     Way,
     _reprojection,
-    covariance_radius,
     triangulate,
 )
 

@@ -10,7 +10,7 @@ from views_exercise_fakes import FakeTrainer, run, snapshot
 
 from app.core import state_vector as sv
 from app.core.arrays import angle_between
-from app.device.control.state import DeviceState
+from app.device.state import DeviceState
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.hand import HandPose
 from app.views.exercise.pad_painter import PadArea, spring

@@ -1,7 +1,8 @@
 """The needle pantograph: a planar five-bar under a fulcrum that points a sliding needle."""
 
-from app.mechanisms.pantograph.dynamics import LumpedInertia, mass_matrix, velocity_terms
-from app.mechanisms.pantograph.geometry import Geometry
+from app.mechanisms.geometry import Geometry
+from app.mechanisms.inertia import LumpedInertia
+from app.mechanisms.pantograph.dynamics import mass_matrix, velocity_terms
 from app.mechanisms.pantograph.kinematics import WORKING_MODE, forward, inverse, jacobian
 from app.mechanisms.pantograph.statics import (
     ForceLaw,

@@ -20,7 +20,6 @@ Both kernels take the pose (q1, q2, x, y), the lengths (a1, a2, base) and the lu
 They divide by s(2'-2): call them only where `jacobian_kernel` says `OK`.
 """
 
-from dataclasses import dataclass
 from math import cos, sin
 
 import numpy as np
@@ -28,32 +27,11 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.mechanisms.geometry import Geometry
+from app.mechanisms.inertia import LumpedInertia
 from app.mechanisms.pantograph import kernels
-from app.mechanisms.pantograph.geometry import Geometry
 from app.mechanisms.pantograph.kinematics import forward, pair
 from app.mechanisms.pantograph.status import check
-
-
-@dataclass(frozen=True, slots=True)
-class LumpedInertia:
-    """Constants of the equations of motion, the same for both arms.
-
-    Attributes:
-        driven: A = I1 + m1 c1² + m2 a1² + reflected rotor [kg·m²].
-        passive: D = I2 + m2 c2² [kg·m²].
-        coupling: B = m2 a1 c2 [kg·m²].
-        tool: mass at P3, m3 [kg].
-    """
-
-    driven: float
-    passive: float
-    coupling: float
-    tool: float
-
-    @property
-    def values(self) -> tuple[float, float, float, float]:
-        """Return (driven, passive, coupling, tool): what the kernels take."""
-        return self.driven, self.passive, self.coupling, self.tool
 
 
 @njit

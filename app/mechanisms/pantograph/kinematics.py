@@ -5,8 +5,8 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
 from app.mechanisms.errors import MechanismError
+from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import kernels
-from app.mechanisms.pantograph.geometry import Geometry
 from app.mechanisms.pantograph.status import check
 
 WORKING_MODE = (1, -1)

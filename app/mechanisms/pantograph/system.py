@@ -8,8 +8,8 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
 from app.mechanisms.errors import MechanismError, NoGripError
+from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import kernels
-from app.mechanisms.pantograph.geometry import Geometry
 from app.mechanisms.pantograph.kinematics import WORKING_MODE, forward, inverse, pair
 from app.mechanisms.pantograph.status import check
 

@@ -5,8 +5,8 @@ from math import inf
 import numpy as np
 
 from app.core import state_vector as sv
-from app.device.control.safety import Fault
-from app.device.control.state import DeviceState
+from app.device.faults import Fault
+from app.device.state import DeviceState
 from app.session.snapshot import Snapshot
 from app.tracking.fix import FixStatus
 from app.tracking.statistics import TrackerStatistics

@@ -1,0 +1,165 @@
+"""From what both cameras show and the robot's axis to the needle's tip."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.core.arrays import FloatArray, frozen, unit
+from app.core.units import MILLIMETRE
+from app.tracking.confidence import chi_square_quantile
+from app.tracking.fix import FixStatus, NeedleFix
+from app.tracking.marker import MarkerFix
+from app.tracking.rig import RigProfile
+from app.tracking.silhouette import centroid_shift
+from app.tracking.stereo import StereoStatus, Triangulation, Way, triangulate
+
+GATE = 1e-5
+"""Probability with which a good fix is refused by the consistency check."""
+
+_GROSS_PX = 2.0
+_LINE_LIMIT = chi_square_quantile(1.0 - GATE, 2)
+_RESIDUAL_LIMIT = chi_square_quantile(1.0 - GATE, 1)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sighting:
+    """What one camera shows at the time of the fix: pixel and covariance, or neither."""
+
+    uv: FloatArray
+    covariance: FloatArray
+
+    @classmethod
+    def of(cls, marker: MarkerFix) -> "Sighting":
+        """Take them from an extractor's find."""
+        return cls(marker.uv, marker.covariance)
+
+
+class FixSolver:
+    """From two sightings and the robot's axis to the tip; holds the rig, no memory."""
+
+    def __init__(self, rig: RigProfile, fulcrum: FloatArray) -> None:
+        self._rig = rig
+        self._models = rig.models
+        self._poses = (self._models[0].T_camera_world, self._models[1].T_camera_world)
+        self._fulcrum = frozen(fulcrum, (3,), "fulcrum")
+        self._systematic = rig.systematic_px**2 * np.eye(2)
+        self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
+
+    def solve(
+        self,
+        sightings: tuple[Sighting | None, Sighting | None],
+        axis: FloatArray | None,
+        time: float,
+    ) -> NeedleFix:
+        """Fix of one moment; every failure is a status, never an exception."""
+        pixels = tuple(None if sighting is None else sighting.uv for sighting in sightings)
+        first, second = sightings
+        if first is None or second is None:
+            return self._unseen((pixels[0], pixels[1]), time)
+        if axis is None or not np.isfinite(axis).all() or not np.any(axis):
+            return _without_point(
+                FixStatus.NO_ORIENTATION,
+                (pixels[0], pixels[1]),
+                time,
+                reason="the robot gives no needle direction",
+            )
+        return self._solve((first, second), unit(axis), time)
+
+    def _solve(
+        self, sightings: tuple[Sighting, Sighting], axis: FloatArray, time: float
+    ) -> NeedleFix:
+        pixels = (sightings[0].uv, sightings[1].uv)
+        found = self._triangulate(sightings, (np.zeros(2), np.zeros(2)), Way.LINEAR)
+        if found is not None and found.status is StereoStatus.FOUND:
+            found = self._corrected(sightings, found.p_world, axis)
+        if found is None or found.status is not StereoStatus.FOUND:
+            why = "a pixel has no ray" if found is None else f"the rays are {found.status.value}"
+            return _without_point(FixStatus.INCONSISTENT, pixels, time, reason=why)
+        reason = self._contradiction(found, axis)
+        tip = found.p_world + self._rig.needle.marker_offset * axis
+        return NeedleFix(
+            tip,
+            found.covariance,
+            time,
+            FixStatus.INCONSISTENT if reason else FixStatus.VALID,
+            pixels,
+            self._residual_px(found),
+            float((tip - self._fulcrum) @ axis),
+            float(axis @ found.covariance @ axis),
+            has_point=True,
+            reason=reason,
+        )
+
+    def _corrected(
+        self, sightings: tuple[Sighting, Sighting], p_world: FloatArray, axis: FloatArray
+    ) -> Triangulation | None:
+        """Triangulate again with the outlines' centroids moved to the band's centre."""
+        shape = self._rig.needle.shape
+        first, second = (centroid_shift(model, shape, p_world, axis) for model in self._models)
+        if first is None or second is None:
+            return None
+        return self._triangulate(sightings, (first, second))
+
+    def _triangulate(
+        self,
+        sightings: tuple[Sighting, Sighting],
+        shifts: tuple[FloatArray, FloatArray],
+        way: Way = Way.REPROJECTION,
+    ) -> Triangulation | None:
+        """None if a pixel belongs to no direction (beyond the fold of the distortion)."""
+        rays, covariances = np.empty((2, 2)), np.empty((2, 2, 2))
+        for i, (model, sighting, shift) in enumerate(
+            zip(self._models, sightings, shifts, strict=True)
+        ):
+            ray, found = model.undistort(sighting.uv - shift)
+            if not found[0]:
+                return None
+            jacobian = model.ray_jacobian(ray[0])
+            rays[i] = ray[0]
+            covariances[i] = jacobian @ (sighting.covariance + self._systematic) @ jacobian.T
+        return triangulate(self._poses, rays, covariances, way)
+
+    def _contradiction(self, found: Triangulation, axis: FloatArray) -> str:
+        """Why the point cannot be the marker; empty if it can."""
+        residual = self._residual_px(found)
+        offset = found.p_world - self._fulcrum
+        across = np.eye(3) - np.outer(axis, axis)
+        beside = across @ offset
+        spread = across @ found.covariance @ across + self._line_variance * np.eye(3)
+        off_line = float(beside @ np.linalg.solve(spread, beside)) > _LINE_LIMIT
+        apart = found.chi_square > _RESIDUAL_LIMIT
+        if apart and (residual > _GROSS_PX or not off_line):
+            return f"the pictures disagree by {residual:.1f} px: two red things, or a moved camera"
+        if off_line:  # a wrong axis also spoils the outline correction, by a pixel at most
+            distance = float(np.linalg.norm(beside)) / MILLIMETRE
+            return f"the marker seems {distance:.1f} mm beside the needle's line"
+        return ""
+
+    def _residual_px(self, found: Triangulation) -> float:
+        focal = np.concatenate([model.intrinsics[:2] for model in self._models])
+        return float(np.sqrt(np.mean((found.residual * focal) ** 2)))
+
+    def _unseen(
+        self, pixels: tuple[FloatArray | None, FloatArray | None], time: float
+    ) -> NeedleFix:
+        missing = tuple(
+            model.name for model, uv in zip(self._models, pixels, strict=True) if uv is None
+        )
+        both = len(missing) == 2
+        status = FixStatus.OUT_OF_VIEW if both else FixStatus.ONE_CAMERA
+        where = "either camera" if both else f"the {missing[0]} camera"
+        return _without_point(
+            status, pixels, time, missing, f"the marker is out of view of {where}"
+        )
+
+
+def _without_point(
+    status: FixStatus,
+    pixels: tuple[FloatArray | None, FloatArray | None],
+    time: float,
+    missing: tuple[str, ...] = (),
+    reason: str = "",
+) -> NeedleFix:
+    return NeedleFix(
+        np.zeros(3), np.zeros((3, 3)), time, status, pixels, 0.0, missing=missing, reason=reason
+    )
