@@ -1,7 +1,6 @@
 """What every test may rely on: no display, own user folders, the shared data or a reason."""
 
 import os
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,12 +11,11 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 @pytest.fixture(autouse=True)
-def own_user_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def own_user_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Settings and recordings of a test stay in the test's folder; caches are shared."""
     monkeypatch.setenv("ACUS_SETTINGS", str(tmp_path / "settings"))
     monkeypatch.setenv("ACUS_DATA", str(tmp_path / "data"))
     monkeypatch.setenv("ACUS_SESSIONS", str(tmp_path / "sessions"))
-    yield
 
 
 @pytest.fixture(scope="session")

@@ -24,7 +24,9 @@ def test_help_loads_no_room():
         "print([m for m in sys.modules if m.split('.')[0] in"
         " ('numpy', 'numba', 'PySide6', 'pydicom', 'cv2', 'vtkmodules')])"
     )
-    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    result = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    )
     assert result.stdout.strip() == "[]"
 
 
