@@ -1,0 +1,88 @@
+"""Garbage collection that keeps nobody waiting."""
+
+import gc
+from collections.abc import Iterator
+
+import pytest
+
+from app.views.collector import FULL_EVERY, Collector
+
+
+@pytest.fixture
+def generations() -> Iterator[list[int]]:
+    """Generations that were collected."""
+    seen: list[int] = []
+
+    def note(phase: str, info: dict[str, int]) -> None:
+        if phase == "stop":
+            seen.append(info["generation"])
+
+    gc.callbacks.append(note)
+    yield seen
+    gc.callbacks.remove(note)
+
+
+@pytest.fixture
+def busy() -> list[bool]:
+    return [False]
+
+
+@pytest.fixture
+def collector(application, busy) -> Iterator[Collector]:
+    collector = Collector(lambda: busy[0])
+    collector.open()
+    yield collector
+    collector.close()
+
+
+def test_no_allocation_starts_a_collection_while_the_window_collects(collector, generations):
+    kept = [[] for _ in range(20_000)]
+    assert not gc.isenabled()
+    assert generations == []
+    assert len(kept) == 20_000
+
+
+def test_a_full_collection_waits_for_the_end_of_the_attempt(collector, busy, generations):
+    busy[0] = True
+    for _ in range(2 * FULL_EVERY):
+        collector.collect()
+    assert set(generations) == {1}
+    busy[0] = False
+    collector.collect()
+    assert generations[-1] == 2
+
+
+def test_full_collections_are_rare(collector, generations):
+    for _ in range(3 * FULL_EVERY):
+        collector.collect()
+    assert generations.count(2) == 3
+
+
+def test_what_was_settled_is_not_walked_again(collector):
+    built = [[] for _ in range(1000)]
+    before = gc.get_freeze_count()
+    collector.settle()
+    assert gc.get_freeze_count() >= before + len(built)
+
+
+def test_a_cycle_that_dies_is_collected(collector):
+    class Node:
+        pass
+
+    import weakref
+
+    node = Node()
+    node.me = node
+    gone = weakref.ref(node)
+    del node
+    collector.collect()
+    assert gone() is None
+
+
+def test_closing_gives_the_collection_back_and_is_idempotent(application):
+    collector = Collector(lambda: False)
+    collector.open()
+    collector.close()
+    collector.close()
+    assert gc.isenabled()
+    assert gc.get_freeze_count() == 0
