@@ -37,7 +37,7 @@ class McapFile:
             RecordingError: if the folder cannot be written or the name is taken.
         """
         try:
-            self.path.parent.mkdir(parents=True, exist_ok=True)
+            _make_folder(self.path.parent)
             self._stream = self.path.open("xb")
             self._writer = Writer(self._stream, CHUNK_SIZE, CompressionType.ZSTD)
             self._write_head(self._writer)
@@ -112,6 +112,12 @@ class McapFile:
                 title = str(channel.schema["title"])
                 schema = writer.register_schema(title, "jsonschema", encode(channel.schema))
                 self._channels[topic] = writer.register_channel(topic, "json", schema)
+
+
+def _make_folder(folder: Path) -> None:
+    if folder.exists() and not folder.is_dir():
+        raise RecordingError(f"cannot record to {folder}: it is a file, not a folder")
+    folder.mkdir(parents=True, exist_ok=True)
 
 
 def _reason(error: OSError) -> str:

@@ -17,7 +17,7 @@ from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
 from app.session.samples import Samples, floats, vectors, words
 from app.session.scan import Scan, scan
-from app.session.schemas import CHANNELS
+from app.session.schemas import CHANNELS, conforms
 from app.session.scored import trajectory
 
 Metadata = MappingProxyType[str, dict[str, str]]
@@ -116,6 +116,7 @@ def read_recording(path: Path) -> Recording:
     problems = content.problems
     samples = _samples(content, problems)
     inputs = _inputs(content, problems)
+    events = tuple(_event(document) for document in _documents(content, "/events", problems))
     if inputs.lost:
         problems.append(f"{inputs.lost} ticks of the loop were lost while recording")
     return Recording(
@@ -124,32 +125,33 @@ def read_recording(path: Path) -> Recording:
         problems=tuple(problems),
         metadata=MappingProxyType(content.metadata),
         attachments=MappingProxyType(content.attachments),
-        events=tuple(_event(document) for document in _documents(content, "/events", problems)),
+        events=events,
         samples=samples,
         inputs=inputs,
     )
 
 
 def _documents(content: Scan, topic: str, problems: list[str]) -> list[dict[str, Any]]:
-    """Messages of a JSON channel that have all that its schema requires."""
-    required = set((CHANNELS[topic].schema or {})["required"])
+    """Messages of a JSON channel that are as its schema says."""
+    schema = CHANNELS[topic].schema or {}
     documents = []
     for data in content.messages.get(topic, []):
         try:
             document = json.loads(data)
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             problems.append(f"a message of {topic} is not JSON and left out: {error}")
             continue
-        if isinstance(document, dict) and required <= document.keys():
+        if conforms(document, schema):
             documents.append(document)
         else:
-            problems.append(f"a message of {topic} lacks a required field and is left out")
+            problems.append(f"a message of {topic} lacks a field or has a wrong one: left out")
     return documents
 
 
 def _event(document: dict[str, Any]) -> Event:
     data = dict(document.get("data", {}))
-    time = float(data.pop("time", 0.0) or 0.0)
+    time = data.pop("time", 0.0)
+    time = float(time) if conforms(time, {"type": "number"}) else 0.0
     return Event(time, str(document.get("kind", "")), str(document.get("message", "")), data)
 
 

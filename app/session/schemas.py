@@ -5,6 +5,7 @@ The `foxglove.*` schemas are the published ones of github.com/foxglove/foxglove-
 """
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any, Final
 
 Schema = dict[str, Any]
@@ -113,6 +114,30 @@ QUALITY: Final = _object(
         "sigma_along": _NUMBER_OR_NULL,
     },
 )
+_TEXT_OR_NULL: Final[Schema] = {"type": ["string", "null"]}
+SCORE: Final = _object(
+    "acus.Score",
+    {
+        "total": _NUMBER_OR_NULL,
+        "passed": _FLAG,
+        "void_reason": _TEXT,
+        "rows": _array(
+            _object(
+                "acus.ScoreRow",
+                {
+                    "name": _TEXT,
+                    "label": _TEXT,
+                    "unit": _TEXT,
+                    "value": _NUMBER_OR_NULL,
+                    "note": _TEXT,
+                    "band": _TEXT_OR_NULL,
+                },
+            )
+        ),
+    },
+    optional=("passed", "void_reason", "rows"),
+)
+"""Of a stored score, what lists and tables need; `scoring.result.Score` knows the whole."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,3 +162,39 @@ CHANNELS: Final = {
     )
 }
 """Every channel of a record by topic."""
+
+_TYPES: Final[dict[str, tuple[type, ...]]] = {
+    "null": (type(None),),
+    "boolean": (bool,),
+    "integer": (int,),
+    "number": (int, float),
+    "string": (str,),
+    "object": (dict,),
+    "array": (list,),
+}
+_LARGEST: Final = 1e18
+"""No number of a record is larger, in whatever unit."""
+
+
+def conforms(value: Any, schema: Schema) -> bool:
+    """Whether a JSON value has the types and the fields that one of our schemas asks for."""
+    names = schema.get("type", [])
+    names = [names] if isinstance(names, str) else names
+    if names and not any(_is(value, name) for name in names):
+        return False
+    if isinstance(value, dict):
+        properties = schema.get("properties", {})
+        return set(schema.get("required", ())) <= value.keys() and all(
+            conforms(value[name], part) for name, part in properties.items() if name in value
+        )
+    if isinstance(value, list):
+        return all(conforms(item, schema.get("items", {})) for item in value)
+    return True
+
+
+def _is(value: Any, name: str) -> bool:
+    if isinstance(value, bool):
+        return name == "boolean"
+    if isinstance(value, int | float) and not (abs(value) < _LARGEST and isfinite(value)):
+        return False
+    return isinstance(value, _TYPES[name])

@@ -15,6 +15,7 @@ from app.session.errors import BrokenRecordingError
 from app.session.machine import FINAL
 from app.session.recording import Recording, read_recording
 from app.session.sample import finite
+from app.session.schemas import SCORE, conforms
 
 SCORE_FILE: Final = "score.json"
 """Name of the attachment that holds the score."""
@@ -96,8 +97,8 @@ def read_summary(path: Path) -> Summary:
     A record that cannot be read gives a summary of state `broken` with the reason.
     """
     try:
-        return _parse(json.loads(sidecar(path).read_text(encoding="utf-8")))
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return _parse(json.loads(sidecar(path).read_text(encoding="utf-8")), path.stem)
+    except (OSError, ValueError, LookupError, TypeError, ArithmeticError, RecursionError):
         pass  # no sidecar, or not one of ours: the record knows
     try:
         return derive(read_recording(path))
@@ -113,7 +114,7 @@ def derive(recording: Recording) -> Summary:
     time = recording.samples.time
     measured = float(time[-1] - time[0]) if len(time) else 0.0
     return Summary(
-        id=recording.id,
+        id=recording.path.stem,  # what `find` takes, also of a record that was renamed
         started=session.get("started", ""),
         student=session.get("student", ""),
         exercise_id=exercise.get("id", ""),
@@ -128,11 +129,14 @@ def derive(recording: Recording) -> Summary:
     )
 
 
-def _parse(document: dict[str, Any]) -> Summary:
+def _parse(document: dict[str, Any], name: str) -> Summary:
+    if document["version"] != _VERSION:
+        raise ValueError(f"version {document['version']!r}; only {_VERSION} is known")
+    json.dumps(document, ensure_ascii=False).encode()  # text that cannot be printed is not ours
     exercise = document["exercise"]
     score = document["score"]
     return Summary(
-        id=str(document["id"]),
+        id=name,
         started=str(document["started"]),
         student=str(document["student"]),
         exercise_id=str(exercise["id"]),
@@ -141,7 +145,7 @@ def _parse(document: dict[str, Any]) -> Summary:
         reason=str(document["reason"]),
         duration=float(document["duration_s"] or 0.0),
         scans=int(document["scans"]),
-        score=MappingProxyType(dict(score)) if score is not None else None,
+        score=_checked_score(score) if score is not None else None,
         problems=tuple(str(problem) for problem in document["problems"]),
         software=str(document["software"]),
     )
@@ -157,10 +161,16 @@ def _state(recording: Recording, result: dict[str, str]) -> str:
 
 def _score(recording: Recording) -> Mapping[str, Any] | None:
     try:
-        document = json.loads(recording.attachments[SCORE_FILE])
-    except (KeyError, ValueError):
+        return _checked_score(json.loads(recording.attachments[SCORE_FILE]))
+    except (KeyError, ValueError, RecursionError):
         return None
-    return MappingProxyType(document) if isinstance(document, dict) else None
+
+
+def _checked_score(document: Any) -> Mapping[str, Any]:
+    """Return a score that lists and tables can be made of; raises ValueError if it is none."""
+    if not conforms(document, SCORE):
+        raise ValueError("not a stored score")
+    return MappingProxyType(document)
 
 
 def _number(text: str | None, otherwise: float) -> float:

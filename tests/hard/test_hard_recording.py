@@ -18,7 +18,7 @@ from app.core.clock import VirtualClock
 from app.core.events import Event
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
-from app.session.errors import BrokenRecordingError
+from app.session.errors import BrokenRecordingError, RecordingError
 from app.session.facts import PLAN, plan_record
 from app.session.header import Attachment, SessionHeader
 from app.session.machine import State
@@ -26,6 +26,8 @@ from app.session.needle import DOWN, DepthSource, NeedlePose
 from app.session.recorder import Recorder
 from app.session.recording import Recording, read_recording
 from app.session.sample import Sample, encode
+from app.session.scan import scan
+from app.session.store import find, list_sessions
 from app.session.summary import read_summary
 
 WALL = datetime(2026, 1, 15, 9, 31, 22, tzinfo=UTC)
@@ -253,3 +255,77 @@ def test_samples_at_equal_times_are_scored_once(tmp_path: Path) -> None:
         recorder.sample(Sample(50.0, State.INSERTING, pose(50.0, depth), None, np.zeros(3)))
     recorder.finish()
     assert len(read_recording(recorder.status().path).trajectory()) == 1
+
+
+BAD_MESSAGES = [
+    ("/attempt", "timestamp", None),
+    ("/attempt", "timestamp", {"sec": "x", "nsec": 0}),
+    ("/attempt", "time", 10**400),
+    ("/attempt", "time", {}),
+    ("/attempt", "state", []),
+    ("/attempt", "valid", []),
+    ("/attempt", "tip", {"x": 1.0}),
+    ("/attempt", "tip", {"x": "a", "y": 0.0, "z": 0.0}),
+    ("/events", "data", "x"),
+    ("/events", "data", None),
+    ("/events", "message", 5),
+]
+
+
+@pytest.mark.parametrize(("topic", "field", "value"), BAD_MESSAGES)
+def test_a_message_of_another_shape_is_left_out_and_said(
+    tmp_path: Path, topic: str, field: str, value: object
+) -> None:
+    path = write(tmp_path, 1.0)
+    whole = read_recording(path)
+    content = scan(path)
+    document = json.loads(content.messages[topic][0]) | {field: value}
+    clock = VirtualClock(50.0)
+    recorder = Recorder(tmp_path, SessionHeader("b", WALL, 50.0, "s-1", "liver-01"), clock=clock)
+    recorder.open()
+    for data in content.messages[topic]:
+        recorder._file.message(topic, 1, data)
+    recorder._file.message(topic, 1, json.dumps(document).encode())
+    recorder.finish()
+    part = read_recording(recorder.status().path)
+    assert len(part.samples.time) == (len(whole.samples.time) if topic == "/attempt" else 0)
+    assert len(part.events) == (len(whole.events) if topic == "/events" else 0)
+    assert any(topic in problem for problem in part.problems)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"version": 2},
+        {"scans": math.inf},
+        {"student": "\ud800"},
+        {"score": {"total": "abc"}},
+        {"score": {"total": 1.0, "rows": None}},
+        {"score": {"total": 1.0, "rows": [1]}},
+        {"score": {"total": 1.0, "rows": [{"name": "x"}]}},
+        {"score": [["total", 1.0]]},
+    ],
+)
+def test_a_summary_that_is_not_ours_is_made_again_from_the_record(
+    tmp_path: Path, change: dict[str, object]
+) -> None:
+    path = write(tmp_path, 1.0)
+    fresh = read_summary(path)
+    path.with_suffix(".json").write_text(json.dumps(fresh.document() | change), encoding="utf-8")
+    assert read_summary(path) == fresh
+    path.with_suffix(".json").write_text("[" * 100_000, encoding="utf-8")
+    assert read_summary(path) == fresh
+
+
+def test_a_renamed_record_is_listed_by_the_name_that_finds_it(tmp_path: Path) -> None:
+    path = write(tmp_path, 1.0)
+    path.rename(tmp_path / "renamed.mcap")
+    (summary,) = list_sessions(tmp_path)
+    assert find(tmp_path, summary.id) == tmp_path / "renamed.mcap"
+
+
+def test_a_file_in_place_of_the_folder_is_said_to_be_one(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("x")
+    recorder = Recorder(tmp_path / "file", SessionHeader("a", WALL, 50.0, "s-1", "liver-01"))
+    with pytest.raises(RecordingError, match="is a file, not a folder"):
+        recorder.open()
