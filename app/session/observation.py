@@ -83,12 +83,16 @@ def observe(
     placed: PlacedPlan,
     now: float,
     last: NeedlePose | None,
+    missing: str = "the robot has not reported yet",
 ) -> Observation:
-    """Fuse the newest values into one observation at `now` [s]; `last` is the pose before."""
+    """Fuse the newest values into one observation at `now` [s].
+
+    `last` is the pose before; `missing` says why there is no `state`.
+    """
     p_target = placed.p_target
     device = state if state is not None and state.tick > 0 else None
     if device is None:
-        pose = _no_device(placed, now, last)
+        pose = _no_device(placed, now, last, missing)
     else:
         pose = fuse(device, fixes.usable(), now, last)
         shift = device.row[slots.TARGET_SHIFT_X : slots.TARGET_SHIFT_X + 3]
@@ -99,8 +103,8 @@ def observe(
     return Observation(now, pose, away, p_target, device, status, residual)
 
 
-def _no_device(placed: PlacedPlan, now: float, last: NeedlePose | None) -> NeedlePose:
-    """Pose before the loop's first tick: the last one, else hanging at the fulcrum; not valid."""
+def _no_device(placed: PlacedPlan, now: float, last: NeedlePose | None, missing: str) -> NeedlePose:
+    """Pose without a robot: the last one, else hanging at the fulcrum; not valid."""
     return NeedlePose(
         p_tip=last.p_tip if last else placed.p_entry,
         axis=last.axis if last else DOWN,
@@ -111,5 +115,5 @@ def _no_device(placed: PlacedPlan, now: float, last: NeedlePose | None) -> Needl
         depth_source=DepthSource.NONE,
         valid=False,
         covariance=last.covariance if last else read_only(np.zeros((3, 3))),
-        reason="the robot has not reported yet",
+        reason=missing,
     )

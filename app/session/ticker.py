@@ -8,7 +8,7 @@ from collections.abc import Callable
 class Ticker:
     """Calls `tick` every `period` [s] until closed; a late call is not caught up.
 
-    If `tick` raises, the thread ends after it has told `on_error`.
+    If `tick` raises, the thread ends after it has told `on_error`, and `failed` is True.
     """
 
     def __init__(
@@ -19,6 +19,7 @@ class Ticker:
         self._on_error = on_error
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
+        self.failed = False
 
     def open(self) -> None:
         """Start the thread; idempotent."""
@@ -40,6 +41,7 @@ class Ticker:
             try:
                 self._tick()
             except Exception as error:
+                self.failed = True
                 self._on_error(error)
                 raise
             deadline = max(deadline + self._period, time.monotonic())

@@ -127,12 +127,17 @@ class Trainer:
 
         Raises:
             IllegalTransitionError: if an attempt is running.
-            NotReadyError: if loop and ticker were opened but the loop has not run its first tick.
+            NotReadyError: if loop and ticker were opened but the loop has not run its first tick,
+                or the ticker has ended with a fault of the program.
         """
         with self._lock:
             self._running.require_idle("an attempt cannot begin")
             if self._ticker is not None and self._loop.latest().tick == 0:
                 raise NotReadyError("the robot is still starting: begin once it reports its pose")
+            if self._ticker is not None and self._ticker.failed:
+                raise NotReadyError(
+                    "the program has had a fault: close the exercise, open it again"
+                )
             self._prepare()
             now = self._clock.now()
             log = self._new_log(student, now)
@@ -217,6 +222,8 @@ class Trainer:
                 reason = self._running.look(self._seen, self._inputs) or self._tracker_fault()
             except AcusError as error:
                 reason = str(error)
+                last = self._seen.pose if self._seen is not None else None
+                self._seen = observe(None, self._fixes, self._placed, now, last, reason)
             if reason:
                 self.abort(reason)
             elif self._ticker is None and self._running.log is not None:

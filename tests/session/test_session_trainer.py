@@ -2,6 +2,7 @@
 
 import json
 import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from session_fakes import Bench
 from app.core.errors import NumericalError
 from app.core.events import Event
 from app.core.transform import rotation_between
+from app.device.errors import LoopError
 from app.planning.placement import PlacedPlan, Placement
 from app.session.errors import IllegalTransitionError, NotReadyError, SessionError
 from app.session.machine import State
@@ -333,4 +335,41 @@ def test_a_fault_of_the_program_in_the_ticker_switches_the_forces_off(
     assert bench.loop.inbox.values["enabled"] == 0.0
     assert bench.trainer.result is not None
     assert "ZeroDivisionError" in bench.trainer.result.reason
+    bench.trainer.close()
+
+
+def test_a_loop_that_has_ended_leaves_no_valid_pose_even_between_attempts(bench: Bench) -> None:
+    assert bench.run(1.0, -0.02).pose.valid
+
+    def ended() -> None:
+        raise LoopError("the loop has ended: out of memory")
+
+    bench.loop.latest = ended  # type: ignore[assignment,method-assign]
+    snapshot = bench.trainer.tick(bench.clock.now() + 1.0)
+    assert not snapshot.pose.valid
+    assert snapshot.device is None
+    assert "the loop has ended: out of memory" in snapshot.messages
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_after_a_fault_of_the_program_the_forces_are_off_and_stay_off(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bench.run(0.5, -0.02)
+    bench.trainer.open()
+    bench.trainer.begin("s-1")
+
+    def broken(now: float) -> None:
+        raise ZeroDivisionError("nobody thought of it")
+
+    monkeypatch.setattr(bench.trainer, "_observe", broken)
+    deadline = time.monotonic() + 5.0
+    while bench.trainer.result is None and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert bench.trainer.result is not None
+    assert "ZeroDivisionError: nobody thought of it" in bench.trainer.result.reason
+    assert bench.loop.inbox.values["enabled"] == 0.0
+    with pytest.raises(NotReadyError, match="open it again"):
+        bench.trainer.begin("s-1")
+    assert bench.loop.inbox.values["enabled"] == 0.0
     bench.trainer.close()
