@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from app.compose import TrainerSetup, build_loop, build_trainer, device_of, loop_table
+from app.compose.trainer import TrainerSetup, build_loop, build_trainer, device_of, loop_table
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise

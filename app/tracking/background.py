@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray, unit
+from app.tracking.background_file import kept_or_traced
 from app.tracking.camera import Image
 from app.tracking.camera_model import CameraModel
 from app.tracking.rendering import sample_pattern, trace_boxes
@@ -47,20 +48,31 @@ LIGHT_WORLD: FloatArray = np.array([*unit([0.35, 0.75, 0.85]), 0.45, 0.50])
 def paint_background(model: CameraModel, rays: FloatArray, blur_px: float, seed: int) -> Image:
     """Picture of the housing without the needle, uint8 (height, width, 3)."""
     width, height = model.image_size
+    pattern = sample_pattern(blur_px)
+    pose = model.T_world_camera
+    parts = (rays.tobytes(), pattern.tobytes(), pose.rotation.tobytes(), pose.translation.tobytes())
+    traced = kept_or_traced(
+        parts, (height, width, 3), lambda: _traced(model, rays, pattern).astype(np.float32)
+    )
+    image = traced + _mottling(width, height, seed)[..., None]
+    return np.clip(image + 0.5, 0.0, 255.0).astype(np.uint8)
+
+
+def _traced(model: CameraModel, rays: FloatArray, pattern: FloatArray) -> FloatArray:
+    """Housing in its light, before the unevenness that differs from run to run."""
+    width, height = model.image_size
     image = np.full((height, width, 3), 96.0)
     trace_boxes(
         image,
         rays,
-        sample_pattern(blur_px),
+        pattern,
         np.ascontiguousarray(model.T_world_camera.rotation),
         np.ascontiguousarray(model.centre),
         np.array([(*box.low, *box.high) for box in HOUSING]),
         np.array([box.colour for box in HOUSING]),
         LIGHT_WORLD,
     )
-    image *= _vignette(width, height)[..., None]
-    image += _mottling(width, height, seed)[..., None]
-    return np.clip(image + 0.5, 0.0, 255.0).astype(np.uint8)
+    return image * _vignette(width, height)[..., None]
 
 
 def _vignette(width: int, height: int) -> FloatArray:

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Signal
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
+from app.core.loading import ONE_AT_A_TIME
+from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.exercises.scene import device_of, plan_of
 from app.exercises.schema import Exercise
-from app.imaging.body import skin_entry
 from app.mechanisms.profile import DeviceProfile
 from app.session.machine import RUNNING
 from app.session.needle import DepthSource
@@ -24,12 +27,14 @@ from app.views.patient import Patient
 from app.views.plan.editor import PlanEditor
 from app.views.runs import Runs
 from app.views.scene.robot import RobotShape
-from app.views.scene.surfaces import Surfaces, extract_surfaces
 from app.views.services import RunSetup
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool
 from app.views.text import tr
 from app.views.workspace import Workspace
+
+if TYPE_CHECKING:
+    from app.views.scene.surfaces import Surfaces
 
 SCENE_DEAD_BAND_MM = 0.25
 """The 3D picture is made anew when the needle moved more than this."""
@@ -147,7 +152,7 @@ class Conductor(QObject):
 
         self._surfaces_task = run_in_background(
             self,
-            lambda progress: extract_surfaces(patient.volume, patient.body, progress),
+            lambda progress: _surfaces(patient, progress),
             done,
             failed,
             lambda: done(None),
@@ -173,6 +178,8 @@ class Conductor(QObject):
         """Take a click on the skin in 3D as the entry, if one is being placed."""
         if self._workspace.viewing.tool is not Tool.ENTRY or self.patient is None:
             return
+        from app.imaging.body import skin_entry  # scipy: loaded since there is a patient
+
         try:
             start, end = point - SIGHT_MM * direction, point + SIGHT_MM * direction
             skin = skin_entry(self.patient.body, start, end)
@@ -234,3 +241,9 @@ class Conductor(QObject):
             self._surfaces_task = None
         self._runs.close()
         self._workspace.scene.close_renderer()
+
+
+def _surfaces(patient: Patient, progress: Progress) -> Surfaces:
+    with ONE_AT_A_TIME:  # VTK and scipy: behind the window, not before it
+        from app.views.scene.surfaces import extract_surfaces
+    return extract_surfaces(patient.volume, patient.body, progress)

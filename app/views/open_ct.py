@@ -9,10 +9,9 @@ from typing import TypeVar
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
+from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.errors import ImagingError
-from app.imaging.reading import choose
-from app.imaging.scanning import scan_folder
 from app.imaging.series import Listing, Series
 from app.views.background import Indicator, Task, run_in_background
 from app.views.patient import Patient, load_phantom, read_patient
@@ -52,7 +51,7 @@ class OpenCt(QObject):
         folder = path.parent if path.is_file() else path
         self._start(
             tr("Looking for CT series in {name}", name=folder.name),
-            lambda progress: scan_folder(folder, progress),
+            lambda progress: _scan(folder, progress),
             lambda listing: self._choose(folder, listing),
         )
 
@@ -94,6 +93,8 @@ class OpenCt(QObject):
             dialog.finished.connect(dialog.deleteLater)
             dialog.open()
             return
+        from app.imaging.reading import choose  # pydicom: loaded by the scan
+
         try:
             self.open_series(folder, choose(listing))
         except ImagingError as error:
@@ -108,3 +109,9 @@ class OpenCt(QObject):
     def _fail(self, error: Exception) -> None:
         self._task = None
         self.failed.emit(error)
+
+
+def _scan(folder: Path, progress: Progress) -> Listing:
+    with ONE_AT_A_TIME:  # pydicom: behind the window, not before it
+        from app.imaging.scanning import scan_folder
+    return scan_folder(folder, progress)

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from app.core.arrays import frozen
+from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
-from app.imaging.body import Body, find_body
-from app.imaging.reading import load_ct, read_series
 from app.imaging.series import Series
 from app.imaging.volume import Volume
 from app.planning.plan import Plan
+
+if TYPE_CHECKING:
+    from app.imaging.body import Body
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,7 +45,10 @@ def load_phantom(seed: int, progress: Progress) -> Patient:
         AcusError: if it cannot be written or read; says why.
         Cancelled: if `progress` was cancelled.
     """
-    from app.imaging.phantom import anatomy, phantom_series  # heavy, and not for CTs of one's own
+    with ONE_AT_A_TIME:  # pydicom and scipy: behind the window, not before it
+        from app.imaging.body import find_body
+        from app.imaging.phantom import anatomy, phantom_series
+        from app.imaging.reading import load_ct
 
     folder = phantom_series(seed, progress.part(0.0, 0.6))
     volume = load_ct(folder, progress=progress.part(0.6, 0.9))
@@ -59,6 +65,10 @@ def read_patient(series: Series, folder: Path, progress: Progress) -> Patient:
         AcusError: if it cannot be read; says why.
         Cancelled: if `progress` was cancelled.
     """
+    with ONE_AT_A_TIME:
+        from app.imaging.body import find_body
+        from app.imaging.reading import read_series
+
     volume = read_series(series, progress.part(0.0, 0.85))
     body = find_body(volume, progress.part(0.85, 1.0))
     return Patient(volume, body, series.pseudonym, folder=folder)

@@ -36,12 +36,25 @@ class Runs(QObject):
         self._open: OpenRun | None = None
         self._exercise: Exercise | None = None
         self._task: Task | None = None
+        self._preparation: Task | None = None
         self._wanted: RunSetup | None = None
 
     @property
     def run(self) -> ExerciseRun | None:
         """The run that is open."""
         return None if self._open is None else self._open.run
+
+    def prepare(self) -> None:
+        """Load beside the window what an exercise needs, so that the first one begins soon."""
+        if self._preparation is None:
+            self._preparation = run_in_background(
+                self, self._services.prepare, lambda _: self._prepared(None), self._prepared
+            )
+
+    def _prepared(self, error: Exception | None) -> None:
+        self._preparation = None
+        if error is not None:
+            self.failed.emit(error)
 
     def want(self, setup: RunSetup | None) -> None:
         """Have a trainer for this setup; None wants none."""
@@ -59,6 +72,9 @@ class Runs(QObject):
     def close(self) -> None:
         """End the run and wait for it; for the end of the window; idempotent."""
         self._wanted = None
+        if self._preparation is not None:
+            self._preparation.close()
+            self._preparation = None
         if self._task is not None:
             self._task.close()
             self._task = None

@@ -59,6 +59,15 @@ class Services(Protocol):
         """Folder of the recorded attempts."""
         ...
 
+    def prepare(self, progress: Progress) -> None:
+        """Load what an exercise needs; called beside the window once it is painted.
+
+        Raises:
+            ImportError: if a part of the program cannot be loaded; says which.
+            Cancelled: if `progress` was cancelled.
+        """
+        ...
+
     def open_run(self, setup: RunSetup, progress: Progress) -> OpenRun:
         """Build and start a trainer; called beside the window, may take seconds.
 

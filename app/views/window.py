@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtCore import QTimer
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
 from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
 
 from app import __version__
@@ -32,6 +33,9 @@ from app.views.text import disclaimer, tr
 from app.views.workspace import Workspace
 
 SMALLEST = (1180, 700)
+
+PAINTED_MS = 50
+"""This long after it is shown the window is painted, and heavy parts may load."""
 
 
 class MainWindow(QMainWindow):
@@ -242,6 +246,11 @@ class MainWindow(QMainWindow):
         self.settings.sync()
 
     # --- events -------------------------------------------------------------------------------
+    def showEvent(self, event: QShowEvent) -> None:
+        """Begin to load what an exercise needs, behind the window."""
+        super().showEvent(event)
+        QTimer.singleShot(PAINTED_MS, self.runs.prepare)
+
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Accept a folder or a file from it."""
         if any(url.isLocalFile() for url in event.mimeData().urls()):

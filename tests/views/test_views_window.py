@@ -16,6 +16,7 @@ from app.core.events import EventQueue
 from app.core.progress import Progress
 from app.exercises.library import library
 from app.exercises.scene import device_of
+from app.imaging import scanning
 from app.imaging.body import find_body
 from app.imaging.errors import ImagingError
 from app.imaging.orthogonal import View
@@ -24,7 +25,7 @@ from app.session.curves import Offset
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.snapshot import Snapshot
-from app.views import open_ct, theme
+from app.views import theme
 from app.views.background import run_in_background
 from app.views.exercise.run import ExerciseRun
 from app.views.grid import FIVE, FOUR, ViewGrid
@@ -221,12 +222,18 @@ class FakeOpen:
 class FakeServices:
     def __init__(self, folder):
         self.folder, self.opened, self.refuses = folder, [], ""
+        self.prepared, self.missing = threading.Event(), ""
 
     def exercises(self):
         return tuple(library().exercises)
 
     def sessions(self):
         return self.folder
+
+    def prepare(self, progress):
+        self.prepared.set()
+        if self.missing:
+            raise ImportError(self.missing)
 
     def open_run(self, setup, progress):
         if self.refuses:
@@ -353,7 +360,7 @@ def test_several_usable_series_are_offered(window, volume, monkeypatch, settle):
     other = type(volume.series)(**{n: getattr(volume.series, n) for n in volume.series.__slots__}
                                 | {"uid": "7"})  # fmt: skip
     listing = Listing(Path("x"), (volume.series, other), ())
-    monkeypatch.setattr(open_ct, "scan_folder", lambda *_: listing)
+    monkeypatch.setattr(scanning, "scan_folder", lambda *_: listing)
     window.open_ct.open_folder(Path("x"))
     assert settle(lambda: bool(window.findChildren(SeriesDialog)), 5.0)
     for dialog in window.findChildren(SeriesDialog):
@@ -406,6 +413,18 @@ def test_closing_leaves_no_thread_behind(application, services, patient, settle,
     assert services.opened[0].closed.is_set()
     ours = lambda: [t for t in threading.enumerate() if t.name.startswith("acus-")]  # noqa: E731
     assert settle(lambda: not ours(), 10.0), ours()
+
+
+def test_heavy_parts_load_once_the_window_is_shown(window, services, settle):
+    assert not services.prepared.is_set()
+    window.show()
+    assert settle(services.prepared.is_set, 5.0)
+
+
+def test_a_part_that_cannot_be_loaded_is_told(window, services, settle):
+    services.missing = "no module named 'vtkmodules'"
+    window.show()
+    assert settle(lambda: "vtkmodules" in window.message_bar.text, 5.0)
 
 
 def test_every_key_of_the_menus_is_used_once(window):

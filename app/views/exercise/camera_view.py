@@ -1,14 +1,20 @@
 """One camera's picture with what was found in it."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QImage, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.tracking.tracker import TrackedPicture
 from app.views import theme
 from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.tracking.tracker import TrackedPicture
 
 MARK = "#35d6ed"
 

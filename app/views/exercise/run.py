@@ -1,18 +1,22 @@
 """What an exercise hands to its views: the trainer and the numbers of its device and plan."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from app.core.events import EventQueue
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
-from app.tracking.tracker import TrackedPicture
 from app.views.exercise.hand import HandLimits
 from app.views.exercise.pad_geometry import PadScale, path_frame
 from app.views.exercise.pad_view import PadScene, rings
+
+if TYPE_CHECKING:
+    from app.tracking.tracker import TrackedPicture
 
 
 class TrainerPort(Protocol):

@@ -1,16 +1,20 @@
 """Both camera pictures with the found marker, and how well they agree."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from app.tracking.tracker import TrackedPicture
 from app.views import theme
 from app.views.exercise.camera_view import CameraView
 from app.views.exercise.status_items import StatusItem
 from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.tracking.tracker import TrackedPicture
 
 REFRESH: Final = 1.0 / 15.0
 """Shortest time between two refreshes [s]."""

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 from PySide6.QtCore import QObject, Signal
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
-from app.imaging.body import Body, is_inside, snap_to_skin
 from app.mechanisms.profile import DeviceProfile
 from app.planning.draft import DraftPlan
 from app.planning.history import History
@@ -19,6 +19,9 @@ from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.planning.reach import Reach, reach
 from app.views.slices.viewing import Tool
+
+if TYPE_CHECKING:
+    from app.imaging.body import Body
 
 Point = tuple[float, float, float]
 
@@ -179,7 +182,11 @@ class PlanEditor(QObject):
         return self.locked
 
     def _on_skin(self, point: ArrayLike) -> ArrayLike:
-        return point if self._body is None else snap_to_skin(self._body, point)
+        if self._body is None:
+            return point
+        from app.imaging.body import snap_to_skin  # scipy: loaded since there is a body
+
+        return snap_to_skin(self._body, point)
 
     def _announce(self) -> None:
         self.verdict = self._judge()
@@ -199,4 +206,8 @@ class PlanEditor(QObject):
         return Verdict(reached)
 
     def _inside(self, point: FloatArray) -> bool:
-        return self._body is None or is_inside(self._body, point)
+        if self._body is None:
+            return True
+        from app.imaging.body import is_inside  # scipy: loaded since there is a body
+
+        return is_inside(self._body, point)

@@ -7,15 +7,18 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from time import monotonic
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.loading import ONE_AT_A_TIME
 from app.views.scene.orbit import Orbit
-from app.views.scene.stage import Stage
 
-Change = Callable[[Stage], None]
+if TYPE_CHECKING:
+    from app.views.scene.stage import Stage
+
+Change = Callable[["Stage"], None]
 
 _log = logging.getLogger(__name__)
 
@@ -93,16 +96,19 @@ class SceneRenderer:
             return self._wake.wait_for(lambda: not self._busy and self._shot is None, timeout)
 
     def _run(self) -> None:
-        stage = Stage()
+        stage: Stage | None = None
         try:
-            stage.open()
             while (work := self._next()) is not None:
+                if stage is None:  # only now: the window comes before VTK
+                    stage = _new_stage()
+                    stage.open()
                 self._work(stage, *work)
         except Exception as error:  # the slices go on without the 3D view; the pane says why
             _log.warning("3D view stopped", exc_info=error)
             self.error = str(error) or type(error).__name__
         finally:
-            stage.close()
+            if stage is not None:
+                stage.close()
             with self._wake:
                 self._busy, self._shot = False, None
                 self._wake.notify_all()
@@ -127,3 +133,9 @@ class SceneRenderer:
             self._picture = picture
             if not shot.moving:
                 self.seconds = monotonic() - start
+
+
+def _new_stage() -> Stage:
+    with ONE_AT_A_TIME:
+        from app.views.scene.stage import Stage
+    return Stage()

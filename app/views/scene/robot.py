@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
 from app.mechanisms.errors import MechanismError
-from app.mechanisms.pantograph import Geometry, forward
+from app.mechanisms.geometry import Geometry
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,6 +41,8 @@ class RobotShape:
         fulcrum = frozen(geometry.fulcrum)
         if q is None or not np.isfinite(q).all():
             return cls(motors, None, None, fulcrum)
+        from app.mechanisms.pantograph import forward  # compiled: loaded since a robot runs
+
         angles = np.asarray(q, dtype=np.float64)
         arms = geometry.proximal * np.column_stack([np.cos(angles), np.sin(angles), [0.0, 0.0]])
         elbows = (frozen(motors[0] + arms[0]), frozen(motors[1] + arms[1]))

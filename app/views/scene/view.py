@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from time import monotonic
+from typing import TYPE_CHECKING
 
 import numpy as np
 from PySide6.QtCore import QPointF, Qt, QTimer, Signal
@@ -28,8 +29,10 @@ from app.views.scene.compass import draw_compass
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import Change, SceneRenderer, Shot
 from app.views.scene.robot import RobotShape
-from app.views.scene.surfaces import Surfaces
 from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.views.scene.surfaces import Surfaces
 
 POLL_MS = 25
 SETTLE_S = 0.3

@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -14,13 +14,10 @@ from app.core import paths
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
-from app.core.progress import Progress
 from app.device.control import Loop, Table, VirtualFixture, pantograph_stages
-from app.device.errors import LoopError
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
 from app.exchange.markups import plan_document
-from app.exercises.library import library
 from app.exercises.scene import compile_exercise, device_of
 from app.exercises.schema import Exercise
 from app.mechanisms.pantograph import system_forward
@@ -36,19 +33,11 @@ from app.tracking.scene import MarkerScene, Scene
 from app.tracking.simulated import simulated_cameras
 from app.tracking.tracker import Tracker
 
-if TYPE_CHECKING:
-    from app.views.exercise.run import ExerciseRun
-    from app.views.services import RunSetup
-
 UPRIGHT: Final = (0.0, 0.0, -1.0)
 """Needle direction at the start, hub to tip."""
 
 START_DEPTH: Final = -0.015
 """Where the needle waits: tip 15 mm above the skin [m]."""
-
-
-_PATIENCE: Final = 120.0
-_LOOK: Final = 0.02
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +70,7 @@ def build_trainer(setup: TrainerSetup) -> Trainer:
     Raises:
         AcusError: if a profile, an effect or the path cannot be used; says which and why.
     """
-    return _build(setup).trainer
+    return build_rig(setup).trainer
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -111,7 +100,8 @@ class Rig:
         return replace(self, setup=setup)
 
 
-def _build(setup: TrainerSetup) -> Rig:
+def build_rig(setup: TrainerSetup) -> Rig:
+    """Build a trainer and keep the parts behind it; see `build_trainer`."""
     profile, cameras = device_of(setup.exercise), load_rig(setup.exercise.rig)
     loop = build_loop(setup, profile)
     scene = needle_scene(loop, profile, cameras.needle.marker_offset)
@@ -216,91 +206,3 @@ def _anonymous(exercise: Exercise) -> Exercise:
 
 def _attachment(name: str, document: Any) -> Attachment:
     return Attachment(name, "application/json", json.dumps(document, indent=1).encode())
-
-
-class Desktop:
-    """What the window asks for (`views.services.Services`), on the simulated devices.
-
-    Args:
-        skill: a scripted trainee inserts the needle instead of the mouse; None for the mouse.
-        seed: of everything random; None takes each exercise's own.
-        sessions: folder of the records.
-    """
-
-    def __init__(
-        self, skill: str | None = None, seed: int | None = None, sessions: Path | None = None
-    ) -> None:
-        self._skill, self._seed = skill, seed
-        self._sessions = sessions or paths.sessions()
-
-    def exercises(self) -> tuple[Exercise, ...]:
-        """Exercises to choose from, easiest first."""
-        return tuple(library())
-
-    def sessions(self) -> Path:
-        """Folder of the recorded attempts."""
-        return self._sessions
-
-    def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
-        """Build and start a trainer; called beside the window, may take seconds."""
-        progress.report(0.1, "compiling the loop")
-        seed = setup.exercise.seed if self._seed is None else self._seed
-        rig = _build(
-            TrainerSetup(setup.exercise, setup.placed, setup.ct, self._skill, seed, self._sessions)
-        )
-        try:
-            rig.trainer.open()
-            _wait_until_alive(rig, progress)
-        except BaseException:
-            rig.trainer.close()
-            raise
-        return DesktopRun(rig)
-
-
-def _wait_until_alive(rig: Rig, progress: Progress) -> None:
-    """Wait for the first tick and the first picture: on a first start kernels are compiled there.
-
-    A tracker without a picture is no reason not to begin; the status strip says what it lacks.
-    """
-    clock = rig.setup.clock
-    begin = clock.now()
-    while (waited := clock.now() - begin) < _PATIENCE:
-        progress.report(0.8, "starting robot and cameras")
-        rig.trainer.heartbeat()
-        if rig.loop.latest().tick > 0 and rig.tracker.latest.read() is not None:
-            return
-        clock.sleep(_LOOK)
-    if rig.loop.latest().tick == 0:
-        raise LoopError(f"the control loop has not ticked in {waited:.0f} s; start it again")
-
-
-class DesktopRun:
-    """A trainer that runs for the window (`views.services.OpenRun`)."""
-
-    def __init__(self, rig: Rig) -> None:
-        self._rig = rig
-
-    @property
-    def run(self) -> ExerciseRun:
-        """What its views need."""
-        from app.views.exercise.pad_view import rings  # Qt only for who has a window
-        from app.views.exercise.run import ExerciseRun
-
-        setup = self._rig.setup
-        return ExerciseRun(
-            self._rig.trainer,
-            setup.placed,
-            self._rig.profile,
-            interactive=setup.skill is None,
-            rings=rings(setup.exercise.tolerances),
-            pictures=self._rig.tracker.pictures,
-        )
-
-    def place(self, placed: PlacedPlan) -> ExerciseRun:
-        """Take another plan and return the run with it."""
-        self._rig = self._rig.place(placed)
-        return self.run
-
-    def close(self) -> None:
-        """End everything at zero force; idempotent."""
-        self._rig.trainer.close()

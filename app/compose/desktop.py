@@ -1,0 +1,132 @@
+"""What the window asks for, on the simulated devices; light, so that the window comes first."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from app.core import paths
+from app.core.loading import ONE_AT_A_TIME, load_modules
+from app.core.progress import Progress
+from app.device.errors import LoopError
+from app.exercises.library import library
+from app.exercises.schema import Exercise
+from app.planning.placement import PlacedPlan
+
+if TYPE_CHECKING:
+    from app.compose.trainer import Rig
+    from app.views.exercise.run import ExerciseRun
+    from app.views.services import RunSetup
+
+HEAVY_MODULES: Final = (
+    "app.imaging.reading",
+    "app.imaging.body",
+    "app.imaging.phantom",
+    "app.core.compiled",
+    "app.mechanisms.pantograph",
+    "app.device.control",
+    "app.simulation.clearing",
+    "app.tracking.simulated",
+    "app.tracking.tracker",
+    "app.compose.trainer",
+    "app.views.scene.surfaces",
+    "app.views.scene.stage",
+)
+"""What no start page needs and every exercise does, in the order in which an exercise needs it."""
+
+_PATIENCE: Final = 120.0
+_LOOK: Final = 0.02
+
+
+class Desktop:
+    """What the window asks for (`views.services.Services`), on the simulated devices.
+
+    Args:
+        skill: a scripted trainee inserts the needle instead of the mouse; None for the mouse.
+        seed: of everything random; None takes each exercise's own.
+        sessions: folder of the records.
+    """
+
+    def __init__(
+        self, skill: str | None = None, seed: int | None = None, sessions: Path | None = None
+    ) -> None:
+        self._skill, self._seed = skill, seed
+        self._sessions = sessions or paths.sessions()
+
+    def exercises(self) -> tuple[Exercise, ...]:
+        """Exercises to choose from, easiest first."""
+        return tuple(library())
+
+    def sessions(self) -> Path:
+        """Folder of the recorded attempts."""
+        return self._sessions
+
+    def prepare(self, progress: Progress) -> None:
+        """Load what an exercise needs; called beside the window as soon as it is painted."""
+        load_modules(HEAVY_MODULES, progress)
+
+    def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
+        """Build and start a trainer; called beside the window, may take seconds."""
+        with ONE_AT_A_TIME:  # kernels and OpenCV: behind the window, not before it
+            from app.compose.trainer import TrainerSetup, build_rig
+        progress.report(0.1, "compiling the loop")
+        seed = setup.exercise.seed if self._seed is None else self._seed
+        rig = build_rig(
+            TrainerSetup(setup.exercise, setup.placed, setup.ct, self._skill, seed, self._sessions)
+        )
+        try:
+            rig.trainer.open()
+            _wait_until_alive(rig, progress)
+        except BaseException:
+            rig.trainer.close()
+            raise
+        return DesktopRun(rig)
+
+
+def _wait_until_alive(rig: Rig, progress: Progress) -> None:
+    """Wait for the first tick and the first picture: on a first start kernels are compiled there.
+
+    A tracker without a picture is no reason not to begin; the status strip says what it lacks.
+    """
+    clock = rig.setup.clock
+    begin = clock.now()
+    while (waited := clock.now() - begin) < _PATIENCE:
+        progress.report(0.8, "starting robot and cameras")
+        rig.trainer.heartbeat()
+        if rig.loop.latest().tick > 0 and rig.tracker.latest.read() is not None:
+            return
+        clock.sleep(_LOOK)
+    if rig.loop.latest().tick == 0:
+        raise LoopError(f"the control loop has not ticked in {waited:.0f} s; start it again")
+
+
+class DesktopRun:
+    """A trainer that runs for the window (`views.services.OpenRun`)."""
+
+    def __init__(self, rig: Rig) -> None:
+        self._rig = rig
+
+    @property
+    def run(self) -> ExerciseRun:
+        """What its views need."""
+        from app.views.exercise.pad_view import rings  # Qt only for who has a window
+        from app.views.exercise.run import ExerciseRun
+
+        setup = self._rig.setup
+        return ExerciseRun(
+            self._rig.trainer,
+            setup.placed,
+            self._rig.profile,
+            interactive=setup.skill is None,
+            rings=rings(setup.exercise.tolerances),
+            pictures=self._rig.tracker.pictures,
+        )
+
+    def place(self, placed: PlacedPlan) -> ExerciseRun:
+        """Take another plan and return the run with it."""
+        self._rig = self._rig.place(placed)
+        return self.run
+
+    def close(self) -> None:
+        """End everything at zero force; idempotent."""
+        self._rig.trainer.close()

@@ -1,0 +1,58 @@
+import sys
+import threading
+
+import pytest
+
+from app.core.loading import load_modules
+from app.core.progress import Cancelled, Progress
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A package whose parts import each other's neighbours."""
+    folder = tmp_path / "acus_test_package"
+    folder.mkdir()
+    (folder / "__init__.py").write_text("import time; time.sleep(0.02)\nfrom . import first\n")
+    (folder / "first.py").write_text("import time; time.sleep(0.02)\n")
+    (folder / "second.py").write_text("from . import first\n")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    yield "acus_test_package"
+    for name in [name for name in sys.modules if name.startswith("acus_test_package")]:
+        del sys.modules[name]
+
+
+def test_modules_are_loaded_in_the_order_given(package):
+    load_modules([f"{package}.first", f"{package}.second"], Progress())
+    assert {f"{package}.first", f"{package}.second"} <= set(sys.modules)
+
+
+def test_a_module_that_is_missing_is_named():
+    with pytest.raises(ImportError, match="acus_no_such_module"):
+        load_modules(["acus_no_such_module"], Progress())
+
+
+def test_loading_stops_when_it_is_cancelled(package):
+    progress = Progress()
+    progress.cancel()
+    with pytest.raises(Cancelled):
+        load_modules([package], progress)
+    assert package not in sys.modules
+
+
+def test_threads_that_load_parts_of_one_package_do_not_lock_each_other_out(package):
+    failures = []
+
+    def load(name):
+        try:
+            load_modules([name], Progress())
+        except BaseException as error:
+            failures.append(error)
+
+    names = [package, f"{package}.first", f"{package}.second"] * 3
+    threads = [threading.Thread(target=load, args=(name,)) for name in names]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(10.0)
+    assert not failures
+    assert not any(thread.is_alive() for thread in threads)
