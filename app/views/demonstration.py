@@ -118,6 +118,9 @@ class Demonstration(QObject):
         return self._then("attempt", self._needle_is_in)
 
     def _needle_is_in(self) -> bool:
+        if self._result is not None:  # broken off, by a fault
+            self._stop(f"the attempt was aborted: {self._result.reason}")
+            return True
         snapshot = self._snapshot()
         if snapshot is None or snapshot.device is None:
             return False
