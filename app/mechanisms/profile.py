@@ -85,10 +85,10 @@ class EncoderSection(Section):
 
 
 class LimitSection(Section):
-    """Largest joint torque [N·m] and largest force at the hand [N]."""
+    """Largest joint torque [N·m] and largest force at the hand [N], never above 5 N."""
 
     joint_torque: Positive
-    hand_force: Positive
+    hand_force: Annotated[float, Field(gt=0.0, le=5.0)]
 
 
 class FixtureSection(Section):

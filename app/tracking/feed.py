@@ -103,6 +103,6 @@ class CameraFeed:
             if health.state is before:
                 continue
             if health.state in _TROUBLE:
-                self._report("fault", f"camera {health.name}: {health.text}")
+                self._report("camera", f"camera {health.name}: {health.text}")
             elif before in _TROUBLE:
-                self._report("tracker", f"camera {health.name} delivers pictures again")
+                self._report("camera", f"camera {health.name} delivers pictures again")

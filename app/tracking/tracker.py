@@ -46,8 +46,8 @@ class Tracker:
         axis: the needle's direction by the robot.
         fulcrum: P_I in world [m], shape (3,).
         on_fix: called in the tracker's thread with every fix, e.g. to write the depth for the loop.
-        events: takes an event of kind `fault` when a camera stops, freezes or fails, or when the
-            tracker itself fails, and of kind `tracker` when a camera recovers.
+        events: takes an event of kind `camera` when a camera stops, freezes, fails or recovers,
+            and of kind `fault` when the tracker itself fails.
         extractor: how the marker is found; by default `OutlineCentroid`.
     """
 

@@ -222,7 +222,9 @@ def _until(condition, seconds=8.0):
 
 
 def _faults(tracker, text, found):
-    found.extend(event.message for event in tracker.events.drain() if event.kind == "fault")
+    found.extend(
+        event.message for event in tracker.events.drain() if event.kind in ("camera", "fault")
+    )
     return any(text in message for message in found)
 
 
