@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from typing import Final
 
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
@@ -13,6 +14,10 @@ from app import __version__
 from app.core.errors import AcusError
 from app.views.text import install_translation
 from app.views.theme import apply_theme
+
+SWITCH_INTERVAL: Final = 5e-4
+"""How long [s] a thread may keep the interpreter when another asks for it. Painting asks for it
+hundreds of times a frame; at Python's 5 ms each, cameras and scoring would freeze the window."""
 
 
 class NoDisplayError(AcusError):
@@ -44,6 +49,7 @@ def start(offscreen: bool = False) -> QApplication:
             "there is no display (DISPLAY is not set); start it on a desktop,"
             " or run `acus demo --headless`"
         )
+    sys.setswitchinterval(SWITCH_INTERVAL)
     application = QApplication(sys.argv[:1])
     application.setApplicationName("acus")
     application.setApplicationDisplayName("Acus")

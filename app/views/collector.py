@@ -1,10 +1,10 @@
 """Python's garbage collection, at moments when nobody waits for the window.
 
 A full collection walks every object that Python knows. Compiled kernels leave hundreds of thousands
-of them, and the walk then holds the interpreter for most of a second, on whichever thread happens to
-allocate: long enough to miss the window's sign of life to the robot. Here the young objects are
+of them, and the walk then holds the interpreter for most of a second, on whichever thread happens
+to allocate: long enough to miss the window's sign of life to the robot. Here the young objects are
 collected on the window's thread, what stands for good is left out of the walk, and full collections
-wait until no attempt runs. Qt objects that Python lost in a cycle so also die on Qt's own thread.
+wait until no attempt runs. Qt objects that Python lost in a cycle also die on Qt's own thread so.
 """
 
 from __future__ import annotations
