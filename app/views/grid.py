@@ -68,5 +68,7 @@ class ViewGrid(QWidget):
         else:
             self._maximised = pane
             for other in self._panes:
+                self._grid.removeWidget(other)
                 other.setVisible(other is pane)
+            self._grid.addWidget(pane, 0, 0, ROWS, COLUMNS)
         pane.setFocus()
