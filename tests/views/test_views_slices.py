@@ -11,9 +11,10 @@ from PySide6.QtTest import QSignalSpy
 
 from app.core.errors import NumericalError
 from app.imaging.orthogonal import View
-from app.imaging.window import PRESETS, WindowLevel
+from app.imaging.window import PRESETS, WindowLevel, to_grey
 from app.planning.draft import DraftPlan
 from app.views.needle_overlay import NeedleOverlay
+from app.views.slices import items
 from app.views.slices.camera import Camera, ruler
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.pane import SlicePane
@@ -283,7 +284,7 @@ def test_the_needle_is_cut_at_the_slab(pane, viewing):
 
 def test_setting_the_needle_leaves_the_image_alone(pane, viewing, monkeypatch):
     touched = []
-    monkeypatch.setattr(pane.canvas._image, "set_grey", lambda *_: touched.append(1))
+    monkeypatch.setattr(pane.canvas._image, "set_slice", lambda *_: touched.append(1))
     for n in range(10):
         viewing.set_needle(NeedleOverlay(viewing.cursor_mm + [9.0, n, 0], viewing.cursor_mm))
     assert not touched
@@ -318,3 +319,42 @@ def test_an_equal_window_is_not_announced_again(viewing):
     spy = QSignalSpy(viewing.window_changed)
     viewing.set_window(WindowLevel(400, 40))
     assert spy.count() == 0
+
+
+def test_the_value_under_a_resting_mouse_follows_the_slice(pane, viewing):
+    pane.readouts.show_cursor(viewing.cursor_mm)
+    before = pane.readouts.cursor.text
+    viewing.show_slice(pane.view, 0)
+    assert "-1000 HU" in pane.readouts.cursor.text
+    assert pane.readouts.cursor.text != before
+    pane.readouts.clear_cursor()
+    viewing.show_slice(pane.view, 3)
+    assert pane.readouts.cursor.text == ""
+
+
+def test_a_fast_window_drag_makes_grey_values_only_for_what_is_painted(pane, viewing, monkeypatch):
+    made = []
+    monkeypatch.setattr(
+        items, "to_grey", lambda hu, window: made.append(window) or to_grey(hu, window)
+    )
+    for width in range(300, 320):
+        viewing.set_window(WindowLevel(width, 40))
+    pane.grab()
+    assert made == [WindowLevel(319, 40)]
+
+
+def test_the_tips_distance_is_left_out_where_the_plans_names_need_the_room(pane, viewing):
+    pane.resize(330, 290)
+    middle = viewing.cursor_mm
+    viewing.set_draft(DraftPlan(tuple(middle - [0, 3.0, 9.0]), tuple(middle)))
+    viewing.set_needle(NeedleOverlay(middle - [0, 100.0, 0], middle - [0, 1.0, 9.0]))
+    marks = [i for i in pane.canvas.scene().items() if isinstance(i, MarkItem) and i.isVisible()]
+    rects = [
+        mark.label_rect.translated(pane.canvas.pixel_at(mark.x(), mark.y()))
+        for mark in marks
+        if mark.label_rect is not None
+    ]
+    assert len(rects) >= 2
+    for number, rect in enumerate(rects):
+        assert pane.canvas.viewport().rect().toRectF().contains(rect)
+        assert not any(rect.intersects(other) for other in rects[number + 1 :])

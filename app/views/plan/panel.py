@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from app.planning.placement import PatientOrientation, Placement
 from app.views import theme
+from app.views.coordinates import lps_words
 from app.views.plan.editor import PlanEditor, Point
 from app.views.plan.verdict_words import verdict_words
 from app.views.slices.viewing import Tool, Viewing
@@ -174,7 +175,7 @@ def orientation_names() -> dict[PatientOrientation, str]:
 def _point_text(point: Point | None) -> str:
     if point is None:
         return tr("not placed yet")
-    return tr("L {x:.1f}   P {y:.1f}   S {z:.1f} mm", x=point[0], y=point[1], z=point[2])
+    return lps_words(point)
 
 
 def _orientation_box() -> QComboBox:

@@ -13,15 +13,15 @@ from PySide6.QtWidgets import QFrame, QGraphicsView, QWidget
 
 from app.core.arrays import FloatArray
 from app.imaging.orthogonal import View
-from app.imaging.window import to_grey
 from app.views import theme
 from app.views.slices.camera import Camera
 from app.views.slices.items import ImageItem
-from app.views.slices.layers import CrosshairLayer, NeedleLayer, PlanLayer
+from app.views.slices.layers import CrosshairLayer, Labels, NeedleLayer, PlanLayer
 from app.views.slices.plane import SlicePlane
 from app.views.slices.viewing import Viewing
 
-FAR_MM = 1e5
+LINE_POINTS = 16
+"""Points of path and of needle that labels keep off, less one."""
 
 
 class Gestures(Protocol):
@@ -69,6 +69,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         scene.addItem(self._image)
         self._crosshair = CrosshairLayer(scene, view)
         self._plan, self._needle = PlanLayer(scene), NeedleLayer(scene)
+        self._labels = Labels((self._plan.target, self._plan.entry, self._needle.tip))
         self._set_up_view()
         viewing.volume_changed.connect(self.show_volume)
         viewing.cursor_changed.connect(self._show_cursor)
@@ -107,7 +108,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
             self._shown = (index, window)
             if moved:  # kept contiguous: changing the window then needs no second gather
                 self._hu = np.ascontiguousarray(self.plane.image(index))
-            self._image.set_grey(to_grey(self._hu, window), self.plane.extent_mm)
+            self._image.set_slice(self._hu, window, self.plane.extent_mm)
             self.changed.emit()
         point = self.plane.point(self.viewing.cursor_mm, index)
         self._crosshair.place(point, self.plane.extent_mm, self.camera.scale)
@@ -118,10 +119,35 @@ class SliceCanvas(pyqtgraph.GraphicsView):
     def _show_plan(self) -> None:
         if self.plane is not None:
             self._plan.place(self.viewing.draft, self.plane, self.index, self.camera.scale)
+            self._arrange_labels()
 
     def _show_needle(self) -> None:
         if self.plane is not None:
             self._needle.place(self.viewing.needle, self.plane, self.index, self.camera.scale)
+            self._arrange_labels()
+
+    def _arrange_labels(self) -> None:
+        """Put the names of the marks where they cover nothing and nothing cuts them."""
+        size = (float(self.viewport().width()), float(self.viewport().height()))
+        self._labels.arrange(size, self.pixel_at, self._line_points())
+
+    def _line_points(self) -> list[tuple[float, float]]:
+        """Points along path and needle [px] that labels keep off."""
+        plane, draft, needle = self.plane, self.viewing.draft, self.viewing.needle
+        if plane is None:
+            return []
+        ends = [] if needle is None else [(needle.start_mm, needle.tip_mm)]
+        if draft.entry_mm is not None and draft.target_mm is not None:
+            ends.append((np.asarray(draft.entry_mm), np.asarray(draft.target_mm)))
+        points: list[tuple[float, float]] = []
+        for start, end in ends:
+            a, b = (plane.point(point, self.index) for point in (start, end))
+            first, last = self.pixel_at(a.x, a.y), self.pixel_at(b.x, b.y)
+            shares = np.linspace(0.0, 1.0, LINE_POINTS + 1)
+            across = first.x() + shares * (last.x() - first.x())
+            down = first.y() + shares * (last.y() - first.y())
+            points += list(zip(across.tolist(), down.tolist(), strict=True))
+        return points
 
     # --- pan and zoom -------------------------------------------------------------------------
     def fit(self) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QPointF, QRect, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QWidget
 
 from app.views import theme
@@ -35,6 +35,7 @@ class Overlay(QWidget):
         self._font.setBold(bold)
         self._lines: tuple[str, ...] = ()
         self._first: QColor | None = None
+        self._picture: QPixmap | None = None
 
     def set_lines(self, *lines: str, first: str = "") -> None:
         """Show these lines, the first of them in the colour `first` if given."""
@@ -42,6 +43,7 @@ class Overlay(QWidget):
             return
         self._lines = lines
         self._first = QColor(first) if first else self._first
+        self._picture = None
         self.update()
         self.resize(self.sizeHint())
         self.place()
@@ -73,8 +75,23 @@ class Overlay(QWidget):
         self.move(x, y)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw every line twice: a dark rim, then the text."""
-        painter = QPainter(self)
+        """Copy the text, drawn once: it is repainted with every slice that scrolls below it."""
+        if self._picture is None or self._picture.devicePixelRatio() != self.devicePixelRatioF():
+            self._picture = self._drawn()
+        with QPainter(self) as painter:
+            painter.drawPixmap(0, 0, self._picture)
+
+    def _drawn(self) -> QPixmap:
+        """Every line several times: a dark rim, then the text."""
+        ratio = self.devicePixelRatioF()
+        picture = QPixmap(self.size() * ratio)
+        picture.setDevicePixelRatio(ratio)
+        picture.fill(Qt.GlobalColor.transparent)
+        with QPainter(picture) as painter:
+            self._draw(painter)
+        return picture
+
+    def _draw(self, painter: QPainter) -> None:
         painter.setFont(self._font)
         height = QFontMetrics(self._font).height()
         flags = self._alignment & Qt.AlignmentFlag.AlignHorizontal_Mask

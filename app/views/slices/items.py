@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QFont, QFontMetrics, QImage, QPainter, QPen
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
+from app.imaging.window import WindowLevel, to_grey
 from app.views import theme
+from app.views.slices.labels import Placed, Wanted
 from app.views.theme import Mark, Symbol
 
 GAP_PX = 14.0
@@ -16,25 +20,39 @@ GAP_PX = 14.0
 
 
 class ImageItem(QGraphicsItem):
-    """A grey slice, scaled smoothly."""
+    """A grey slice, scaled smoothly.
+
+    Grey values are made when the slice is painted: of the many windows of a fast drag only those
+    that reach the screen cost anything.
+    """
 
     def __init__(self) -> None:
         super().__init__()
         self._rect = QRectF()
         self._image = QImage()
+        self._stale: tuple[NDArray[Any], WindowLevel] | None = None
 
-    def set_grey(self, grey: NDArray[np.uint8], extent_mm: tuple[float, float]) -> None:
-        """Show grey values of shape (rows, columns) on this width and height [mm]."""
+    def set_slice(
+        self, hu: NDArray[Any], window: WindowLevel, extent_mm: tuple[float, float]
+    ) -> None:
+        """Show Hounsfield units, shape (rows, columns), on this width and height [mm]."""
         rect = QRectF(0.0, 0.0, *extent_mm)
         if rect != self._rect:
             self.prepareGeometryChange()
             self._rect = rect
-        grey = np.ascontiguousarray(grey)
-        rows, columns = grey.shape
-        borrowed = QImage(grey.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
-        # The conversion copies, so the image owns its pixels; 32 bits scale twice as fast.
-        self._image = borrowed.convertToFormat(QImage.Format.Format_RGB32)
+        self._stale = (hu, window)
         self.update()
+
+    def image(self) -> QImage:
+        """Return the slice in grey."""
+        if self._stale is not None:
+            grey = np.ascontiguousarray(to_grey(*self._stale))
+            self._stale = None
+            rows, columns = grey.shape
+            borrowed = QImage(grey.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
+            # The conversion copies, so the image owns its pixels; 32 bits scale twice as fast.
+            self._image = borrowed.convertToFormat(QImage.Format.Format_RGB32)
+        return self._image
 
     def boundingRect(self) -> QRectF:
         """Return the image's place in the plane."""
@@ -45,7 +63,7 @@ class ImageItem(QGraphicsItem):
     ) -> None:
         """Draw the image."""
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
-        painter.drawImage(self._rect, self._image)
+        painter.drawImage(self._rect, self.image())
 
 
 class CrossLine(QGraphicsItem):
@@ -132,25 +150,56 @@ class MarkItem(QGraphicsItem):
 
     RADIUS = 7.0
 
-    def __init__(self, mark: Mark, z: float, label_at: tuple[float, float]) -> None:
+    def __init__(self, mark: Mark, z: float, optional: bool = False) -> None:
+        """Make a mark; an `optional` label is left out where there is no good place for it."""
         super().__init__()
-        self._mark = mark
-        self._label_at = QPointF(*label_at)
-        self._label = ""
-        self._near = True
+        self._mark, self._optional = mark, optional
+        self._label, self._near = "", True
+        self._size = QSizeF()
+        self._rect: QRectF | None = None
+        self._last = 0
         self.setFlag(QGraphicsItem.GraphicsItemFlag.ItemIgnoresTransformations)
+        # Drawn once, then moved as a picture: a live needle moves many times a second.
+        self.setCacheMode(QGraphicsItem.CacheMode.DeviceCoordinateCache)
         self.setZValue(z)
 
     def place(self, x: float, y: float, label: str, near: bool) -> None:
         """Stand at (x, y) [mm]; faded and with a broken outline where the slice is not `near`."""
         self.setPos(x, y)
         if (label, near) != (self._label, self._near):
+            metrics = QFontMetrics(label_font())
+            self._size = QSizeF(metrics.horizontalAdvance(label) + 2, metrics.height())
             self._label, self._near = label, near
             self.update()
 
+    def wanted(self, at: QPointF) -> Wanted | None:
+        """Say what place the label wants, the mark standing at this pixel; None without a label."""
+        if not self._label or not self.isVisible():
+            return None
+        width, height = self._size.width(), self._size.height()
+        return Wanted(at.x(), at.y(), width, height, self.RADIUS, self._last, self._optional)
+
+    def place_label(self, at: QPointF, placed: Placed | None) -> None:
+        """Put the label where it was arranged, the mark standing at this pixel; None hides it."""
+        rect = None
+        if placed is not None:
+            self._last = placed.place
+            rect = QRectF(*placed.rect).translated(-at)
+        if not _alike(rect, self._rect):
+            self.prepareGeometryChange()
+            self._rect = rect
+            self.update()
+
+    @property
+    def label_rect(self) -> QRectF | None:
+        """Place of the label seen from the mark [px]; None while it is not shown."""
+        return self._rect
+
     def boundingRect(self) -> QRectF:
         """Return symbol and label [px]."""
-        return QRectF(-150.0, -26.0, 300.0, 52.0)
+        reach = self.RADIUS + self._mark.width + 2.0
+        symbol = QRectF(-reach, -reach, 2 * reach, 2 * reach)
+        return symbol if self._rect is None else symbol.united(self._rect.adjusted(-1, -1, 2, 2))
 
     def paint(
         self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
@@ -184,13 +233,28 @@ class MarkItem(QGraphicsItem):
             painter.drawPolygon(corners)
 
     def _draw_label(self, painter: QPainter, alpha: float) -> None:
-        font = QFont(painter.font())
-        font.setPixelSize(theme.SMALL_PX)
-        painter.setFont(font)
-        place = QPointF(self._label_at)
-        if place.x() < 0:
-            place -= QPointF(QFontMetrics(font).horizontalAdvance(self._label), 0.0)
+        if self._rect is None:
+            return
+        painter.setFont(label_font())
+        flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextDontClip
         painter.setPen(Qt.GlobalColor.black)
-        painter.drawText(place + QPointF(1.0, 1.0), self._label)
+        for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+            painter.drawText(self._rect.translated(dx, dy), flags, self._label)
         painter.setPen(self._mark.qcolor(min(1.0, alpha + 0.2)))
-        painter.drawText(place, self._label)
+        painter.drawText(self._rect, flags, self._label)
+
+
+def label_font() -> QFont:
+    """Return the font of the marks' names."""
+    font = QFont()
+    font.setPixelSize(theme.SMALL_PX)
+    return font
+
+
+def _alike(one: QRectF | None, other: QRectF | None) -> bool:
+    """Whether two places are the same to a quarter of a pixel: less is not worth drawing anew."""
+    if one is None or other is None:
+        return one is other
+    shift, growth = one.topLeft() - other.topLeft(), one.size() - other.size()
+    changes = (shift.x(), shift.y(), growth.width(), growth.height())
+    return all(abs(change) < 0.25 for change in changes)

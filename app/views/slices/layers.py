@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
+from PySide6.QtCore import QPointF
 from PySide6.QtGui import QPen
 from PySide6.QtWidgets import QGraphicsScene
 
@@ -10,6 +13,7 @@ from app.planning.draft import DraftPlan
 from app.views import theme
 from app.views.needle_overlay import NeedleOverlay
 from app.views.slices.items import CrossLine, MarkItem, SegmentItem
+from app.views.slices.labels import arrange
 from app.views.slices.plane import SlicePlane
 from app.views.slices.slab import PlanePoint, pieces
 from app.views.text import tr
@@ -75,13 +79,17 @@ class SegmentLayer:
 
 
 class PlanLayer:
-    """Entry ring, target disc and the path between them."""
+    """Entry ring, target disc and the path between them.
+
+    Attributes:
+        entry, target: their marks.
+    """
 
     def __init__(self, scene: QGraphicsScene) -> None:
         self._path = SegmentLayer(scene, theme.PATH, 2)
-        self._entry = MarkItem(theme.ENTRY, 4, label_at=(11.0, -6.0))
-        self._target = MarkItem(theme.TARGET, 4, label_at=(11.0, 17.0))
-        for item in (self._entry, self._target):
+        self.entry = MarkItem(theme.ENTRY, 4)
+        self.target = MarkItem(theme.TARGET, 4)
+        for item in (self.entry, self.target):
             item.setVisible(False)
             scene.addItem(item)
 
@@ -89,8 +97,8 @@ class PlanLayer:
         """Show what the draft has."""
         entry = None if draft.entry_mm is None else plane.point(draft.entry_mm, index)
         target = None if draft.target_mm is None else plane.point(draft.target_mm, index)
-        _place_mark(self._entry, entry, tr("Entry"), plane)
-        _place_mark(self._target, target, tr("Target"), plane)
+        _place_mark(self.entry, entry, tr("Entry"), plane)
+        _place_mark(self.target, target, tr("Target"), plane)
         if entry is None or target is None:
             self._path.hide()
         else:
@@ -98,14 +106,18 @@ class PlanLayer:
 
 
 class NeedleLayer:
-    """Shaft and tip of the live needle."""
+    """Shaft and tip of the live needle.
+
+    Attributes:
+        tip: its mark; its label is left out where there is no room beside those of the plan.
+    """
 
     def __init__(self, scene: QGraphicsScene) -> None:
         self._shaft = SegmentLayer(scene, theme.NEEDLE, 3)
         self._doubtful = SegmentLayer(scene, Mark(theme.TEXT_DIM, width=2.0), 3)
-        self._tip = MarkItem(theme.NEEDLE_TIP, 5, label_at=(-9.0, 16.0))
-        self._tip.setVisible(False)
-        scene.addItem(self._tip)
+        self.tip = MarkItem(theme.NEEDLE_TIP, 5, optional=True)
+        self.tip.setVisible(False)
+        scene.addItem(self.tip)
 
     def place(
         self, needle: NeedleOverlay | None, plane: SlicePlane, index: int, scale: float
@@ -113,13 +125,44 @@ class NeedleLayer:
         """Show the needle, grey where its pose is not valid."""
         self._shaft.hide()
         self._doubtful.hide()
-        self._tip.setVisible(needle is not None)
+        self.tip.setVisible(needle is not None)
         if needle is None:
             return
         start, tip = plane.point(needle.start_mm, index), plane.point(needle.tip_mm, index)
         shaft = self._shaft if needle.valid else self._doubtful
         shaft.place(start, tip, plane.half_slab_mm, scale)
-        _place_mark(self._tip, tip, "" if needle.valid else tr("not tracked"), plane)
+        _place_mark(self.tip, tip, "" if needle.valid else tr("not tracked"), plane)
+
+
+class Labels:
+    """The names of several marks, the most important first; pure arrangement is in `labels`."""
+
+    def __init__(self, marks: tuple[MarkItem, ...]) -> None:
+        self._marks = marks
+
+    def arrange(
+        self,
+        size_px: tuple[float, float],
+        pixel_at: Callable[[float, float], QPointF],
+        lines: Sequence[tuple[float, float]],
+    ) -> None:
+        """Give every label its place.
+
+        Args:
+            size_px: of the pane.
+            pixel_at: pixel of a plane point [mm].
+            lines: points [px] that labels keep off.
+        """
+        shown = [
+            (mark, at, want)
+            for mark in self._marks
+            for at in [pixel_at(mark.x(), mark.y())]
+            for want in [mark.wanted(at)]
+            if want is not None
+        ]
+        places = arrange([want for _, _, want in shown], size_px, lines)
+        for (mark, at, _), place in zip(shown, places, strict=True):
+            mark.place_label(at, place)
 
 
 def _place_mark(item: MarkItem, at: PlanePoint | None, name: str, plane: SlicePlane) -> None:

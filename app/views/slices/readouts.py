@@ -7,6 +7,7 @@ from PySide6.QtCore import QEvent, QObject, Qt
 from app.core.arrays import FloatArray
 from app.imaging.orthogonal import View
 from app.views import theme
+from app.views.coordinates import lps_words
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.corners import PADDING, Overlay, Ruler
 from app.views.slices.layers import PLANE_MARKS
@@ -27,6 +28,7 @@ class Readouts(QObject):
     def __init__(self, canvas: SliceCanvas) -> None:
         super().__init__(canvas)
         self._canvas = canvas
+        self._hovered: FloatArray | None = None
         port = canvas.viewport()
         self.title = Overlay(port, _A.AlignLeft | _A.AlignTop)
         self.window = Overlay(port, _A.AlignRight | _A.AlignTop)
@@ -71,20 +73,30 @@ class Readouts(QObject):
             tr("Slice {number} / {count}", number=index + 1, count=plane.count),
         )
         self.ruler.set_scale(self._canvas.camera.scale)
+        self._follow_slice()
         self._place()
+
+    def _follow_slice(self) -> None:
+        """Keep the read-out under a resting mouse true while the slices scroll below it."""
+        plane, index = self._canvas.plane, self._canvas.index
+        if plane is not None and self._hovered is not None:
+            at = plane.point(self._hovered, index)
+            if abs(at.distance) > 1e-6:
+                self.show_cursor(plane.lps_mm(at.x, at.y, index))
 
     def show_cursor(self, lps_mm: FloatArray) -> None:
         """Write the point under the mouse and its Hounsfield units."""
         volume = self._canvas.viewing.volume
         hu = None if volume is None else volume.hu_at(lps_mm, "nearest")
-        x, y, z = lps_mm
+        self._hovered = lps_mm
         self.cursor.set_lines(
             tr("outside the image") if hu is None else tr("{hu:.0f} HU", hu=hu),
-            tr("L {x:.1f}  P {y:.1f}  S {z:.1f} mm", x=x, y=y, z=z),
+            lps_words(lps_mm),
         )
 
     def clear_cursor(self) -> None:
         """Forget the mouse."""
+        self._hovered = None
         self.cursor.set_lines()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
