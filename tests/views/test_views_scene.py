@@ -98,6 +98,16 @@ def test_the_eye_stays_square_however_it_is_turned(turns):
     assert_allclose(basis @ basis.T, np.eye(3), atol=1e-9)
 
 
+@pytest.mark.parametrize("size", [(300, 900), (900, 300), (500, 500)])
+def test_a_fitted_eye_shows_every_point_in_a_tall_and_in_a_wide_pane(size):
+    points = np.random.default_rng(3).uniform(-200.0, 300.0, (40, 3)) * [1.0, 0.4, 2.0]
+    orbit = Orbit.look_from("A", np.zeros(3), 10.0).turned(-50, 30).fitted(points)
+    seen = (points - orbit.focus_mm) / orbit.mm_per_px(size)
+    assert np.abs(seen @ orbit.right).max() < size[0] / 2
+    assert np.abs(seen @ orbit.up).max() < size[1] / 2
+    assert np.abs(seen @ orbit.up).max() > 0.9 * min(size) / 2
+
+
 @pytest.mark.parametrize("letter", list("APLRSI"))
 def test_each_letter_points_at_the_viewer_on_its_own_side(letter):
     orbit = Orbit.look_from("A", np.zeros(3), 100.0).seen_from(letter)
@@ -246,9 +256,9 @@ def test_mouse_and_keys_turn_pan_zoom_and_reset(view):
     assert_allclose(view.orbit.backwards, [0, 0, 1], atol=1e-12)
     QTest.keyClick(view, "r")
     assert_allclose(view.orbit.backwards, home.backwards)
-    moved = view.orbit.panned(10, 0, 90).focus_mm - home.focus_mm
+    moved = view.orbit.panned(10, 0, (120, 90)).focus_mm - home.focus_mm
     assert moved @ home.right < 0.0
-    assert home.zoomed(2.0).half_height_mm == pytest.approx(home.half_height_mm / 2)
+    assert home.zoomed(2.0).half_mm == pytest.approx(home.half_mm / 2)
 
 
 def test_a_click_in_place_gives_the_line_of_sight(view):
@@ -257,3 +267,19 @@ def test_a_click_in_place_gives_the_line_of_sight(view):
     point, direction = spy.at(0)
     assert_allclose(direction, -view.orbit.backwards)
     assert np.linalg.norm(point - view.orbit.focus_mm) < 5.0
+
+
+def test_the_home_view_takes_the_robot_in_until_one_looks_elsewhere(view):
+    geometry = load_profile("icube").pantograph
+    shape = RobotShape.of(geometry, inverse(geometry, [0.01, 0.15]))
+    alone = view.orbit
+    view.set_robot(shape, RigidTransform.identity())
+    assert view.orbit.half_mm > alone.half_mm
+    ends = np.array([end for rod in shape.links() for end in rod]) * 1e3
+    seen = (ends - view.orbit.focus_mm) / view.orbit.mm_per_px(SIZE)
+    assert np.abs(seen @ view.orbit.right).max() < SIZE[0] / 2
+    assert np.abs(seen @ view.orbit.up).max() < SIZE[1] / 2
+    elsewhere = view.orbit.turned(40, 0)
+    view.set_orbit(elsewhere)
+    view.set_robot(shape, RigidTransform(np.eye(3), [0.0, 0.0, 0.5]))
+    assert view.orbit is elsewhere

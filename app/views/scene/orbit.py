@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from math import radians
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen, unit
 from app.core.rotation import rotation_exp
@@ -32,19 +33,20 @@ class Orbit:
         focus_mm: what is in the middle, LPS, shape (3,).
         backwards: unit vector from the focus to the eye, shape (3,).
         up: unit vector that is up on the screen, perpendicular to `backwards`, shape (3,).
-        half_height_mm: half of what the view shows from top to bottom at the focus.
+        half_mm: half of what the view shows along its shorter side, so that a tall and a wide pane
+            both show the whole.
     """
 
     focus_mm: FloatArray
     backwards: FloatArray
     up: FloatArray
-    half_height_mm: float
+    half_mm: float
 
     @classmethod
-    def look_from(cls, letter: str, focus_mm: FloatArray, half_height_mm: float) -> Orbit:
+    def look_from(cls, letter: str, focus_mm: FloatArray, half_mm: float) -> Orbit:
         """Look from the patient's A, P, L, R, S or I side."""
         backwards, up = _FROM[letter]
-        return cls(frozen(focus_mm), frozen(backwards), frozen(up), half_height_mm)
+        return cls(frozen(focus_mm), frozen(backwards), frozen(up), half_mm)
 
     @property
     def right(self) -> FloatArray:
@@ -53,7 +55,7 @@ class Orbit:
 
     def seen_from(self, letter: str) -> Orbit:
         """Keep focus and size, look from another side."""
-        return Orbit.look_from(letter, self.focus_mm, self.half_height_mm)
+        return Orbit.look_from(letter, self.focus_mm, self.half_mm)
 
     def turned(self, right_px: float, down_px: float) -> Orbit:
         """Turn the patient with the mouse as on a ball."""
@@ -65,22 +67,36 @@ class Orbit:
         up = unit(up - (up @ backwards) * backwards)
         return replace(self, backwards=frozen(backwards), up=frozen(up))
 
-    def panned(self, right_px: float, down_px: float, height_px: int) -> Orbit:
+    def fitted(self, points_mm: ArrayLike, margin: float = 1.06) -> Orbit:
+        """Look the same way, at the middle and from the distance that show all points, (n, 3)."""
+        points = np.asarray(points_mm, dtype=np.float64)
+        axes = np.array([self.right, self.up, self.backwards])
+        seen = points @ axes.T
+        low, high = seen.min(axis=0), seen.max(axis=0)
+        half = 0.5 * margin * float((high - low)[:2].max())
+        half = min(max(half, SMALLEST_MM), LARGEST_MM)
+        return replace(self, focus_mm=frozen(0.5 * (low + high) @ axes), half_mm=half)
+
+    def mm_per_px(self, size_px: tuple[int, int]) -> float:
+        """Size of a pixel at the focus [mm] in a view of this width and height."""
+        return 2.0 * self.half_mm / max(1, min(size_px))
+
+    def panned(self, right_px: float, down_px: float, size_px: tuple[int, int]) -> Orbit:
         """Move the patient with the mouse."""
-        mm = 2.0 * self.half_height_mm / max(1, height_px)
+        mm = self.mm_per_px(size_px)
         shift = -right_px * mm * self.right + down_px * mm * np.asarray(self.up)
         return replace(self, focus_mm=frozen(self.focus_mm + shift))
 
     def zoomed(self, factor: float) -> Orbit:
         """Make everything `factor` times larger."""
-        half = min(max(self.half_height_mm / factor, SMALLEST_MM), LARGEST_MM)
-        return replace(self, half_height_mm=half)
+        half = min(max(self.half_mm / factor, SMALLEST_MM), LARGEST_MM)
+        return replace(self, half_mm=half)
 
     def ray(
         self, x_px: float, y_px: float, size_px: tuple[int, int]
     ) -> tuple[FloatArray, FloatArray]:
         """Line of sight through a pixel: a point on it at the focus' depth, and its direction."""
         width, height = size_px
-        mm = 2.0 * self.half_height_mm / max(1, height)
+        mm = self.mm_per_px(size_px)
         across = (x_px - width / 2) * mm * self.right
         return self.focus_mm + across - (y_px - height / 2) * mm * self.up, -self.backwards

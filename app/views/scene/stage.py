@@ -103,7 +103,7 @@ class Stage:
             raise SceneError("the 3D view is closed: open it before rendering")
         self._skin.choose(moving)
         self._bone.choose(moving)
-        self._aim(orbit)
+        self._aim(orbit, size_px)
         width, height = size_px
         window.SetSize(width, height)
         window.Render()
@@ -113,12 +113,12 @@ class Stage:
         picture[:, :, 3] = 255
         return picture
 
-    def _aim(self, orbit: Orbit) -> None:
+    def _aim(self, orbit: Orbit, size_px: tuple[int, int]) -> None:
         camera = self._renderer.GetActiveCamera()
         camera.SetFocalPoint(*orbit.focus_mm)
         camera.SetPosition(*(orbit.focus_mm + EYE_DISTANCE_MM * orbit.backwards))
         camera.SetViewUp(*orbit.up)
-        camera.SetParallelScale(orbit.half_height_mm)
+        camera.SetParallelScale(0.5 * size_px[1] * orbit.mm_per_px(size_px))
         camera.SetClippingRange(1.0, 2.0 * EYE_DISTANCE_MM)
 
 

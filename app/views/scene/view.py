@@ -20,7 +20,9 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
+from app.core.arrays import FloatArray
 from app.core.transform import RigidTransform
+from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.views import theme
@@ -46,6 +48,9 @@ HOME_TURN_PX = (-50.0, 30.0)
 
 ZOOM_PER_PX, ZOOM_PER_NOTCH, NOTCH = 1.01, 1.15, 120
 
+STANDS_MM = 1.0
+"""The home view is fitted anew when the robot's base moved more than this in the patient."""
+
 
 class SceneView(QWidget):
     """Surfaces, robot, needle and plan in 3D.
@@ -67,6 +72,8 @@ class SceneView(QWidget):
         self._image = QImage()
         self._home = Orbit.look_from("A", np.zeros(3), 250.0)
         self.orbit = self._home
+        self._body: FloatArray = _box(np.zeros((1, 3)))
+        self._robot: FloatArray | None = None
         self.note = ""
         self._turned_at = self._fine_at = -SETTLE_S
         self._fine, self._pending = False, False
@@ -80,15 +87,17 @@ class SceneView(QWidget):
     def set_volume(self, volume: Volume) -> None:
         """Look at another patient; the old surfaces go."""
         corners = volume.lps_mm(np.array([(0, 0, 0), volume.size]) - 0.5)
-        extent = float(np.abs(corners[1] - corners[0]).max())
-        front = Orbit.look_from("A", corners.mean(axis=0), 0.55 * extent)
-        self._home = front.turned(*HOME_TURN_PX)
-        self.set_surfaces(None)
+        self._body, self._robot = _box(corners), None
+        self._change("surfaces", lambda stage: stage.set_surfaces(None))
+        self._fit_home()
         self.set_orbit(self._home)
 
     def set_surfaces(self, surfaces: Surfaces | None) -> None:
         """Show skin and bone."""
         self._change("surfaces", lambda stage: stage.set_surfaces(surfaces))
+        if surfaces is not None and len(surfaces.skin.points):
+            self._body = _box(surfaces.skin.points.astype(np.float64))
+            self._fit_home()
 
     def set_plan(self, draft: DraftPlan) -> None:
         """Show entry, target and path."""
@@ -101,6 +110,25 @@ class SceneView(QWidget):
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
         """Show the robot, placed under the patient."""
         self._change("robot", lambda stage: stage.set_robot(robot, T_patient_world))
+        if robot is None:
+            return
+        rods = np.array([point for rod in robot.links() for point in rod])
+        points = (T_patient_world @ rods) / MILLIMETRE
+        if self._robot is None or np.abs(points[:2] - self._robot[:2]).max() > STANDS_MM:
+            self._robot = points
+            self._fit_home()
+
+    def _fit_home(self) -> None:
+        """Let the home view show patient and robot whole; go there, unless one looks elsewhere."""
+        was_home = self.orbit is self._home
+        points = self._body if self._robot is None else np.vstack([self._body, self._robot])
+        front = Orbit.look_from("A", points.mean(axis=0), 1.0).turned(*HOME_TURN_PX)
+        self._home = front.fitted(points)
+        if was_home:
+            self.set_orbit(self._home)
+
+    def _size(self) -> tuple[int, int]:
+        return self.width(), self.height()
 
     def set_orbit(self, orbit: Orbit) -> None:
         """Look from somewhere else."""
@@ -186,7 +214,7 @@ class SceneView(QWidget):
         if buttons & Qt.MouseButton.LeftButton:
             self.set_orbit(self.orbit.turned(step.x(), step.y()))
         elif buttons & Qt.MouseButton.MiddleButton:
-            self.set_orbit(self.orbit.panned(step.x(), step.y(), self.height()))
+            self.set_orbit(self.orbit.panned(step.x(), step.y(), self._size()))
         elif buttons & Qt.MouseButton.RightButton:
             self.set_orbit(self.orbit.zoomed(ZOOM_PER_PX ** -step.y()))
 
@@ -195,7 +223,7 @@ class SceneView(QWidget):
         moved = (event.position() - self._pressed).manhattanLength()
         if event.button() is Qt.MouseButton.LeftButton and moved < 4:
             at = event.position()
-            self.clicked.emit(*self.orbit.ray(at.x(), at.y(), (self.width(), self.height())))
+            self.clicked.emit(*self.orbit.ray(at.x(), at.y(), self._size()))
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Ask to be maximised, or restored."""
@@ -220,3 +248,9 @@ class SceneView(QWidget):
         """Stop the thread with the pane."""
         self.close_renderer()
         super().closeEvent(event)
+
+
+def _box(points_mm: FloatArray) -> FloatArray:
+    """Eight corners of the box around points, shape (8, 3)."""
+    low, high = points_mm.min(axis=0), points_mm.max(axis=0)
+    return np.array([np.where(bits, high, low) for bits in np.ndindex(2, 2, 2)])
