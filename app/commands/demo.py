@@ -56,6 +56,7 @@ def _show(ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: Ski
     from app.core.errors import AcusError
     from app.imaging.errors import ImagingError
     from app.views.application import start
+    from app.views.collector import collect_for
     from app.views.demonstration import Demonstration, Script
     from app.views.window import MainWindow
 
@@ -65,6 +66,7 @@ def _show(ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: Ski
     sessions = None if out is None else out / "sessions"
     window = MainWindow(Desktop(skill.value, seed, sessions))
     script = Script(ct=ct, pictures=out)
+    collector = collect_for(window)
     show = Demonstration(window, script)
     failures: list[str] = []
     show.told.connect(lambda text: typer.echo(f"{text} …"))
@@ -78,6 +80,7 @@ def _show(ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: Ski
     show.start()
     code = application.exec()
     window.close()
+    collector.close()
     if failures and hidden:
         raise AcusError(failures[0])
     raise typer.Exit(code)

@@ -20,13 +20,17 @@ def run(
     """Open the trainer; the mouse moves a simulated hand."""
     from app.compose import Desktop
     from app.views.application import start
+    from app.views.collector import collect_for
     from app.views.window import MainWindow
 
     application = start()
     window = MainWindow(Desktop())
+    collector = collect_for(window)
     window.show()
     if exercise:
         window.begin_exercise(exercise)
     if ct is not None:
         window.open_ct.open_folder(ct)
-    raise typer.Exit(application.exec())
+    code = application.exec()
+    collector.close()
+    raise typer.Exit(code)

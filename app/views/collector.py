@@ -11,9 +11,12 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Callable
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QObject, QTimer
+
+if TYPE_CHECKING:
+    from app.views.window import MainWindow
 
 PERIOD_MS: Final = 2000
 """Young objects are collected this often: seldom enough that most have died without help."""
@@ -66,3 +69,11 @@ class Collector(QObject):
             self._timer.stop()
             gc.unfreeze()
             gc.enable()
+
+
+def collect_for(window: MainWindow) -> Collector:
+    """Return an open collector for a window; it settles whenever a robot was started."""
+    collector = Collector(lambda: window.editor.locked or window.progress.count > 0, window)
+    window.runs.ready.connect(lambda _: collector.settle())
+    collector.open()
+    return collector

@@ -4,17 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from app.core.arrays import frozen
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.series import Series
 from app.imaging.volume import Volume
+from app.mechanisms.profile import load_profile
+from app.planning.placement import Placement
 from app.planning.plan import Plan
+from app.planning.reach import reach
 
 if TYPE_CHECKING:
     from app.imaging.body import Body
+
+DEVICE: Final = "icube"
+"""Any device will do to load the kernels of the verdict."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,6 +61,7 @@ def load_phantom(seed: int, progress: Progress) -> Patient:
     known = anatomy(seed)
     plan = Plan(frozen(known.entry_mm), frozen(known.lesion_mm), f"phantom-{seed}")
     body = find_body(volume, progress.part(0.9, 1.0))
+    _load_verdict()
     return Patient(volume, body, f"Phantom {seed}", plan, phantom_seed=seed)
 
 
@@ -71,4 +78,15 @@ def read_patient(series: Series, folder: Path, progress: Progress) -> Patient:
 
     volume = read_series(series, progress.part(0.0, 0.85))
     body = find_body(volume, progress.part(0.85, 1.0))
+    _load_verdict()
     return Patient(volume, body, series.pseudonym, folder=folder)
+
+
+def _load_verdict() -> None:
+    """Load the kernels behind the verdict on a plan, by asking for two.
+
+    First called on the window's thread they would wait there for all that other threads compile.
+    """
+    profile = load_profile(DEVICE)
+    for entry in ((0.0, -50.0, 0.0), (50.0, -10.0, 0.0)):  # straight down, and too oblique
+        reach(Plan(frozen(entry), frozen((0.0, 0.0, 0.0))), Placement(), profile)

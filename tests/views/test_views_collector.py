@@ -1,10 +1,17 @@
 """Garbage collection that keeps nobody waiting."""
 
 import gc
+import weakref
 from collections.abc import Iterator
 
 import pytest
 
+from app.mechanisms.pantograph import kernels
+from app.mechanisms.profile import load_profile
+from app.planning.placement import PatientOrientation, Placement
+from app.planning.plan import Plan
+from app.planning.reach import reach
+from app.views import patient
 from app.views.collector import FULL_EVERY, Collector
 
 
@@ -69,8 +76,6 @@ def test_a_cycle_that_dies_is_collected(collector):
     class Node:
         pass
 
-    import weakref
-
     node = Node()
     node.me = node
     gone = weakref.ref(node)
@@ -86,3 +91,17 @@ def test_closing_gives_the_collection_back_and_is_idempotent(application):
     collector.close()
     assert gc.isenabled()
     assert gc.get_freeze_count() == 0
+
+
+def test_reading_a_patient_loads_the_verdict_so_that_the_window_never_compiles(application):
+    patient._load_verdict()
+    compiled = {
+        name: len(kernel.signatures)
+        for name, kernel in vars(kernels).items()
+        if hasattr(kernel, "signatures")
+    }
+    plan = Plan((-70.0, -110.0, 180.0), (-73.9, -25.5, 185.2))
+    for orientation in PatientOrientation:
+        reach(plan, Placement(orientation, (20.0, 0.0, 5.0)), load_profile("icube"))
+    assert compiled == {name: len(vars(kernels)[name].signatures) for name in compiled}
+    assert any(compiled.values())
