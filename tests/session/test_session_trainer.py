@@ -151,8 +151,8 @@ def test_a_fault_of_the_tracker_aborts_with_its_reason_and_other_news_do_not(ben
     assert bench.run(0.1).state is State.ALIGNING
     bench.tracker.events.put(Event(bench.clock.now(), "fault", "the tracker failed"))
     assert bench.run(0.02).reason == "the tracker failed"
-    messages = [event.message for event in bench.trainer.events.drain()]
-    assert {"before the attempt", "camera left was unplugged", "the tracker failed"} <= set(messages)
+    told = {event.message for event in bench.trainer.events.drain()}
+    assert {"before the attempt", "camera left was unplugged", "the tracker failed"} <= told
 
 
 def test_a_queue_shared_with_the_tracker_is_not_drained_in_circles(bench: Bench) -> None:
