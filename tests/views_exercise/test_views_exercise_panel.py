@@ -15,6 +15,7 @@ from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.readings import figures, problem, status_items, tracker_figures
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.status_items import (
+    LoopFigures,
     Verdict,
     age_text,
     depth_item,
@@ -126,10 +127,18 @@ def test_a_bar_without_a_limit_is_drawn(panel):
     assert not panel.readouts.force.grab().isNull()
 
 
+def test_deadlines_missed_long_ago_are_told_but_no_warning():
+    item = loop_item(LoopFigures(1000, 8e-5, 2e-4, 0.0, 1880, 60_000))
+    assert item.verdict is Verdict.GOOD
+    assert "1880 of 60000" in item.help
+    assert "0.0 % missed" in item.text
+
+
 def test_each_health_has_its_verdict():
-    assert loop_item(1000, 8e-5, 2e-4, 0, 1000).verdict is Verdict.GOOD
-    assert loop_item(1000, 3e-4, 2e-3, 0, 1000).verdict is Verdict.WARNING
-    assert loop_item(1000, 8e-5, 2e-3, 100, 1000).verdict is Verdict.BAD
+    assert loop_item(LoopFigures(1000, 8e-5, 2e-4, 0.0, 0, 1000)).verdict is Verdict.GOOD
+    assert loop_item(LoopFigures(1000, 3e-4, 2e-3, 0.0, 0, 1000)).verdict is Verdict.WARNING
+    assert loop_item(LoopFigures(1000, 8e-5, 2e-3, 0.01, 10, 1000)).verdict is Verdict.WARNING
+    assert loop_item(LoopFigures(1000, 8e-5, 2e-3, 0.1, 100, 1000)).verdict is Verdict.BAD
     assert encoder_item(0.001).verdict is Verdict.GOOD
     assert encoder_item(0.05).verdict is Verdict.WARNING
     assert encoder_item(0.15).verdict is Verdict.BAD
@@ -179,7 +188,7 @@ def test_the_residual_is_shown_only_where_there_is_one():
 
 def test_the_strip_shows_every_part_of_a_snapshot(qt):
     strip = StatusStrip()
-    items = status_items(snapshot(), 1000.0, 0.02)
+    items = status_items(snapshot(), 1000.0, 0.0, 0.02)
     strip.show_items(items)
     assert [item.title for item in items] == [
         "Robot loop", "Encoders", "Cameras", "Depth", "Heartbeat", "Recorder",

@@ -19,6 +19,7 @@ from app.views.exercise.rate_meter import RateMeter
 from app.views.exercise.readings import figures, hand_pose, pad_view, status_items, tracker_figures
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status import StatusStrip
+from app.views.exercise.status_items import MISSED_WINDOW
 from app.views.exercise.tracker_panel import TrackerPanel
 
 PERIOD_MS: Final = 25
@@ -69,7 +70,7 @@ class ExerciseController(QObject):
         self._ending = False
         self._beat = 0.0
         self._status_time = -1.0
-        self._rate = RateMeter()
+        self._forget_rates()
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.look)
         self._connect()
@@ -80,7 +81,7 @@ class ExerciseController(QObject):
         self.detach()
         self._run, self._seen = run, run.trainer.result
         self._beat = self._clock.now()
-        self._rate = RateMeter()
+        self._forget_rates()
         self._views.bullseye.set_scene(run.scene(), run.interactive)
         self._views.panel.set_ready(True)
         self._views.panel.set_assistance(run.trainer.snapshot().assistance)
@@ -136,13 +137,27 @@ class ExerciseController(QObject):
         view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
         if view is not None:
             views.bullseye.show_view(view)
-        rate = self._rate.read(now, snapshot.device.tick) if snapshot.device is not None else 0.0
+        rate, missing = self._loop_rates(snapshot, now)
         if views.tracker.due(now):
             pictures = tuple(run.pictures()) if run.pictures is not None else ()
             views.tracker.show_tracker(pictures, tracker_figures(snapshot), now)
         if now - self._status_time >= STATUS_PERIOD:
             self._status_time = now
-            views.status.show_items(status_items(snapshot, rate, late))
+            views.status.show_items(status_items(snapshot, rate, missing, late))
+
+    def _loop_rates(self, snapshot: Snapshot, now: float) -> tuple[float, float]:
+        """Ticks a second [Hz], and the share of deadlines missed in the last seconds."""
+        device, timing = snapshot.device, snapshot.timing
+        rate = self._rate.read(now, device.tick) if device is not None else 0.0
+        if timing is None:
+            return rate, 0.0
+        missed = self._missed.read(now, timing.missed)
+        due = self._due.read(now, timing.ticks + timing.missed)  # a missed deadline has no tick
+        return rate, missed / due if due > 0.0 else 0.0
+
+    def _forget_rates(self) -> None:
+        self._rate = RateMeter()
+        self._missed, self._due = RateMeter(MISSED_WINDOW), RateMeter(MISSED_WINDOW)
 
     def _drain(self, run: ExerciseRun) -> None:
         for event in run.trainer.events.drain():

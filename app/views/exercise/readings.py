@@ -17,6 +17,7 @@ from app.views.exercise.live import LiveFigures
 from app.views.exercise.pad_geometry import downward
 from app.views.exercise.pad_view import PadView
 from app.views.exercise.status_items import (
+    LoopFigures,
     StatusItem,
     depth_item,
     encoder_item,
@@ -82,18 +83,22 @@ def hand_pose(snapshot: Snapshot) -> HandPose | None:
     return HandPose(downward(x, y), depth, bool(holds))
 
 
-def status_items(snapshot: Snapshot, rate: float, heartbeat_age: float) -> tuple[StatusItem, ...]:
+def status_items(
+    snapshot: Snapshot, rate: float, missing: float, heartbeat_age: float
+) -> tuple[StatusItem, ...]:
     """Health of every part, for the status strip.
 
     Args:
         snapshot: newest state.
         rate: measured rate of the loop [Hz].
+        missing: share of its deadlines that it missed of late, 0…1.
         heartbeat_age: since the window's last sign of life [s].
     """
     device, timing, pose = snapshot.device, snapshot.timing, snapshot.pose
     items = []
     if timing is not None:
-        items.append(loop_item(rate, timing.median, timing.p99, timing.missed, timing.ticks))
+        loop = LoopFigures(rate, timing.median, timing.p99, missing, timing.missed, timing.ticks)
+        items.append(loop_item(loop))
     fault = int(device.fault) if device is not None else 0
     items.append(encoder_item(pose.orientation_age, fault_text(fault)))
     items.append(tracker_status(snapshot))

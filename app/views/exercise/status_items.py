@@ -10,6 +10,10 @@ from app.views.text import tr
 
 LATE_WARNING: Final = 0.2e-3
 """Median lateness [s] from which the loop is called late: the figure the loop has to keep."""
+MISSED_WINDOW: Final = 10.0
+"""The share of missed deadlines is that of so many last seconds."""
+MISSED_WARNING: Final = 0.001
+MISSED_BAD: Final = 0.05
 ENCODER_FADE: Final = 0.02
 ENCODER_ZERO: Final = 0.1
 TRACKER_FRESH: Final = 0.1
@@ -42,21 +46,42 @@ class StatusItem:
     help: str
 
 
-def loop_item(rate: float, median: float, p99: float, missed: int, ticks: int) -> StatusItem:
-    """Return the loop's health: rate [Hz], lateness [s], deadlines missed of `ticks` so far."""
-    share = missed / ticks if ticks > 0 else 0.0
+@dataclass(frozen=True, slots=True)
+class LoopFigures:
+    """How the loop keeps its time.
+
+    Attributes:
+        rate: ticks a second over the last second.
+        median, p99: lateness [s].
+        missing: share of the deadlines missed in the last `MISSED_WINDOW` seconds, 0…1.
+        missed: deadlines missed since the start, of `ticks` so far.
+    """
+
+    rate: float
+    median: float
+    p99: float
+    missing: float
+    missed: int
+    ticks: int
+
+
+def loop_item(figures: LoopFigures) -> StatusItem:
+    """Return the loop's health now; what it missed long ago stands in the help only."""
     verdict = Verdict.GOOD
-    if median > LATE_WARNING or share > 0.001:
+    if figures.median > LATE_WARNING or figures.missing > MISSED_WARNING:
         verdict = Verdict.WARNING
-    if share > 0.05:
+    if figures.missing > MISSED_BAD:
         verdict = Verdict.BAD
     text = tr(
-        "{rate:.0f} Hz · late {median:.2f} / {p99:.2f} ms · {missed} missed",
-        rate=rate, median=1e3 * median, p99=1e3 * p99, missed=missed,
+        "{rate:.0f} Hz · late {median:.2f} / {p99:.2f} ms · {missing:.1f} % missed",
+        rate=figures.rate, median=1e3 * figures.median, p99=1e3 * figures.p99,
+        missing=100.0 * figures.missing,
     )  # fmt: skip
     return StatusItem(verdict, tr("Robot loop"), text, tr(
-        "Rate of the force loop, its lateness (median / 99th percentile) and the deadlines it "
-        "missed. If it is late, close other programs; forces stay limited either way."
+        "Rate of the force loop, its lateness (median / 99th percentile) and the share of "
+        "deadlines it missed in the last {seconds:.0f} s; since the start it missed {missed} of "
+        "{ticks}. If it is late, close other programs; forces stay limited either way.",
+        seconds=MISSED_WINDOW, missed=figures.missed, ticks=figures.ticks,
     ))  # fmt: skip
 
 
