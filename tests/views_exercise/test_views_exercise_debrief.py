@@ -276,3 +276,21 @@ def test_a_stored_score_that_cannot_be_read_becomes_a_problem_line():
     assert shown.score is None
     assert "score" in shown.problems[0]
     assert shown.force_limit == 5.0
+
+
+def test_the_page_is_there_before_its_curves_and_each_plot_has_its_turn(qt):
+    view = CurvesView()
+    view.resize(900, 700)
+    turns = []
+    view.drawn.connect(lambda: turns.append(len(view._cursors)))
+    for _ in range(2):  # the second attempt reuses the plots
+        view.show_review(review())
+        assert len(view._cursors) == 0
+        for count in (1, 2, 3, 4):
+            view._draw_next()
+            assert len(view._cursors) == count
+        view._draw_next()
+    assert turns == [4, 4]
+    assert len(view._plots) == 4
+    assert not view.grab().isNull()
+    view.deleteLater()

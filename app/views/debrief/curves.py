@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QPointF, Qt
-from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtCore import QPointF, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QPen
+from PySide6.QtWidgets import QGraphicsRectItem, QLabel, QVBoxLayout, QWidget
 
 from app.core.arrays import FloatArray
 from app.views import theme
@@ -74,13 +74,25 @@ def curves_of(review: Review) -> tuple[Curve, ...]:
 
 
 class CurvesView(QWidget):
-    """Four plots under each other with one time axis; the pointer reads all of them at once."""
+    """Four plots under each other with one time axis; the pointer reads all of them at once.
+
+    The plots are drawn one after the other, each in its own turn of the event loop: the page is
+    there at once and a robot that is on does not miss the window's sign of life.
+
+    Signals:
+        drawn(): all plots show the attempt.
+    """
+
+    drawn = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._review: Review | None = None
         self._curves: tuple[Curve, ...] = ()
+        self._plots: list[pg.PlotItem] = []
         self._cursors: list[pg.InfiniteLine] = []
+        self._turn = QTimer(self, interval=0)
+        self._turn.timeout.connect(self._draw_next)
         self.readout = QLabel(self)
         self.readout.setProperty("role", "dim")
         self.graphics = pg.GraphicsLayoutWidget(self)
@@ -93,20 +105,36 @@ class CurvesView(QWidget):
         column.addWidget(self.graphics, 1)
 
     def show_review(self, review: Review) -> None:
-        """Draw an attempt."""
+        """Draw an attempt, from the next turn of the event loop on."""
         self._review, self._curves = review, curves_of(review)
         self._cursors = []
-        self.graphics.clear()
-        first: pg.PlotItem | None = None
-        for row, curve in enumerate(self._curves):
-            plot = self.graphics.addPlot(row=row, col=0)
-            _prepare(plot, curve, last=row == len(self._curves) - 1)
-            _shade(plot, review, curve, names=row == 0)
-            _draw(plot, review, curve)
-            self._cursors.append(_cursor(plot))
-            plot.setXLink(first) if first is not None else None
-            first = first or plot
+        for plot in self._plots:
+            plot.clear()
         self.readout.setText(tr("Point at the curves to read them."))
+        self._turn.start()
+
+    def _draw_next(self) -> None:
+        """Draw the plot whose turn it is."""
+        row, review = len(self._cursors), self._review
+        if review is None or row >= len(self._curves):
+            self._turn.stop()
+            self.drawn.emit()
+            return
+        curve = self._curves[row]
+        if row == len(self._plots):
+            self._plots.append(self._new_plot(row, curve))
+        plot = self._plots[row]
+        _shade(plot, review, curve, names=row == 0)
+        _draw(plot, review, curve)
+        self._cursors.append(_cursor(plot))
+
+    def _new_plot(self, row: int, curve: Curve) -> pg.PlotItem:
+        box = pg.ViewBox(enableMenu=False)  # the menus that nobody opens take most of the time
+        plot = self.graphics.addPlot(row=row, col=0, viewBox=box, enableMenu=False)
+        _prepare(plot, curve, last=row == len(self._curves) - 1)
+        if self._plots:
+            plot.setXLink(self._plots[0])
+        return plot
 
     def read_out(self, time: float) -> str:
         """Say all figures at a time [s]."""
@@ -179,15 +207,15 @@ def value_range(curve: Curve) -> tuple[float, float]:
 
 
 def _shade(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None:
+    low, high = value_range(curve)
     for span in review.spans:
-        region = pg.LinearRegionItem(
-            (span.start, span.end), movable=False, pen=pg.mkPen(None),
-            brush=QColor(PHASE_SHADES.get(span.state, theme.BACKGROUND)),
-        )  # fmt: skip
+        region = QGraphicsRectItem(span.start, low, span.end - span.start, high - low)
+        region.setPen(QPen(Qt.PenStyle.NoPen))
+        region.setBrush(QColor(PHASE_SHADES.get(span.state, theme.BACKGROUND)))
         region.setZValue(-20)
-        plot.addItem(region)
+        plot.addItem(region, ignoreBounds=True)
     if names:
-        _name(plot, review, *value_range(curve))
+        _name(plot, review, low, high)
 
 
 def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
