@@ -39,25 +39,29 @@ class Collector(QObject):
         """
         super().__init__(parent)
         self._busy = busy
-        self._since_full = 0
+        self._since_full, self._settled = 0, False
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.collect)
 
     def open(self) -> None:
         """Take over; what stands already, such as imported modules, is never walked again."""
         gc.disable()
-        self.settle()
+        gc.freeze()
         self._timer.start()
 
     def settle(self) -> None:
         """Leave all that stands now out of future collections: after something big was built."""
         gc.collect(_YOUNG)
         gc.freeze()
+        self._settled = True
 
     def collect(self) -> None:
-        """Collect what is young, and now and then everything, if nobody is kept waiting."""
+        """Collect what is young, and now and then everything, if nobody is kept waiting.
+
+        Before anything has settled, everything is new and a full walk is as long as it can be.
+        """
         self._since_full += 1
-        if self._since_full >= FULL_EVERY and not self._busy():
+        if self._settled and self._since_full >= FULL_EVERY and not self._busy():
             self._since_full = 0
             gc.collect(_ALL)
         else:

@@ -38,6 +38,7 @@ def busy() -> list[bool]:
 def collector(application, busy) -> Iterator[Collector]:
     collector = Collector(lambda: busy[0])
     collector.open()
+    collector.settle()
     yield collector
     collector.close()
 
@@ -57,6 +58,16 @@ def test_a_full_collection_waits_for_the_end_of_the_attempt(collector, busy, gen
     busy[0] = False
     collector.collect()
     assert generations[-1] == 2
+
+
+def test_nothing_is_walked_in_full_before_the_kernels_are_loaded(application):
+    fresh = Collector(lambda: False)
+    fresh.open()
+    young = gc.get_stats()[2]["collections"]
+    for _ in range(2 * FULL_EVERY):
+        fresh.collect()
+    assert gc.get_stats()[2]["collections"] == young
+    fresh.close()
 
 
 def test_full_collections_are_rare(collector, generations):

@@ -20,9 +20,6 @@ from app.views.slices.layers import CrosshairLayer, Labels, NeedleLayer, PlanLay
 from app.views.slices.plane import SlicePlane
 from app.views.slices.viewing import Viewing
 
-LINE_POINTS = 16
-"""Points of path and of needle that labels keep off, less one."""
-
 
 class Gestures(Protocol):
     """What the canvas hands its mouse events to."""
@@ -128,26 +125,16 @@ class SliceCanvas(pyqtgraph.GraphicsView):
 
     def _arrange_labels(self) -> None:
         """Put the names of the marks where they cover nothing and nothing cuts them."""
-        size = (float(self.viewport().width()), float(self.viewport().height()))
-        self._labels.arrange(size, self.pixel_at, self._line_points())
-
-    def _line_points(self) -> list[tuple[float, float]]:
-        """Points along path and needle [px] that labels keep off."""
         plane, draft, needle = self.plane, self.viewing.draft, self.viewing.needle
         if plane is None:
-            return []
-        ends = [] if needle is None else [(needle.start_mm, needle.tip_mm)]
+            return
+        lines = [] if needle is None else [(needle.start_mm, needle.tip_mm)]
         if draft.entry_mm is not None and draft.target_mm is not None:
-            ends.append((np.asarray(draft.entry_mm), np.asarray(draft.target_mm)))
-        points: list[tuple[float, float]] = []
-        for start, end in ends:
-            a, b = (plane.point(point, self.index) for point in (start, end))
-            first, last = self.pixel_at(a.x, a.y), self.pixel_at(b.x, b.y)
-            shares = np.linspace(0.0, 1.0, LINE_POINTS + 1)
-            across = first.x() + shares * (last.x() - first.x())
-            down = first.y() + shares * (last.y() - first.y())
-            points += list(zip(across.tolist(), down.tolist(), strict=True))
-        return points
+            lines.append((np.asarray(draft.entry_mm), np.asarray(draft.target_mm)))
+        places = [[plane.point(point, self.index) for point in line] for line in lines]
+        ends = [(self.pixel_at(a.x, a.y), self.pixel_at(b.x, b.y)) for a, b in places]
+        size = (float(self.viewport().width()), float(self.viewport().height()))
+        self._labels.arrange(size, self.pixel_at, ends)
 
     # --- pan and zoom -------------------------------------------------------------------------
     def fit(self) -> None:

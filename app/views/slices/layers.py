@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+import numpy as np
 from PySide6.QtCore import QPointF
 from PySide6.QtGui import QPen
 from PySide6.QtWidgets import QGraphicsScene
@@ -20,6 +21,7 @@ from app.views.text import tr
 from app.views.theme import Mark
 
 FADED = 0.75
+LINE_POINTS = 24
 PLANE_MARKS = {
     View.AXIAL: theme.AXIAL,
     View.SAGITTAL: theme.SAGITTAL,
@@ -139,19 +141,20 @@ class Labels:
 
     def __init__(self, marks: tuple[MarkItem, ...]) -> None:
         self._marks = marks
+        self._arranged: tuple[object, ...] = ()
 
     def arrange(
         self,
         size_px: tuple[float, float],
         pixel_at: Callable[[float, float], QPointF],
-        lines: Sequence[tuple[float, float]],
+        lines: Sequence[tuple[QPointF, QPointF]],
     ) -> None:
-        """Give every label its place.
+        """Give every label its place, unless nothing has moved by a pixel.
 
         Args:
             size_px: of the pane.
             pixel_at: pixel of a plane point [mm].
-            lines: points [px] that labels keep off.
+            lines: ends [px] of lines that labels keep off.
         """
         shown = [
             (mark, at, want)
@@ -160,9 +163,23 @@ class Labels:
             for want in [mark.wanted(at)]
             if want is not None
         ]
-        places = arrange([want for _, _, want in shown], size_px, lines)
+        state = (size_px, [end.toPoint() for line in lines for end in line],
+                 [(mark, at.toPoint(), want.width) for mark, at, want in shown])  # fmt: skip
+        if state == self._arranged:
+            return
+        self._arranged = state
+        points = [point for line in lines for point in _along(*line)]
+        places = arrange([want for _, _, want in shown], size_px, points)
         for (mark, at, _), place in zip(shown, places, strict=True):
             mark.place_label(at, place)
+
+
+def _along(start: QPointF, end: QPointF) -> list[tuple[float, float]]:
+    """Points on a line, near enough to each other that no label slips between them."""
+    shares = np.linspace(0.0, 1.0, LINE_POINTS)
+    across = start.x() + shares * (end.x() - start.x())
+    down = start.y() + shares * (end.y() - start.y())
+    return list(zip(across.tolist(), down.tolist(), strict=True))
 
 
 def _place_mark(item: MarkItem, at: PlanePoint | None, name: str, plane: SlicePlane) -> None:
