@@ -77,7 +77,7 @@ class Conductor(QObject):
         viewing.point_placed.connect(self._editor.place)
         scene.clicked.connect(self._click_in_scene)
         self._editor.changed.connect(self._show_plan)
-        self._editor.refused.connect(self.failed)
+        self._editor.refused.connect(lambda _: viewing.refuse_point())
         self._runs.ready.connect(self._attach)
         self._runs.moved.connect(self._moved)
         self._runs.gone.connect(self._detach)

@@ -1,15 +1,21 @@
-"""Errors and notes across the top of the window: they stop nothing and go when closed."""
+"""Errors and notes at the top of the window: they stop nothing and go when closed.
+
+Notes go by themselves after a while, and what was refused goes with the next change that works.
+"""
 
 from __future__ import annotations
 
 import traceback
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QMessageBox, QToolButton, QWidget
 
 from app.core.errors import AcusError
 from app.views import theme
 from app.views.text import tr
+
+NOTE_MS = 6000
+"""A note that something worked is shown this long."""
 
 LONGEST = 260
 """Characters shown in the bar; the rest stands in the details."""
@@ -22,6 +28,9 @@ class MessageBar(QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self._details = ""
+        self._refusal = False
+        self._note = QTimer(self, interval=NOTE_MS, singleShot=True)
+        self._note.timeout.connect(self.hide)
         self._symbol, self._text = QLabel(self), QLabel(self)
         self._text.setWordWrap(True)
         self._text.setTextFormat(Qt.TextFormat.PlainText)
@@ -33,7 +42,7 @@ class MessageBar(QWidget):
         self._more.clicked.connect(self.show_details)
         self._close.clicked.connect(self.hide)
         row = QHBoxLayout(self)
-        row.setContentsMargins(theme.MARGIN, 4, theme.SPACING, 4)
+        row.setContentsMargins(theme.MARGIN, 0, theme.SPACING, 0)
         row.addWidget(self._symbol)
         row.addWidget(self._text, 1)
         row.addWidget(self._more)
@@ -57,6 +66,17 @@ class MessageBar(QWidget):
     def show_note(self, text: str) -> None:
         """Tell that something worked."""
         self._show("good", text, "")
+        self._note.start()
+
+    def show_refusal(self, error: Exception | str) -> None:
+        """Tell why something was not done, until something is."""
+        self.show_error(error)
+        self._refusal = True
+
+    def forget_refusal(self) -> None:
+        """Hide a refusal: what the user did next was done."""
+        if self._refusal:
+            self.hide()
 
     def show_details(self) -> None:
         """Open a window with the whole message and where it comes from."""
@@ -66,6 +86,8 @@ class MessageBar(QWidget):
         box.open()
 
     def _show(self, verdict: str, text: str, details: str) -> None:
+        self._note.stop()
+        self._refusal = False
         colour, symbol = theme.VERDICTS[verdict]
         self._symbol.setText(symbol)
         self._symbol.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX}px;")

@@ -19,6 +19,7 @@ from app.views.debrief.page import DebriefPage
 from app.views.debrief.sessions import SessionsPage
 from app.views.menus import Menus
 from app.views.message_bar import MessageBar
+from app.views.notices import Notices
 from app.views.open_ct import OpenCt
 from app.views.patient import Patient
 from app.views.plan.editor import PlanEditor
@@ -62,6 +63,7 @@ class MainWindow(QMainWindow):
         self.exercises = {exercise.id: exercise for exercise in services.exercises()}
         self._lay_out()
         self.menus = Menus(self)
+        self.notices = Notices(self, (self.progress, self.message_bar))
         self._connect()
         self._restore()
         self.show_start()
@@ -181,8 +183,6 @@ class MainWindow(QMainWindow):
         column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
-        for widget in (self.message_bar, self.progress):
-            column.addWidget(widget)
         column.addWidget(self.pages, 1)
         self.setCentralWidget(centre)
         self.setAcceptDrops(True)
@@ -197,6 +197,8 @@ class MainWindow(QMainWindow):
             failure.connect(bar.show_error)
         for note in (self.plan_files.noted, self.debrief.saved):
             note.connect(bar.show_note)
+        self.editor.refused.connect(bar.show_refusal)
+        self.editor.changed.connect(bar.forget_refusal)
         self.open_ct.opened.connect(
             lambda patient: self.plan_files.after_question(lambda: self.show_patient(patient))
         )

@@ -87,7 +87,8 @@ class SliceGestures(QObject):
         drag, self._drag = self._drag, _Drag.NONE
         if drag is _Drag.POINT:
             self._started = False
-            self._canvas.viewing.set_tool(Tool.NAVIGATE)
+            if not self._canvas.viewing.point_refused:
+                self._canvas.viewing.set_tool(Tool.NAVIGATE)
         elif drag is _Drag.ZOOM and _length(event.position() - self._pressed) < CLICK_PX:
             self.menu_wanted.emit(event.globalPosition().toPoint())
 
@@ -146,6 +147,7 @@ class SliceGestures(QObject):
 
     def _place(self, position: QPointF) -> None:
         point = as_point(self._lps(position + self._offset))
+        self._canvas.viewing.point_refused = False
         self._canvas.viewing.point_placed.emit(self._point, point, not self._started)
         self._started = True
 

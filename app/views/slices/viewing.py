@@ -57,6 +57,7 @@ class Viewing(QObject):
         self.draft = DraftPlan()
         self.needle: NeedleOverlay | None = None
         self.follows_tip = False
+        self.point_refused = False
 
     def set_volume(self, volume: Volume) -> None:
         """Show another volume; the crosshair goes to its middle."""
@@ -98,6 +99,10 @@ class Viewing(QObject):
         if tool is not self.tool:
             self.tool = tool
             self.tool_changed.emit()
+
+    def refuse_point(self) -> None:
+        """Note that the point just placed was not taken: the tool stays for another try."""
+        self.point_refused = True
 
     def set_draft(self, draft: DraftPlan) -> None:
         """Show entry and target."""

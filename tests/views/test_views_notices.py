@@ -1,0 +1,92 @@
+"""Messages and progress: said without moving anything, gone when they are no longer true."""
+
+import pytest
+from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QMainWindow, QWidget
+
+from app.imaging.orthogonal import View
+from app.views.message_bar import MessageBar
+from app.views.notices import Notices
+from app.views.slices.pane import SlicePane
+from app.views.slices.presets import default_window
+from app.views.slices.viewing import Tool, Viewing
+
+
+@pytest.fixture
+def window(application, destroy):
+    window = QMainWindow()
+    destroy(window)
+    for name in ("File", "Edit", "View", "Sessions", "Help"):
+        window.menuBar().addMenu(name)
+    window.setCentralWidget(QWidget())
+    window.bar = MessageBar(window)
+    window.strip = QWidget(window)
+    window.strip.setMinimumHeight(30)
+    window.strip.hide()
+    window.notices = Notices(window, (window.strip, window.bar))
+    window.resize(1200, 700)
+    window.show()
+    application.processEvents()
+    return window
+
+
+def test_a_message_moves_nothing_and_leaves_the_menus_free(window, application):
+    before = window.centralWidget().geometry()
+    window.bar.show_error("the entry lies 11.1 mm outside the body; click within 10 mm of the skin")
+    window.strip.show()
+    application.processEvents()
+    assert window.notices.isVisible()
+    assert window.centralWidget().geometry() == before
+    menus = [window.menuBar().actionGeometry(action) for action in window.menuBar().actions()]
+    assert not any(window.notices.geometry().intersects(menu) for menu in menus)
+    assert window.notices.geometry().right() == window.width() - 1
+    text = window.bar._text
+    assert text.height() >= text.heightForWidth(text.width())
+
+
+def test_nothing_is_left_when_all_is_said(window, application):
+    window.bar.show_note("Saved plan.mrk.json")
+    window.bar.hide()
+    application.processEvents()
+    assert not window.notices.isVisible()
+
+
+def test_a_long_message_is_whole_on_more_lines(window, application):
+    window.bar.show_error("the folder is not readable " * 9)
+    application.processEvents()
+    assert window.notices.height() > 1.5 * window.bar._text.fontMetrics().height()
+    assert window.rect().contains(window.notices.geometry())
+
+
+def test_a_note_goes_by_itself_and_an_error_stays(window):
+    window.bar.show_note("Saved")
+    assert window.bar._note.isActive()
+    window.bar.show_error("cannot write")
+    assert not window.bar._note.isActive()
+
+
+def test_a_refusal_goes_with_the_next_change_and_an_error_does_not(window):
+    window.bar.show_refusal("too far from the skin")
+    window.bar.forget_refusal()
+    assert window.bar.isHidden()
+    window.bar.show_error("cannot write")
+    window.bar.forget_refusal()
+    assert not window.bar.isHidden()
+
+
+@pytest.mark.parametrize("refused", [True, False])
+def test_the_tool_stays_for_another_try_when_the_point_was_refused(volume, destroy, refused):
+    viewing = Viewing(default_window())
+    viewing.set_volume(volume)
+    pane = SlicePane(viewing, View.AXIAL)
+    destroy(pane)
+    pane.resize(400, 300)
+    viewing.set_volume(volume)
+    viewing.point_placed.connect(lambda *_: viewing.refuse_point() if refused else None)
+    viewing.set_tool(Tool.ENTRY)
+    at, left = QPointF(200, 150), Qt.MouseButton.LeftButton
+    none, kinds = Qt.KeyboardModifier.NoModifier, QEvent.Type
+    pane.canvas.mousePressEvent(QMouseEvent(kinds.MouseButtonPress, at, at, left, left, none))
+    pane.canvas.mouseReleaseEvent(QMouseEvent(kinds.MouseButtonRelease, at, at, left, left, none))
+    assert viewing.tool is (Tool.ENTRY if refused else Tool.NAVIGATE)
