@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QWidget
 
 from app.core import state_vector as sv
@@ -33,6 +34,10 @@ SETTLE_S: Final = 1.5
 """Time for the first picture in 3D after everything stands [s]."""
 
 TRAINEE_DONE: Final = 9.0
+
+
+class PictureError(AcusError, OSError):
+    """A picture cannot be written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +77,7 @@ class Demonstration(QObject):
         self._timer.timeout.connect(self._look)
         self._step: Callable[[], bool] = self._patient_is_open
         self._waited = self._settled_at = 0.0
-        self._taken: set[str] = set()
+        self._taken: dict[str, QPixmap] = {}
         self._result: AttemptResult | None = None
         window.conductor.controller.finished.connect(self._take_result)
         for failure in (
@@ -136,13 +141,11 @@ class Demonstration(QObject):
         if self._result is None or self._waited < 1.0:
             return False
         self._picture("5-debrief")
-        folder = self._script.pictures
-        if folder is not None:
-            write_report(review_of_result(self._result), folder / "report.pdf")
         self._window.show_sessions()
         self._picture("6-sessions")
         self._window.show_debrief()
         self._timer.stop()
+        self._write_pictures()
         self.finished.emit(self._result)
         return True
 
@@ -178,6 +181,7 @@ class Demonstration(QObject):
     def _stop(self, reason: object) -> None:
         if self._timer.isActive():
             self._timer.stop()
+            self._write_pictures()
             self.failed.emit(str(reason))
 
     def _take_result(self, result: AttemptResult) -> None:
@@ -190,6 +194,16 @@ class Demonstration(QObject):
     def _picture(self, name: str, widget: QWidget | None = None) -> None:
         if self._script.pictures is None or name in self._taken:
             return
-        self._taken.add(name)
-        self._script.pictures.mkdir(parents=True, exist_ok=True)
-        (widget or self._window).grab().save(str(self._script.pictures / f"{name}.png"))
+        self._taken[name] = (widget or self._window).grab()
+
+    def _write_pictures(self) -> None:
+        """Write at the end: compressing takes long enough to disturb the cameras."""
+        folder = self._script.pictures
+        if folder is None:
+            return
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, picture in self._taken.items():
+            if not picture.save(str(folder / f"{name}.png")):
+                raise PictureError(f"cannot write {folder / name}.png; is there room on the disk?")
+        if self._result is not None:
+            write_report(review_of_result(self._result), folder / "report.pdf")

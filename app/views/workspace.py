@@ -84,6 +84,8 @@ class Workspace(QWidget):
         cameras = QSplitter(Qt.Orientation.Vertical)
         cameras.addWidget(self.tracker_panel)
         cameras.addWidget(self.messages)
+        cameras.setStretchFactor(0, 3)
+        cameras.setStretchFactor(1, 1)
         tabs = QTabWidget(self)
         tabs.setFixedWidth(SIDE_WIDTH)
         tabs.addTab(_scrolled(self.plan_panel), tr("Plan"))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from app.views import theme
 from app.views.exercise.camera_view import CameraView
@@ -36,23 +36,20 @@ class TrackerFigures:
 
 
 class TrackerPanel(QWidget):
-    """Two pictures beside each other above one line of figures."""
+    """Two pictures, one above the other, and two lines of figures."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.cameras = (CameraView(self), CameraView(self))
         self._verdict, self._figures = QLabel(self), QLabel(self)
         self._shown = -1e9
-        pictures = QHBoxLayout()
-        for camera in self.cameras:
-            pictures.addWidget(camera)
-        line = QHBoxLayout()
-        line.addWidget(self._verdict, 1)
-        line.addWidget(self._figures)
         column = QVBoxLayout(self)
         column.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
-        column.addLayout(pictures, 1)
-        column.addLayout(line)
+        for camera in self.cameras:
+            column.addWidget(camera, 1)
+        for line in (self._verdict, self._figures):
+            line.setWordWrap(True)
+            column.addWidget(line)
 
     def due(self, now: float) -> bool:
         """Whether the pictures may be refreshed at `now` [s] and anybody would see it."""
