@@ -164,7 +164,7 @@ class Demonstration(QObject):
             self._picture("3-bullseye", workspace.bullseye)
             workspace.show_cameras()
 
-    # --- helpers --------------------------------------------------------------------------------
+    # --- around the steps -----------------------------------------------------------------------
     def _look(self) -> None:
         self._waited += PERIOD_MS * 1e-3
         try:

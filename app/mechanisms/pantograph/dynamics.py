@@ -6,7 +6,7 @@ there. Because P3 belongs to both arms, θ̇2 and θ̇2' are linear in q̇:
     θ̇2  = (a1/a2) [-s(2'-1) q̇1 + s(2'-1') q̇2] / s(2'-2)
     θ̇2' = (a1/a2) [ s(2-1) q̇1 -  s(2-1') q̇2] / s(2-2')
 
-and M = Sᵀ M_w S + m3 JᵀJ, h = Sᵀ(M_w Ṡq̇ + h_w) + m3 Jᵀ J̇q̇ (errata, "Closed-chain dynamics"). The
+and M = Sᵀ M_w S + m3 JᵀJ, h = Sᵀ(M_w Ṡq̇ + h_w) + m3 Jᵀ J̇q̇ (docs/errata.md). The
 links move in a horizontal plane: no gravity. The needle's own inertia is left out.
 
 Both kernels take the pose (q1, q2, x, y), the lengths (a1, a2, base) and the lumped inertias

@@ -17,7 +17,7 @@ P_u [N]; γ a force at P3 [N].
 - `felt_kernel(gx, gy, dx, dy, dz, l_in, l_out) -> (fx, fy, fz)`
 - `torque_kernel(gx, gy, jxl, jxr, jyl, jyr) -> (left, right)` and its inverse `tool_force_kernel`
 
-"Errata" numbers refer to the misprints of the thesis (docs/decisions).
+"Errata" entries: docs/errata.md.
 """
 
 from math import atan2, cos, isfinite, sin, sqrt
