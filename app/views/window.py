@@ -195,14 +195,15 @@ class MainWindow(QMainWindow):
         for failure in (self.open_ct.failed, conductor.failed, self.plan_files.failed,
                         self.debrief.failed, conductor.controller.failed):  # fmt: skip
             failure.connect(bar.show_error)
-        for note in (self.plan_files.noted, self.debrief.saved):
-            note.connect(bar.show_note)
+        self.plan_files.noted.connect(bar.show_note)
+        self.debrief.saved.connect(lambda path: bar.show_note(tr("Saved {name}", name=path)))
         self.editor.refused.connect(bar.show_refusal)
         self.editor.changed.connect(bar.forget_refusal)
         self.open_ct.opened.connect(
             lambda patient: self.plan_files.after_question(lambda: self.show_patient(patient))
         )
         conductor.patient_changed.connect(self._refresh)
+        conductor.patient_changed.connect(bar.hide)  # what went wrong before is over
         self.editor.changed.connect(self._refresh)
         self._connect_pages()
         panel = self.workspace.plan_panel

@@ -1,5 +1,6 @@
 from dataclasses import replace
 from math import inf, nan, radians
+from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import Qt
@@ -9,6 +10,7 @@ from views_exercise_fakes import snapshot, statistics
 from app.session.machine import State
 from app.tracking.fix import FixStatus
 from app.tracking.watch import CameraHealth, CameraState
+from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.hold_key import HOLD_MS
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.panel import ExercisePanel
@@ -204,3 +206,25 @@ def test_figures_split_the_distance_to_the_target_into_across_and_along():
     assert shown.force == pytest.approx(3.0)
     assert shown.lateral == pytest.approx(0.04 * 0.0499791693, rel=1e-6)
     assert shown.to_target > 0.0
+
+
+def test_a_guessed_depth_is_not_drawn(qt):
+    bar = DepthBar()
+    drawn = []
+    bar._paint_needle = lambda painter, tip: drawn.append(tip)
+    bar._paint_marks = lambda painter, scene: None
+    bar._scene = SimpleNamespace(
+        limits=SimpleNamespace(shallowest=-0.03), stop_depth=0.09, target_depth=0.08
+    )
+    for measured in (False, True):
+        bar.show_depth(0.05, measured, None)
+        bar.grab()
+    assert drawn == [bar.pixel(0.05)]
+
+
+def test_the_strip_keeps_its_height_while_there_is_nothing_to_say(qt):
+    strip = StatusStrip()
+    empty = max(strip.sizeHint().height(), strip.minimumHeight())
+    strip.show_items(status_items(snapshot(), 1000.0, 0.0, 0.02))
+    strip.layout().activate()
+    assert max(strip.sizeHint().height(), strip.minimumHeight()) == empty

@@ -15,7 +15,14 @@ from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.review import review_of_result
 from app.views.debrief.sessions import SessionsPage
-from app.views.debrief.sessions_model import DURATION, SCORE, STATE, STUDENT, score_text
+from app.views.debrief.sessions_model import (
+    DURATION,
+    SCORE,
+    STATE,
+    STUDENT,
+    SUMMARY_ROLE,
+    score_text,
+)
 
 
 def summary(name: str, **changes: object) -> Summary:
@@ -79,6 +86,15 @@ def test_a_broken_file_is_listed_with_the_reason_and_cannot_be_opened(page):
     assert page.delete_button.isEnabled()
     page._open(page.proxy.index(row, 0))
     assert "MCAP" in said[0]
+
+
+def test_a_filter_that_hides_all_leaves_the_columns_wide_enough(page):
+    widths = [page.table.columnWidth(column) for column in range(4)]
+    page.search.setText("nobody at all")
+    model = page.model
+    page.show_summaries([model.index(n, 0).data(SUMMARY_ROLE) for n in range(model.rowCount())])
+    page.search.clear()
+    assert [page.table.columnWidth(column) for column in range(4)] == widths
 
 
 def test_the_filter_looks_at_every_column(page):

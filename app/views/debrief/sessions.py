@@ -73,7 +73,14 @@ class SessionsPage(QWidget):
     def show_summaries(self, summaries: Sequence[Summary]) -> None:
         """Show these sessions."""
         self.model.set_summaries(summaries)
+        self._fit_columns()
         self._enable()
+
+    def _fit_columns(self) -> None:
+        """Fit the columns to all sessions, also to those that the filter hides now."""
+        self.proxy.setFilterFixedString("")
+        self.table.resizeColumnsToContents()
+        self.proxy.setFilterFixedString(self.search.text())
 
     def selected(self) -> list[Summary]:
         """Return the selected sessions, from the top."""
@@ -142,7 +149,7 @@ class SessionsPage(QWidget):
         table.verticalHeader().hide()
         table.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT)
         header = table.horizontalHeader()
-        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
         header.setSectionResizeMode(NOTE, QHeaderView.ResizeMode.Stretch)
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self.search.setPlaceholderText(tr("Filter by student, exercise, date, state…"))

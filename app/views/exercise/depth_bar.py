@@ -73,20 +73,22 @@ class DepthBar(QWidget):
     def _paint_depth(self, painter: QPainter) -> None:
         if self._depth is None:
             return
-        skin, tip = self.pixel(0.0), self.pixel(self._depth)
-        colour = theme.NEEDLE.qcolor(0.85 if self._measured else 0.35)
-        top = self.pixel(self.span[0])
+        if self._measured:  # a guess is never drawn as if the needle were there
+            self._paint_needle(painter, self.pixel(self._depth))
+        if self._hand is not None:
+            self._paint_hand(painter, self.pixel(self._hand))
+
+    def _paint_needle(self, painter: QPainter, tip: float) -> None:
+        skin, top = self.pixel(0.0), self.pixel(self.span[0])
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(theme.NEEDLE.qcolor(0.35))
         painter.drawRect(QRectF(10 + _COLUMN / 2 - 2, top, 4, min(skin, tip) - top))
-        painter.setBrush(colour)
+        painter.setBrush(theme.NEEDLE.qcolor(0.85))
         painter.drawRect(QRectF(10 + _COLUMN / 2 - 5, skin, 10, max(0.0, tip - skin)))
         painter.setPen(theme.NEEDLE_TIP.pen(2.0))
-        painter.setBrush(theme.NEEDLE_TIP.qcolor() if self._measured else QColor("#0e1114"))
+        painter.setBrush(theme.NEEDLE_TIP.qcolor())
         at = QPointF(10 + _COLUMN / 2, tip)
         painter.drawPolygon(QPolygonF([at + QPointF(-8, -8), at + QPointF(8, -8), at]))
-        if self._hand is not None:
-            self._paint_hand(painter, self.pixel(self._hand))
 
     def _paint_hand(self, painter: QPainter, y: float) -> None:
         painter.setPen(QPen(QColor(HAND_COLOUR), 1.5))

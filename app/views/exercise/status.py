@@ -1,12 +1,14 @@
 """The status strip: each part's health as symbol, words and colour."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from app.views import theme
-from app.views.exercise.status_items import StatusItem
+from app.views.exercise.status_items import StatusItem, Verdict
 from app.views.text import tr
 
 
@@ -20,18 +22,27 @@ class StatusStrip(QWidget):
         self._row.setContentsMargins(theme.MARGIN, 3, theme.MARGIN, 3)
         self._row.setSpacing(2 * theme.SPACING)
         self._row.addStretch(1)
+        # Its height is kept while there is nothing to say, so that the panes stay where they are.
+        cell = StatusCell(self)
+        cell.show_item(StatusItem(Verdict.IDLE, tr("Status"), tr("Status"), ""))
+        cell.ensurePolished()
+        self.setMinimumHeight(cell.sizeHint().height() + 6)
+        self._keep(cell)
+        cell.hide()
         self.setAccessibleName(tr("Status"))
 
     def show_items(self, items: Sequence[StatusItem]) -> None:
         """Show these items in this order."""
         while len(self._cells) < len(items):
-            cell = StatusCell(self)
-            self._row.insertWidget(len(self._cells), cell)
-            self._cells.append(cell)
+            self._keep(StatusCell(self))
         for i, cell in enumerate(self._cells):
             cell.setVisible(i < len(items))
             if i < len(items):
                 cell.show_item(items[i])
+
+    def _keep(self, cell: StatusCell) -> None:
+        self._row.insertWidget(len(self._cells), cell)
+        self._cells.append(cell)
 
 
 class StatusCell(QWidget):
