@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: setup demo run test check bench docs-pictures wheel clean
+.PHONY: setup demo run test by-hand check bench docs-pictures wheel clean
 
 setup: $(STAMP)  ## make .venv and install what the system lacks
 
@@ -23,6 +23,9 @@ run: setup  ## the trainer
 
 test: setup  ## the tests (no display and no network needed)
 	./tools/with-display $(BIN)/python -m pytest -q $(TEST)
+
+by-hand: setup  ## one insertion in the real window with mouse and keyboard, on an X server of its own
+	env -u DISPLAY ACUS_BY_HAND=1 ./tools/with-display $(BIN)/python -m pytest -q tests/display
 
 check: setup  ## style, types, structure
 	$(BIN)/ruff check .
