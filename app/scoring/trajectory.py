@@ -115,6 +115,22 @@ class Trajectory:
             raise MetricUnavailableError("the needle was never inserted")
         return found
 
+    def measured_stays(self) -> list[NDArray[np.intp]]:
+        """Samples with a measured depth of each stay in the body, in order; at least two a stay.
+
+        A path is measured through these: between them, where the cameras did not see the marker,
+        the tip is a guess and its jumps are not the student's.
+
+        Raises:
+            MetricUnavailableError: if there is no such stay.
+        """
+        stays = [np.arange(stay.start, stay.stop) for stay in self.insertions()]
+        seen = [stay[self.depth_valid[stay]] for stay in stays]
+        found = [stay for stay in seen if len(stay) >= 2]
+        if not found:
+            raise MetricUnavailableError("the depth of the tip was not measured in the body")
+        return found
+
     def final(self) -> int:
         """Index of the sample that the result is read from: the last one with a measured depth.
 

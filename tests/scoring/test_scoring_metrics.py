@@ -217,3 +217,21 @@ def test_a_tip_that_ends_where_it_entered_has_no_path_ratio() -> None:
     tip = np.tile(base.placed.p_entry, (len(base), 1))
     with pytest.raises(MetricUnavailableError, match=r"ended 0\.00 mm from where it entered"):
         value("path_ratio", Attempt().trajectory(tip=tip))
+
+
+@pytest.mark.parametrize("name", ["path_length", "path_length_raw", "path_ratio"])
+def test_a_guessed_tip_between_two_measured_ones_does_not_lengthen_the_path(name: str) -> None:
+    plain = Attempt().trajectory()
+    blind = np.zeros(len(plain.time), dtype=bool)
+    inside = np.flatnonzero(plain.inserted)
+    blind[inside[len(inside) // 3 : len(inside) // 2]] = True
+    tip = np.where(blind[:, None], plain.tip + 0.08 * plain.axis, plain.tip)
+    guessed = Attempt().trajectory(tip=tip, depth_valid=~blind)
+    assert value(name, guessed) == pytest.approx(value(name, plain), rel=0.02)
+
+
+def test_a_depth_that_was_never_measured_has_no_path() -> None:
+    plain = Attempt().trajectory()
+    unseen = Attempt().trajectory(depth_valid=np.zeros(len(plain.time), dtype=bool))
+    with pytest.raises(MetricUnavailableError, match="not measured"):
+        value("path_length", unseen)

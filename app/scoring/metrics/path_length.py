@@ -17,4 +17,4 @@ HIGHER_IS_BETTER = False
 def compute(trajectory: Trajectory) -> float:
     """Return the length [mm]."""
     time, tip = trajectory.time, trajectory.tip
-    return sum(smooth_length(time[s], tip[s]) for s in trajectory.insertions()) / MILLIMETRE
+    return sum(smooth_length(time[s], tip[s]) for s in trajectory.measured_stays()) / MILLIMETRE

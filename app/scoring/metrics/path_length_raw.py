@@ -15,4 +15,4 @@ HIGHER_IS_BETTER = False
 
 def compute(trajectory: Trajectory) -> float:
     """Return the length [mm]."""
-    return sum(raw_length(trajectory.tip[s]) for s in trajectory.insertions()) / MILLIMETRE
+    return sum(raw_length(trajectory.tip[s]) for s in trajectory.measured_stays()) / MILLIMETRE

@@ -16,7 +16,7 @@ SHORTEST = 1.0 * MILLIMETRE
 
 def compute(trajectory: Trajectory) -> float:
     """Return the ratio, 1 for a straight insertion; the length is that of `path_length`."""
-    last = trajectory.insertions()[-1]
+    last = trajectory.measured_stays()[-1]
     tip = trajectory.tip[last]
     straight = float(np.linalg.norm(tip[-1] - tip[0]))
     if straight < SHORTEST:

@@ -88,7 +88,8 @@ class Bullseye(QWidget):
         in_plane, out_of_plane = corrections(scene.frame, scene.frame.tilts(view.direction))
         self._in_plane.setText(in_plane)
         self._out_of_plane.setText(out_of_plane)
-        distance = remaining(view.depth, scene.target_depth, scene.depth_tolerance)
+        along = float((view.p_tip - scene.p_entry) @ scene.frame.axis)
+        distance = remaining(along, scene.target_depth, scene.depth_tolerance)
         # A guess is never said as if it were known.
         self._remaining.setText(distance if view.measured else "–")
         self._source.setText("" if view.measured else tr("◇ depth not measured now"))
