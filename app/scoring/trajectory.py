@@ -116,7 +116,7 @@ class Trajectory:
         return found
 
     def measured_stays(self) -> list[NDArray[np.intp]]:
-        """Samples with a measured depth of each stay in the body, in order; at least two a stay.
+        """Find the samples with a measured depth in each stay in the body, at least two a stay.
 
         A path is measured through these: between them, where the cameras did not see the marker,
         the tip is a guess and its jumps are not the student's.
