@@ -47,7 +47,7 @@ class Trajectory:
         depth: tip beyond the fulcrum along the axis [m], shape (n,).
         felt: force at the hub point after all limits [N], shape (n, 3).
         phase: state of the attempt, given as names (`aligning`, ...) or as `Phase`, shape (n,).
-        depth_valid: whether the depth was measured (not held or modelled), shape (n,).
+        depth_valid: whether the depth came from the cameras, at most 0.2 s ago, shape (n,).
         hub: hub point P_u, where the hand is [m], shape (n, 3); None if not recorded.
         guide: share of the virtual fixture in the force at the hub point [N], shape (n, 3); None if
             not recorded.

@@ -79,6 +79,8 @@ class Demonstration(QObject):
         self._waited = self._settled_at = 0.0
         self._taken: dict[str, QPixmap] = {}
         self._result: AttemptResult | None = None
+        self._drawn = False
+        window.debrief_page.curves.drawn.connect(self._note_drawn)
         window.conductor.controller.finished.connect(self._take_result)
         for failure in (
             window.open_ct.failed,
@@ -138,10 +140,15 @@ class Demonstration(QObject):
         return self._then("scoring", self._debrief_is_shown)
 
     def _debrief_is_shown(self) -> bool:
-        if self._result is None or self._waited < 1.0:
+        if self._result is None or not self._drawn:
             return False
         self._picture("5-debrief")
         self._window.show_sessions()
+        return self._then("listing the sessions", self._sessions_are_listed)
+
+    def _sessions_are_listed(self) -> bool:
+        if self._result is None or not self._window.sessions_page.model.rowCount():
+            return False
         self._picture("6-sessions")
         self._window.show_debrief()
         self._timer.stop()
@@ -185,7 +192,10 @@ class Demonstration(QObject):
             self.failed.emit(str(reason))
 
     def _take_result(self, result: AttemptResult) -> None:
-        self._result, self._waited = result, 0.0
+        self._result, self._waited, self._drawn = result, 0.0, False
+
+    def _note_drawn(self) -> None:
+        self._drawn = True
 
     def _snapshot(self) -> Snapshot | None:
         run = self._window.conductor.controller.run
