@@ -116,17 +116,17 @@ class Trajectory:
         return found
 
     def measured_stays(self) -> list[NDArray[np.intp]]:
-        """Find the samples with a measured depth in each stay in the body, at least two a stay.
+        """Find the samples with a measured depth in each stay in the body.
 
         A path is measured through these: between them, where the cameras did not see the marker,
         the tip is a guess and its jumps are not the student's.
 
         Raises:
-            MetricUnavailableError: if there is no such stay.
+            MetricUnavailableError: if there is none.
         """
         stays = [np.arange(stay.start, stay.stop) for stay in self.insertions()]
         seen = [stay[self.depth_valid[stay]] for stay in stays]
-        found = [stay for stay in seen if len(stay) >= 2]
+        found = [stay for stay in seen if len(stay)]
         if not found:
             raise MetricUnavailableError("the depth of the tip was not measured in the body")
         return found
