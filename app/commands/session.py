@@ -121,7 +121,12 @@ def _details(recording: Any, summary: dict[str, Any]) -> dict[str, Any]:
         "ticks": len(inputs.values),
         "ticks_lost": inputs.lost,
         "events": [
-            {"time_s": e.time, "kind": e.kind, "message": e.message, "data": dict(e.data)}
+            {
+                "time_s": e.time - recording.origin,
+                "kind": e.kind,
+                "message": e.message,
+                "data": dict(e.data),
+            }
             for e in recording.events
         ],
     }

@@ -1,6 +1,7 @@
 """A record read back: metadata, plan, events and arrays."""
 
 import json
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -79,6 +80,15 @@ class Recording:
     def id(self) -> str:
         """Session id."""
         return self.metadata.get("session", {}).get("id", self.path.stem)
+
+    @property
+    def origin(self) -> float:
+        """Monotonic time of the attempt's beginning [s], which events and samples are told from."""
+        try:
+            origin = float(self.metadata["session"]["origin_s"])
+        except (KeyError, ValueError):
+            origin = math.nan
+        return origin if math.isfinite(origin) else 0.0
 
     def trajectory(self) -> Trajectory:
         """Return the attempt as scoring wants it.

@@ -88,6 +88,7 @@ def test_show_takes_the_beginning_of_an_id(
     assert run(monkeypatch, "show", "20260115", "--json") == 0
     document = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert document["events"][0]["kind"] == "scan"
+    assert 0.0 <= document["events"][0]["time_s"] <= document["duration_s"]
     assert document["complete"] is True
     assert document["duration_s"] == 1.5
 
