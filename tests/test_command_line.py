@@ -42,3 +42,11 @@ def test_a_path_that_does_not_exist_is_one_line_and_exit_code_2(tmp_path):
     assert one_line(result.stderr)
     assert "nowhere" in result.stderr
     assert "Traceback" not in result.stderr
+
+
+def test_a_demonstration_on_a_folder_without_ct_is_refused_at_once(tmp_path):
+    (tmp_path / "note.txt").write_text("no CT here")
+    result = acus("demo", "--headless", "--ct", tmp_path, "--out", tmp_path / "out")
+    assert result.returncode == 2
+    assert one_line(result.stderr)
+    assert "note.txt" in result.stderr

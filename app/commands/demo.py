@@ -54,14 +54,15 @@ def demo(
 def _show(ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: SkillName) -> None:
     from app.compose import Desktop
     from app.core.errors import AcusError
-    from app.imaging.errors import ImagingError
+    from app.imaging.reading import choose
+    from app.imaging.scanning import scan_folder
     from app.views.application import start
     from app.views.collector import collect_for
     from app.views.demonstration import Demonstration, Script
     from app.views.window import MainWindow
 
-    if ct is not None and not ct.is_dir():
-        raise ImagingError(f"there is no folder {ct}; give the folder of a CT series")
+    if ct is not None:
+        choose(scan_folder(ct))  # says here what a dialog would have to ask
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
     window = MainWindow(Desktop(skill.value, seed, sessions))
