@@ -46,6 +46,10 @@ class DepthSource(StrEnum):
     NONE = "none"
 
 
+FROM_CAMERAS: Final = (DepthSource.TRACKED, DepthSource.HELD)
+"""Depths that the cameras vouch for: of now, or bridged for at most `HOLD_LIMIT`."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class NeedlePose:
     """Pose of the needle in `world`, SI, always finite.
@@ -78,7 +82,7 @@ class NeedlePose:
     @property
     def measured(self) -> bool:
         """Whether the cameras vouch for the depth."""
-        return self.valid and self.depth_source in (DepthSource.TRACKED, DepthSource.HELD)
+        return self.valid and self.depth_source in FROM_CAMERAS
 
 
 def fuse(

@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -11,12 +11,9 @@ from app.scoring.result import Score
 from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
 from app.session.errors import SessionError
-from app.session.needle import DepthSource
+from app.session.needle import FROM_CAMERAS
 from app.session.ports import ExercisePort
 from app.session.samples import Samples
-
-_MEASURED: Final = (DepthSource.TRACKED.value, DepthSource.HELD.value)
-"""Depths that come from the cameras: of now, or bridged for at most 0.2 s."""
 
 
 def trajectory(samples: Samples, placed: PlacedPlan, aborted: str = "") -> Trajectory:
@@ -46,7 +43,7 @@ def trajectory(samples: Samples, placed: PlacedPlan, aborted: str = "") -> Traje
         depth=samples.depth[keep],
         felt=np.nan_to_num(samples.felt[keep], nan=0.0),
         phase=samples.state[keep],  # type: ignore[arg-type]  # names are taken as well as codes
-        depth_valid=np.isin(samples.depth_source[keep], _MEASURED),
+        depth_valid=np.isin(samples.depth_source[keep], FROM_CAMERAS),
         hub=hub if np.isfinite(hub).all() else None,
         guide=guide if np.isfinite(guide).all() else None,
         target_shift=target - placed.p_target if np.isfinite(target).all() else None,

@@ -17,7 +17,6 @@ from app.exercises.scene import device_of, plan_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.session.machine import RUNNING
-from app.session.needle import DepthSource
 from app.session.snapshot import Snapshot
 from app.views.background import Indicator, Task, run_in_background
 from app.views.exercise.controller import ExerciseController
@@ -215,10 +214,9 @@ class Conductor(QObject):
         self._editor_lock(snapshot)
         pose, transform = snapshot.pose, run.placed.T_world_patient
         length = run.profile.geometry.needle_length
-        measured = pose.valid and pose.depth_source in (DepthSource.TRACKED, DepthSource.HELD)
         # Without a measured depth only the line is known: it ends at the entry, grey.
-        p_end = pose.p_tip if measured else run.placed.p_entry
-        needle = NeedleOverlay.of_world(p_end, pose.axis, length, transform, measured)
+        p_end = pose.p_tip if pose.measured else run.placed.p_entry
+        needle = NeedleOverlay.of_world(p_end, pose.axis, length, transform, pose.measured)
         self._workspace.viewing.set_needle(needle)
         ends = np.concatenate([needle.start_mm, needle.tip_mm])
         if self._drawn is None or np.abs(ends - self._drawn).max() > SCENE_DEAD_BAND_MM:

@@ -17,6 +17,7 @@ from app.scoring.result import Score
 from app.scoring.trajectory import Phase
 from app.session.curves import Curves, curves
 from app.session.errors import SessionError
+from app.session.needle import FROM_CAMERAS
 from app.session.recording import Recording, read_recording
 from app.session.result import AttemptResult
 from app.session.summary import SCORE_FILE, derive
@@ -25,9 +26,6 @@ from app.views.exercise.pad_view import rings
 
 SHOWN_EVENTS: Final = ("scan", "fault", "abort")
 """Kinds of events that are marked on the curves."""
-
-MEASURED: Final = ("tracked", "held")
-"""Sources of a depth that the cameras vouch for."""
 
 DEVICE_FILE: Final = "device.json"
 """Attachment that holds the device profile."""
@@ -159,7 +157,7 @@ def review(recording: Recording) -> Review:
     """
     summary, placed = derive(recording), recording.placed_plan()
     samples = recording.samples
-    measured = np.isin(samples.depth_source, MEASURED)
+    measured = np.isin(samples.depth_source, FROM_CAMERAS)
     figures = only_measured(curves(samples, placed), measured)
     origin = float(samples.time[0]) if len(samples.time) else 0.0
     score, problem = _score(recording)
