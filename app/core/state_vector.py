@@ -18,7 +18,7 @@ from app.core.arrays import FloatArray
 _next = count()
 
 # --- inputs: written by other threads through the inbox -------------------------------------------
-ASSISTANCE: Final = next(_next)  # [-] 0 off ... 1 full guidance
+ASSISTANCE: Final = next(_next)  # [-] 1 full guidance ... 0 nothing ... -1 full repulsion
 ENABLED: Final = next(_next)  # [-] 1 while forces are armed
 HEARTBEAT: Final = next(_next)  # [s] monotonic time of the window's last sign of life
 PATH_X: Final = next(_next)  # [-] wanted needle direction, hub to tip, unit vector
@@ -34,6 +34,13 @@ HAND_X: Final = next(_next)  # [-] x of the needle direction that the simulated 
 HAND_Y: Final = next(_next)  # [-] y of it
 HAND_DEPTH: Final = next(_next)  # [m] depth that the simulated hand wants
 HAND_HOLDS: Final = next(_next)  # [-] 1 while the simulated hand holds the needle
+HOMED: Final = next(_next)  # [-] 1 once encoders are homed and signs checked in this power cycle
+FORCE_CAP: Final = next(_next)  # [N] largest force at the hand that this device is cleared for
+TEST_X: Final = next(_next)  # [N] force at the hub point that a service routine asks for
+TEST_Y: Final = next(_next)
+TEST_Z: Final = next(_next)
+TEST_LEFT: Final = next(_next)  # [N·m] joint torques that a service routine asks for
+TEST_RIGHT: Final = next(_next)
 INPUTS: Final = next(_next)  # number of input slots (and a spare slot)
 
 # --- time -----------------------------------------------------------------------------------------
@@ -46,6 +53,16 @@ TICK_COST: Final = next(_next)  # [s] time that the stages of this tick took; 0 
 INPUT_FAULT: Final = next(
     _next
 )  # [-] number of inputs that were not finite and kept their last value
+
+# --- the wire: written by a link's read stages --------------------------------------------------
+LINK_STATUS: Final = next(_next)  # [-] 0 fine, else a `device.links.link.LinkStatus`
+LINK_REPLIES: Final = next(_next)  # [-] whole replies received so far
+LINK_ERRORS: Final = next(_next)  # [-] frames dropped for a wrong checksum or length so far
+LINK_LOST: Final = next(_next)  # [-] commands that were never answered so far
+ROUND_TRIP: Final = next(_next)  # [s] from command to its answer, newest
+BOARD_ERROR: Final = next(_next)  # [-] error that the board reports, 0 = none
+GAUGE: Final = next(_next)  # [-] 1 while the board measures the force, else 0
+GAUGE_FORCE: Final = next(_next)  # [N] force at the hub that its gauge measures, across the needle
 
 # --- encoders and kinematics ----------------------------------------------------------------------
 Q_LEFT: Final = next(_next)  # [rad] joint angles as the encoders give them
@@ -80,6 +97,7 @@ TIP_Y: Final = next(_next)
 TIP_Z: Final = next(_next)
 ANGLE_ERROR: Final = next(_next)  # [rad] between needle and path
 
+
 # --- forces ---------------------------------------------------------------------------------------
 FORCE_X: Final = next(_next)  # [N] wanted at the hub point: sum over force laws and effects
 FORCE_Y: Final = next(_next)
@@ -87,6 +105,10 @@ FORCE_Z: Final = next(_next)
 GUIDE_X: Final = next(_next)  # [N] the virtual fixture's share of it
 GUIDE_Y: Final = next(_next)
 GUIDE_Z: Final = next(_next)
+JOINT_LEFT: Final = next(_next)  # [N·m] joint torques wanted beside FORCE_*: compensation, service
+JOINT_RIGHT: Final = next(_next)
+POTENTIAL: Final = next(_next)  # [J] stored energy behind FORCE_*: sum over force laws and effects
+GAIN_WORK: Final = next(_next)  # [J] share of POTENTIAL that changes of gain added in this tick
 AXIAL_FORCE: Final = next(_next)  # [N] tissue on needle along the axis; positive pushes the tip out
 FELT_X: Final = next(_next)  # [N] at the hub point after all limits (estimated from torques)
 FELT_Y: Final = next(_next)
@@ -95,6 +117,13 @@ TORQUE_LEFT: Final = next(_next)  # [N·m] joint torques sent
 TORQUE_RIGHT: Final = next(_next)
 LIMIT_SCALE: Final = next(_next)  # [-] 1 when no limit acts, else the factor on both torques
 SAFETY_SCALE: Final = next(_next)  # [-] fade for stale encoders and arming ramp, 0...1
+LET_GO_SCALE: Final = next(_next)  # [-] factor of the speed governor, 1 while the hand is calm
+ENERGY_OUT: Final = next(_next)  # [J] let out at the motors' port since arming, negative: taken in
+ENERGY_TANK: Final = next(_next)  # [J] what may still be let out
+ENERGY_BOUND: Final = next(_next)  # [J] declared stored energy: the tank's size
+GUARD_SCALE: Final = next(_next)  # [-] factor of the passivity controller on both torques
+GUARD_DAMPING: Final = next(_next)  # [N·m·s/rad] damping that it adds
+GUARD_LOSS: Final = next(_next)  # [J] taken out by it since arming
 ARMING: Final = next(_next)  # [-] arming ramp, 0 disarmed ... 1 armed
 FAULT: Final = next(_next)  # [-] code of the fault that holds the force at zero, 0 = none
 

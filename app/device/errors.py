@@ -11,6 +11,10 @@ class LoopError(DeviceError):
     """The control loop is in the wrong state for the call, or has ended with an error."""
 
 
+class LinkError(DeviceError):
+    """Port, wire or board cannot be used; the message says how to mend it."""
+
+
 class UnknownInputError(DeviceError, KeyError):
     """A name that is not an input of the loop."""
 

@@ -17,6 +17,10 @@ class Fault(IntEnum):
     FORCE_NOT_FINITE = 7
     ENCODERS_STALE = 8
     HEARTBEAT_LOST = 9
+    LET_GO = 10
+    NOT_HOMED = 11
+    LINK_LOST = 12
+    BOARD_ERROR = 13
 
     @property
     def message(self) -> str:
@@ -36,4 +40,9 @@ _MESSAGES: Final = {
     Fault.FORCE_NOT_FINITE: "a force law or an effect gave no number; leave out the effect",
     Fault.ENCODERS_STALE: "the encoders have not been read for 100 ms; check the link to the robot",
     Fault.HEARTBEAT_LOST: "the window has given no sign of life for 1 s; it is busy or has ended",
+    Fault.LET_GO: "the needle ran away faster than a hand moves it; hold it and arm again",
+    Fault.NOT_HOMED: "the robot is not homed, or its signs are not checked, since it was switched"
+    " on; run the commissioning wizard or `acus device calibrate`",
+    Fault.LINK_LOST: "the robot does not answer; check cable and power, it is looked for again",
+    Fault.BOARD_ERROR: "the robot's board reports an error; see the robot's health panel",
 }

@@ -127,6 +127,52 @@ class FrictionSection(Section):
     viscous: NotNegative
 
 
+class MotorSection(Section):
+    """Motors and amplifiers, behind the board: what a torque is in amperes and volts.
+
+    Torque constant of the motor shaft [N·m/A], amplifier [A/V], largest current [A].
+    """
+
+    torque_constant: Positive
+    amplifier_gain: Positive
+    largest_current: Positive
+
+
+class MountingSection(Section):
+    """How the base stands: gravity in the robot's frame [m/s²]; (0, 0, -9.80665) upright."""
+
+    gravity: tuple[float, float, float]
+
+
+class Protocol(StrEnum):
+    """Language on the wire, see docs/protocol.md."""
+
+    ACUS = "acus"
+    HAPLY = "haply"
+
+
+class WireSection(Section):
+    """The serial line: protocol, speed [baud], time without commands until the board stops [ms]."""
+
+    protocol: Protocol
+    baud: Annotated[int, Field(ge=1200, le=12_000_000)]
+    watchdog_ms: Annotated[float, Field(gt=0.0, le=100.0)]
+
+
+class HaplySection(Section):
+    """Ports of a Haply board for (left, right): numbers, and whether counter-clockwise is positive.
+
+    Angles on its wire are in degrees; `encoder_offset_deg` are those at zero counts.
+    """
+
+    device_id: Annotated[int, Field(ge=0, le=255)]
+    motor_ports: tuple[int, int]
+    motor_ccw: tuple[bool, bool]
+    encoder_ports: tuple[int, int]
+    encoder_ccw: tuple[bool, bool]
+    encoder_offset_deg: tuple[float, float]
+
+
 class LoopSection(Section):
     """Rate of the control loop [Hz] and the directions in which the device can push."""
 
@@ -146,7 +192,11 @@ class DeviceProfile(Strict):
     fixture: FixtureSection
     inertia: InertiaSection
     friction: FrictionSection
+    motor: MotorSection
+    mounting: MountingSection
+    wire: WireSection
     loop: LoopSection
+    haply: HaplySection | None = None
 
     @property
     def pantograph(self) -> Geometry:

@@ -44,7 +44,7 @@ MODEL, TRACKED, HELD = 0, 1, 2
 
 @njit
 def _clear_forces(state: FloatArray) -> None:
-    for slot in range(sv.FORCE_X, sv.AXIAL_FORCE + 1):
+    for slot in range(sv.FORCE_X, sv.AXIAL_FORCE + 1):  # POTENTIAL and JOINT_* lie between them
         state[slot] = 0.0
 
 

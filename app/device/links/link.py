@@ -1,13 +1,25 @@
-"""What a link to a robot is to the loop: stages that bring angles in and carry torques out."""
+"""What a robot is to the rest of the program: stages for the loop, life and health for people."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable
 from dataclasses import dataclass
+from enum import IntEnum
 from typing import Any
 
 from app.core.arrays import FloatArray
 
 Triple = tuple[str, Any, FloatArray]
 """(name, compiled function, parameters): a stage of the tick."""
+
+
+class LinkStatus(IntEnum):
+    """Value of the slot `LINK_STATUS`: what the loop knows of its wire."""
+
+    FINE = 0
+    CONNECTING = 1
+    SILENT = 2
+    CLOSED = 3
+    WRONG_VERSION = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,3 +38,50 @@ class Link:
     def of(cls, read: Iterable[Triple], write: Iterable[Triple]) -> "Link":
         """Build a link from any two collections of stages."""
         return cls(tuple(read), tuple(write))
+
+
+@dataclass(frozen=True, slots=True)
+class BoardInfo:
+    """What a robot says about itself.
+
+    Attributes:
+        profile: name of the device profile that it was built for; empty if it does not say.
+        serial: its serial number; empty if it has none. Calibrations are kept by it.
+        firmware: version, for people.
+        protocol: version of the wire protocol that it speaks.
+        boot: number of its power cycle: homing and sign check count for one `boot` only.
+        gauge: whether it measures the force.
+        simulated: whether there is no hardware behind it.
+    """
+
+    profile: str
+    serial: str
+    firmware: str
+    protocol: str
+    boot: int
+    gauge: bool = False
+    simulated: bool = False
+
+
+class DeviceLink(ABC):
+    """A robot at the end of a wire, or in memory. `open` does I/O, `close` is idempotent."""
+
+    @abstractmethod
+    def open(self) -> None:
+        """Connect and learn who is there.
+
+        Raises:
+            LinkError: if nobody answers, or somebody else; says what to do.
+        """
+
+    @abstractmethod
+    def close(self) -> None:
+        """Let go of the wire; the loop has sent zero torque before."""
+
+    @abstractmethod
+    def stages(self) -> Link:
+        """Return the stages of the tick; they live as long as the link, across reconnections."""
+
+    @abstractmethod
+    def info(self) -> BoardInfo:
+        """Return who was found by the last successful `open` or reconnection."""
