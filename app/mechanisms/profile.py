@@ -11,6 +11,7 @@ from app.core import paths
 from app.core.arrays import frozen
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
+from app.mechanisms.dynamic_model import DynamicModel
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.inertia import LumpedInertia
 
@@ -222,6 +223,23 @@ class DeviceProfile(Strict):
             passive=part.distal_inertia + part.distal_mass * part.distal_centre**2,
             coupling=part.distal_mass * lengths.proximal * part.distal_centre,
             tool=part.tool_mass,
+            driven_moment=part.proximal_mass * part.proximal_centre
+            + part.distal_mass * lengths.proximal,
+            passive_moment=part.distal_mass * part.distal_centre,
+            needle_mass=part.needle_mass,
+            needle_inertia=part.needle_inertia,
+            needle_centre=part.needle_centre,
+        )
+
+    @property
+    def dynamic_model(self) -> DynamicModel:
+        """Constants of `pantograph.dynamics`: links, needle, gravity and joint friction."""
+        return DynamicModel(
+            self.pantograph,
+            self.lumped_inertia,
+            frozen(self.mounting.gravity),
+            self.friction.coulomb,
+            self.friction.viscous,
         )
 
     @property

@@ -1,8 +1,14 @@
 """The needle pantograph: a planar five-bar under a fulcrum that points a sliding needle."""
 
+from app.mechanisms.dynamic_model import DynamicModel
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.inertia import LumpedInertia
-from app.mechanisms.pantograph.dynamics import mass_matrix, velocity_terms
+from app.mechanisms.pantograph.dynamics import (
+    DynamicTerms,
+    dynamic_terms,
+    mass_matrix,
+    velocity_terms,
+)
 from app.mechanisms.pantograph.kinematics import WORKING_MODE, forward, inverse, jacobian
 from app.mechanisms.pantograph.statics import (
     ForceLaw,
@@ -24,12 +30,15 @@ from app.mechanisms.pantograph.system import (
 
 __all__ = [
     "WORKING_MODE",
+    "DynamicModel",
+    "DynamicTerms",
     "ForceLaw",
     "Geometry",
     "LengthMode",
     "LumpedInertia",
     "NeedleState",
     "Status",
+    "dynamic_terms",
     "felt_force",
     "force_map",
     "forward",

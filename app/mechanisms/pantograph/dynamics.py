@@ -1,64 +1,36 @@
-"""Closed-chain dynamics in the motor angles: M(q) q̈ + h(q, q̇) = τ, in closed form.
+"""Closed-chain dynamics in the motor angles: M(q) q̈ + h(q, q̇) + g(q) + friction(q̇) = τ.
 
-Two double pendulums (absolute link angles θ1, θ2 and θ1', θ2') joined at P3, with a point mass m3
-there. Because P3 belongs to both arms, θ̇2 and θ̇2' are linear in q̇:
+Links (`links`), mass at P3 and needle (`needle_dynamics`, at the depth given), in closed form. For
+compiled code (call them only where `jacobian_kernel` says `OK`, with (x, y) the tool point):
 
-    θ̇2  = (a1/a2) [-s(2'-1) q̇1 + s(2'-1') q̇2] / s(2'-2)
-    θ̇2' = (a1/a2) [ s(2-1) q̇1 -  s(2-1') q̇2] / s(2-2')
-
-and M = Sᵀ M_w S + m3 JᵀJ, h = Sᵀ(M_w Ṡq̇ + h_w) + m3 Jᵀ J̇q̇ (docs/errata.md). The
-links move in a horizontal plane: no gravity. The needle's own inertia is left out.
-
-Both kernels take the pose (q1, q2, x, y), the lengths (a1, a2, base) and the lumped inertias
-(`driven`, `passive`, `coupling`, `tool`) of `LumpedInertia.values`:
-
+- `dynamics_kernel(q1, q2, v1, v2, x, y, depth, depth_rate, p, first)
+  -> (m_left, m_cross, m_right, h_left, h_right, g_left, g_right)`: everything at once. `p[first:]`
+  are the values of a `DynamicModel` (`profile.dynamic_model.values`, MODEL_SIZE numbers that a
+  stage keeps in its own parameters). With `depth_rate` = 0 the Coriolis term of a sliding needle
+  is left out.
+- `friction_kernel(v, coulomb, viscous, smooth) -> torque`: opposes the motor, of the sign of v.
+- `axial_load_kernel(vx, vy, x, y, depth, p, first) -> force` along the needle, inwards [N].
 - `mass_matrix_kernel(q1, q2, x, y, a1, a2, base, driven, passive, coupling, tool)
-  -> (m_left, m_cross, m_right)`
-- `velocity_terms_kernel(q1, q2, v1, v2, x, y, a1, a2, base, driven, passive, coupling, tool)
-  -> (h_left, h_right)`
-
-They divide by s(2'-2): call them only where `jacobian_kernel` says `OK`.
+  -> (m_left, m_cross, m_right)` and
+  `velocity_terms_kernel(q1, q2, v1, v2, x, y, a1, a2, base, driven, passive, coupling, tool)
+  -> (h_left, h_right)`: links and mass at P3 only.
 """
 
-from math import cos, sin
+from dataclasses import dataclass
+from math import tanh
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.core.arrays import FloatArray
+from app.core.arrays import FloatArray, frozen
 from app.core.compiled import njit
+from app.mechanisms import dynamic_model as dm
+from app.mechanisms.dynamic_model import DynamicModel
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.inertia import LumpedInertia
-from app.mechanisms.pantograph import kernels
+from app.mechanisms.pantograph import kernels, links, needle_dynamics
 from app.mechanisms.pantograph.kinematics import forward, pair
 from app.mechanisms.pantograph.status import check
-
-
-@njit
-def _distal(
-    q1: float, q2: float, x: float, y: float, a1: float, a2: float, base: float
-) -> tuple[float, float, float, float]:
-    # Unit vectors along the distal links, from elbow to tool.
-    ux = (x - (a1 * cos(q1) - 0.5 * base)) / a2
-    uy = (y - a1 * sin(q1)) / a2
-    rx = (x - (a1 * cos(q2) + 0.5 * base)) / a2
-    ry = (y - a1 * sin(q2)) / a2
-    return ux, uy, rx, ry
-
-
-@njit
-def _rates(
-    q1: float, q2: float, ux: float, uy: float, rx: float, ry: float, a1: float, a2: float
-) -> tuple[float, float, float, float]:
-    # dθ2/dq and dθ2'/dq: (left by q1, left by q2, right by q1, right by q2).
-    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
-    gain = a1 / (a2 * (ry * ux - rx * uy))
-    return (
-        -gain * (ry * c1 - rx * s1),
-        gain * (ry * c1r - rx * s1r),
-        -gain * (uy * c1 - ux * s1),
-        gain * (uy * c1r - ux * s1r),
-    )
 
 
 @njit
@@ -75,21 +47,17 @@ def mass_matrix_kernel(
     coupling: float,
     tool: float,
 ) -> tuple[float, float, float]:
-    """Joint-space mass matrix [kg·m²]: (m_left, m_cross, m_right), symmetric positive definite."""
-    ux, uy, rx, ry = _distal(q1, q2, x, y, a1, a2, base)
-    ll, lr, rl, rr = _rates(q1, q2, ux, uy, rx, ry, a1, a2)
-    left = coupling * (ux * cos(q1) + uy * sin(q1))
-    right = coupling * (rx * cos(q2) + ry * sin(q2))
-    # J = dP2/dq + a2 t2 dθ2/dq, with P2 on the left arm.
-    jxl, jyl = -a1 * sin(q1) - a2 * uy * ll, a1 * cos(q1) + a2 * ux * ll
-    jxr, jyr = -a2 * uy * lr, a2 * ux * lr
-    m_left = driven + 2.0 * left * ll + passive * (ll * ll + rl * rl)
-    m_right = driven + 2.0 * right * rr + passive * (lr * lr + rr * rr)
-    m_cross = left * lr + right * rl + passive * (ll * lr + rl * rr)
+    """Mass matrix of links and tool [kg·m²]: (m_left, m_cross, m_right), positive definite."""
+    ux, uy, rx, ry = links.distal_kernel(q1, q2, x, y, a1, a2, base)
+    ll, lr, rl, rr = links.passive_rates_kernel(q1, q2, ux, uy, rx, ry, a1, a2)
+    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(q1, ux, uy, ll, lr, a1, a2)
+    left, cross, right = links.link_mass_kernel(
+        q1, q2, ux, uy, rx, ry, ll, lr, rl, rr, driven, passive, coupling
+    )
     return (
-        m_left + tool * (jxl * jxl + jyl * jyl),
-        m_cross + tool * (jxl * jxr + jyl * jyr),
-        m_right + tool * (jxr * jxr + jyr * jyr),
+        left + tool * (jxl * jxl + jyl * jyl),
+        cross + tool * (jxl * jxr + jyl * jyr),
+        right + tool * (jxr * jxr + jyr * jyr),
     )
 
 
@@ -109,32 +77,140 @@ def velocity_terms_kernel(
     coupling: float,
     tool: float,
 ) -> tuple[float, float]:
-    """Centrifugal and Coriolis torques h(q, q̇) [N·m]: (h_left, h_right)."""
-    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
-    ux, uy, rx, ry = _distal(q1, q2, x, y, a1, a2, base)
-    ll, lr, rl, rr = _rates(q1, q2, ux, uy, rx, ry, a1, a2)
-    w = ll * v1 + lr * v2
-    wr = rl * v1 + rr * v2
-    # Accelerations at q̈ = 0: P̈3 = k + a2 θ̈2 t2 = k' + a2 θ̈2' t2'.
-    kx, ky = -a1 * v1 * v1 * c1 - a2 * w * w * ux, -a1 * v1 * v1 * s1 - a2 * w * w * uy
-    krx, kry = -a1 * v2 * v2 * c1r - a2 * wr * wr * rx, -a1 * v2 * v2 * s1r - a2 * wr * wr * ry
-    scale = 1.0 / (a2 * (ry * ux - rx * uy))
-    alpha = scale * ((krx - kx) * rx + (kry - ky) * ry)
-    alpha_r = -scale * ((kx - krx) * ux + (ky - kry) * uy)
-    px, py = tool * (kx - a2 * alpha * uy), tool * (ky + a2 * alpha * ux)
-    cosine, sine = coupling * (ux * c1 + uy * s1), coupling * (uy * c1 - ux * s1)
-    cosine_r, sine_r = coupling * (rx * c1r + ry * s1r), coupling * (ry * c1r - rx * s1r)
-    swing = passive * alpha + sine * v1 * v1
-    swing_r = passive * alpha_r + sine_r * v2 * v2
-    jxl, jyl = -a1 * s1 - a2 * uy * ll, a1 * c1 + a2 * ux * ll
-    jxr, jyr = -a2 * uy * lr, a2 * ux * lr
-    h_left = cosine * alpha - sine * w * w + ll * swing + rl * swing_r + jxl * px + jyl * py
-    h_right = cosine_r * alpha_r - sine_r * wr * wr + lr * swing + rr * swing_r
-    return h_left, h_right + jxr * px + jyr * py
+    """Centrifugal and Coriolis torques of links and tool [N·m]: (h_left, h_right)."""
+    ux, uy, rx, ry = links.distal_kernel(q1, q2, x, y, a1, a2, base)
+    ll, lr, rl, rr = links.passive_rates_kernel(q1, q2, ux, uy, rx, ry, a1, a2)
+    w, wr = ll * v1 + lr * v2, rl * v1 + rr * v2
+    alpha, alpha_r, ax, ay = links.passive_acceleration_kernel(
+        q1, q2, v1, v2, ux, uy, rx, ry, w, wr, a1, a2
+    )
+    left, right = links.link_velocity_kernel(
+        q1, q2, v1, v2, ux, uy, rx, ry, ll, lr, rl, rr, alpha, alpha_r, passive, coupling
+    )
+    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(q1, ux, uy, ll, lr, a1, a2)
+    t_left, t_right = kernels.torque_kernel(tool * ax, tool * ay, jxl, jxr, jyl, jyr)
+    return left + t_left, right + t_right
+
+
+@njit
+def dynamics_kernel(
+    q1: float,
+    q2: float,
+    v1: float,
+    v2: float,
+    x: float,
+    y: float,
+    depth: float,
+    depth_rate: float,
+    p: FloatArray,
+    first: int,
+) -> tuple[float, float, float, float, float, float, float]:
+    """Mass matrix, velocity terms and gravity: (m_left, m_cross, m_right, h_, h_, g_, g_)."""
+    a1, a2, tool = p[first + dm.A1], p[first + dm.A2], p[first + dm.TOOL]
+    passive, coupling = p[first + dm.PASSIVE], p[first + dm.COUPLING]
+    gx, gy, gz = p[first + dm.GX], p[first + dm.GY], p[first + dm.GZ]
+    mass, inertia, s = (
+        p[first + dm.NEEDLE_MASS],
+        p[first + dm.NEEDLE_INERTIA],
+        depth + p[first + dm.NEEDLE_OFFSET],
+    )
+    ux, uy, rx, ry = links.distal_kernel(q1, q2, x, y, a1, a2, p[first + dm.BASE])
+    ll, lr, rl, rr = links.passive_rates_kernel(q1, q2, ux, uy, rx, ry, a1, a2)
+    w, wr = ll * v1 + lr * v2, rl * v1 + rr * v2
+    alpha, alpha_r, ax, ay = links.passive_acceleration_kernel(
+        q1, q2, v1, v2, ux, uy, rx, ry, w, wr, a1, a2
+    )
+    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(q1, ux, uy, ll, lr, a1, a2)
+    dx, dy, dz, l_in = kernels.axis_kernel(
+        x, y, p[first + dm.FX], p[first + dm.FY], p[first + dm.FZ]
+    )
+
+    m11, m12, m22 = links.link_mass_kernel(
+        q1, q2, ux, uy, rx, ry, ll, lr, rl, rr, p[first + dm.DRIVEN], passive, coupling
+    )
+    xx, xy, yy = needle_dynamics.needle_mass_kernel(dx, dy, l_in, s, mass, inertia)
+    n11, n12, n22 = links.at_joints_kernel(tool + xx, xy, tool + yy, jxl, jxr, jyl, jyr)
+
+    h1, h2 = links.link_velocity_kernel(
+        q1, q2, v1, v2, ux, uy, rx, ry, ll, lr, rl, rr, alpha, alpha_r, passive, coupling
+    )
+    vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
+    fx, fy = needle_dynamics.needle_velocity_kernel(
+        vx, vy, ax, ay, dx, dy, l_in, s, depth_rate, mass, inertia
+    )
+    i1, i2 = kernels.torque_kernel(tool * ax + fx, tool * ay + fy, jxl, jxr, jyl, jyr)
+
+    moment, moment_2 = p[first + dm.DRIVEN_MOMENT], p[first + dm.PASSIVE_MOMENT]
+    g1, g2 = links.link_gravity_kernel(
+        q1, q2, ux, uy, rx, ry, ll, lr, rl, rr, moment, moment_2, gx, gy
+    )
+    wx, wy = needle_dynamics.needle_gravity_kernel(gx, gy, gz, dx, dy, dz, l_in, s, mass)
+    k1, k2 = kernels.torque_kernel(wx - tool * gx, wy - tool * gy, jxl, jxr, jyl, jyr)
+    return m11 + n11, m12 + n12, m22 + n22, h1 + i1, h2 + i2, g1 + k1, g2 + k2
+
+
+@njit
+def axial_load_kernel(
+    vx: float, vy: float, x: float, y: float, depth: float, p: FloatArray, first: int
+) -> float:
+    """Force on the needle along its axis, inwards [N], at tool velocity (vx, vy)."""
+    dx, dy, dz, l_in = kernels.axis_kernel(
+        x, y, p[first + dm.FX], p[first + dm.FY], p[first + dm.FZ]
+    )
+    gx, gy, gz = p[first + dm.GX], p[first + dm.GY], p[first + dm.GZ]
+    s = depth + p[first + dm.NEEDLE_OFFSET]
+    return needle_dynamics.needle_axial_kernel(
+        vx, vy, gx, gy, gz, dx, dy, dz, l_in, s, p[first + dm.NEEDLE_MASS]
+    )
+
+
+@njit
+def friction_kernel(v: float, coulomb: float, viscous: float, smooth: float) -> float:
+    """Friction torque of a joint [N·m] at speed v [rad/s]: Coulomb smoothed by tanh, viscous."""
+    return coulomb * tanh(v / smooth) + viscous * v
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DynamicTerms:
+    """Terms of M q̈ + h + g + friction = τ at one state.
+
+    Attributes:
+        mass: M [kg·m²], shape (2, 2).
+        velocity: h(q, q̇) [N·m], shape (2,).
+        gravity: g(q) [N·m], shape (2,).
+        friction: of the joints [N·m], shape (2,).
+    """
+
+    mass: FloatArray
+    velocity: FloatArray
+    gravity: FloatArray
+    friction: FloatArray
+
+
+def dynamic_terms(
+    model: DynamicModel, q: ArrayLike, qd: ArrayLike, depth: float, depth_rate: float = 0.0
+) -> DynamicTerms:
+    """All terms at q [rad] and q̇ [rad/s], shapes (2,), needle tip at `depth` [m] moving along.
+
+    Raises:
+        MechanismError: where the pose does not exist or is singular.
+    """
+    q1, q2, x, y = _regular_pose(model.geometry, q)
+    v1, v2 = pair(qd, "qd")
+    m11, m12, m22, h1, h2, g1, g2 = dynamics_kernel(
+        q1, q2, v1, v2, x, y, depth, depth_rate, model.values, 0
+    )
+    how = model.coulomb, model.viscous, model.smooth_speed
+    return DynamicTerms(
+        mass=frozen([[m11, m12], [m12, m22]]),
+        velocity=frozen([h1, h2]),
+        gravity=frozen([g1, g2]),
+        friction=frozen([friction_kernel(v1, *how), friction_kernel(v2, *how)]),
+    )
 
 
 def mass_matrix(geometry: Geometry, inertia: LumpedInertia, q: ArrayLike) -> FloatArray:
-    """Mass matrix in the motor angles [kg·m²], shape (2, 2), at q [rad], shape (2,).
+    """Mass matrix of links and tool [kg·m²], shape (2, 2), at q [rad], shape (2,).
 
     Raises:
         MechanismError: where the pose does not exist or is singular.
@@ -147,15 +223,14 @@ def mass_matrix(geometry: Geometry, inertia: LumpedInertia, q: ArrayLike) -> Flo
 def velocity_terms(
     geometry: Geometry, inertia: LumpedInertia, q: ArrayLike, qd: ArrayLike
 ) -> FloatArray:
-    """Torques h(q, q̇) [N·m], shape (2,), at q [rad] and q̇ [rad/s], shapes (2,).
+    """Torques h(q, q̇) of links and tool [N·m], shape (2,), at q [rad] and q̇ [rad/s], shapes (2,).
 
     Raises:
         MechanismError: where the pose does not exist or is singular.
     """
     q1, q2, x, y = _regular_pose(geometry, q)
     v1, v2 = pair(qd, "qd")
-    links, lumps = geometry.links, inertia.values
-    return np.array(velocity_terms_kernel(q1, q2, v1, v2, x, y, *links, *lumps))
+    return np.array(velocity_terms_kernel(q1, q2, v1, v2, x, y, *geometry.links, *inertia.values))
 
 
 def _regular_pose(geometry: Geometry, q: ArrayLike) -> tuple[float, float, float, float]:
