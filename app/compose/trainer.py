@@ -125,6 +125,8 @@ def build_loop(setup: TrainerSetup, profile: DeviceProfile) -> Loop:
     table = loop_table(setup, profile)
     loop = Loop(table, profile.rate_hz, setup.clock, initial=initial)
     loop.inbox.write(hand_depth=START_DEPTH, hand_holds=1.0)
+    # The simulated robot knows its zero and its signs, and its forces are what they say.
+    loop.inbox.write(homed=1.0, force_cap=profile.limits.hand_force)
     return loop
 
 

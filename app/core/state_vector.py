@@ -118,6 +118,7 @@ TORQUE_RIGHT: Final = next(_next)
 LIMIT_SCALE: Final = next(_next)  # [-] 1 when no limit acts, else the factor on both torques
 SAFETY_SCALE: Final = next(_next)  # [-] fade for stale encoders and arming ramp, 0...1
 LET_GO_SCALE: Final = next(_next)  # [-] factor of the speed governor, 1 while the hand is calm
+LET_GO: Final = next(_next)  # [-] 1 once the needle has run away, until the forces are disarmed
 ENERGY_OUT: Final = next(_next)  # [J] let out at the motors' port since arming, negative: taken in
 ENERGY_TANK: Final = next(_next)  # [J] what may still be let out
 ENERGY_BOUND: Final = next(_next)  # [J] declared stored energy: the tank's size

@@ -65,6 +65,7 @@ def compiled_lateness(seconds: float, priority: Priority) -> tuple[FloatArray, i
             time.sleep(0.01)
         end = time.monotonic() + seconds
         while time.monotonic() < end:
+            loop.inbox.write(homed=1.0, force_cap=5.0)
             loop.inbox.write(enabled=1.0, assistance=1.0, path_z=-1.0, heartbeat=time.monotonic())
             time.sleep(0.05)
         rows = loop.rows()

@@ -41,7 +41,8 @@ def states() -> list[FloatArray]:
             GEOMETRY, GEOMETRY.fulcrum[:2] + reach
         )
         state[[sv.QD_LEFT, sv.QD_RIGHT]] = rng.uniform(-0.5, 0.5, 2)
-        state[[sv.ENABLED, sv.ASSISTANCE, sv.ARMING]] = 1.0
+        state[[sv.ENABLED, sv.ASSISTANCE, sv.ARMING, sv.HOMED]] = 1.0
+        state[sv.FORCE_CAP] = PROFILE.limits.hand_force
         state[[sv.PATH_X, sv.PATH_Z]] = np.sin(0.17), -np.cos(0.17)
         state[[sv.TIME, sv.Q_TIME, sv.HEARTBEAT, sv.TRACKED_TIME]] = 5.0
         state[sv.TRACKED_DEPTH], state[sv.DT] = 0.06, 1e-3

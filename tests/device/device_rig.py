@@ -76,6 +76,7 @@ class Rig:
         self.table: Table = pantograph_stages(PROFILE, laws, effects, link, force_law)
         self.clock = VirtualClock(10.0)
         self.loop = Loop(self.table, 1000.0, self.clock, initial=pose(tilt, azimuth))
+        self.write(homed=1.0, force_cap=HAND_LIMIT)
         self.beating = True
 
     def arm(self, **inputs: float) -> None:

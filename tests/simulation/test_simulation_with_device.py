@@ -42,6 +42,7 @@ def begin(assistance: float) -> FloatArray:
     for name, value in start.items():
         state[sv.INDEX[name]] = value
     state[sv.PATH_X : sv.PATH_Z + 1] = AXIS
+    state[sv.HOMED], state[sv.FORCE_CAP] = 1.0, PROFILE.limits.hand_force
     state[sv.ASSISTANCE], state[sv.ENABLED], state[sv.DT] = assistance, 1.0, 1e-3
     return state
 

@@ -9,9 +9,18 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.device.control.limits import (
+    cap,
+    fade,
+    inwards,
+    ramp,
+    slew_factor,
+    tilt_kernel,
+    torque_factor,
+)
 from app.device.control.vectors import shrink_kernel, snapped
 from app.device.faults import Fault
-from app.mechanisms.pantograph.kernels import felt_kernel, tool_force_kernel
+from app.mechanisms.pantograph.kernels import felt_kernel, tool_force_kernel, torque_kernel
 from app.mechanisms.pantograph.status import OK
 from app.mechanisms.profile import DeviceProfile
 
@@ -20,6 +29,10 @@ _INPUT_NOT_FINITE = int(Fault.INPUT_NOT_FINITE)
 _FORCE_NOT_FINITE = int(Fault.FORCE_NOT_FINITE)
 _ENCODERS_STALE = int(Fault.ENCODERS_STALE)
 _HEARTBEAT_LOST = int(Fault.HEARTBEAT_LOST)
+_LET_GO = int(Fault.LET_GO)
+_NOT_HOMED = int(Fault.NOT_HOMED)
+_LINK_LOST = int(Fault.LINK_LOST)
+_BOARD_ERROR = int(Fault.BOARD_ERROR)
 # Faults by kinematic status (see `mechanisms.pantograph.status`).
 _OF_STATUS = np.array(
     [
@@ -40,25 +53,16 @@ _OF_STATUS = np.array(
     _FADE_TO,
     _HEARTBEAT,
     _ARMING,
-) = range(6)
-
-
-@njit
-def fade(age: float, start: float, end: float) -> float:
-    """Factor on the force for data of an age [s]: 1 up to `start`, falling to 0 at `end`.
-
-    A time as far in the future comes from another clock, and counts like one in the past.
-    """
-    age = abs(age)
-    if not age < end:  # also for NaN
-        return 0.0
-    return 1.0 if age <= start else (end - age) / (end - start)
-
-
-@njit
-def ramp(previous: float, dt: float, duration: float, armed: bool) -> float:
-    """Arming factor: grows from 0 to 1 over `duration` [s] while armed, else 0 at once."""
-    return min(1.0, previous + max(dt, 0.0) / duration) if armed else 0.0
+    _SLEW,
+    _TILT,
+    _TILT_MARGIN,
+    _CHECK_FORCE,
+    _CHECK_TORQUE,
+    _LAST_LEFT,
+    _LAST_RIGHT,
+    _LATCHED,
+    _SIZE,
+) = range(15)
 
 
 @njit
@@ -79,6 +83,36 @@ def _data_fault(state: FloatArray) -> int:
 
 
 @njit
+def _latching_fault(state: FloatArray) -> int:
+    """Fault that is kept until the forces are disarmed."""
+    if state[sv.LINK_STATUS] != 0.0:
+        return _LINK_LOST
+    if state[sv.BOARD_ERROR] != 0.0:
+        return _BOARD_ERROR
+    return _LET_GO if state[sv.LET_GO] != 0.0 else 0
+
+
+@njit
+def _fault(state: FloatArray, p: FloatArray, armed: bool, freshness: float) -> int:
+    latching = _latching_fault(state)
+    if not armed:
+        p[_LATCHED] = 0.0
+    elif latching != 0:
+        p[_LATCHED] = latching
+    fault = latching if latching != 0 else int(p[_LATCHED])
+    if fault == 0:
+        fault = _data_fault(state)
+    if fault == 0 and freshness == 0.0:
+        fault = _ENCODERS_STALE
+    if fault == 0 and armed:
+        if not state[sv.HOMED] >= 0.25:
+            fault = _NOT_HOMED
+        elif not abs(state[sv.TIME] - state[sv.HEARTBEAT]) <= p[_HEARTBEAT]:
+            fault = _HEARTBEAT_LOST
+    return fault
+
+
+@njit
 def _drop_bad_forces(state: FloatArray) -> None:
     for slot in range(sv.FORCE_X, sv.AXIAL_FORCE + 1):
         if not isfinite(state[slot]):
@@ -86,33 +120,36 @@ def _drop_bad_forces(state: FloatArray) -> None:
 
 
 @njit
-def _send(state: FloatArray, left: float, right: float, p: FloatArray) -> None:
-    # Limits once more, on what is sent: torques by the joints' limit, the force felt by the hand's.
-    largest = max(abs(left), abs(right))
-    if largest > p[_TORQUE_LIMIT]:
-        left, right = left * p[_TORQUE_LIMIT] / largest, right * p[_TORQUE_LIMIT] / largest
-    status, gx, gy = tool_force_kernel(
-        left, right, state[sv.J_XL], state[sv.J_XR], state[sv.J_YL], state[sv.J_YR]
-    )
-    fx, fy, fz, scale = 0.0, 0.0, 0.0, 0.0
-    if status == OK:
-        fx, fy, fz = felt_kernel(
-            gx,
-            gy,
-            state[sv.AXIS_X],
-            state[sv.AXIS_Y],
-            state[sv.AXIS_Z],
-            state[sv.L_IN],
-            state[sv.L_OUT],
-        )
-        scale = shrink_kernel(fx, fy, fz, p[_HAND_LIMIT])
+def _send(state: FloatArray, p: FloatArray, left: float, right: float) -> None:
+    # Limits once more, on what is sent: the tilt limit's, the joints', the hand's, and the growth.
+    jxl, jxr, jyl, jyr = state[sv.J_XL], state[sv.J_XR], state[sv.J_YL], state[sv.J_YR]
+    status, gx, gy = tool_force_kernel(left, right, jxl, jxr, jyl, jyr)
+    if status != OK:
+        state[sv.LIMIT_SCALE] = 0.0
+        _hold_at_zero(state, p)
+        return
+    dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
+    tilt = tilt_kernel(dx, dy, dz)
+    if tilt > p[_TILT]:
+        gx, gy = inwards(gx, gy, dx, dy, tilt, p[_TILT], p[_TILT_MARGIN])
+        left, right = torque_kernel(gx, gy, jxl, jxr, jyl, jyr)
+    fx, fy, fz = felt_kernel(gx, gy, dx, dy, dz, state[sv.L_IN], state[sv.L_OUT])
+    homed = state[sv.HOMED]
+    torque_limit = p[_TORQUE_LIMIT] if homed >= 1.0 else min(p[_TORQUE_LIMIT], p[_CHECK_TORQUE])
+    hand_limit = cap(p[_HAND_LIMIT], state[sv.FORCE_CAP], homed, p[_CHECK_FORCE])
+    scale = min(torque_factor(left, right, torque_limit), shrink_kernel(fx, fy, fz, hand_limit))
+    step = p[_SLEW] * state[sv.DT]
+    scale *= slew_factor(scale * left, scale * right, p[_LAST_LEFT], p[_LAST_RIGHT], step)
+    left, right = snapped(scale * left), snapped(scale * right)
+    p[_LAST_LEFT], p[_LAST_RIGHT] = left, right
     state[sv.LIMIT_SCALE] *= scale
-    state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = snapped(scale * left), snapped(scale * right)
+    state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = left, right
     state[sv.FELT_X], state[sv.FELT_Y], state[sv.FELT_Z] = scale * fx, scale * fy, scale * fz
 
 
 @njit
-def _hold_at_zero(state: FloatArray) -> None:
+def _hold_at_zero(state: FloatArray, p: FloatArray) -> None:
+    p[_LAST_LEFT], p[_LAST_RIGHT] = 0.0, 0.0
     state[sv.TORQUE_LEFT] = 0.0
     state[sv.TORQUE_RIGHT] = 0.0
     state[sv.FELT_X], state[sv.FELT_Y], state[sv.FELT_Z] = 0.0, 0.0, 0.0
@@ -122,63 +159,80 @@ def _hold_at_zero(state: FloatArray) -> None:
 def safety_stage(state: FloatArray, p: FloatArray) -> None:
     """Let TORQUE_* pass, faded and limited, or hold it at zero and say why in FAULT.
 
-    A fault is not latched: when its cause is gone the force comes back along the arming ramp.
+    LET_GO, LINK_LOST and BOARD_ERROR stay until the forces are disarmed: somebody looks, then arms
+    again. Any other fault ends with its cause, and the force comes back along the arming ramp.
     """
-    now = state[sv.TIME]
     armed = state[sv.ENABLED] > 0.5
-    fault = _data_fault(state)
-    scale = fade(now - state[sv.Q_TIME], p[_FADE_FROM], p[_FADE_TO])
-    if fault == 0 and scale == 0.0:
-        fault = _ENCODERS_STALE
-    if fault == 0 and armed and not abs(now - state[sv.HEARTBEAT]) <= p[_HEARTBEAT]:
-        fault = _HEARTBEAT_LOST
+    freshness = fade(state[sv.TIME] - state[sv.Q_TIME], p[_FADE_FROM], p[_FADE_TO])
+    fault = _fault(state, p, armed, freshness)
     arming = ramp(state[sv.ARMING], state[sv.DT], p[_ARMING], armed and fault == 0)
     state[sv.ARMING] = arming
-    scale *= arming
+    scale = freshness * arming
     state[sv.FAULT] = fault
     state[sv.SAFETY_SCALE] = scale
     if scale > 0.0:
-        _send(state, scale * state[sv.TORQUE_LEFT], scale * state[sv.TORQUE_RIGHT], p)
+        _send(state, p, scale * state[sv.TORQUE_LEFT], scale * state[sv.TORQUE_RIGHT])
     else:
         _drop_bad_forces(state)
-        _hold_at_zero(state)
+        _hold_at_zero(state, p)
 
 
 @dataclass(frozen=True, slots=True)
 class Safety:
     """Limits and time-outs of the last stage before the link.
 
+    The inputs HOMED and FORCE_CAP narrow the limits: below 0.25 not homed, no force; below 1 the
+    signs are being checked, `check_force` and `check_torque` hold; the force felt never exceeds
+    FORCE_CAP, which is 0 until somebody sets it.
+
     Attributes:
         hand_limit: largest force felt at the hand [N].
         torque_limit: largest joint torque [N·m].
+        tilt_limit: tilt from which the outward part of the force fades [rad].
+        slew: fastest growth of a torque [N·m/s]; by default the limit in 20 ms.
         fade_from: age of the encoder reading at which the force starts to fade [s].
         fade_to: age at which it is zero [s].
         heartbeat: largest silence of the window while armed [s].
         arming: time over which the force comes up after arming or after a fault [s].
+        tilt_margin: range beyond the tilt limit over which the outward part goes to zero [rad].
+        check_force, check_torque: limits while the signs are being checked [N], [N·m].
     """
 
     hand_limit: float
     torque_limit: float
+    tilt_limit: float
+    slew: float
     fade_from: float = 0.020
     fade_to: float = 0.100
     heartbeat: float = 1.0
     arming: float = 1.0
+    tilt_margin: float = 0.035
+    check_force: float = 0.3
+    check_torque: float = 0.03
 
     @classmethod
     def of(cls, profile: DeviceProfile) -> "Safety":
         """Safety with the limits of a device profile."""
-        return cls(profile.limits.hand_force, profile.limits.joint_torque)
+        limits = profile.limits
+        slew = limits.joint_torque / 0.020
+        return cls(limits.hand_force, limits.joint_torque, profile.tilt_limit, slew)
 
     def stage(self) -> tuple[str, Any, FloatArray]:
-        """Return the stage for a loop's table; its memory is the slot ARMING."""
-        parameters = np.array(
-            [
-                self.hand_limit,
-                self.torque_limit,
-                self.fade_from,
-                self.fade_to,
-                self.heartbeat,
-                self.arming,
-            ]
+        """Return the stage for a loop's table, with memory of its own."""
+        parameters = np.zeros(_SIZE)
+        parameters[:_SLEW] = (
+            self.hand_limit,
+            self.torque_limit,
+            self.fade_from,
+            self.fade_to,
+            self.heartbeat,
+            self.arming,
+        )
+        parameters[_SLEW:_LAST_LEFT] = (
+            self.slew,
+            self.tilt_limit,
+            self.tilt_margin,
+            self.check_force,
+            self.check_torque,
         )
         return "safety", safety_stage, parameters
