@@ -21,3 +21,7 @@ class UnknownInputError(DeviceError, KeyError):
     def __str__(self) -> str:
         """Return the message without the quotes that KeyError adds."""
         return str(self.args[0])
+
+
+class RerunError(DeviceError):
+    """A table does not fit the checkpoint that it shall continue from."""

@@ -2,7 +2,8 @@
 
 State crosses threads through arrays only. `inbox` and `sequence` form a sequence lock with one
 writer at a time (odd while a write is in progress); `ring` is a history of whole states, whose row
-is written before `counters[HEAD]` says so.
+is written before `counters[HEAD]` says so. A checkpoint is asked for and answered by two counters:
+the loop copies everything that the next tick depends on between two ticks, and nobody waits for it.
 """
 
 import warnings
@@ -21,15 +22,19 @@ from numba.typed import List  # isort: skip
 HEAD: Final = 0
 STOP: Final = 1
 MISSED: Final = 2
-COUNTERS: Final = 3
-"""Entries of `counters` (int64): rows published, request to stop, deadlines missed."""
+ASKED: Final = 3
+ANSWERED: Final = 4
+COUNTERS: Final = 5
+"""Entries of `counters` (int64): rows published, request to stop, deadlines missed, checkpoints
+asked for and taken."""
 
 _FLOATS = types.float64[::1]
 _INTEGERS = types.int64[::1]
 STAGES = types.ListType(STAGE_TYPE)
 PARAMETERS = types.ListType(_FLOATS)
-TICK_TYPES = (_FLOATS, STAGES, PARAMETERS, _FLOATS, _FLOATS, _INTEGERS, types.float64[:, ::1])
-"""Types of (state, stages, parameters, inbox, scratch, sequence, ring)."""
+ROWS = types.float64[:, ::1]
+TICK_TYPES = (_FLOATS, STAGES, PARAMETERS, _FLOATS, _FLOATS, _INTEGERS, ROWS, _INTEGERS, _FLOATS)
+"""Types of (state, stages, parameters, inbox, scratch, sequence, ring, counters, checkpoint)."""
 
 
 def compiled(signature: Any) -> Callable[[Any], Any]:
@@ -107,13 +112,36 @@ def publish(state: Any, ring: Any, counters: Any) -> None:
 
 
 @njit
+def answer(state: Any, parameters: Any, counters: Any, checkpoint: Any) -> None:
+    """Take the checkpoint that was asked for, if one was: the state, then every stage's array."""
+    asked = counters[ASKED]
+    if asked == counters[ANSWERED]:
+        return
+    for slot in range(sv.SLOTS):
+        checkpoint[slot] = state[slot]
+    place = sv.SLOTS
+    for values in parameters:
+        for k in range(len(values)):
+            checkpoint[place] = values[k]
+            place += 1
+    fence()
+    counters[ANSWERED] = asked
+
+
+@compiled(types.void(_FLOATS, PARAMETERS, _INTEGERS, _FLOATS))
+def answer_now(state: Any, parameters: Any, counters: Any, checkpoint: Any) -> None:
+    """Take a checkpoint of a loop that nobody runs at the moment."""
+    answer(state, parameters, counters, checkpoint)
+
+
+@njit
 def run_stages(state: Any, stages: Any, parameters: Any) -> None:
     """Call every stage of a table in order."""
     for function, values in zip(stages, parameters):  # noqa: B905  (numba's zip has no strict)
         function(state, values)
 
 
-@compiled(types.void(*TICK_TYPES, _INTEGERS, types.float64, types.float64, types.int64))
+@compiled(types.void(*TICK_TYPES, types.float64, types.float64, types.int64))
 def step(
     state: Any,
     stages: Any,
@@ -123,6 +151,7 @@ def step(
     sequence: Any,
     ring: Any,
     counters: Any,
+    checkpoint: Any,
     time: float,
     dt: float,
     ticks: int,
@@ -136,18 +165,23 @@ def step(
         receive(state, inbox, scratch, sequence)
         run_stages(state, stages, parameters)
         publish(state, ring, counters)
+        answer(state, parameters, counters, checkpoint)
 
 
-@compiled(types.void(_FLOATS, STAGES, PARAMETERS, types.float64[:, ::1], _INTEGERS, types.float64))
+@compiled(types.void(_FLOATS, STAGES, PARAMETERS, ROWS, _INTEGERS, types.float64))
 def release(
     state: Any, stages: Any, parameters: Any, ring: Any, counters: Any, time: float
 ) -> None:
-    """Send zero torque through the link's write stages, whatever happened before."""
+    """Send zero torque through the link's write stages, whatever happened before.
+
+    Its row in the history has a DT of 0, which no tick has: nothing was computed in it.
+    """
     for slot in (sv.ENABLED, sv.TORQUE_LEFT, sv.TORQUE_RIGHT, sv.SAFETY_SCALE, sv.ARMING):
         state[slot] = 0.0
     for slot in (sv.FELT_X, sv.FELT_Y, sv.FELT_Z):
         state[slot] = 0.0
     state[sv.TIME] = time
+    state[sv.DT] = 0.0
     state[sv.TICK] = counters[HEAD] + 1
     run_stages(state, stages, parameters)
     publish(state, ring, counters)

@@ -11,7 +11,9 @@ from typing import Any
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock, VirtualClock
+from app.device.checkpoint import Checkpoint
 from app.device.control import kernel
+from app.device.control.desk import CheckpointDesk
 from app.device.control.history import History
 from app.device.control.host import THREAD_RATE_HZ, Host, Priority, default_host
 from app.device.control.inbox import Inbox
@@ -57,6 +59,7 @@ class Loop:
         self._history = History()
         self._state = sv.empty_state()
         self._scratch = sv.empty_state()
+        self._desk = CheckpointDesk(self._history.counters, self.table)
         for name, value in (initial or {}).items():
             self._state[_slot(name)] = value
         self._thread: threading.Thread | None = None
@@ -83,6 +86,7 @@ class Loop:
         self.inbox.write(enabled=0.0)
         self._packed = _pack(self.table)
         self._packed_write = _pack(self.table.write)
+        self._desk = CheckpointDesk(self._history.counters, self.table)
         self._is_open = True
         atexit.register(self.close)
         if self.host is not Host.STEPPED:
@@ -140,6 +144,19 @@ class Loop:
         The history holds the last 16 383 ticks; a gap shows in the slot `TICK` of the first row.
         """
         return self._history.rows(since_tick)
+
+    def checkpoint(self) -> Checkpoint:
+        """Return all that the next tick depends on besides its inputs, between two ticks.
+
+        The loop copies it at the end of a tick and never waits; the caller does, for about a tick.
+
+        Raises:
+            LoopError: if the loop is closed, or does not answer within a second.
+        """
+        if not self._is_open:
+            raise LoopError("the loop is closed; call open() before checkpoint()")
+        idle = (self._state, self._packed[1]) if self._thread is None else None
+        return self._desk.checkpoint(idle)
 
     def timing(self, count: int = 10_000) -> Timing:
         """Lateness over the last `count` ticks."""
@@ -207,7 +224,7 @@ class Loop:
     def _arguments(self) -> tuple[Any, ...]:
         inbox, history = self.inbox, self._history
         shared = (inbox.values, self._scratch, inbox.sequence, history.ring, history.counters)
-        return (self._state, *self._packed, *shared)
+        return (self._state, *self._packed, *shared, self._desk.buffer)
 
     def _release(self) -> None:
         history = self._history

@@ -13,6 +13,7 @@ from app.device.control.kernel import (
     MISSED,
     STOP,
     TICK_TYPES,
+    answer,
     compiled,
     publish,
     receive,
@@ -52,7 +53,7 @@ def _sleep_until(deadline: int, timespec: Any) -> None:
             return
 
 
-@compiled(types.void(*TICK_TYPES, types.int64[::1], types.int64))
+@compiled(types.void(*TICK_TYPES, types.int64))
 def run(
     state: Any,
     stages: Any,
@@ -62,6 +63,7 @@ def run(
     sequence: Any,
     ring: Any,
     counters: Any,
+    checkpoint: Any,
     period: int,
 ) -> None:
     """Tick every `period` [ns] until `counters[STOP]`.
@@ -88,6 +90,7 @@ def run(
         run_stages(state, stages, parameters)
         state[sv.TICK_COST] = (_now(timespec) - now) * 1e-9
         publish(state, ring, counters)
+        answer(state, parameters, counters, checkpoint)
         last = deadline
         deadline += period
 
