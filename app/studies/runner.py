@@ -18,8 +18,12 @@ _MACHINERY = {"errors", "plot", "runner", "study", "table"}
 
 
 def study_names() -> tuple[str, ...]:
-    """Names of all studies, sorted; a folder appended to `studies.__path__` counts as well."""
-    names = {module.name for module in pkgutil.iter_modules(studies.__path__)}
+    """Names of all studies, sorted; a folder appended to `studies.__path__` counts as well.
+
+    A folder within is no study: it holds what one study needs beside its file.
+    """
+    found = pkgutil.iter_modules(studies.__path__)
+    names = {module.name for module in found if not module.ispkg}
     return tuple(sorted(names - _MACHINERY))
 
 

@@ -1,11 +1,10 @@
-"""Each stage of a tick by itself: velocity, kinematics, simulated encoders."""
+"""Each stage of a tick by itself: kinematics, simulated encoders."""
 
 import numpy as np
 import pytest
 
 from app.core import state_vector as sv
 from app.device.control.kinematics import HELD, MODEL, TRACKED, Kinematics
-from app.device.control.velocity import VelocityFilter
 from app.device.links import SimulatedEncoders
 from app.mechanisms.pantograph import forward, inverse, jacobian, lever_map, needle_at
 from app.mechanisms.profile import load_profile
@@ -29,46 +28,6 @@ def state_at(p3=(0.03, 0.19)):
     state[sv.TIME] = 5.0
     state[sv.Q_LEFT], state[sv.Q_RIGHT] = inverse(GEOMETRY, p3)
     return state
-
-
-def test_the_first_velocity_is_zero_not_a_spike():
-    state, stage = state_at(), VelocityFilter().stage()
-    tick(state, stage)
-    assert state[sv.QD_LEFT] == state[sv.QD_RIGHT] == 0.0
-
-
-def test_the_velocity_settles_on_the_true_rate():
-    state, stage = state_at(), VelocityFilter().stage()
-    for k in range(100):
-        tick(state, stage, q_left=2.0 + 0.3 * DT * k, q_right=0.5 - 0.1 * DT * k)
-    assert state[sv.QD_LEFT] == pytest.approx(0.3, rel=1e-6)
-    assert state[sv.QD_RIGHT] == pytest.approx(-0.1, rel=1e-6)
-
-
-def test_a_filter_of_no_time_constant_is_the_backward_difference():
-    state, stage = state_at(), VelocityFilter(cutoff_hz=1e12).stage()
-    tick(state, stage, q_left=2.0)
-    tick(state, stage, q_left=2.001)
-    assert state[sv.QD_LEFT] == pytest.approx(1.0, rel=1e-8)
-
-
-def test_a_tick_of_no_length_keeps_the_velocity():
-    state, stage = state_at(), VelocityFilter().stage()
-    for k in range(50):
-        tick(state, stage, q_left=2.0 + 1e-3 * k)
-    before = state[sv.QD_LEFT]
-    tick(state, stage, dt=0.0)
-    assert state[sv.QD_LEFT] == before
-
-
-def test_a_bad_reading_gives_zero_velocity_and_a_fresh_start():
-    state, stage = state_at(), VelocityFilter().stage()
-    for k in range(50):
-        tick(state, stage, q_left=2.0 + 1e-3 * k)
-    tick(state, stage, q_left=np.nan)
-    assert state[sv.QD_LEFT] == 0.0
-    tick(state, stage, q_left=1.0)
-    assert state[sv.QD_LEFT] == 0.0
 
 
 def test_the_stage_places_the_needle_as_the_mechanisms_room_does():

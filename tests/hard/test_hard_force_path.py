@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from app.core import state_vector as sv
 from app.device.control import Fault
 from app.device.control.fixture import attraction_kernel
-from app.device.control.velocity import VelocityFilter
 
 anything = st.floats(allow_nan=True, allow_infinity=True)
 FORCE_PATH = [sv.FELT_X, sv.FELT_Y, sv.FELT_Z, sv.TORQUE_LEFT, sv.TORQUE_RIGHT]
@@ -175,20 +174,6 @@ def test_losing_the_marker_does_not_make_the_force_jump():
         rig.step(500)
         torques = rig.loop.rows()[1100:, [sv.TORQUE_LEFT, sv.TORQUE_RIGHT]]
     assert np.abs(np.diff(torques, axis=0)).max() < 0.02 * TORQUE_LIMIT
-
-
-def test_a_decaying_velocity_ends_in_exact_zero_not_in_subnormal_numbers():
-    state = sv.empty_state()
-    state[sv.DT] = 1e-3
-    _, function, memory = VelocityFilter().stage()
-    smallest = 1.0
-    for k in range(20_000):
-        state[sv.Q_LEFT] = 2.5 if k == 0 else 2.6
-        function(state, memory)
-        if state[sv.QD_LEFT] != 0.0:
-            smallest = min(smallest, abs(state[sv.QD_LEFT]))
-    assert state[sv.QD_LEFT] == 0.0
-    assert smallest >= 1e-12
 
 
 def test_a_rig_at_rest_for_ten_minutes_stays_finite():

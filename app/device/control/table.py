@@ -8,7 +8,7 @@ from app.core.arrays import FloatArray
 from app.device.control.kinematics import Kinematics
 from app.device.control.safety import Safety
 from app.device.control.transmission import Transmission
-from app.device.control.velocity import VelocityFilter
+from app.device.control.velocity import DEFAULT_VELOCITY, VelocityMethod, velocity_stage
 from app.device.links.link import Link
 from app.mechanisms.pantograph import ForceLaw
 from app.mechanisms.profile import DeviceProfile
@@ -62,6 +62,7 @@ def pantograph_stages(
     effects: Iterable[tuple[str, Any, FloatArray]],
     link: Link,
     force_law: ForceLaw = ForceLaw.VIRTUAL_WORK,
+    velocity: VelocityMethod = DEFAULT_VELOCITY,
 ) -> Table:
     """Table of a needle pantograph: link read, velocity, kinematics, force laws, effects,
     transmission, safety, link write.
@@ -72,11 +73,12 @@ def pantograph_stages(
         effects: simulated effects, likewise; both add to `FORCE_*`.
         link: where joint angles come from and torques go to.
         force_law: how a force at the hand becomes joint torques.
+        velocity: how joint velocities come from encoder angles.
     """
     return Table.of(
         [
             *link.read,
-            VelocityFilter().stage(),
+            velocity_stage(velocity, profile),
             Kinematics.of(profile).stage(),
             *laws,
             *effects,

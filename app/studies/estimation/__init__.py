@@ -1,0 +1,1 @@
+"""Parts of the study `velocity`: motions of a hand and their measurement."""
