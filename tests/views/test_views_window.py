@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QLabel, QMessageBox, QWidget
 from app.core.disclaimer import DISCLAIMER
 from app.core.errors import AcusError
 from app.core.events import EventQueue
+from app.core.state_vector import empty_state
 from app.exercises.library import library
 from app.exercises.scene import device_of
 from app.imaging import scanning
@@ -42,7 +43,7 @@ class FakeTrainer:
         pose = NeedlePose(tip, axis, 0.01, 1.0, 0.0, 0.0, DepthSource.TRACKED, True,
                           1e-9 * np.eye(3))  # fmt: skip
         device = SimpleNamespace(tick=9, q=np.array([3.0, 0.1]), hub=tip - 0.2 * axis,
-                                 felt=np.zeros(3), fault=0)  # fmt: skip
+                                 felt=np.zeros(3), fault=0, row=empty_state())  # fmt: skip
         timing = SimpleNamespace(median=8e-5, p99=2e-4, missed=0, ticks=9)
         offset = Offset(*[0.0] * len(Offset.__dataclass_fields__))
         return Snapshot(1.0, self.state, "", 0.0, MappingProxyType({}), pose, offset,
@@ -56,6 +57,8 @@ class FakeTrainer:
     def heartbeat(self): ...
     def assistance(self, value): ...
     def hand(self, *_): ...
+    def arm(self): ...
+    def disarm(self): ...
 
 
 class FakeOpen:

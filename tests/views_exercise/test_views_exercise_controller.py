@@ -113,7 +113,7 @@ def test_dial_scan_abort_and_hand_reach_the_trainer(desk):
     desk.controller.look()
     desk.controller.begin("x")
     desk.controller.look()
-    desk.views.panel.assistance.setValue(40)
+    desk.views.panel.assistance.slider.setValue(40)
     desk.views.panel.buttons.scan.click()
     QTest.qWait(40)
     desk.views.panel.buttons.abort.click()

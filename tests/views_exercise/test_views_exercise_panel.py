@@ -43,7 +43,7 @@ def live(state, **changes):
     values = {
         "state": state, "elapsed": 67.0, "depth": 0.0523, "measured": True,
         "angle_error": radians(3.31), "lateral": 0.0029, "to_target": 0.032, "force": 4.3,
-        "force_limit": 5.0, "scans": 2,
+        "force_measured": False, "force_limit": 5.0, "scans": 2,
     }  # fmt: skip
     return LiveFigures(**(values | changes))
 
@@ -97,17 +97,6 @@ def test_escape_aborts_only_when_it_is_held(panel):
     QTest.qWait(HOLD_MS + 100)
     QTest.keyRelease(panel, Qt.Key.Key_Escape)
     assert aborted == [1]
-
-
-def test_the_dial_speaks_in_shares_and_is_silent_when_it_is_set_from_outside(panel):
-    shares = []
-    panel.assistance_changed.connect(shares.append)
-    panel.set_assistance(0.25)
-    assert shares == []
-    assert panel.assistance.value() == 25
-    panel.assistance.setValue(0)
-    assert shares == [0.0]
-    assert "off" in panel._assistance_text.text()
 
 
 def test_a_pseudonym_cannot_hold_what_a_file_name_must_not(panel):

@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 from views_exercise_attempts import placed_plan
 
+from app.core.arrays import FloatArray
 from app.core.events import Event, EventQueue
+from app.core.state_vector import INDEX, empty_state
 from app.mechanisms.profile import load_profile
 from app.planning.placement import PlacedPlan
 from app.session.curves import offset
@@ -43,13 +45,22 @@ def statistics(**changes: Any) -> TrackerStatistics:
     return TrackerStatistics(**(values | changes))
 
 
+def row(**slots: float) -> FloatArray:
+    """A state vector of zeros but for these slots, by lower-case name."""
+    values = empty_state()
+    for name, value in slots.items():
+        values[INDEX[name]] = value
+    return values
+
+
 def snapshot(placed: PlacedPlan | None = None, **changes: Any) -> Snapshot:
     """Everything is well."""
     placed = placed or placed_plan()
     where = changes.pop("pose", None) or pose(placed)
     device = SimpleNamespace(
-        tick=5000, hub=where.p_tip - 0.2 * where.axis, felt=np.array([1.0, 2.0, 2.0]), fault=0
-    )
+        tick=5000, hub=where.p_tip - 0.2 * where.axis, felt=np.array([1.0, 2.0, 2.0]), fault=0,
+        q=np.zeros(2), qd=np.zeros(2), torque=np.zeros(2), row=row(**changes.pop("slots", {})),
+    )  # fmt: skip
     values: dict[str, Any] = {
         "time": 1.0, "state": State.READY, "reason": "", "elapsed": 0.0,
         "phases": MappingProxyType({}), "pose": where,
@@ -95,6 +106,12 @@ class FakeTrainer:
     def scan(self) -> int:
         self.calls.append(("scan",))
         return 1
+
+    def arm(self) -> None:
+        self.calls.append(("arm",))
+
+    def disarm(self) -> None:
+        self.calls.append(("disarm",))
 
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
         self.calls.append(("hand", x, y, depth, holds))

@@ -5,7 +5,7 @@ import numpy as np
 from app.scoring.trajectory import Trajectory
 
 NAME = "mean_force"
-LABEL = "Mean force"
+LABEL = "Mean force, estimated"
 UNIT = "N"
 HIGHER_IS_BETTER = False
 READS = ("felt_x", "felt_y", "felt_z")

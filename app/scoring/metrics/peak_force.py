@@ -5,7 +5,7 @@ import numpy as np
 from app.scoring.trajectory import Trajectory
 
 NAME = "peak_force"
-LABEL = "Peak force"
+LABEL = "Peak force, estimated"
 UNIT = "N"
 HIGHER_IS_BETTER = False
 READS = ("felt_x", "felt_y", "felt_z")

@@ -68,7 +68,7 @@ def curves_of(review: Review) -> tuple[Curve, ...]:
         ),
         Curve(
             tr("Force felt, estimated [N]"), c.felt, "#f0e442", review.force_limit,
-            tr("limit {n:g} N", n=review.force_limit), "N", tr("force"),
+            tr("limit {n:g} N", n=review.force_limit), "N", tr("estimated force"),
         ),
     )  # fmt: skip
 

@@ -12,14 +12,16 @@ from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
 from app.views.background import run_in_background
 from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.enable_words import enabling
+from app.views.exercise.energy import energy_figures
+from app.views.exercise.felt import force_limit
 from app.views.exercise.hand import HandPose
+from app.views.exercise.loop_rates import LoopRates
 from app.views.exercise.messages import MessageList
 from app.views.exercise.panel import ExercisePanel
-from app.views.exercise.rate_meter import RateMeter
 from app.views.exercise.readings import figures, hand_pose, pad_view, status_items, tracker_figures
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status import StatusStrip
-from app.views.exercise.status_items import MISSED_WINDOW
 from app.views.exercise.tracker_panel import TrackerPanel
 
 PERIOD_MS: Final = 25
@@ -70,7 +72,7 @@ class ExerciseController(QObject):
         self._ending = False
         self._beat = 0.0
         self._status_time = -1.0
-        self._forget_rates()
+        self._rates = LoopRates()
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.look)
         self._connect()
@@ -81,15 +83,18 @@ class ExerciseController(QObject):
         self.detach()
         self._run, self._seen = run, run.trainer.result
         self._beat = self._clock.now()
-        self._forget_rates()
+        self._rates = LoopRates()
         self._views.bullseye.set_scene(run.scene(), run.interactive)
         self._views.panel.set_ready(True)
+        self._views.panel.enable.set_wanted(run.held_arming)
+        self._views.panel.energy.begin(run.is_real)
         self._views.panel.set_assistance(run.trainer.snapshot().assistance)
         self._timer.start()
 
     def detach(self) -> None:
         """Let go of the trainer, without closing it; idempotent."""
         self._timer.stop()
+        self._views.panel.enable.set_wanted(False)  # lets go before the trainer is gone
         self._run, self._ending = None, False
         self._views.bullseye.set_scene(None, False)
         self._views.panel.set_ready(False)
@@ -128,36 +133,24 @@ class ExerciseController(QObject):
         self._look_for_result(run)
 
     def _show(self, run: ExerciseRun, snapshot: Snapshot, now: float, late: float) -> None:
-        limit = run.profile.limits.hand_force
+        limit = force_limit(snapshot, run.profile.limits.hand_force)
         views = self._views
         views.panel.show_figures(figures(snapshot, limit))
+        views.panel.energy.show_energy(energy_figures(snapshot))
+        views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         hand = hand_pose(snapshot) if views.bullseye.hand is None else None
         if hand is not None:
             views.bullseye.take_hand(hand)
         view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
         if view is not None:
             views.bullseye.show_view(view)
-        rate, missing = self._loop_rates(snapshot, now)
+        rate, missing = self._rates.read(snapshot, now)
         if views.tracker.due(now):
             pictures = tuple(run.pictures()) if run.pictures is not None else ()
             views.tracker.show_tracker(pictures, tracker_figures(snapshot), now)
         if now - self._status_time >= STATUS_PERIOD:
             self._status_time = now
             views.status.show_items(status_items(snapshot, rate, missing, late))
-
-    def _loop_rates(self, snapshot: Snapshot, now: float) -> tuple[float, float]:
-        """Ticks a second [Hz], and the share of deadlines missed in the last seconds."""
-        device, timing = snapshot.device, snapshot.timing
-        rate = self._rate.read(now, device.tick) if device is not None else 0.0
-        if timing is None:
-            return rate, 0.0
-        missed = self._missed.read(now, timing.missed)
-        due = self._due.read(now, timing.ticks + timing.missed)  # a missed deadline has no tick
-        return rate, missed / due if due > 0.0 else 0.0
-
-    def _forget_rates(self) -> None:
-        self._rate = RateMeter()
-        self._missed, self._due = RateMeter(MISSED_WINDOW), RateMeter(MISSED_WINDOW)
 
     def _drain(self, run: ExerciseRun) -> None:
         for event in run.trainer.events.drain():
@@ -184,6 +177,9 @@ class ExerciseController(QObject):
         except AcusError as error:
             self._fail(str(error))
             return
+        if run.held_arming and not self._views.panel.enable.is_held:
+            run.trainer.disarm()
+        self._views.panel.energy.begin(run.is_real)
         self.began.emit(session)
         self._views.bullseye.pad.setFocus()
 
@@ -209,8 +205,18 @@ class ExerciseController(QObject):
             self._run.trainer.abort()
             self.look()
 
+    def set_held(self, held: bool) -> None:
+        """Arm the forces while somebody holds the switch."""
+        run = self._run
+        if run is None or not run.held_arming:
+            return
+        if held:
+            run.trainer.arm()
+        else:
+            run.trainer.disarm()
+
     def set_assistance(self, share: float) -> None:
-        """Set the assistance, 0…1."""
+        """Set the assistance, -1 repels … 0 off … 1 guides."""
         if self._run is not None:
             self._run.trainer.assistance(share)
 
@@ -235,6 +241,7 @@ class ExerciseController(QObject):
         panel = self._views.panel
         panel.start_requested.connect(self.begin)
         panel.assistance_changed.connect(self.set_assistance)
+        panel.enable.held.connect(self.set_held)
         panel.buttons.scan_requested.connect(self.scan)
         panel.buttons.end_requested.connect(self.end)
         panel.buttons.abort_requested.connect(self.abort)

@@ -5,6 +5,7 @@ from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.views import theme
+from app.views.exercise.felt import origin_help, origin_word
 from app.views.text import tr
 
 _HEADROOM = 1.15
@@ -16,25 +17,41 @@ class ForceBar(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._force, self._limit = 0.0, 5.0
+        self._force, self._limit, self._measured = 0.0, 5.0, False
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setMinimumHeight(38)
-        self.setToolTip(tr(
-            "Force at the hand, estimated from the motor torques that are sent (there is no force "
-            "sensor). The line is the largest force the device may give."
-        ))  # fmt: skip
+        self._explain()
 
     def sizeHint(self) -> QSize:
         """Preferred size."""
         return QSize(200, 38)
 
-    def show_force(self, force: float, limit: float) -> None:
-        """Show a force and the limit [N]; not finite counts as zero."""
+    def show_force(self, force: float, limit: float, measured: bool = False) -> None:
+        """Show a force and the limit [N]; not finite counts as zero.
+
+        Args:
+            force: at the hand [N].
+            limit: largest that the device may give [N].
+            measured: whether a gauge measured the force; else it is called estimated.
+        """
         force = force if 0.0 <= force < 1e6 else 0.0
-        if (force, limit) != (self._force, self._limit):
-            self._force, self._limit = force, limit
-            self.setAccessibleName(tr("Force {force:.1f} N", force=force))
-            self.update()
+        if (force, limit, measured) == (self._force, self._limit, self._measured):
+            return
+        self._force, self._limit = force, limit
+        if measured is not self._measured:
+            self._measured = measured
+            self._explain()
+        self.setAccessibleName(self.words)
+        self.update()
+
+    @property
+    def words(self) -> str:
+        """Force and where it comes from, as written under the bar."""
+        return tr("{force:.1f} N {origin}", force=self._force, origin=origin_word(self._measured))
+
+    def _explain(self) -> None:
+        line = tr("The line is the largest force the device may give now.")
+        self.setToolTip(f"{origin_help(self._measured)} {line}")
 
     @property
     def verdict(self) -> str:
@@ -68,8 +85,7 @@ class ForceBar(QWidget):
         painter.setFont(font)
         below = QRectF(0, 19, self.width(), 19)
         painter.setPen(QColor(theme.TEXT))
-        number = tr("{symbol} {force:.1f} N (estimated)", symbol=symbol, force=self._force)
-        painter.drawText(below, Qt.AlignmentFlag.AlignLeft, number)
+        painter.drawText(below, Qt.AlignmentFlag.AlignLeft, f"{symbol} {self.words}")
         painter.setPen(QColor(theme.TEXT_DIM))
         limit = tr("limit {limit:g} N", limit=self._limit)
         painter.drawText(below, Qt.AlignmentFlag.AlignRight, limit)

@@ -17,7 +17,8 @@ class LiveFigures:
         angle_error: between needle and planned path [rad].
         lateral: tip from the line of the path [m].
         to_target: depth of the target minus depth of the tip, along the path [m].
-        force: felt at the hand, estimated [N].
+        force: felt at the hand [N].
+        force_measured: whether a gauge measured it; else it is estimated from the torques.
         force_limit: the device's [N].
         scans: control scans so far.
     """
@@ -30,5 +31,6 @@ class LiveFigures:
     lateral: float
     to_target: float
     force: float
+    force_measured: bool
     force_limit: float
     scans: int

@@ -3,17 +3,15 @@
 from collections.abc import Sequence
 from typing import Final
 
-from PySide6.QtCore import QRegularExpression, QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QRegularExpression, QSignalBlocker, Signal
 from PySide6.QtGui import QRegularExpressionValidator
 from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
     QFrame,
-    QHBoxLayout,
     QLabel,
     QLineEdit,
     QSizePolicy,
-    QSlider,
     QVBoxLayout,
     QWidget,
 )
@@ -21,6 +19,9 @@ from PySide6.QtWidgets import (
 from app.session.machine import RUNNING, State
 from app.views import theme
 from app.views.exercise.actions import AttemptActions
+from app.views.exercise.assistance_dial import AssistanceDial
+from app.views.exercise.enable_switch import EnableSwitch
+from app.views.exercise.energy_gauge import EnergyGauge
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.readouts import Readouts
 from app.views.exercise.steps import Steps
@@ -38,7 +39,7 @@ class ExercisePanel(QWidget):
     Signals:
         exercise_chosen(str): identifier of the exercise.
         start_requested(str): pseudonym of the student.
-        assistance_changed(float): 0 off … 1 full guidance.
+        assistance_changed(float): -1 full repulsion … 0 off … 1 full guidance.
     """
 
     exercise_chosen = Signal(str)
@@ -51,17 +52,17 @@ class ExercisePanel(QWidget):
         self._state: State | None = None
         self.exercise = QComboBox(self)
         self.student = QLineEdit(self)
-        self.assistance = QSlider(Qt.Orientation.Horizontal, self)
-        self._assistance_text = QLabel(self)
+        self.assistance = AssistanceDial(self)
         self._note = QLabel(self)
         self.steps = Steps(self)
         self.buttons = AttemptActions(self)
+        self.enable = EnableSwitch(self)
         self.readouts = Readouts(self)
+        self.energy = EnergyGauge(self)
         self.exercise.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._prepare_inputs()
         self._lay_out()
         self._connect()
-        self._show_assistance(self.assistance.value())
 
     # --- what the controller and the window call --------------------------------------------------
     def set_exercises(
@@ -79,10 +80,8 @@ class ExercisePanel(QWidget):
         self.student.setText(pseudonym)
 
     def set_assistance(self, share: float) -> None:
-        """Show an assistance that came from elsewhere, 0…1; emits nothing."""
-        with QSignalBlocker(self.assistance):
-            self.assistance.setValue(round(100 * share))
-        self._show_assistance(self.assistance.value())
+        """Show an assistance that came from elsewhere, -1…1; emits nothing."""
+        self.assistance.set_share(share)
 
     def set_ready(self, ready: bool, note: str = "") -> None:
         """Say whether an attempt can start, and if not, why not."""
@@ -107,11 +106,6 @@ class ExercisePanel(QWidget):
         self.student.setEnabled(not running)
         self.buttons.show_state(self._state, self._ready)
 
-    def _show_assistance(self, percent: int) -> None:
-        words = {0: tr("off"), 100: tr("full guidance")}
-        text = tr("{percent} %", percent=percent)
-        self._assistance_text.setText(f"{text} {words[percent]}" if percent in words else text)
-
     def _prepare_inputs(self) -> None:
         pattern = QRegularExpression(f"^{PSEUDONYM}$")
         self.student.setValidator(QRegularExpressionValidator(pattern, self.student))
@@ -119,14 +113,6 @@ class ExercisePanel(QWidget):
         self.student.setToolTip(
             tr("A pseudonym, never a name: it goes into every record. Letters, digits, . _ -")
         )
-        self.assistance.setRange(0, 100)
-        self.assistance.setPageStep(10)
-        self.assistance.setValue(100)
-        self.assistance.setToolTip(
-            tr("How strongly the robot guides the needle back to the planned path")
-        )
-        self.assistance.setAccessibleName(tr("Assistance"))
-        self._assistance_text.setMinimumWidth(120)
         self._note.setWordWrap(True)
         self._note.setStyleSheet(f"color: {theme.WARNING};")
         self._note.hide()
@@ -137,15 +123,14 @@ class ExercisePanel(QWidget):
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.ExpandingFieldsGrow)
         form.addRow(tr("Exercise"), self.exercise)
         form.addRow(tr("Student"), self.student)
-        dial = QHBoxLayout()
-        dial.addWidget(self.assistance, 1)
-        dial.addWidget(self._assistance_text)
-        form.addRow(tr("Assistance"), dial)
+        form.addRow(tr("Assistance"), self.assistance)
         column = QVBoxLayout(self)
         column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
         column.setSpacing(theme.SPACING)
         column.addLayout(form)
-        for widget in (self.steps, self._note, self.buttons, _line(), self.readouts):
+        for widget in (
+            self.steps, self._note, self.buttons, self.enable, _line(), self.readouts, self.energy
+        ):  # fmt: skip
             column.addWidget(widget)
         column.addStretch(1)
 
@@ -153,10 +138,7 @@ class ExercisePanel(QWidget):
         self.exercise.activated.connect(
             lambda index: self.exercise_chosen.emit(self.exercise.itemData(index))
         )
-        self.assistance.valueChanged.connect(self._show_assistance)
-        self.assistance.valueChanged.connect(
-            lambda percent: self.assistance_changed.emit(percent / 100)
-        )
+        self.assistance.changed.connect(self.assistance_changed)
         self.buttons.start_requested.connect(
             lambda: self.start_requested.emit(self.student.text().strip())
         )

@@ -12,6 +12,7 @@ from app.tracking.fix import FixStatus
 from app.tracking.statistics import TrackerStatistics
 from app.tracking.watch import CameraState
 from app.views.exercise.camera_view import camera_name
+from app.views.exercise.felt import felt
 from app.views.exercise.hand import HandPose
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.pad_geometry import downward
@@ -34,6 +35,7 @@ _BAD_STATES = (CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED)
 
 def figures(snapshot: Snapshot, force_limit: float) -> LiveFigures:
     """Live figures for the panel; `force_limit` [N]."""
+    force = felt(snapshot)
     return LiveFigures(
         state=snapshot.state,
         elapsed=snapshot.elapsed,
@@ -42,17 +44,11 @@ def figures(snapshot: Snapshot, force_limit: float) -> LiveFigures:
         angle_error=snapshot.offset.angle,
         lateral=snapshot.offset.lateral,
         to_target=snapshot.offset.remaining,
-        force=felt(snapshot),
+        force=force.force,
+        force_measured=force.measured,
         force_limit=force_limit,
         scans=snapshot.scans,
     )
-
-
-def felt(snapshot: Snapshot) -> float:
-    """Force felt at the hand [N]; 0 where the robot says nothing."""
-    device = snapshot.device
-    force = 0.0 if device is None else float(np.linalg.norm(device.felt))
-    return force if np.isfinite(force) else 0.0
 
 
 def pad_view(snapshot: Snapshot, needle_length: float, force_limit: float) -> PadView | None:
@@ -69,7 +65,7 @@ def pad_view(snapshot: Snapshot, needle_length: float, force_limit: float) -> Pa
         p_hub=hub,
         depth=pose.depth,
         measured=pose.measured,
-        force=felt(snapshot),
+        force=felt(snapshot).force,
         force_limit=force_limit,
     )
 

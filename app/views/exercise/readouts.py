@@ -37,9 +37,10 @@ class Readouts(QWidget):
         for key, text in texts.items():
             if self._values[key].text() != text:
                 self._values[key].setText(text)
-        self.force.show_force(
-            figures.force if figures else 0.0, figures.force_limit if figures else 5.0
-        )
+        if figures is None:
+            self.force.show_force(0.0, 5.0)
+        else:
+            self.force.show_force(figures.force, figures.force_limit, figures.force_measured)
 
     def text(self, key: str) -> str:
         """Text of one read-out: `elapsed`, `depth`, `angle`, `lateral`, `to_target`, `scans`."""

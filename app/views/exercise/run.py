@@ -16,6 +16,7 @@ from app.views.exercise.pad_geometry import PadScale, path_frame
 from app.views.exercise.pad_view import PadScene, rings
 
 if TYPE_CHECKING:
+    from app.device.links.link import BoardInfo
     from app.tracking.tracker import TrackedPicture
 
 
@@ -41,12 +42,20 @@ class TrainerPort(Protocol):
         """Take a control scan."""
         ...
 
+    def arm(self) -> None:
+        """Switch the forces on."""
+        ...
+
+    def disarm(self) -> None:
+        """Switch the forces off."""
+        ...
+
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
         """Move the simulated hand."""
         ...
 
     def assistance(self, value: float) -> None:
-        """Set the assistance, 0…1."""
+        """Set the assistance, -1 repels … 0 off … 1 guides."""
         ...
 
     def heartbeat(self) -> None:
@@ -70,6 +79,8 @@ class ExerciseRun:
             trainee.
         rings: tolerance rings of the pad [m], from the inside.
         pictures: newest pictures of the cameras; None without cameras.
+        board: who is at the other end of the wire; None where nobody tells.
+        held_arming: whether the forces are armed only while key, pedal or button is held.
     """
 
     trainer: TrainerPort
@@ -78,6 +89,13 @@ class ExerciseRun:
     interactive: bool = True
     rings: tuple[float, ...] = field(default_factory=rings)
     pictures: Callable[[], Sequence[TrackedPicture]] | None = None
+    board: BoardInfo | None = None
+    held_arming: bool = False
+
+    @property
+    def is_real(self) -> bool:
+        """Whether there is a robot that can push a hand."""
+        return self.board is not None and not self.board.simulated
 
     def scene(self) -> PadScene:
         """Return the pad of this run."""

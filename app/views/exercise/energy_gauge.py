@@ -1,0 +1,134 @@
+"""The energy gauge: what the force laws store, what may still be let out, and the guard."""
+
+from enum import StrEnum
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from app.views import theme
+from app.views.exercise.energy import EnergyFigures, gauge_help, guard_words, millijoules
+from app.views.text import tr
+
+_ROW = 19
+_BAR = 14
+STORED_COLOUR = "#56b4e9"
+LEFT_COLOUR = "#f0e442"
+
+
+class GaugeMode(StrEnum):
+    """When the gauge is on the page."""
+
+    AUTO = "auto"
+    """With a real robot, and in an attempt in which the guard has acted."""
+    SHOWN = "shown"
+    HIDDEN = "hidden"
+
+
+class EnergyGauge(QWidget):
+    """One bar of the tank's size: the stored energy fills it, a pointer shows what is left."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._figures: EnergyFigures | None = None
+        self._shown: tuple[object, ...] = ()
+        self._mode, self._real, self._acted = GaugeMode.AUTO, False, False
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setToolTip(gauge_help())
+        self.show_energy(None)
+        self._appear()
+
+    def sizeHint(self) -> QSize:
+        """Preferred size."""
+        return QSize(240, 3 * _ROW + _BAR + 10)
+
+    def set_mode(self, mode: GaugeMode) -> None:
+        """Say when the gauge is to be seen."""
+        self._mode = mode
+        self._appear()
+
+    def begin(self, real: bool) -> None:
+        """Forget whether the guard acted; `real` says whether the robot is one of metal."""
+        self._real, self._acted = real, False
+        self._appear()
+
+    def _appear(self) -> None:
+        auto = self._mode is GaugeMode.AUTO and (self._real or self._acted)
+        self.setVisible(auto or self._mode is GaugeMode.SHOWN)
+
+    def show_energy(self, figures: EnergyFigures | None) -> None:
+        """Show a moment; None, or no energy account, shows dashes."""
+        self._figures = figures
+        if figures is not None and figures.acting and not self._acted:
+            self._acted = True
+            self._appear()
+        known = figures is not None and figures.known
+        shares = (round(figures.share_stored, 3), round(figures.share_left, 3)) if figures else ()
+        shown = (known, *self.lines, *shares)
+        if shown != self._shown:
+            self._shown = shown
+            self.setAccessibleName(tr("Energy") + ": " + ", ".join(self.lines))
+            self.update()
+
+    @property
+    def lines(self) -> tuple[str, str, str, str]:
+        """What is written: stored, left, guard, taken out."""
+        figures = self._figures
+        verdict, words = guard_words(figures)
+        guard = f"{verdict.look[1]} {words}"
+        if figures is None or not figures.known:
+            return tr("stored –"), tr("left –"), guard, tr("taken out by the guard –")
+        return (
+            tr("stored {energy}", energy=millijoules(figures.stored)),
+            tr("left {tank} of {bound}", tank=millijoules(figures.tank),
+               bound=millijoules(figures.bound)),
+            guard,
+            tr("taken out {energy}", energy=millijoules(figures.loss)),
+        )  # fmt: skip
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw title with the loss, bar, figures, and what the guard does."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        stored, left, guard, loss = self.lines
+        verdict, _ = guard_words(self._figures)
+        title = tr("Energy of the force")
+        painter.drawText(self._line(0), Qt.AlignmentFlag.AlignLeft, title)
+        self._paint_bar(painter, QRectF(1, _ROW + 3, self.width() - 2, _BAR))
+        font = QFont(painter.font())
+        font.setPixelSize(theme.SMALL_PX)
+        painter.setFont(font)
+        first, second = self._line(1, _BAR + 8), self._line(2, _BAR + 8)
+        painter.setPen(QColor(theme.TEXT))
+        painter.drawText(first, Qt.AlignmentFlag.AlignLeft, f"■ {stored}")
+        painter.drawText(first, Qt.AlignmentFlag.AlignRight, f"▼ {left}")
+        painter.setPen(QColor(theme.TEXT_DIM))
+        painter.drawText(self._line(0), Qt.AlignmentFlag.AlignRight, loss)
+        painter.setPen(QColor(verdict.look[0]))
+        painter.drawText(second, Qt.AlignmentFlag.AlignLeft, guard)
+
+    def _line(self, number: int, below: int = 0) -> QRectF:
+        return QRectF(0, number * _ROW + below, self.width(), _ROW)
+
+    def _paint_bar(self, painter: QPainter, bar: QRectF) -> None:
+        painter.setPen(QPen(QColor(theme.BORDER), 1.0))
+        painter.setBrush(QColor("#0e1114"))
+        painter.drawRoundedRect(bar, 3, 3)
+        figures = self._figures
+        if figures is None or not figures.known:
+            return
+        inside = bar.adjusted(1, 1, -1, -1)
+        filled = QRectF(inside)
+        filled.setWidth(inside.width() * figures.share_stored)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(STORED_COLOUR))
+        painter.drawRoundedRect(filled, 2, 2)
+        x = inside.left() + inside.width() * figures.share_left
+        painter.setPen(QPen(QColor(theme.BACKGROUND), 1.0))
+        painter.setBrush(QColor(theme.TEXT))
+        top = bar.top() - 4
+        painter.drawPolygon(
+            QPolygonF([QPointF(x - 6, top), QPointF(x + 6, top), QPointF(x, top + 8)])
+        )
+        painter.setPen(QPen(QColor(theme.TEXT), 2.0))
+        painter.drawLine(QPointF(x, top + 6), QPointF(x, bar.bottom()))

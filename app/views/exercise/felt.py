@@ -1,0 +1,61 @@
+"""The force at the hand, and whether a gauge measured it or the torques only suggest it."""
+
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from app.core import state_vector as sv
+from app.session.snapshot import Snapshot
+from app.views.text import tr
+
+
+@dataclass(frozen=True, slots=True)
+class Felt:
+    """Force at the hand [N], never negative, and where it comes from.
+
+    Attributes:
+        force: magnitude [N]; 0 where the robot says nothing.
+        measured: whether the board's gauge measured it; else it is estimated from the torques.
+    """
+
+    force: float
+    measured: bool
+
+
+def felt(snapshot: Snapshot) -> Felt:
+    """Take the gauge's force where the board has one, else the estimate from the torques sent."""
+    device = snapshot.device
+    if device is None:
+        return Felt(0.0, False)
+    measured = bool(device.row[sv.GAUGE] > 0.0)
+    force = abs(float(device.row[sv.GAUGE_FORCE])) if measured else _norm(device.felt)
+    return Felt(force if isfinite(force) else 0.0, measured)
+
+
+def force_limit(snapshot: Snapshot, device_limit: float) -> float:
+    """Return the largest force at the hand now [N]: the device's own limit, or what it is
+    cleared for where that is less; a cap of 0 says that nobody has set one.
+    """
+    cap = float(snapshot.device.row[sv.FORCE_CAP]) if snapshot.device is not None else 0.0
+    return min(device_limit, cap) if cap > 0.0 else device_limit
+
+
+def origin_word(measured: bool) -> str:
+    """Say in one word where a force comes from."""
+    return tr("measured") if measured else tr("estimated")
+
+
+def origin_help(measured: bool) -> str:
+    """Say what that word means."""
+    if measured:
+        return tr("Force at the hand, measured by the robot's own gauge, across the needle.")
+    return tr(
+        "Force at the hand, estimated from the motor torques that are sent: no force sensor says "
+        "what really arrives."
+    )
+
+
+def _norm(vector: ArrayLike) -> float:
+    return float(np.linalg.norm(vector))
