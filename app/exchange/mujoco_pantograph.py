@@ -1,0 +1,225 @@
+"""The pantograph in MuJoCo: its closed loop moved, accelerated and held, to check ours against.
+
+For studies: `felt_in_mujoco(profile, tilt, azimuth, torques, l_out=None) -> force at the hub (3,)`.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from app.core.arrays import FloatArray
+from app.exchange.errors import ExchangeError
+from app.exchange.mjcf import MjcfSettings, write_mjcf
+from app.mechanisms.geometry import Geometry
+from app.mechanisms.pantograph import forward, inverse, jacobian, needle_at
+from app.mechanisms.profile import DeviceProfile
+
+_REST = 1e-9
+"""Joint speed below which the mechanism counts as at rest [rad/s]."""
+
+
+def import_mujoco() -> Any:
+    """Return the module `mujoco`.
+
+    Raises:
+        ExchangeError: if the extra is not installed.
+    """
+    try:
+        import mujoco
+    except ImportError as error:
+        raise ExchangeError(
+            "MuJoCo is not installed; install the extra `physics`: pip install 'acus[physics]'"
+        ) from error
+    return mujoco
+
+
+class MujocoPantograph:
+    """A profile as a running MuJoCo model; coordinates are the motor angles and the depth.
+
+    Raises:
+        ExchangeError: if the extra is not installed, or MuJoCo refuses the model.
+    """
+
+    def __init__(self, profile: DeviceProfile, settings: MjcfSettings | None = None) -> None:
+        self.mujoco = import_mujoco()
+        self.profile, self.settings = profile, settings or MjcfSettings()
+        try:
+            self.model = self.mujoco.MjModel.from_xml_string(write_mjcf(profile, self.settings))
+        except ValueError as error:
+            raise ExchangeError(
+                f"MuJoCo refuses the model of device {profile.name}: {error}"
+            ) from error
+        self.data = self.mujoco.MjData(self.model)
+        self.motors = [self.address("panto_a1"), self.address("panto_a5")]
+
+    def address(self, joint: str) -> int:
+        """Index of a joint in positions and velocities (each has one of both)."""
+        return int(self.model.joint(joint).qposadr[0])
+
+    @property
+    def q(self) -> FloatArray:
+        """Motor angles [rad], shape (2,)."""
+        return np.array(self.data.qpos[self.motors])
+
+    @property
+    def depth(self) -> float:
+        """Depth of the tip [m]."""
+        settings = self.settings
+        return (
+            float(self.data.qpos[self.address("depth")])
+            if settings.slides
+            else settings.fixed_depth
+        )
+
+    def place(self, q: ArrayLike, qd: ArrayLike, depth: float = 0.0, rate: float = 0.0) -> None:
+        """Close the loop at motor angles and rates, shapes (2,), and depth and depth rate.
+
+        Raises:
+            MechanismError: if the pose does not exist.
+        """
+        q, qd = np.asarray(q, dtype=np.float64), np.asarray(qd, dtype=np.float64)
+        positions, rates = _closed(self.profile.pantograph, q, qd)
+        positions |= {"depth": depth}
+        rates |= {"depth": rate}
+        # The carriage slides on the needle, which slides itself.
+        if self.settings.slides:
+            positions["lever"] -= depth
+            rates["lever"] -= rate
+        self.mujoco.mj_resetData(self.model, self.data)
+        for k in range(self.model.njnt):
+            name = self.model.joint(k).name
+            self.data.qpos[k], self.data.qvel[k] = positions[name], rates[name]
+        self.mujoco.mj_forward(self.model, self.data)
+        if self.settings.holds_hub:
+            self.data.mocap_pos[0] = self.data.site("hub").xpos
+            self.mujoco.mj_forward(self.model, self.data)
+
+    def push(self, torques: ArrayLike) -> None:
+        """Put torques on the motors from now on [N·m], shape (2,)."""
+        self.data.qfrc_applied[:] = 0.0
+        self.data.qfrc_applied[self.motors] = torques
+
+    def run(self, steps: int) -> None:
+        """Integrate a number of steps."""
+        self.mujoco.mj_step(self.model, self.data, nstep=steps)
+
+    def acceleration(self) -> FloatArray:
+        """Accelerations of the joints with rigid constraints, shape (nv,).
+
+        MuJoCo's mass matrix, bias forces and constraint Jacobian, solved for the accelerations that
+        keep the constraints exactly (its own solver lets 1e-4 of the violation pass).
+        """
+        model, data = self.model, self.data
+        self.mujoco.mj_forward(model, data)
+        mass = np.zeros((model.nv, model.nv))
+        self.mujoco.mj_fullM(model, data, mass)
+        jacobian, bias = self._constraints()
+        n = len(bias)
+        system = np.block([[mass, jacobian.T], [jacobian, np.zeros((n, n))]])
+        force = data.qfrc_applied + data.qfrc_passive - data.qfrc_bias
+        solution = np.linalg.lstsq(system, np.concatenate([force, -bias]), rcond=1e-13)[0]
+        return np.array(solution[: model.nv])
+
+    def held_force(self) -> FloatArray:
+        """Force that the held hub exerts on the hand [N] in world, shape (3,)."""
+        rows = self.data.efc_id[: self.data.nefc] == self.model.equality("hub_hand").id
+        return -np.array(self.data.efc_force[: self.data.nefc][rows])
+
+    def _constraints(self) -> tuple[FloatArray, FloatArray]:
+        """Jacobian of all constraints (n, nv), and what its rate times the velocity is (n,)."""
+        model, data = self.model, self.data
+        size = 3, model.nv
+        rows, biases = [], []
+        for k in range(model.neq):
+            row = np.zeros(size)
+            bias = np.zeros(3)
+            for sign, site in ((1.0, model.eq_obj1id[k]), (-1.0, model.eq_obj2id[k])):
+                jac, rate = np.zeros(size), np.zeros(size)
+                point, body = data.site_xpos[site], int(model.site_bodyid[site])
+                self.mujoco.mj_jac(model, data, jac, None, point, body)
+                self.mujoco.mj_jacDot(model, data, rate, None, point, body)
+                row += sign * jac
+                bias += sign * rate @ data.qvel
+            rows.append(row)
+            biases.append(bias)
+        return np.vstack(rows), np.concatenate(biases)
+
+
+def felt_in_mujoco(
+    profile: DeviceProfile,
+    tilt: float,
+    azimuth: float,
+    torques: ArrayLike,
+    l_out: float | None = None,
+) -> FloatArray:
+    """Force that motor torques make a still hand feel, by MuJoCo's closed-loop statics.
+
+    The hub is held where it is, gravity and friction are left out, and the model is let come to
+    rest.
+
+    Args:
+        profile: the device.
+        tilt: of the needle from the vertical [rad].
+        azimuth: direction in which the tip leans, from +x [rad].
+        torques: at the motors (left, right) [N·m], shape (2,).
+        l_out: hub to fulcrum [m]; None takes the printed mode, needle length less L_in.
+
+    Returns:
+        Force at the hub [N] in world, shape (3,).
+
+    Raises:
+        ExchangeError: if the extra is not installed, or the model does not come to rest.
+        MechanismError: if the pose does not exist.
+    """
+    geometry = profile.pantograph
+    lean = np.tan(tilt) * np.array([np.cos(azimuth), np.sin(azimuth)])
+    needle = needle_at(geometry, geometry.fulcrum[:2] + geometry.fulcrum[2] * lean, l_out)
+    settings = MjcfSettings(holds_hub=True, gravity=(0.0, 0.0, 0.0), stiffness=1e6)
+    machine = MujocoPantograph(profile, settings)
+    machine.model.dof_damping[:] = 0.5
+    machine.place(inverse(geometry, needle.p3), (0.0, 0.0), needle.depth)
+    machine.push(torques)
+    for _ in range(200):
+        machine.run(20)
+        if np.abs(machine.data.qvel).max() < _REST:
+            return machine.held_force()
+    speed = np.abs(machine.data.qvel).max()
+    raise ExchangeError(
+        f"MuJoCo's model of {profile.name} still moves at {speed:.2g} rad/s after 0.4 s; the"
+        f" torques {np.asarray(torques).tolist()} N·m may be too large"
+    )
+
+
+def _closed(
+    geometry: Geometry, q: FloatArray, qd: FloatArray
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Positions and velocities of all joints but the depth, by their names."""
+    p3, v = forward(geometry, q), jacobian(geometry, q) @ qd
+    positions: dict[str, float] = {}
+    rates: dict[str, float] = {}
+    for driven, passive, side, k in (
+        ("panto_a1", "panto_a2", -1, 0),
+        ("panto_a5", "panto_a4", 1, 1),
+    ):
+        along = np.array([np.cos(q[k]), np.sin(q[k])])
+        across = np.array([-along[1], along[0]])
+        elbow = np.array([0.5 * side * geometry.base, 0.0]) + geometry.proximal * along
+        ex, ey = p3 - elbow
+        wx, wy = v - geometry.proximal * qd[k] * across
+        positions |= {driven: q[k], passive: np.arctan2(ey, ex) - q[k]}
+        rates |= {driven: qd[k], passive: (ex * wy - ey * wx) / geometry.distal**2 - qd[k]}
+    needle = np.array([*p3, 0.0]) - geometry.fulcrum
+    lever = float(np.linalg.norm(needle))
+    dx, dy, dz = axis = needle / lever
+    stretch = axis @ (*v, 0.0)
+    tx, ty, tz = (np.array([*v, 0.0]) - stretch * axis) / lever
+    # Rx(a) Ry(b) turns straight down into (-sin b, sin a cos b, -cos a cos b).
+    positions |= {"needle_x": np.arctan2(dy, -dz), "needle_y": -np.arcsin(dx), "lever": lever}
+    cosine = dy * dy + dz * dz
+    rates |= {
+        "needle_x": (dy * tz - dz * ty) / cosine,
+        "needle_y": -tx / np.sqrt(cosine),
+        "lever": stretch,
+    }
+    return positions, rates
