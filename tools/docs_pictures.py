@@ -42,14 +42,14 @@ def demonstration(name: str, moments: Iterable[str], *arguments: str | Path) -> 
 
 
 def studies() -> None:
-    """Keep each study's picture as docs/pictures/study-<name>.png."""
+    """Keep each study's pictures as docs/pictures/study-<name>[-<figure>].png."""
     from app.studies.runner import study_names
 
     for name in study_names():
         with tempfile.TemporaryDirectory() as folder:
             acus("study", name, "--out", folder)
-            picture = next(Path(folder).rglob("*.png"))
-            shutil.copyfile(picture, PICTURES / f"study-{name}.png")
+            for picture in Path(folder).rglob("*.png"):
+                shutil.copyfile(picture, PICTURES / f"study-{picture.name}")
 
 
 def main() -> None:

@@ -1,11 +1,14 @@
 """`acus study`: error against time of the ways to compute the same thing."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
+    from app.studies.findings import SurveyResult
     from app.studies.study import Result
 
 
@@ -30,17 +33,34 @@ def study(
 
     from rich.console import Console
 
-    from app.studies.runner import run
-    from app.studies.table import document, summary_table
+    from app.studies.findings import Survey
+    from app.studies.runner import examine, find_study, run
+    from app.studies.study import Result
+    from app.studies.table import document, survey_document
 
-    result = run(name, repeats)
+    chosen = find_study(name)
+    result = examine(chosen) if isinstance(chosen, Survey) else run(chosen, repeats)
+    data = document(result) if isinstance(result, Result) else survey_document(result)
     if json:
-        typer.echo(dumps(document(result), indent=2))
+        typer.echo(dumps(data, indent=2))
     else:
-        Console().print(summary_table(result))
+        _print(result, Console())
     if out is not None:
-        for path in _write(result, out):
+        for path in _write(name, result, data, out):
             typer.echo(f"wrote {path}", err=True)
+
+
+def _print(result: "Result | SurveyResult", console: "Console") -> None:
+    from app.studies.study import Result
+    from app.studies.table import sheet_table, summary_table
+
+    if isinstance(result, Result):
+        console.print(summary_table(result))
+    if result.findings is not None:
+        for sheet in result.findings.sheets:
+            console.print(sheet_table(sheet))
+        for line in result.findings.lines:
+            console.print(line)
 
 
 def _list(json: bool) -> None:
@@ -57,15 +77,25 @@ def _list(json: bool) -> None:
         typer.echo(f"{item.name:24} {item.question}")
 
 
-def _write(result: "Result", out: Path) -> list[Path]:
+def _write(
+    name: str, result: "Result | SurveyResult", data: dict[str, Any], out: Path
+) -> list[Path]:
     from json import dumps
 
     from app.core.files import write_atomically
-    from app.studies.plot import draw
-    from app.studies.table import csv_text, document
+    from app.studies.plot import draw, draw_figure
+    from app.studies.study import Result
+    from app.studies.table import csv_text, sheet_csv
 
-    name = result.study.name
-    table, data = out / f"{name}.csv", out / f"{name}.json"
-    write_atomically(table, csv_text(result))
-    write_atomically(data, dumps(document(result), indent=2))
-    return [table, data, draw(result, out / f"{name}.png")]
+    tables = {name: csv_text(result)} if isinstance(result, Result) else {}
+    figures = result.findings.figures if result.findings is not None else ()
+    for sheet in result.findings.sheets if result.findings is not None else ():
+        tables[f"{name}-{sheet.name}"] = sheet_csv(sheet)
+    written = [out / f"{stem}.csv" for stem in tables]
+    for path, text in zip(written, tables.values(), strict=True):
+        write_atomically(path, text)
+    write_atomically(out / f"{name}.json", dumps(data, indent=2))
+    written.append(out / f"{name}.json")
+    if isinstance(result, Result):
+        written.append(draw(result, out / f"{name}.png"))
+    return written + [draw_figure(f, out / f"{name}-{f.name}.png") for f in figures]

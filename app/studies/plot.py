@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.studies.errors import StudyError
+from app.studies.findings import Figure
 from app.studies.study import Point, Result
 from app.studies.table import failure_lines
 
@@ -23,14 +24,32 @@ def draw(result: Result, path: Path) -> Path:
     Raises:
         StudyError: if matplotlib is missing, or the file cannot be written.
     """
-    figure_module, _ = _matplotlib()
-    figure = figure_module.Figure(figsize=(8.0, 6.0), dpi=150, facecolor="white")
+    figure = _empty((8.0, 6.0))
     axes = figure.add_axes((0.11, 0.24, 0.84, 0.68))
     for number, family in enumerate(_families(result)):
         style = number % len(_COLOURS)
         _family(axes, family, _members(result, family), _COLOURS[style], _MARKERS[style])
     _limits(axes, result)
     _dress(figure, axes, result)
+    return _save(figure, path)
+
+
+def draw_figure(figure: Figure, path: Path) -> Path:
+    """Draw a picture of a study's findings; the ending of `path` chooses the format.
+
+    Raises:
+        StudyError: if matplotlib is missing, or the file cannot be written.
+    """
+    canvas = _empty(figure.size)
+    figure.draw(canvas)
+    return _save(canvas, path)
+
+
+def _empty(size: tuple[float, float]) -> Any:
+    return _matplotlib()[0].Figure(figsize=size, dpi=150, facecolor="white")
+
+
+def _save(figure: Any, path: Path) -> Path:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(path)

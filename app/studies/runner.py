@@ -11,10 +11,11 @@ from app import studies
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.studies.errors import StudyError
+from app.studies.findings import Survey, SurveyResult
 from app.studies.study import Case, Failure, Point, Prepared, Result, Setting, Study, Way
 
 REPEATS = 9
-_MACHINERY = {"errors", "plot", "runner", "study", "table"}
+_MACHINERY = {"errors", "findings", "plot", "runner", "study", "table"}
 
 
 def study_names() -> tuple[str, ...]:
@@ -27,7 +28,7 @@ def study_names() -> tuple[str, ...]:
     return tuple(sorted(names - _MACHINERY))
 
 
-def find_study(name: str) -> Study:
+def find_study(name: str) -> Study | Survey:
     """Return a study by name.
 
     Raises:
@@ -36,8 +37,8 @@ def find_study(name: str) -> Study:
     if name not in study_names():
         raise StudyError(f"there is no study {name!r}; there are {', '.join(study_names())}")
     found = getattr(importlib.import_module(f"{studies.__name__}.{name}"), "STUDY", None)
-    if not isinstance(found, Study) or found.name != name:
-        raise StudyError(f"study file {name}.py must define STUDY, a Study of that name")
+    if not isinstance(found, Study | Survey) or found.name != name:
+        raise StudyError(f"study file {name}.py must define STUDY, a Study or Survey of that name")
     return found
 
 
@@ -57,10 +58,12 @@ def run(
             other programs take from the machine is not counted.
 
     Raises:
-        StudyError: for an unknown study.
+        StudyError: for an unknown study, or a survey (see `examine`).
         Cancelled: when the progress says so.
     """
     chosen = find_study(study) if isinstance(study, str) else study
+    if not isinstance(chosen, Study):
+        raise StudyError(f"study {chosen.name} has no ways to time; examine() runs a survey")
     points: list[Point] = []
     failures: list[Failure] = []
     for number, setting in enumerate(chosen.settings):
@@ -72,7 +75,21 @@ def run(
                 points.append(_point(chosen, way, setting, case, max(1, repeats), clock))
             except (AcusError, ArithmeticError, ValueError) as error:
                 failures.append(Failure(way.name, setting.name, str(error)))
-    return Result(chosen, tuple(points), tuple(failures))
+    findings = chosen.findings() if chosen.findings is not None else None
+    return Result(chosen, tuple(points), tuple(failures), findings)
+
+
+def examine(survey: str | Survey, progress: Progress | None = None) -> SurveyResult:
+    """Run a survey.
+
+    Raises:
+        StudyError: for an unknown study, or one that is timed (see `run`).
+        Cancelled: when the progress says so.
+    """
+    chosen = find_study(survey) if isinstance(survey, str) else survey
+    if not isinstance(chosen, Survey):
+        raise StudyError(f"study {chosen.name} compares ways by time; run() runs it")
+    return SurveyResult(chosen, chosen.measure(progress))
 
 
 def _point(

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from app.studies.errors import StudyError
+from app.studies.findings import Findings
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +87,7 @@ class Study:
         deadline: time that the work may take [s].
         perception: error that a person notices.
         default: the way that the program uses, and why.
+        findings: further tables and pictures, made after the points; none if left out.
     """
 
     name: str
@@ -99,6 +101,7 @@ class Study:
     deadline: Limit
     perception: Limit
     default: str
+    findings: Callable[[], Findings] | None = None
 
     def __post_init__(self) -> None:
         for kind, items in (("way", self.ways), ("setting", self.settings)):
@@ -131,11 +134,14 @@ class Failure:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """All points of a study; failures stand beside them, never left out."""
+    """All points of a study; failures stand beside them, never left out. `findings` are further
+    tables and pictures of studies that have some.
+    """
 
     study: Study
     points: tuple[Point, ...]
     failures: tuple[Failure, ...] = field(default=())
+    findings: Findings | None = None
 
     def summary(self) -> tuple[Point, ...]:
         """Return each way at its worst: largest error, longest time, limits kept everywhere."""

@@ -4,8 +4,10 @@ import csv
 import io
 from typing import Any
 
+from rich.markup import escape
 from rich.table import Table
 
+from app.studies.findings import Findings, Sheet, SurveyResult
 from app.studies.study import Point, Result
 
 _COLUMNS = (
@@ -23,9 +25,13 @@ _COLUMNS = (
 def summary_table(result: Result) -> Table:
     """Return each way at its worst over all settings."""
     study = result.study
-    table = Table(title=study.title, caption=_caption(result), caption_justify="left")
+    table = Table(
+        title=escape(study.title), caption=escape(_caption(result)), caption_justify="left"
+    )
     for heading in ("way", study.error_label, "time", "felt or seen?", "in time?", "worst in"):
-        table.add_column(heading, justify="left" if heading in ("way", "worst in") else "right")
+        table.add_column(
+            escape(heading), justify="left" if heading in ("way", "worst in") else "right"
+        )
     for point in result.summary():
         table.add_row(*_row(point))
     return table
@@ -90,7 +96,49 @@ def document(result: Result) -> dict[str, Any]:
         ],
         "too_coarse": list(result.too_coarse()),
         "too_slow": list(result.too_slow()),
+        **(findings_document(result.findings) if result.findings is not None else {}),
     }
+
+
+def survey_document(result: SurveyResult) -> dict[str, Any]:
+    """Return a survey's result for JSON; the keys stand in docs/json.md."""
+    survey = result.survey
+    return {
+        "study": survey.name,
+        "title": survey.title,
+        "reference": survey.reference,
+        **findings_document(result.findings),
+    }
+
+
+def findings_document(findings: Findings) -> dict[str, Any]:
+    """Return the further tables for JSON: by name, as a list of rows by heading."""
+    return {
+        "tables": {
+            sheet.name: [dict(zip(sheet.columns, row, strict=True)) for row in sheet.rows]
+            for sheet in findings.sheets
+        },
+        "lines": list(findings.lines),
+    }
+
+
+def sheet_table(sheet: Sheet) -> Table:
+    """Return a sheet for people, numbers to three digits."""
+    table = Table(title=escape(sheet.title))
+    for column in sheet.columns:
+        table.add_column(escape(column))
+    for row in sheet.rows:
+        table.add_row(*(f"{cell:.4g}" if isinstance(cell, float) else str(cell) for cell in row))
+    return table
+
+
+def sheet_csv(sheet: Sheet) -> str:
+    """Return a sheet as CSV with a heading."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(sheet.columns)
+    writer.writerows(sheet.rows)
+    return stream.getvalue()
 
 
 def csv_text(result: Result) -> str:

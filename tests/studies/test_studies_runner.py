@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +15,21 @@ from rich.console import Console
 from app.core.errors import NumericalError
 from app.core.progress import Cancelled, Progress
 from app.studies.errors import StudyError
-from app.studies.plot import draw
-from app.studies.runner import find_study, run, study_names
+from app.studies.findings import Figure, Findings, Sheet, Survey
+from app.studies.plot import draw, draw_figure
+from app.studies.runner import examine, find_study, run, study_names
 from app.studies.slice_interpolation import field, oblique_plane, sampled
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
-from app.studies.table import csv_text, document, duration, failure_lines, summary_table
+from app.studies.table import (
+    csv_text,
+    document,
+    duration,
+    failure_lines,
+    sheet_csv,
+    sheet_table,
+    summary_table,
+    survey_document,
+)
 
 
 def breaks(case: Case) -> Prepared:
@@ -137,7 +148,7 @@ def test_names_must_be_unique_and_known() -> None:
     way = Way("one", "one", lambda case: Prepared(lambda: 2.0))
     with pytest.raises(StudyError, match="each way needs a name of its own"):
         small((way, way))
-    with pytest.raises(StudyError, match="there are lateral_tissue, slice_interpolation"):
+    with pytest.raises(StudyError, match=r"there are .*lateral_tissue, .*slice_interpolation"):
         find_study("nothing")
 
 
@@ -182,3 +193,46 @@ def test_the_plane_lies_within_the_volume() -> None:
     corners = oblique_plane().points_mm()[[0, 0, -1, -1], [0, -1, 0, -1]]
     volume = sampled(40.0)
     assert all(volume.contains(corner) for corner in corners)
+
+
+def surveyed() -> Survey:
+    def measure(progress: Progress | None) -> Findings:
+        sheet = Sheet("sizes", "Sizes", ("what", "size [m]"), (("ball", 0.0123456), ("arm", 2)))
+        line = Figure("line", lambda figure: figure.add_subplot(1, 1, 1).plot([0, 1], [2, 3]))
+        return Findings((sheet,), (line,), ("The arm is longer.",))
+
+    return Survey("surveyed", "Surveyed", "?", "a rule", measure)
+
+
+def test_a_survey_has_tables_pictures_and_sentences(tmp_path: Path) -> None:
+    result = examine(surveyed())
+    assert survey_document(result)["tables"] == {
+        "sizes": [{"what": "ball", "size [m]": 0.0123456}, {"what": "arm", "size [m]": 2}]
+    }
+    assert survey_document(result)["lines"] == ["The arm is longer."]
+    assert sheet_csv(result.findings.sheets[0]) == "what,size [m]\nball,0.0123456\narm,2\n"
+    console = Console(width=80, file=io.StringIO(), record=True)
+    console.print(sheet_table(result.findings.sheets[0]))
+    text = console.export_text()
+    assert "size [m]" in text, "a unit is no markup"
+    assert "0.01235" in text
+    pytest.importorskip("matplotlib")
+    path = draw_figure(result.findings.figures[0], tmp_path / "line.png")
+    assert path.read_bytes().startswith(b"\x89PNG")
+
+
+def test_what_is_timed_and_what_is_surveyed_are_told_apart() -> None:
+    with pytest.raises(StudyError, match="examine"):
+        run(surveyed())  # type: ignore[arg-type]
+    with pytest.raises(StudyError, match="run"):
+        examine(small())  # type: ignore[arg-type]
+    with pytest.raises(StudyError, match="2 headings"):
+        Sheet("bad", "Bad", ("a", "b"), ((1.0,),))
+
+
+def test_a_study_may_bring_tables_of_its_own() -> None:
+    bare = small()
+    found = Findings((Sheet("more", "More", ("x",), ((1.0,),)),))
+    result = run(replace(bare, findings=lambda: found), repeats=1)
+    assert document(result)["tables"] == {"more": [{"x": 1.0}]}
+    assert "tables" not in document(run(bare, repeats=1))

@@ -20,16 +20,25 @@ _TABLE = types.Array(types.float64, 2, "C", readonly=True)
         types.Array(types.float64, 1, "C", readonly=True),
         _TABLE,
         types.float64[:, ::1],
+        types.int64,
     )
 )
 def drive(
-    function: Any, state: Any, parameters: Any, times: Any, readings: Any, rates: Any
+    function: Any,
+    state: Any,
+    parameters: Any,
+    times: Any,
+    readings: Any,
+    rates: Any,
+    rounds: int,
 ) -> None:
-    """Step a velocity estimator through readings (n, 2) taken at `times` (n,); fill `rates`."""
-    before = 2.0 * times[0] - times[1]
-    for k in range(len(times)):
-        state[sv.DT] = times[k] - before
-        before = times[k]
+    """Step a velocity estimator through readings (n, 2) taken at `times` (n,); fill `rates`.
+
+    Further `rounds` do the same again, to be timed: stamps that go back make it begin afresh.
+    """
+    for tick in range(rounds * len(times)):
+        k = tick % len(times)
+        state[sv.DT] = times[1] - times[0]
         state[sv.TIME], state[sv.Q_TIME] = times[k], times[k]
         state[sv.Q_LEFT], state[sv.Q_RIGHT] = readings[k, 0], readings[k, 1]
         function(state, parameters)

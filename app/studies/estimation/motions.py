@@ -49,7 +49,7 @@ def _let_go(t: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 MOTIONS: Final[dict[str, tuple[float, Path]]] = {
     "rest on an edge": (1.0, _rest),
-    "slow sine": (4.0, _sine),
+    "slow sine": (2.0, _sine),
     "correction": (1.5, _correction),
     "let go": (0.8, _let_go),
 }

@@ -1,0 +1,86 @@
+"""What a study shows beyond error against time: tables of its own, pictures, and sentences."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from app.core.progress import Progress
+from app.studies.errors import StudyError
+
+Cell = str | float | int
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """A table.
+
+    Attributes:
+        name: for the file, unique in the study.
+        title: one line.
+        columns: headings, with units.
+        rows: as long as the headings; numbers stay numbers.
+    """
+
+    name: str
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+
+    def __post_init__(self) -> None:
+        for row in self.rows:
+            if len(row) != len(self.columns):
+                raise StudyError(
+                    f"table {self.name}: a row has {len(row)} cells, there are "
+                    f"{len(self.columns)} headings: {row}"
+                )
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A picture.
+
+    Attributes:
+        name: for the file, unique in the study.
+        draw: draws into an empty figure of matplotlib.
+        size: width and height [inch].
+    """
+
+    name: str
+    draw: Callable[[Any], None]
+    size: tuple[float, float] = (8.0, 6.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """Tables, pictures, and what they say, line by line."""
+
+    sheets: tuple[Sheet, ...]
+    figures: tuple[Figure, ...] = ()
+    lines: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Survey:
+    """A study that answers by maps and tables instead of error against time.
+
+    Attributes:
+        name: of the file, for the command line.
+        title: one line.
+        question: what it decides.
+        reference: what is compared with what, and how good that is.
+        measure: does the work; may report how far it is, and be cancelled.
+    """
+
+    name: str
+    title: str
+    question: str
+    reference: str
+    measure: Callable[[Progress | None], Findings]
+
+
+@dataclass(frozen=True, slots=True)
+class SurveyResult:
+    """A survey with what it found."""
+
+    survey: Survey
+    findings: Findings
