@@ -220,6 +220,6 @@ def _closed(
     rates |= {
         "needle_x": (dy * tz - dz * ty) / cosine,
         "needle_y": -tx / np.sqrt(cosine),
-        "lever": stretch,
+        "lever": float(stretch),
     }
     return positions, rates

@@ -2,18 +2,19 @@
 
 Sideways, in the motor angles (mechanisms/pantograph/dynamics):
 
-    M(q) q̈ + h(q, q̇) + friction(q̇) = τ + Aᵀ F_hand + Jᵀ γ_stop,   A = G_perp J,
+    M(q) q̈ + h(q, q̇) + g(q) + friction(q̇) = τ + Aᵀ F_hand + Jᵀ γ_stop,   A = G_perp J,
 
-with the hand a spring-damper at the hub point, perpendicular to the needle, towards the wanted
-direction. Along the needle, one mass: hand spring-damper, the seal at the fulcrum (Coulomb and
-viscous) and AXIAL_FORCE. Stops: a stiff spring-damper on the tool beyond the tilt limit, an
-inelastic end of the depth range.
+links, tool and needle, with the hand a spring-damper at the hub point, perpendicular to the needle,
+towards the wanted direction. Along the needle, one mass: hand spring-damper, the needle's weight
+and what its turning adds, the seal at the fulcrum (Coulomb and viscous) and AXIAL_FORCE. Stops: a
+stiff spring-damper on the tool beyond the tilt limit, an inelastic end of the depth range.
 
 Springs, dampers and friction are integrated by linearly implicit Euler in substeps of at most half
 a millisecond: stable for any stiffness and any step, and it takes energy, never adds any, where the
-forces are passive. Motor torques are held over the tick, as a real amplifier holds them, so the
-limits of a sampled controller show as they would on the device. A tissue force that opposes the
-motion acts as the damper F / v: it can stop the needle but not turn it back.
+forces are passive. Coulomb friction of joints and seal is dry and solved exactly: it can hold.
+Gravity and velocity terms are explicit. Motor torques are held over the tick, as a real amplifier
+holds them, so the limits of a sampled controller show as they would on the device. A tissue force
+that opposes the motion acts as the damper F / v: it can stop the needle but not turn it back.
 
 What cannot be integrated (NaN in an input) is left out: a hand with NaN lets go, a torque or tissue
 force with NaN is zero, a pose that the mechanism cannot have falls back to the starting pose.
@@ -64,16 +65,14 @@ class Surroundings:
     Attributes:
         moving_mass: needle, hub and what of the grip slides along [kg].
         seal_friction, seal_viscous: silicone at the fulcrum along the needle [N, N·s/m].
-        smooth_speed: joint speed over which Coulomb friction builds up [rad/s].
         stop_stiffness, stop_damping: of the tilt stop, at the tool point [N/m, N·s/m].
     """
 
     moving_mass: float = 0.05
     seal_friction: float = 0.3
     seal_viscous: float = 1.0
-    smooth_speed: float = 0.02
     stop_stiffness: float = 20e3
-    stop_damping: float = 60.0
+    stop_damping: float = 250.0
 
 
 def initial_plant(profile: DeviceProfile, axis: ArrayLike, depth: float) -> dict[str, float]:
@@ -130,11 +129,8 @@ def plant_stage(
     radius = fulcrum[2] * np.tan(profile.tilt_limit)
     parameters = np.array(
         [
-            *geometry.links,
-            *fulcrum,
+            *profile.dynamic_model.values,
             geometry.needle_length,
-            *profile.lumped_inertia.values,
-            *(profile.friction.coulomb, profile.friction.viscous, rig.smooth_speed),
             *(radius, rig.stop_stiffness, rig.stop_damping, *profile.depth_range),
             *(rig.moving_mass, rig.seal_friction, rig.seal_viscous),
             *(hand.stiffness, hand.damping, hand.axial_stiffness, hand.axial_damping),

@@ -7,7 +7,8 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.mechanisms.pantograph.dynamics import mass_matrix_kernel, velocity_terms_kernel
+from app.mechanisms.dynamic_model import A1, A2, BASE, COULOMB, FX, FY, FZ, MODEL_SIZE, VISCOUS
+from app.mechanisms.pantograph.dynamics import axial_load_kernel, dynamics_kernel
 from app.mechanisms.pantograph.kernels import (
     axis_kernel,
     force_map_kernel,
@@ -25,13 +26,16 @@ _SNAP: Final = 1e-12  # slower than this is at rest: subnormal numbers cost 20 t
 _FLATTEST: Final = 0.98  # sine of the largest tilt that the hand may want
 _SHORTEST_LEVER: Final = 0.01  # [m] of needle outside the fulcrum
 
-# Parameters array.
-A1, A2, BASE, FX, FY, FZ, LENGTH = range(7)
-DRIVEN, PASSIVE, COUPLING, TOOL, COULOMB, VISCOUS, SMOOTH = range(7, 14)
-RADIUS, STOP_K, STOP_B, DEPTH_MIN, DEPTH_MAX = range(14, 19)
-MASS, SEAL, SEAL_VISCOUS = range(19, 22)
-HAND_K, HAND_B, HAND_AXIAL_K, HAND_AXIAL_B, HAND_MOST = range(22, 27)
-START_LEFT, START_RIGHT, START_DEPTH = range(27, 30)
+# Parameters array: the model of the dynamics first, see `mechanisms.dynamic_model`.
+_MODEL: Final = 0
+LENGTH, RADIUS, STOP_K, STOP_B, DEPTH_MIN, DEPTH_MAX = range(MODEL_SIZE, MODEL_SIZE + 6)
+MASS, SEAL, SEAL_VISCOUS = range(MODEL_SIZE + 6, MODEL_SIZE + 9)
+HAND_K, HAND_B, HAND_AXIAL_K, HAND_AXIAL_B, HAND_MOST = range(MODEL_SIZE + 9, MODEL_SIZE + 14)
+START_LEFT, START_RIGHT, START_DEPTH = range(MODEL_SIZE + 14, MODEL_SIZE + 17)
+
+_ROUNDS: Final = (
+    40  # of joints that stick in turn; each round leaves at most a quarter of the error
+)
 
 
 _System = tuple[float, float, float, float, float]
@@ -51,11 +55,34 @@ def _pose(
 
 
 @njit
-def _friction(p: FloatArray, speed: float) -> float:
-    """Joint friction as a damper [N·m·s/rad]: viscous plus smoothed Coulomb over speed."""
-    ratio = abs(speed) / p[SMOOTH]
-    slope = np.tanh(ratio) / ratio if ratio > 1e-6 else 1.0
-    return p[VISCOUS] + p[COULOMB] / p[SMOOTH] * slope
+def _slower(impulse: float, most: float) -> float:
+    """Return what dry friction of at most `most` leaves of an impulse."""
+    return impulse - most if impulse > most else (impulse + most if impulse < -most else 0.0)
+
+
+@njit
+def _dry(
+    a11: float, a12: float, a22: float, b1: float, b2: float, v1: float, v2: float, most: float
+) -> tuple[float, float]:
+    """Speeds of A v = b - λ, λ the impulse of dry friction of each joint: (v1, v2).
+
+    |λ| ≤ most; a joint that moves has it whole, against its motion; one that it can hold rests.
+    `v1` and `v2` on entry are the speeds before: where the signs stay, the answer is direct.
+    """
+    determinant = a11 * a22 - a12 * a12
+    s1 = most if v1 > 0.0 else -most
+    s2 = most if v2 > 0.0 else -most
+    u1 = (a22 * (b1 - s1) - a12 * (b2 - s2)) / determinant
+    u2 = (a11 * (b2 - s2) - a12 * (b1 - s1)) / determinant
+    if most == 0.0 or (u1 * s1 > 0.0 and u2 * s2 > 0.0):
+        return u1, u2
+    for _ in range(_ROUNDS):
+        u1 = _slower(b1 - a12 * v2, most) / a11
+        u2 = _slower(b2 - a12 * u1, most) / a22
+        if abs(u1 - v1) + abs(u2 - v2) <= _SNAP:
+            break
+        v1, v2 = u1, u2
+    return u1, u2
 
 
 @njit
@@ -124,11 +151,8 @@ def _swing(
     q1, q2 = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
     v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
     ok, x, y, jxl, jxr, jyl, jyr = _pose(p, q1, q2)
-    m11, m12, m22 = mass_matrix_kernel(
-        q1, q2, x, y, p[A1], p[A2], p[BASE], p[DRIVEN], p[PASSIVE], p[COUPLING], p[TOOL]
-    )
-    c1, c2 = velocity_terms_kernel(
-        q1, q2, v1, v2, x, y, p[A1], p[A2], p[BASE], p[DRIVEN], p[PASSIVE], p[COUPLING], p[TOOL]
+    m11, m12, m22, c1, c2, g1, g2 = dynamics_kernel(
+        q1, q2, v1, v2, x, y, state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE], p, _MODEL
     )
     vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
     gx, gy, xx, xy, yy = _stop_at_tool(p, h, x, y, vx, vy)
@@ -137,14 +161,14 @@ def _swing(
         l_out = max(p[LENGTH] - state[sv.PLANT_DEPTH], _SHORTEST_LEVER)
         hx, hy, hxx, hxy, hyy = _hand_at_tool(p, h, wx, wy, wz, dx, dy, dz, l_in, l_out)
         gx, gy, xx, xy, yy = gx + hx, gy + hy, xx + hxx, xy + hxy, yy + hyy
-    b1 = m11 * v1 + m12 * v2 + h * (t1 - c1 + jxl * gx + jyl * gy)
-    b2 = m12 * v1 + m22 * v2 + h * (t2 - c2 + jxr * gx + jyr * gy)
-    a11 = m11 + h * _friction(p, v1) + jxl * (xx * jxl + xy * jyl) + jyl * (xy * jxl + yy * jyl)
+    b1 = m11 * v1 + m12 * v2 + h * (t1 - c1 - g1 + jxl * gx + jyl * gy)
+    b2 = m12 * v1 + m22 * v2 + h * (t2 - c2 - g2 + jxr * gx + jyr * gy)
+    a11 = m11 + h * p[VISCOUS] + jxl * (xx * jxl + xy * jyl) + jyl * (xy * jxl + yy * jyl)
     a12 = m12 + jxl * (xx * jxr + xy * jyr) + jyl * (xy * jxr + yy * jyr)
-    a22 = m22 + h * _friction(p, v2) + jxr * (xx * jxr + xy * jyr) + jyr * (xy * jxr + yy * jyr)
-    determinant = a11 * a22 - a12 * a12
-    v1 = _rest(min(max((a22 * b1 - a12 * b2) / determinant, -_SPEED), _SPEED))
-    v2 = _rest(min(max((a11 * b2 - a12 * b1) / determinant, -_SPEED), _SPEED))
+    a22 = m22 + h * p[VISCOUS] + jxr * (xx * jxr + xy * jyr) + jyr * (xy * jxr + yy * jyr)
+    v1, v2 = _dry(a11, a12, a22, b1, b2, v1, v2, h * p[COULOMB])
+    v1 = _rest(min(max(v1, -_SPEED), _SPEED))
+    v2 = _rest(min(max(v2, -_SPEED), _SPEED))
     ok = _pose(p, q1 + h * v1, q2 + h * v2)[0]
     state[sv.PLANT_Q_LEFT] = q1 + h * v1 if ok else q1
     state[sv.PLANT_Q_RIGHT] = q2 + h * v2 if ok else q2
@@ -157,7 +181,7 @@ def _slide(state: FloatArray, p: FloatArray, h: float, tissue: float, holds: boo
     """One substep along the needle; the seal's Coulomb friction is solved exactly (it can hold)."""
     depth, v = state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE]
     mass = p[MASS] + h * p[SEAL_VISCOUS]
-    impulse = p[MASS] * v
+    impulse = p[MASS] * v + h * _load(state, p)
     if tissue * v > 0.0:  # opposes the motion: implicit, as the damper F / v
         mass += h * tissue / v
     else:
@@ -172,6 +196,15 @@ def _slide(state: FloatArray, p: FloatArray, h: float, tissue: float, holds: boo
     moved = min(max(depth + h * v, p[DEPTH_MIN]), p[DEPTH_MAX])
     state[sv.PLANT_DEPTH_RATE] = v if moved == depth + h * v else 0.0
     state[sv.PLANT_DEPTH] = moved
+
+
+@njit
+def _load(state: FloatArray, p: FloatArray) -> float:
+    """Weight and turning of the needle along its axis, inwards [N]."""
+    ok, x, y, jxl, jxr, jyl, jyr = _pose(p, state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT])
+    v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
+    vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
+    return axial_load_kernel(vx, vy, x, y, state[sv.PLANT_DEPTH], p, _MODEL) if ok else 0.0
 
 
 @njit

@@ -6,14 +6,14 @@ import pytest
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, angle_between, unit
 from app.mechanisms.pantograph import (
+    DynamicTerms,
+    dynamic_terms,
     force_map,
     forward,
     jacobian,
     joint_torques,
-    mass_matrix,
     needle_at,
 )
-from app.mechanisms.pantograph.dynamics import velocity_terms
 from app.mechanisms.profile import DeviceProfile, load_profile
 from app.simulation.errors import SimulationError
 from app.simulation.plan import Stage
@@ -50,9 +50,17 @@ def axis_of(state: FloatArray) -> FloatArray:
     return unit(np.array([x, y, 0.0]) - PROFILE.pantograph.fulcrum)
 
 
-def kinetic(state: FloatArray, profile: DeviceProfile = PROFILE) -> float:
-    mass = mass_matrix(profile.pantograph, profile.lumped_inertia, state[Q])
-    return 0.5 * float(state[QD] @ mass @ state[QD])
+def terms(state: FloatArray, profile: DeviceProfile = PROFILE) -> DynamicTerms:
+    depth, rate = float(state[sv.PLANT_DEPTH]), float(state[sv.PLANT_DEPTH_RATE])
+    return dynamic_terms(profile.dynamic_model, state[Q], state[QD], depth, rate)
+
+
+def energy(state: FloatArray, profile: DeviceProfile = PROFILE) -> float:
+    """Kinetic energy, and that of the needle's weight above its place with the needle vertical."""
+    part = profile.inertia
+    inside = float(state[sv.PLANT_DEPTH]) + part.needle_centre - profile.geometry.needle_length
+    fall = profile.mounting.gravity[2] * inside * (axis_of(state)[2] + 1.0)
+    return 0.5 * float(state[QD] @ terms(state, profile).mass @ state[QD]) - part.needle_mass * fall
 
 
 def without_friction() -> DeviceProfile:
@@ -83,17 +91,17 @@ def test_one_tick_without_hand_follows_the_equations_of_motion() -> None:
     before = state.copy()
     run(plant_stage(profile), state, 1)
     rate = (state[QD] - before[QD]) / 1e-6
-    mass = mass_matrix(profile.pantograph, profile.lumped_inertia, before[Q])
-    h = velocity_terms(profile.pantograph, profile.lumped_inertia, before[Q], before[QD])
-    np.testing.assert_allclose(rate, np.linalg.solve(mass, [0.05, -0.02] - h), rtol=1e-6)
+    found = terms(before, profile)
+    free = np.array([0.05, -0.02]) - found.velocity - found.gravity
+    np.testing.assert_allclose(rate, np.linalg.solve(found.mass, free), rtol=1e-6)
 
 
 @pytest.mark.parametrize("profile", [PROFILE, without_friction()], ids=["friction", "frictionless"])
 def test_energy_does_not_grow_when_let_go(profile: DeviceProfile) -> None:
     state = begin()
     state[QD] = (1.0, -0.6)
-    start = kinetic(state)
-    energies = [kinetic(row, profile) for row in run(plant_stage(profile), state, 1000)]
+    start = energy(state)
+    energies = [energy(row, profile) for row in run(plant_stage(profile), state, 1000)]
     assert np.max(energies) <= start * 1.002  # velocity terms are explicit: two parts in a thousand
     assert energies[-1] < start
 
@@ -126,7 +134,8 @@ def test_the_pull_of_the_hand_balances_the_robot_in_rest() -> None:
     needle = needle_at(geometry, forward(geometry, state[Q]), geometry.needle_length - depth)
     torque = joint_torques(jacobian(geometry, state[Q]), force_map(needle, pull))
     assert abs(pull @ axis) < 1e-9
-    np.testing.assert_allclose(torque, [-0.06, -0.02], atol=1e-9)
+    weight = terms(state, profile).gravity
+    np.testing.assert_allclose(torque - weight, [-0.06, -0.02], atol=1e-9)
 
 
 def test_a_hand_that_wants_beyond_the_tilt_limit_is_stopped_without_a_jump() -> None:
@@ -184,3 +193,39 @@ def test_any_hand_is_stable_at_any_step(dt: float, stiffness: float) -> None:
 def test_a_bad_hand_is_refused() -> None:
     with pytest.raises(SimulationError, match="hand stiffness is -1"):
         Hand(stiffness=-1.0)
+
+
+def test_joint_friction_holds_a_leaning_needle_up_to_its_coulomb_torque() -> None:
+    """Dry, not smoothed: a needle that its weight cannot tear loose does not creep."""
+    leaning = unit(np.array([0.05, 0.02, -1.0]))
+    state = begin(leaning)
+    assert np.abs(terms(state).gravity).max() < PROFILE.friction.coulomb
+    rows = run(plant_stage(PROFILE), state, 2000)
+    assert not rows[:, QD].any()
+    state = begin(unit(np.array([0.5, 0.2, -1.0])))
+    assert np.abs(terms(state).gravity).max() > PROFILE.friction.coulomb
+    run(plant_stage(PROFILE), state, 1000)
+    assert state[QD].any() or angle_between(axis_of(state), DOWN) > np.deg2rad(35.0)
+
+
+def test_one_tick_slows_a_needle_by_its_weight_and_turning() -> None:
+    rig = Surroundings(seal_friction=0.0, seal_viscous=0.0, moving_mass=PROFILE.inertia.needle_mass)
+    state = begin(unit(np.array([0.2, 0.0, -1.0])))
+    state[sv.DT] = 1e-6
+    gravity = -9.80665 * axis_of(state)[2]
+    run(plant_stage(PROFILE, surroundings=rig), state, 1)
+    assert state[sv.PLANT_DEPTH_RATE] / 1e-6 == pytest.approx(gravity, rel=1e-9)
+
+
+@pytest.mark.parametrize("speeds", [(0.4, 1e-6), (-1e-6, 0.3), (1e-6, 1e-6), (0.2, -0.2)])
+def test_dry_friction_never_turns_a_joint_around_and_takes_energy(
+    speeds: tuple[float, float],
+) -> None:
+    friction = PROFILE.friction.model_copy(update={"coulomb": 0.05, "viscous": 0.0})
+    profile = PROFILE.model_copy(update={"friction": friction})
+    state = begin(depth=0.1)
+    state[QD] = speeds
+    rows = run(plant_stage(profile), state, 200)
+    energies = np.array([energy(row, profile) for row in rows])
+    assert np.diff(energies).max() <= 1e-9
+    assert not rows[-1, QD].any()
