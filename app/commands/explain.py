@@ -1,4 +1,4 @@
-"""`acus explain`: what an exercise simulates, with which model, why, and what it costs per tick."""
+"""`acus explain`: the force laws of an exercise, what it simulates and why, what each costs."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -6,6 +6,7 @@ import typer
 
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray
+    from app.mechanisms.profile import DeviceProfile
     from app.simulation.plan import SimulationPlan
 
 _TICK_NS = 1e9 / 1000.0
@@ -23,13 +24,16 @@ def explain(
     ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="print JSON (docs/json.md)")] = False,
 ) -> None:
-    """Print what an exercise simulates and what it leaves out, and why."""
+    """Print the force laws, what an exercise simulates and what it leaves out, and why."""
     from app.exercises.library import load_exercise
-    from app.exercises.scene import compile_exercise, device_of
+    from app.exercises.scene import compile_exercise, device_of, law_requests
 
     chosen = load_exercise(exercise)
-    plan = compile_exercise(chosen, device_of(chosen), simulated=not real)
+    profile = device_of(chosen)
+    plan = compile_exercise(chosen, profile, simulated=not real)
     document = _document(chosen.id, chosen.device, not real, plan)
+    document["assistance"] = chosen.assistance
+    document["laws"] = _laws(law_requests(chosen), profile)
     if as_json:
         from json import dumps
 
@@ -65,6 +69,28 @@ def _document(
     }
 
 
+def _laws(requests: dict[str, dict[str, float]], profile: "DeviceProfile") -> list[dict[str, Any]]:
+    """Describe each force law: its statement, the energy it may store, its time in a tick."""
+    from app.device.control import laws
+    from app.device.control.cost import stage_cost
+
+    bounds, rows = laws.energy_bounds(requests, profile), []
+    for name, function, parameters in laws.stages_of(requests, profile):
+        law, state = laws.declaration(name), _working_state()
+        rows.append(
+            {
+                "law": name,
+                "title": law.title,
+                "parameters": law.checked(requests[name], profile),
+                "energy": law.energy[0],
+                "energy_statement": law.energy[1],
+                "energy_bound_j": round(bounds[name], 6),
+                "cost_ns": round(stage_cost(function, parameters, state) * 1e9, 1),
+            }
+        )
+    return rows
+
+
 def _costs(plan: "SimulationPlan") -> dict[str, float]:
     """Measured time of each effect in a tick [s], with the needle 60 mm deep in the tissue."""
     from app.device.control.cost import stage_cost
@@ -83,21 +109,30 @@ def _working_state() -> "FloatArray":
     state[sv.TIME], state[sv.DT] = 1.0, 1e-3
     state[sv.AXIS_X], state[sv.AXIS_Z] = 0.2, -(0.96**0.5)
     state[sv.DEPTH], state[sv.PLANT_DEPTH], state[sv.L_OUT] = 0.06, 0.06, 0.14
-    state[sv.DEPTH_SOURCE] = 1.0
+    state[sv.L_IN], state[sv.DEPTH_SOURCE] = 0.09 / 0.96**0.5, 1.0
+    state[sv.PATH_Z], state[sv.ASSISTANCE], state[sv.HUB_VX] = -1.0, 0.7, 0.02
     return state
 
 
 def _print(document: dict[str, Any]) -> None:
     kind = "simulated" if document["simulated_device"] else "real"
     typer.echo(f"{document['exercise']} on the {kind} device {document['device']}")
+    for law in document["laws"]:
+        typer.echo(f"\n  {law['law']}: {law['title']}")
+        typer.echo(f"    energy   {law['energy']}: {law['energy_statement']}")
+        typer.echo(f"    bound    {1000.0 * law['energy_bound_j']:.1f} mJ")
+        typer.echo(f"    cost     {_cost(law['cost_ns'])}")
     for kept in document["simulated"]:
         typer.echo(f"\n  {kept['effect']}: {kept['title']}")
         typer.echo(f"    model    {kept['model']}: {kept['model_description']}")
         typer.echo(f"    why      {kept['why']}")
         typer.echo(f"    energy   {kept['energy']}")
-        share = 100.0 * kept["cost_ns"] / _TICK_NS
-        typer.echo(f"    cost     {kept['cost_ns']:.0f} ns per tick, {share:.4f} % of 1 ms")
+        typer.echo(f"    cost     {_cost(kept['cost_ns'])}")
     for dropped in document["dropped"]:
         typer.echo(f"\n  {dropped['effect']}\n    {dropped['why']}")
     if not document["simulated"] and not document["dropped"]:
         typer.echo("  no effects")
+
+
+def _cost(nanoseconds: float) -> str:
+    return f"{nanoseconds:.0f} ns per tick, {100.0 * nanoseconds / _TICK_NS:.4f} % of 1 ms"

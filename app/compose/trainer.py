@@ -14,11 +14,11 @@ from app.core import paths
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
-from app.device.control import Loop, Table, VirtualFixture, pantograph_stages
+from app.device.control import Loop, Table, laws, pantograph_stages
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
 from app.exchange.markups import plan_document
-from app.exercises.scene import compile_exercise, device_of
+from app.exercises.scene import compile_exercise, device_of, law_requests
 from app.exercises.schema import Exercise
 from app.mechanisms.pantograph import system_forward
 from app.mechanisms.profile import DeviceProfile
@@ -131,16 +131,16 @@ def build_loop(setup: TrainerSetup, profile: DeviceProfile) -> Loop:
 
 
 def loop_table(setup: TrainerSetup, profile: DeviceProfile) -> Table:
-    """Table of a tick: trainee, encoders, fixture, the effects the exercise calls for, plant."""
+    """Table of a tick: trainee, encoders, force laws and effects the exercise calls for, plant."""
     exercise = setup.exercise.placed_as(setup.placed.placement)
     link = simulated_link(profile, [plant_stage(profile, UPRIGHT, START_DEPTH)])
     if setup.skill is not None:
         placed = setup.placed
         trainee = trainee_stage(placed.axis, placed.length, setup.skill, setup.seed)
         link = Link.of([trainee, *link.read], link.write)
-    laws = [VirtualFixture.of(profile).stage()]
+    forces = laws.stages_of(law_requests(exercise), profile)
     effects = compile_exercise(exercise, profile).stages()
-    return pantograph_stages(profile, laws, effects, link)
+    return pantograph_stages(profile, forces, effects, link)
 
 
 def needle_scene(loop: Loop, profile: DeviceProfile, marker_offset: float) -> Scene:

@@ -43,3 +43,8 @@ def settings() -> Path:
     return Path(
         os.environ.get("ACUS_SETTINGS") or platformdirs.user_config_dir("acus", appauthor=False)
     )
+
+
+def laws() -> Path:
+    """Per-user folder of a laboratory's own force laws (`ACUS_LAWS` overrides)."""
+    return Path(os.environ.get("ACUS_LAWS") or data() / "laws")

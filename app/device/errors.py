@@ -15,6 +15,10 @@ class LinkError(DeviceError):
     """Port, wire or board cannot be used; the message says how to mend it."""
 
 
+class LawError(DeviceError):
+    """A force law does not exist, its file is broken, or a parameter cannot be used."""
+
+
 class UnknownInputError(DeviceError, KeyError):
     """A name that is not an input of the loop."""
 

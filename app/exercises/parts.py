@@ -118,6 +118,16 @@ class EffectPart(Strict):
     organ: str = ""
 
 
+class LawPart(Strict):
+    """One named force law; its presence is the switch. The device knows the valid parameters.
+
+    Attributes:
+        parameters: SI values that replace the law's defaults.
+    """
+
+    parameters: dict[str, Annotated[float, Field(strict=True)]] = Field(default_factory=dict)
+
+
 class LayerPart(Strict):
     """A slab of tissue along the path, counted from the skin.
 

@@ -94,3 +94,10 @@ def compile_exercise(
         [view.value for view in exercise.views],
         metric_consumers(exercise),
     )
+
+
+def law_requests(exercise: Exercise) -> dict[str, dict[str, float]]:
+    """Return the force laws of an exercise with their parameters, as `device.control.laws` takes
+    them.
+    """
+    return {name: dict(part.parameters) for name, part in exercise.laws.items()}

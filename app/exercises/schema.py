@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from app.core.configuration import Strict
 from app.exercises.parts import (
     Ct,
     EffectPart,
+    LawPart,
     LayerPart,
     PhantomCt,
     PlacementPart,
@@ -41,7 +42,8 @@ class Exercise(Strict):
         device: name or path of a device profile.
         joint: ball joint mounted on the device; empty for the profile's own.
         rig: name or path of a camera rig profile.
-        assistance: guidance at the start, 0 off ... 1 full.
+        assistance: dial at the start, 1 guides fully, 0 does nothing, -1 repels fully.
+        laws: name -> parameters of the force laws that act on the hand; none if empty.
         effects: name -> parameters of what is asked for; the scene compiler keeps what somebody
             consumes.
         layers: tissue along the path, from the skin inwards; empty for the simulation's own.
@@ -63,7 +65,8 @@ class Exercise(Strict):
     device: str = "icube"
     joint: str = ""
     rig: str = "wide"
-    assistance: Annotated[float, Field(ge=0.0, le=1.0)] = 0.7
+    assistance: Annotated[float, Field(ge=-1.0, le=1.0)] = 0.7
+    laws: Mapping[str, LawPart] = Field(default_factory=lambda: {"fixture": LawPart()})
     effects: Mapping[str, EffectPart] = Field(default_factory=dict)
     layers: tuple[LayerPart, ...] = ()
     target_organ: str = ""
@@ -72,19 +75,19 @@ class Exercise(Strict):
     views: tuple[View, ...] = (View.LIVE_OVERLAY, View.BULLSEYE, View.THREE_D)
     seed: Annotated[int, Field(ge=0)] = 1
 
-    @field_validator("effects", mode="before")
+    @field_validator("effects", "laws", mode="before")
     @classmethod
-    def _bare_names(cls, effects: object) -> object:
-        """Let `breathing:` alone, or a list of names, stand for an effect with its defaults."""
-        if isinstance(effects, list):
-            if not all(isinstance(name, str) for name in effects):
-                raise ValueError("a list of effects holds names only")
-            if len(set(effects)) < len(effects):
-                raise ValueError("an effect is named twice")
-            effects = dict.fromkeys(effects)
-        if isinstance(effects, Mapping):
-            return {name: {} if part is None else part for name, part in effects.items()}
-        return effects
+    def _bare_names(cls, parts: object, info: ValidationInfo) -> object:
+        """Let `breathing:` alone, or a list of names, stand for a part with its defaults."""
+        if isinstance(parts, list):
+            if not all(isinstance(name, str) for name in parts):
+                raise ValueError(f"a list of {info.field_name} holds names only")
+            if len(set(parts)) < len(parts):
+                raise ValueError(f"one of the {info.field_name} is named twice")
+            parts = dict.fromkeys(parts)
+        if isinstance(parts, Mapping):
+            return {name: {} if part is None else part for name, part in parts.items()}
+        return parts
 
     @field_validator("tolerances")
     @classmethod

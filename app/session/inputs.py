@@ -11,7 +11,7 @@ class LoopInputs:
     """The loop's inputs; every value is checked before it crosses over.
 
     Attributes:
-        assistance: dial as last set, 0...1.
+        assistance: dial as last set, -1...1.
         armed: whether forces are armed.
     """
 
@@ -28,12 +28,12 @@ class LoopInputs:
         )
 
     def assist(self, value: float) -> None:
-        """Set the assistance, clamped to 0...1.
+        """Set the assistance, clamped to -1...1.
 
         Raises:
             NumericalError: if it is not a number.
         """
-        self.assistance = float(np.clip(frozen(value, (), "assistance"), 0.0, 1.0))
+        self.assistance = float(np.clip(frozen(value, (), "assistance"), -1.0, 1.0))
         self._inbox.write(assistance=self.assistance)
 
     def arm(self, armed: bool) -> None:

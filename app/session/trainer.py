@@ -178,7 +178,7 @@ class Trainer:
         self._inputs.hand(x, y, depth, holds)
 
     def assistance(self, value: float) -> None:
-        """Set the assistance, 0 off ... 1 full guidance."""
+        """Set the assistance: 1 full guidance, 0 nothing, -1 full repulsion."""
         self._inputs.assist(value)
 
     def arm(self) -> None:

@@ -43,6 +43,11 @@ def test_explain_says_what_is_simulated_why_and_at_what_cost() -> None:
     assert {row["effect"] for row in document["simulated"]} == {"lateral_tissue", "shaft_friction"}
     assert all(row["cost_ns"] > 0.0 and row["why"] for row in document["simulated"])
     assert document["dropped"][0]["effect"] == "breathing"
+    (law,) = document["laws"]
+    assert law["law"] == "fixture"
+    assert law["energy"] == "potential"
+    assert 0.0 < law["energy_bound_j"] < 5.0
+    assert 0.0 < law["cost_ns"] < 1e6
 
 
 def test_explain_for_the_real_robot_drops_what_it_cannot_render() -> None:

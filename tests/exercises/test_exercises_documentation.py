@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from app.exercises.parts import EffectPart, LayerPart, PlacementPart, View
+from app.exercises.parts import EffectPart, LawPart, LayerPart, PlacementPart, View
 from app.exercises.schema import Exercise
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.metrics import available
@@ -30,7 +30,7 @@ def test_every_field_of_the_file_is_explained_and_no_other() -> None:
     assert nested == fields | {f"rules.{name}" for name in Rules.model_fields}
 
 
-@pytest.mark.parametrize("model", [LayerPart, EffectPart])
+@pytest.mark.parametrize("model", [LayerPart, EffectPart, LawPart])
 def test_the_fields_of_layers_and_effects_are_named(model: type) -> None:
     for name in model.model_fields:  # type: ignore[attr-defined]
         assert name in PAGE
@@ -39,6 +39,12 @@ def test_the_fields_of_layers_and_effects_are_named(model: type) -> None:
 def test_every_view_and_effect_is_named() -> None:
     assert all(f"`{view.value}`" in PAGE for view in View)
     assert first_cells("### Effects") <= set(effect_names())
+
+
+def test_every_force_law_is_explained() -> None:
+    from app.device.control.laws import law_names
+
+    assert first_cells("### Force laws") == set(law_names())
 
 
 def test_every_metric_is_defined_and_no_other() -> None:

@@ -64,6 +64,14 @@ def test_effects_may_be_a_list_of_names(tmp_path: Path) -> None:
     assert list(exercise.effects) == ["breathing", "shaft_friction"]
 
 
+def test_force_laws_are_named_bare_with_parameters_or_not_at_all(tmp_path: Path) -> None:
+    assert list(read(tmp_path, "").laws) == ["fixture"]
+    assert not read(tmp_path, "laws: {}\n").laws
+    laws = read(tmp_path, "laws: {fixture: , mine: {parameters: {force: 2}}}\n").laws
+    assert laws["fixture"].parameters == {}
+    assert laws["mine"].parameters == {"force": 2.0}
+
+
 def test_an_exercise_survives_being_written_and_read(tmp_path: Path) -> None:
     exercise = read(
         tmp_path, "effects: [breathing]\nplan: {entry_mm: [0, 0, 0], target_mm: [0, 50, 0]}\n"
@@ -76,6 +84,9 @@ def test_an_exercise_survives_being_written_and_read(tmp_path: Path) -> None:
     [
         ("colour: red", r"colour: .*'red'"),
         ("assistance: 1.5", r"assistance: .*less than or equal to 1.*1\.5"),
+        ("assistance: -1.01", r"assistance: .*greater than or equal to -1"),
+        ("laws: [fixture, fixture]", r"laws: .*named twice"),
+        ("laws: {fixture: {stiffness: 3}}", r"laws\.fixture\.stiffness"),
         ("assistance: .nan", r"assistance: .*finite"),
         ("version: 0", "version: .*greater than or equal to 1"),
         ("ct: {}", "ct: .*either phantom: .* or folder"),

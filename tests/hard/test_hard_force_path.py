@@ -2,13 +2,20 @@
 
 import numpy as np
 import pytest
-from device.device_rig import HAND_LIMIT, PROFILE, TORQUE_LIMIT, Rig
+from device.device_rig import HAND_LIMIT, TORQUE_LIMIT, Rig
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core import state_vector as sv
 from app.device.control import Fault
-from app.device.control.fixture import attraction_kernel
+from app.device.control.law_kernels import across_kernel, spring_kernel
+
+
+def attraction(*vectors: float) -> tuple[float, ...]:
+    """Force at the hub of a spring of 1 N/rad without limit: (needle, path) in."""
+    *part, angle = across_kernel(*vectors)
+    return tuple(-spring_kernel(angle, 1.0, 1e9)[0] * x for x in part)
+
 
 anything = st.floats(allow_nan=True, allow_infinity=True)
 FORCE_PATH = [sv.FELT_X, sv.FELT_Y, sv.FELT_Z, sv.TORQUE_LEFT, sv.TORQUE_RIGHT]
@@ -58,7 +65,7 @@ def test_in_any_pose_of_the_motors_the_force_stays_within_its_limits(q1, q2, dep
 
 def test_on_the_path_the_force_is_exactly_zero():
     for path in np.eye(3):
-        assert attraction_kernel(*path, *path) == (0.0, 0.0, 0.0)
+        assert attraction(*path, *path) == (0.0, 0.0, 0.0)
     rig = Rig(tilt=0.0)
     with rig.loop:
         rig.arm()
@@ -70,14 +77,14 @@ def test_on_the_path_the_force_is_exactly_zero():
 
 @pytest.mark.parametrize("offset", [1e-300, 1e-200, 1e-100, 1e-16, 1e-9, 1e-3])
 def test_near_the_path_the_force_is_proportional_to_the_error(offset):
-    force = np.array(attraction_kernel(0.0, 0.0, -1.0, offset, 0.0, -1.0))
+    force = np.array(attraction(0.0, 0.0, -1.0, offset, 0.0, -1.0))
     assert force == pytest.approx([-offset, 0.0, 0.0], rel=1e-3, abs=0.0)
 
 
 def test_against_the_path_the_force_goes_to_zero_without_a_jump():
     previous = None
     for angle in np.linspace(np.pi - 1e-3, np.pi + 1e-3, 2001):
-        force = np.array(attraction_kernel(0.0, 0.0, -1.0, np.sin(angle), 0.0, -np.cos(angle)))
+        force = np.array(attraction(0.0, 0.0, -1.0, np.sin(angle), 0.0, -np.cos(angle)))
         assert np.isfinite(force).all()
         assert np.linalg.norm(force) <= np.pi
         assert previous is None or np.linalg.norm(force - previous) < 1e-5
@@ -87,8 +94,7 @@ def test_against_the_path_the_force_goes_to_zero_without_a_jump():
 def test_the_spring_is_smooth_where_its_two_forms_meet():
     angles = np.pi / 2 + np.linspace(-1e-6, 1e-6, 201)
     forces = [
-        np.linalg.norm(attraction_kernel(0.0, 0.0, -1.0, np.sin(a), 0.0, -np.cos(a)))
-        for a in angles
+        np.linalg.norm(attraction(0.0, 0.0, -1.0, np.sin(a), 0.0, -np.cos(a))) for a in angles
     ]
     assert np.diff(forces) == pytest.approx(np.full(200, 1e-8), abs=1e-13)
 
@@ -119,20 +125,18 @@ def test_a_needle_that_passes_through_the_vertical_feels_no_jump():
     assert np.abs(np.diff(forces, axis=0)).max() < 0.02
 
 
-def test_turning_the_dial_never_moves_the_force_further_than_the_dial():
+def test_turning_the_dial_never_moves_the_force_faster_than_the_dial_may_turn():
     rig = Rig()
     rng = np.random.default_rng(5)
     with rig.loop:
         rig.arm()
-        previous, dial = rig.loop.latest().felt, 1.0
-        for _ in range(100):
-            turned = float(rng.uniform(0.0, 1.0))
-            rig.write(assistance=turned)
+        previous = rig.loop.latest().felt
+        for _ in range(400):
+            rig.write(assistance=float(rng.uniform(-1.0, 1.0)))
             rig.step(1)
             felt = rig.loop.latest().felt
-            full = PROFILE.fixture.stiffness * rig.loop.latest().angle_error
-            assert np.linalg.norm(felt - previous) <= full * abs(turned - dial) + 1e-9
-            previous, dial = felt, turned
+            assert np.linalg.norm(felt - previous) <= 4.0 * 1e-3 * HAND_LIMIT / 0.95 + 1e-9
+            previous = felt
 
 
 def test_a_dial_that_is_clicked_to_its_end_does_not_jerk_the_hand():

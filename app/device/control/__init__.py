@@ -1,5 +1,6 @@
 """Virtual fixtures, force limits, safety and the real-time loop."""
 
+from app.device.control import laws
 from app.device.control.cost import stage_cost
 from app.device.control.fixture import VirtualFixture
 from app.device.control.host import Host, Priority
@@ -22,6 +23,7 @@ __all__ = [
     "Table",
     "Timing",
     "VirtualFixture",
+    "laws",
     "pantograph_stages",
     "stage_cost",
 ]

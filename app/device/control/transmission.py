@@ -22,10 +22,11 @@ _HAND_LIMIT, _TORQUE_LIMIT, _PRINTED = range(3)
 
 @stage
 def transmission_stage(state: FloatArray, p: FloatArray) -> None:
-    """Write TORQUE_* and LIMIT_SCALE from FORCE_*.
+    """Write TORQUE_* and LIMIT_SCALE from FORCE_* and JOINT_*.
 
     Only the part of the force across the needle can be delivered; that part is limited to the
-    hand's limit, and both torques are scaled together to the joints', so that its direction stays.
+    hand's limit and becomes joint torques, to which those of JOINT_* are added. The sums are scaled
+    together to the joints' limit, so that their direction stays.
     """
     fx, fy, fz = state[sv.FORCE_X], state[sv.FORCE_Y], state[sv.FORCE_Z]
     dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
@@ -41,6 +42,7 @@ def transmission_stage(state: FloatArray, p: FloatArray) -> None:
     left, right = torque_kernel(
         gx, gy, state[sv.J_XL], state[sv.J_XR], state[sv.J_YL], state[sv.J_YR]
     )
+    left, right = left + state[sv.JOINT_LEFT], right + state[sv.JOINT_RIGHT]
     largest = max(abs(left), abs(right))
     factor = p[_TORQUE_LIMIT] / largest if largest > p[_TORQUE_LIMIT] else 1.0
     state[sv.LIMIT_SCALE] = scale * factor

@@ -1,0 +1,194 @@
+"""What a force law says about itself, read from its source without importing it."""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from operator import attrgetter
+from pathlib import Path
+from typing import Any, Final
+
+from app.core.state_vector import INDEX
+from app.device.errors import LawError
+from app.mechanisms.profile import DeviceProfile
+
+ENERGIES: Final = ("potential", "dissipative", "active")
+"""A law stores energy and gives it back; only takes it; or can give out more than it took."""
+
+_KEYS = ("title", "reads", "writes", "energy", "parameters")
+_FUNCTIONS = ("parameters", "energy_bound", "step")
+
+
+@dataclass(frozen=True, slots=True)
+class LawParameter:
+    """One SI parameter of a law.
+
+    Attributes:
+        default: a number, or a field of the device profile such as `fixture.stiffness`.
+        unit: for display.
+        minimum, maximum: the closed range it must lie in.
+        meaning: one line.
+    """
+
+    default: float | str
+    unit: str
+    minimum: float
+    maximum: float
+    meaning: str
+
+    def value(self, profile: DeviceProfile) -> float:
+        """Return the default for a device.
+
+        Raises:
+            AttributeError: if the profile has no such field.
+        """
+        if isinstance(self.default, str):
+            return float(attrgetter(self.default)(profile))
+        return float(self.default)
+
+
+@dataclass(frozen=True, slots=True)
+class Law:
+    """A force law as its file declares it.
+
+    Attributes:
+        name: file name without `.py`.
+        path: of the file.
+        title: one line for display.
+        reads, writes: slots of the state vector, lower case.
+        energy: one of `ENERGIES`, and the statement behind it.
+        parameters: name -> LawParameter.
+    """
+
+    name: str
+    path: Path
+    title: str
+    reads: tuple[str, ...]
+    writes: tuple[str, ...]
+    energy: tuple[str, str]
+    parameters: Mapping[str, LawParameter]
+
+    def checked(self, given: Mapping[str, float], profile: DeviceProfile) -> dict[str, float]:
+        """Complete `given` with the defaults for a device and check every value.
+
+        Raises:
+            LawError: for an unknown name, or a value that is no number or out of range.
+        """
+        if unknown := sorted(set(given) - set(self.parameters)):
+            raise LawError(
+                f"law {self.name!r} has no parameter {unknown[0]!r}; "
+                f"it has {', '.join(sorted(self.parameters)) or 'none'}"
+            )
+        return {
+            name: self._checked(name, given.get(name, self._default(name, profile)))
+            for name in self.parameters
+        }
+
+    def _default(self, name: str, profile: DeviceProfile) -> float:
+        parameter = self.parameters[name]
+        try:
+            return parameter.value(profile)
+        except AttributeError as error:
+            raise LawError(
+                f"{self.path}: {name} takes {parameter.default!r} from the device profile, "
+                "which has no such field"
+            ) from error
+
+    def _checked(self, name: str, value: object) -> float:
+        limit = self.parameters[name]
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        if not (number and limit.minimum <= value <= limit.maximum):  # type: ignore[operator]
+            raise LawError(
+                f"law {self.name!r}: {name} is {value!r}; "
+                f"give {limit.minimum:g} to {limit.maximum:g} {limit.unit}"
+            )
+        return float(value)  # type: ignore[arg-type]
+
+
+def read_law(path: Path) -> Law:
+    """Read a law's declaration from its source.
+
+    Raises:
+        LawError: naming the file and what is missing, unknown or not a literal.
+    """
+    try:
+        body = ast.parse(path.read_text(encoding="utf-8"), str(path)).body
+    except (OSError, SyntaxError, ValueError) as error:
+        raise LawError(f"law file {path} cannot be read: {error}") from error
+    document = _literal(body, path)
+    if set(document) != set(_KEYS):
+        raise LawError(
+            f"{path}: DECLARATION must have exactly the keys {', '.join(_KEYS)}; "
+            f"check {sorted(set(document) ^ set(_KEYS))}"
+        )
+    _check(document, body, path)
+    return Law(
+        name=path.stem,
+        path=path,
+        title=document["title"],
+        reads=_slots(document["reads"], path),
+        writes=_slots(document["writes"], path),
+        energy=tuple(document["energy"]),
+        parameters={name: _parameter(name, row, path) for name, row in _rows(document).items()},
+    )
+
+
+def _literal(body: list[ast.stmt], path: Path) -> dict[str, Any]:
+    for node in body:
+        if isinstance(node, ast.AnnAssign | ast.Assign) and node.value is not None:
+            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+            if isinstance(target, ast.Name) and target.id == "DECLARATION":
+                try:
+                    document = ast.literal_eval(node.value)
+                except ValueError as error:
+                    raise LawError(f"{path}: DECLARATION is not a literal: {error}") from error
+                if isinstance(document, dict):
+                    return document
+    raise LawError(f"{path} has no DECLARATION = {{...}}; see 'How to add a force law'")
+
+
+def _check(document: dict[str, Any], body: list[ast.stmt], path: Path) -> None:
+    energy = document["energy"]
+    if not (isinstance(energy, tuple) and len(energy) == 2 and energy[0] in ENERGIES):
+        raise LawError(
+            f"{path}: energy is {energy!r}; give (kind, statement), "
+            f"the kind one of {', '.join(ENERGIES)}"
+        )
+    defined = {node.name for node in body if isinstance(node, ast.FunctionDef)}
+    if missing := [name for name in _FUNCTIONS if name not in defined]:
+        raise LawError(f"{path} has no function {missing[0]}(); see 'How to add a force law'")
+
+
+def _slots(names: Any, path: Path) -> tuple[str, ...]:
+    """Slots of the state; a vector's three by their common name (`force`, `hub_v`)."""
+    found = []
+    for name in names:
+        vector = [name + axis for axis in ("_x", "_y", "_z")]
+        if name.endswith("_v"):
+            vector = [name + axis for axis in ("x", "y", "z")]
+        slots = [name] if name in INDEX else [slot for slot in vector if slot in INDEX]
+        if not slots:
+            raise LawError(f"{path}: {name!r} is not a slot of core.state_vector")
+        found += slots
+    return tuple(found)
+
+
+def _rows(document: dict[str, Any]) -> dict[str, Any]:
+    return dict(document["parameters"])
+
+
+def _parameter(name: str, row: Any, path: Path) -> LawParameter:
+    try:
+        default, unit, minimum, maximum, meaning = row
+        parameter = LawParameter(default, unit, float(minimum), float(maximum), meaning)
+        usable = math.isfinite(parameter.minimum) and math.isfinite(parameter.maximum)
+    except (TypeError, ValueError):
+        usable = False
+    if not (usable and isinstance(default, int | float | str)):
+        raise LawError(
+            f"{path}: parameter {name!r} is {row!r}; give (default, unit, least, most, meaning), "
+            "the default a number or a field of the device profile"
+        )
+    return parameter

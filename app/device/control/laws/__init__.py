@@ -1,0 +1,129 @@
+"""Force laws, one file each. See 'How to add a force law' in docs/architecture.md.
+
+The folder is listed, then every folder appended to this package's `__path__`, then the user's own
+(`core.paths.laws`). What a law says about itself is read as text; only the laws that are asked for
+are imported.
+
+A request names a law and the parameters that differ from its defaults: `{"fixture": {}}`.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from app.core import paths
+from app.core.arrays import FloatArray
+from app.core.compiled import STAGE_SIGNATURE
+from app.device.control.law import Law, read_law
+from app.device.errors import LawError
+from app.mechanisms.profile import DeviceProfile
+
+Requests = Mapping[str, Mapping[str, float]]
+"""Law -> parameters that replace its defaults."""
+
+
+def law_names() -> tuple[str, ...]:
+    """Names of all laws, sorted."""
+    return tuple(sorted({path.stem for path in _files()}))
+
+
+def declaration(name: str) -> Law:
+    """Read what a law says about itself, without importing it.
+
+    Raises:
+        LawError: for an unknown name, listing the known ones; for a name that two files have; for
+            a broken file, naming it and what is wrong.
+    """
+    found = [path for path in _files() if path.stem == name]
+    if not found:
+        raise LawError(f"there is no force law {name!r}; there are {', '.join(law_names())}")
+    if len(found) > 1:
+        raise LawError(f"two files are the law {name!r}: {found[0]} and {found[1]}; rename one")
+    return read_law(found[0])
+
+
+def stages_of(requests: Requests, profile: DeviceProfile) -> list[tuple[str, Any, FloatArray]]:
+    """Return (name, function, parameters) of the laws asked for, in their order.
+
+    Raises:
+        LawError: for an unknown law or parameter, a broken file, or values that make no sense.
+    """
+    return [_stage(name, given, profile) for name, given in requests.items()]
+
+
+def energy_bounds(requests: Requests, profile: DeviceProfile) -> dict[str, float]:
+    """Return the most energy that each law asked for can store on a device [J].
+
+    Raises:
+        LawError: as `stages_of`; if a law's own bound is no finite number of 0 or more.
+    """
+    return {name: _bound(name, given, profile) for name, given in requests.items()}
+
+
+def energy_bound(requests: Requests, profile: DeviceProfile) -> float:
+    """Return the most energy that all laws asked for can store together on a device [J].
+
+    Raises:
+        LawError: as `energy_bounds`.
+    """
+    return sum(energy_bounds(requests, profile).values())
+
+
+def _files() -> list[Path]:
+    folders = [*map(Path, __path__), paths.laws()]
+    return [
+        path
+        for folder in dict.fromkeys(folders)
+        for path in sorted(folder.glob("*.py"))
+        if not path.stem.startswith("_")
+    ]
+
+
+def _stage(
+    name: str, given: Mapping[str, float], profile: DeviceProfile
+) -> tuple[str, Any, FloatArray]:
+    law = declaration(name)
+    values, module = law.checked(given, profile), _implementation(law)
+    return name, module.step, module.parameters(values, profile)
+
+
+def _bound(name: str, given: Mapping[str, float], profile: DeviceProfile) -> float:
+    law = declaration(name)
+    bound = float(_implementation(law).energy_bound(law.checked(given, profile), profile))
+    if not 0.0 <= bound < math.inf:
+        raise LawError(f"{law.path}: energy_bound is {bound} J; give a finite number of 0 or more")
+    return bound
+
+
+def _implementation(law: Law) -> ModuleType:
+    """Import a law's file, once."""
+    name = f"{__name__}.{law.name}"
+    known = sys.modules.get(name)
+    if known is not None and known.__file__ == str(law.path):
+        return known
+    specification = importlib.util.spec_from_file_location(name, law.path)
+    if specification is None or specification.loader is None:
+        raise LawError(f"law file {law.path} cannot be imported")
+    module = importlib.util.module_from_spec(specification)
+    sys.modules[name] = module
+    try:
+        specification.loader.exec_module(module)
+        _check_step(module, law)
+    except LawError:
+        del sys.modules[name]
+        raise
+    except Exception as error:  # whatever somebody's file does
+        del sys.modules[name]
+        raise LawError(f"law file {law.path} cannot be imported: {error}") from error
+    return module
+
+
+def _check_step(module: ModuleType, law: Law) -> None:
+    if STAGE_SIGNATURE.args not in getattr(module.step, "signatures", ()):
+        raise LawError(f"{law.path}: step is not compiled; put @stage of core.compiled before it")
