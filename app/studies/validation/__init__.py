@@ -1,0 +1,1 @@
+"""Parts of the study `pantograph`: maps over the workspace, and their pictures."""
