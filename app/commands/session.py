@@ -14,10 +14,11 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.
 
 
 def register(app: typer.Typer) -> None:
-    """Add `session list`, `session show` and `session export`."""
+    """Add `session list`, `session show`, `session replay` and `session export`."""
     session = typer.Typer(no_args_is_help=True, help="Recorded attempts.")
     session.command("list")(list_)
     session.command("show")(show)
+    session.command("replay")(replay)
     session.command("export")(export)
     app.add_typer(session, name="session")
 
@@ -54,6 +55,31 @@ def show(
         _print_json(document)
     else:
         _print_details(document)
+
+
+def replay(
+    session_id: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
+    check: Annotated[
+        bool, typer.Option("--check", help="Recompute every tick; exit code 1 if one differs.")
+    ] = False,
+    folder: FolderOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Say what a record holds of the robot's loop; --check computes it once more and compares."""
+    from app.session.recording import read_recording
+    from app.session.replay_contents import contents
+    from app.session.store import find
+
+    recording = read_recording(find(_folder(folder), session_id))
+    if not check:
+        held = contents(recording)
+        _print_json(held.document()) if as_json else typer.echo("\n".join(held.sentences()))
+        return
+    from app.compose.replay import replay_recording  # loads kernels
+
+    report = replay_recording(recording)
+    _print_json(report.document()) if as_json else typer.echo("\n".join(report.sentences()))
+    raise typer.Exit(0 if report.identical else 1)
 
 
 def export(

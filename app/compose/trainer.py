@@ -13,6 +13,7 @@ import numpy as np
 from app.core import paths
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.build import BUILD, build
 from app.core.clock import Clock, SystemClock
 from app.device.control import Loop, Table, laws, pantograph_stages
 from app.device.links.link import Link
@@ -130,16 +131,21 @@ def build_loop(setup: TrainerSetup, profile: DeviceProfile) -> Loop:
     return loop
 
 
-def loop_table(setup: TrainerSetup, profile: DeviceProfile) -> Table:
-    """Table of a tick: trainee, encoders, force laws and effects the exercise calls for, plant."""
+def loop_table(setup: TrainerSetup, profile: DeviceProfile, simulated: bool = True) -> Table:
+    """Table of a tick: trainee, encoders, the exercise's force laws and effects, plant.
+
+    With a robot that is not simulated neither trainee nor link nor plant: for a replay.
+    """
     exercise = setup.exercise.placed_as(setup.placed.placement)
-    link = simulated_link(profile, [plant_stage(profile, UPRIGHT, START_DEPTH)])
-    if setup.skill is not None:
+    link = Link.of([], [])
+    if simulated:
+        link = simulated_link(profile, [plant_stage(profile, UPRIGHT, START_DEPTH)])
+    if simulated and setup.skill is not None:
         placed = setup.placed
         trainee = trainee_stage(placed.axis, placed.length, setup.skill, setup.seed)
         link = Link.of([trainee, *link.read], link.write)
     forces = laws.stages_of(law_requests(exercise), profile)
-    effects = compile_exercise(exercise, profile).stages()
+    effects = compile_exercise(exercise, profile, simulated).stages()
     return pantograph_stages(profile, forces, effects, link)
 
 
@@ -191,6 +197,7 @@ def _context(setup: TrainerSetup, profile: DeviceProfile, rig: RigProfile) -> Ru
             "cameras": {"name": rig.name, "simulated": "yes"},
             "ct": {"pseudonym": setup.ct},
             "trainee": {"scripted": setup.skill or ""},
+            BUILD: build(),
         },
         attachments=tuple(
             _attachment(f"{name}.json", document.model_dump(mode="json"))

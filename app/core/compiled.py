@@ -19,7 +19,8 @@ _MARKS = (b"app.core.compiled", b": Final")
 _KEPT_BUILDS = 12
 
 
-def _digest() -> str:
+def kernels_digest() -> str:
+    """Digest of every file that holds kernels or constants that they are built with."""
     app = Path(__file__).resolve().parents[1]
     digest = hashlib.sha256()
     for room in _ROOMS:
@@ -32,7 +33,7 @@ def _digest() -> str:
 
 def _cache_folder() -> Path:
     kernels = paths.cache() / "kernels"
-    folder = kernels / _digest()
+    folder = kernels / kernels_digest()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         os.utime(folder)

@@ -1,8 +1,9 @@
-"""Binary blocks of the loop's inputs: what a replay needs, at the loop's own rate.
+"""Binary blocks of the loop's ticks: what a replay needs and checks, at the loop's own rate.
 
 Layout (all little-endian): magic `ACUB`, version u16, columns u16, rows u32, lost u32, first tick
-u64; then the columns one after the other, each `rows` float64. Column order is preferred to row
-order because inputs hardly change: a compressor finds whole columns that repeat.
+u64. Version 1: the columns one after the other, each `rows` float64. Version 2: the columns as
+`session.columns` stores them; a digest u32 per row; the whole state after the first row: number of
+slots u16 and as many float64.
 """
 
 import struct
@@ -10,25 +11,46 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
+from app.session import columns
+from app.session.digest import digests
 from app.session.errors import BrokenRecordingError
 
 MAGIC: Final = b"ACUB"
-VERSION: Final = 1
+VERSION: Final = 2
 _HEADER: Final = struct.Struct("<4sHHIIQ")
 
-_INPUT_NAMES: Final = tuple(
-    name
-    for name, index in sorted(slots.INDEX.items(), key=lambda item: item[1])
-    if index < slots.INPUTS
+SLOT_NAMES: Final = tuple(
+    {index: name for name, index in slots.INDEX.items()}.get(k, "") for k in range(slots.SLOTS)
 )
-_MEASURED: Final = ("time", "dt", "tick", "q_left", "q_right", "q_time")
-COLUMNS: Final = (*_INPUT_NAMES, *_MEASURED)
-"""Slot names of a block's columns: every input, the tick's time and the encoder values."""
+"""Name of every slot of the state in its order; empty for the spare one."""
+
+INPUTS: Final = tuple(name for name in SLOT_NAMES[: slots.INPUTS] if name)
+"""What other threads give a tick through the inbox."""
+
+CLOCK: Final = ("time", "dt", "tick", "lateness", "missed", "input_fault")
+"""What the loop itself gives a tick."""
+
+WIRE: Final = (
+    *("link_status", "link_replies", "link_errors", "link_lost", "round_trip", "board_error"),
+    *("gauge", "gauge_force", "q_left", "q_right", "q_time"),
+)
+"""What a robot gives a tick."""
+
+OUTPUTS: Final = ("kinematics", "depth", "depth_source", "torque_left", "torque_right", "fault")
+"""What a tick computes and every row of a record holds; all else is in its digest."""
+
+COLUMNS: Final = (*INPUTS, *CLOCK, *WIRE, *OUTPUTS)
+"""Slot names of a block's columns."""
+
+TRAINEE: Final = ("hand_x", "hand_y", "hand_depth", "hand_holds")
+"""Inputs that the scripted trainee writes while it acts: recomputed, so stored as NaN."""
 
 _INDICES: Final = np.array([slots.INDEX[name] for name in COLUMNS])
+_TRAINEE: Final = np.array([COLUMNS.index(name) for name in TRAINEE])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -36,22 +58,32 @@ class Block:
     """One block.
 
     Attributes:
-        values: rows of `COLUMNS`, shape (n, len(COLUMNS)), read-only.
+        values: rows of the record's columns, shape (n, m), read-only.
         first_tick: tick of the first row.
         lost: ticks between the block before and this one that were overwritten unread.
+        digests: of the state after each row, shape (n,); none in version 1.
+        state: whole state after the first row, shape (slots,); none in version 1.
     """
 
     values: FloatArray
     first_tick: int
     lost: int
+    digests: NDArray[np.uint32]
+    state: FloatArray
 
 
 def pack(rows: FloatArray, lost: int) -> bytes:
     """Pack rows of the whole state, shape (n, SLOTS), into a block."""
-    columns = np.ascontiguousarray(rows[:, _INDICES].T, dtype="<f8")
     first = int(rows[0, slots.TICK]) if len(rows) else 0
-    head = _HEADER.pack(MAGIC, VERSION, len(COLUMNS), len(rows), min(lost, 0xFFFFFFFF), first)
-    return head + columns.tobytes()
+    lost = min(lost, 0xFFFFFFFF)
+    head = _HEADER.pack(MAGIC, VERSION, len(COLUMNS), len(rows), lost, first)
+    if not len(rows):
+        return head
+    values = rows[:, _INDICES]
+    acts = (rows[:, slots.TRAINEE_PHASE] > 0.0) & (rows[:, slots.ENABLED] > 0.0)
+    values[np.ix_(acts, _TRAINEE)] = np.nan
+    state = struct.pack("<H", slots.SLOTS) + rows[0].astype("<f8").tobytes()
+    return head + columns.encode(values) + digests(rows).tobytes() + state
 
 
 def unpack(data: bytes) -> Block:
@@ -64,10 +96,35 @@ def unpack(data: bytes) -> Block:
         raise BrokenRecordingError(
             f"a block of {len(data)} bytes does not begin with {MAGIC.decode()}"
         )
-    _, version, columns, rows, lost, first = _HEADER.unpack_from(data)
-    if version != VERSION:
-        raise BrokenRecordingError(f"block version {version}; this program reads version {VERSION}")
-    if len(data) != _HEADER.size + 8 * columns * rows:
+    _, version, count, rows, lost, first = _HEADER.unpack_from(data)
+    if version not in (1, VERSION):
+        raise BrokenRecordingError(
+            f"block version {version}; this program reads versions 1 and {VERSION}"
+        )
+    body = data[_HEADER.size :]
+    if version == 1 or rows == 0:
+        return _plain(body, count, rows, lost, first)
+    if rows > len(body):  # a digest alone takes four bytes a row
         raise BrokenRecordingError(f"a block of {rows} rows has {len(data)} bytes")
-    values = np.frombuffer(data, dtype="<f8", offset=_HEADER.size).reshape(columns, rows).T
-    return Block(read_only(np.ascontiguousarray(values, dtype=np.float64)), first, lost)
+    values, place = columns.decode(body, rows, count)
+    hashes, state = _rest(body[place:], rows)
+    return Block(read_only(values), first, lost, hashes, state)
+
+
+def _plain(body: bytes, count: int, rows: int, lost: int, first: int) -> Block:
+    if len(body) != 8 * count * rows:
+        raise BrokenRecordingError(f"a block of {rows} rows has {len(body)} bytes of numbers")
+    values = np.frombuffer(body, dtype="<f8").reshape(count, rows).T
+    none, nothing = np.zeros(0, dtype=np.uint32), read_only(np.zeros(0))
+    array = read_only(np.ascontiguousarray(values, dtype=np.float64))
+    return Block(array, first, lost, none, nothing)
+
+
+def _rest(data: bytes, rows: int) -> tuple[NDArray[np.uint32], FloatArray]:
+    end = 4 * rows
+    size = struct.unpack_from("<H", data, end)[0] if len(data) >= end + 2 else 0
+    if len(data) != end + 2 + 8 * size or size == 0:
+        raise BrokenRecordingError(f"a block of {rows} rows has {len(data)} bytes of checks")
+    state = np.frombuffer(data, dtype="<f8", offset=end + 2)
+    hashes = np.frombuffer(data[:end], dtype="<u4").astype(np.uint32)
+    return hashes, read_only(np.array(state, dtype=np.float64))

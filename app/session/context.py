@@ -1,13 +1,16 @@
 """What a trainer is told once about its runs: it goes into the head of every record."""
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
 
 from app.core.clock import Clock
+from app.core.errors import AcusError
 from app.core.paths import sessions
+from app.device.checkpoint import Checkpoint
 from app.planning.placement import PlacedPlan
 from app.session.facts import PLAN, plan_record
 from app.session.header import Attachment, SessionHeader, new_id
@@ -59,9 +62,16 @@ class RunContext:
         self,
         header: SessionHeader,
         loop: LoopPort,
-        since_tick: int,
         placed: PlacedPlan,
         clock: Clock,
     ) -> Recorder:
-        """Return a recorder for one attempt, not yet open."""
-        return Recorder(self.folder, header, loop.rows, since_tick, placed.T_world_patient, clock)
+        """Return a recorder for one attempt, not yet open, that goes on from the loop's present.
+
+        A loop that gives no checkpoint makes a record that cannot be replayed, and says so.
+        """
+        start: Checkpoint | None = None
+        with suppress(AcusError):  # a loop that does not tick is told by the attempt itself
+            start = loop.checkpoint()
+        since_tick = 0 if start is not None else int(loop.latest().tick)
+        place = placed.T_world_patient
+        return Recorder(self.folder, header, loop.rows, since_tick, place, clock, start)

@@ -25,3 +25,7 @@ class BrokenRecordingError(SessionError):
 
 class SessionNotFoundError(SessionError):
     """No session, or more than one, has this id."""
+
+
+class ReplayError(SessionError):
+    """A record that cannot be computed once more; the message says what it lacks."""

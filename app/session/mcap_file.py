@@ -8,6 +8,7 @@ from typing import IO
 from mcap.writer import CompressionType, Writer
 
 from app import __version__
+from app.session.blocks import COLUMNS, SLOT_NAMES
 from app.session.errors import RecordingError
 from app.session.header import Attachment, SessionHeader
 from app.session.sample import encode
@@ -20,11 +21,10 @@ CHUNK_SIZE = 256 * 1024
 class McapFile:
     """One record being written; not thread-safe, its recorder's thread owns it."""
 
-    def __init__(self, path: Path, header: SessionHeader, inputs: tuple[str, ...]) -> None:
-        """Keep what is needed; `inputs` are the column names of the binary channel."""
+    def __init__(self, path: Path, header: SessionHeader) -> None:
+        """Keep what is needed."""
         self.path = path
         self._header = header
-        self._inputs = inputs
         self._stream: IO[bytes] | None = None
         self._writer: Writer | None = None
         self._channels: dict[str, int] = {}
@@ -106,8 +106,10 @@ class McapFile:
             self.attach(attachment, now)
         for topic, channel in CHANNELS.items():
             if channel.schema is None:
-                extra = {"slots": ",".join(self._inputs), "layout": "docs/sessions.md"}
-                self._channels[topic] = writer.register_channel(topic, "acus-block", 0, extra)
+                extra = {"layout": "docs/sessions.md"}
+                if topic == "/loop/inputs":
+                    extra |= {"slots": ",".join(COLUMNS), "state": ",".join(SLOT_NAMES)}
+                self._channels[topic] = writer.register_channel(topic, channel.layout, 0, extra)
             else:
                 title = str(channel.schema["title"])
                 schema = writer.register_schema(title, "jsonschema", encode(channel.schema))

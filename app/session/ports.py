@@ -10,6 +10,7 @@ from typing import Any, Protocol
 from app.core.arrays import FloatArray
 from app.core.events import EventQueue
 from app.core.latest import Stamped
+from app.device.checkpoint import Checkpoint
 from app.scoring.rows import Rules
 from app.scoring.tolerance import Tolerance
 
@@ -128,6 +129,10 @@ class LoopPort(Protocol):
 
     def rows(self, since_tick: int) -> FloatArray:
         """Rows of the history ring after tick `since_tick`, shape (n, SLOTS)."""
+        ...
+
+    def checkpoint(self) -> Checkpoint:
+        """Return all that the next tick depends on besides its inputs."""
         ...
 
     def timing(self) -> Any:

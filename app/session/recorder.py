@@ -2,24 +2,23 @@
 
 import threading
 from collections import deque
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
 import numpy as np
 
-from app.core import state_vector as slots
-from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.transform import RigidTransform
-from app.session import blocks, sample
+from app.device.checkpoint import Checkpoint
+from app.session import sample
 from app.session.errors import RecordingError
 from app.session.header import Attachment, SessionHeader
 from app.session.mcap_file import McapFile
 from app.session.sample import Sample
+from app.session.tick_writer import Rows, TickWriter
 
 DRAIN_PERIOD: Final = 0.04
 """The thread empties the queue and the ring this often [s]."""
@@ -32,9 +31,6 @@ FLUSH_PERIOD: Final = 1.0
 
 QUEUE_LENGTH: Final = 20_000
 """Samples and events that may wait for a slow disk."""
-
-Rows = Callable[[int], FloatArray]
-"""`Loop.rows`: rows of the history ring after a tick, shape (n, SLOTS)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,12 +70,12 @@ class Recorder:
         since_tick: int = 0,
         T_world_patient: RigidTransform | None = None,
         clock: Clock | None = None,
+        start: Checkpoint | None = None,
     ) -> None:
-        """Keep the parts; `since_tick` is the last tick that does not belong to the attempt."""
+        """Keep the parts; `rows`, `since_tick` and `start` are those of a `TickWriter`."""
         self.header = header
-        self._file = McapFile(folder / f"{header.id}.mcap", header, blocks.COLUMNS)
-        self._rows = rows
-        self._tick = since_tick
+        self._file = McapFile(folder / f"{header.id}.mcap", header)
+        self._ticks = TickWriter(rows, since_tick, start)
         self._T_world_patient = T_world_patient
         self._clock = clock or SystemClock()
         self._queue: deque[Sample | Event] = deque()
@@ -89,7 +85,7 @@ class Recorder:
         self._thread: threading.Thread | None = None
         self._active = False
         self._failure = ""
-        self._written = self._lost_rows = self._lost_samples = 0
+        self._lost_samples = 0
         self._last_block = self._last_flush = -np.inf
 
     def open(self) -> None:
@@ -156,8 +152,8 @@ class Recorder:
             self._file.path,
             self._active,
             self._failure,
-            self._written,
-            self._lost_rows,
+            self._ticks.written,
+            self._ticks.lost,
             self._lost_samples,
         )
 
@@ -185,7 +181,7 @@ class Recorder:
         for item in items:
             self._write_event(item) if isinstance(item, Event) else self._write_sample(item)
         if now - self._last_block >= BLOCK_PERIOD - 1e-9:
-            self._write_block()
+            self._ticks.write(self._file, self.header)
             self._last_block = now
         if now - self._last_flush >= FLUSH_PERIOD - 1e-9:
             self._write_patient(now)
@@ -208,24 +204,6 @@ class Recorder:
         data = sample.patient_transform(self._T_world_patient, sample.timestamp(nanoseconds))
         self._file.message("/tf", nanoseconds, data)
 
-    def _write_block(self) -> None:
-        """Write the rows after the last one written; a gap in the tick numbers is a loss."""
-        if self._rows is None:
-            return
-        rows = self._rows(self._tick)
-        rows = rows[rows[:, slots.TICK] > self._tick]
-        if not len(rows):
-            return
-        lost = int(rows[0, slots.TICK]) - self._tick - 1
-        self._file.message(
-            "/loop/inputs",
-            self.header.nanoseconds(float(rows[0, slots.TIME])),
-            blocks.pack(rows, lost),
-        )
-        self._tick = int(rows[-1, slots.TICK])
-        self._written += len(rows)
-        self._lost_rows += lost
-
     def _write_end(
         self, attachments: tuple[Attachment, ...], result: dict[str, str] | None
     ) -> None:
@@ -234,8 +212,8 @@ class Recorder:
         for attachment in attachments:
             self._file.attach(attachment, self.header.nanoseconds(self._clock.now()))
         counts = {
-            "rows": str(self._written),
-            "lost_rows": str(self._lost_rows),
+            "rows": str(self._ticks.written),
+            "lost_rows": str(self._ticks.lost),
             "lost_samples": str(self._lost_samples),
         }
         self._file.metadata("result", {**(result or {}), **counts})

@@ -9,47 +9,19 @@ from typing import Any
 
 import numpy as np
 
-from app.core.arrays import FloatArray, read_only
+from app.core.arrays import read_only
 from app.core.events import Event
 from app.planning.placement import PlacedPlan
 from app.scoring.trajectory import Trajectory
-from app.session import blocks
 from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
 from app.session.samples import Samples, floats, vectors, words
 from app.session.scan import Scan, scan
 from app.session.schemas import CHANNELS, conforms
 from app.session.scored import trajectory
+from app.session.ticks import Inputs, read_inputs
 
 Metadata = MappingProxyType[str, dict[str, str]]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Inputs:
-    """The loop's inputs and encoder values at the loop's rate.
-
-    Attributes:
-        columns: slot names.
-        values: shape (n, len(columns)), read-only.
-        lost: rows that were overwritten before they could be recorded.
-    """
-
-    columns: tuple[str, ...]
-    values: FloatArray
-    lost: int
-
-    def column(self, name: str) -> FloatArray:
-        """Return one slot over time, shape (n,).
-
-        Raises:
-            BrokenRecordingError: if the record has no such slot.
-        """
-        if name not in self.columns:
-            raise BrokenRecordingError(
-                f"no slot {name!r} in this record; it has {', '.join(self.columns)}"
-            )
-        result: FloatArray = self.values[:, self.columns.index(name)]
-        return result
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,7 +36,7 @@ class Recording:
         attachments: attached files by name.
         events: events in order.
         samples: the attempt over time.
-        inputs: the loop's inputs.
+        inputs: the loop's ticks.
     """
 
     path: Path
@@ -125,7 +97,7 @@ def read_recording(path: Path) -> Recording:
         )
     problems = content.problems
     samples = _samples(content, problems)
-    inputs = _inputs(content, problems)
+    inputs = read_inputs(content, problems)
     events = tuple(_event(document) for document in _documents(content, "/events", problems))
     if inputs.lost:
         problems.append(f"{inputs.lost} ticks of the loop were lost while recording")
@@ -187,19 +159,3 @@ def _samples(content: Scan, problems: list[str]) -> Samples:
 def _stamp(document: dict[str, Any]) -> int:
     stamp = document["timestamp"]
     return int(stamp["sec"]) * 1_000_000_000 + int(stamp["nsec"])
-
-
-def _inputs(content: Scan, problems: list[str]) -> Inputs:
-    names = content.channels.get("/loop/inputs", {}).get("slots", "")
-    columns = tuple(names.split(",")) if names else blocks.COLUMNS
-    parts, lost = [], 0
-    for data in content.messages.get("/loop/inputs", []):
-        try:
-            block = blocks.unpack(data)
-        except BrokenRecordingError as error:
-            problems.append(str(error))
-            continue
-        lost += block.lost
-        parts.append(block.values)
-    values = np.concatenate(parts) if parts else np.empty((0, len(columns)))
-    return Inputs(columns, read_only(values), lost)

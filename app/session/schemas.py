@@ -142,10 +142,11 @@ SCORE: Final = _object(
 
 @dataclass(frozen=True, slots=True)
 class Channel:
-    """A channel: its topic and schema (None for the binary one)."""
+    """A channel: its topic, and its schema or, of a binary one, the name of its layout."""
 
     topic: str
     schema: Schema | None
+    layout: str = ""
 
 
 CHANNELS: Final = {
@@ -158,7 +159,8 @@ CHANNELS: Final = {
         Channel("/tracking/quality", QUALITY),
         Channel("/attempt", ATTEMPT),
         Channel("/events", LOG),
-        Channel("/loop/inputs", None),
+        Channel("/loop/inputs", None, "acus-block"),
+        Channel("/loop/checkpoint", None, "acus-checkpoint"),
     )
 }
 """Every channel of a record by topic."""

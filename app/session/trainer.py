@@ -267,8 +267,7 @@ class Trainer:
 
     def _new_log(self, student: str, now: float) -> AttemptLog:
         header = self._context.header(self._exercise, self._placed, student, now)
-        since = int(self._loop.latest().tick)
-        recorder = self._context.recorder(header, self._loop, since, self._placed, self._clock)
+        recorder = self._context.recorder(header, self._loop, self._placed, self._clock)
         return AttemptLog(recorder, self._placed, self._scorer)
 
     def _finish(self, event: Event, reason: str = "") -> AttemptResult:

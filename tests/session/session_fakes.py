@@ -13,6 +13,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.events import EventQueue
 from app.core.latest import Latest
+from app.device.checkpoint import Checkpoint
 from app.device.state import DeviceState
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
@@ -118,6 +119,9 @@ class FakeLoop:
     def rows(self, since_tick: int) -> FloatArray:
         kept = [r for r in self.history if r[sv.TICK] > since_tick]
         return np.array(kept).reshape(len(kept), sv.SLOTS)
+
+    def checkpoint(self) -> Checkpoint:
+        return Checkpoint.of(self.history[-1] if self.history else sv.empty_state(), [])
 
     def timing(self) -> str:
         return "on time"

@@ -116,6 +116,8 @@ def test_blocks_give_back_every_bit() -> None:
     block = blocks.unpack(blocks.pack(rows, 5))
     assert (block.first_tick, block.lost) == (7, 5)
     indices = [sv.INDEX[name] for name in blocks.COLUMNS]
+    acts = (rows[:, sv.TRAINEE_PHASE] > 0.0) & (rows[:, sv.ENABLED] > 0.0)
+    rows[np.ix_(acts, [sv.INDEX[name] for name in blocks.TRAINEE])] = np.nan
     np.testing.assert_array_equal(block.values, rows[:, indices])
     assert blocks.unpack(blocks.pack(np.empty((0, sv.SLOTS)), 0)).values.shape[0] == 0
 

@@ -1,0 +1,85 @@
+"""A checkpoint of the loop as a message of the record.
+
+Layout (little-endian): magic `ACUC`, version u16, length of a JSON text u32, the text (`tick`,
+`slots`: names of the state's slots, `stages`: name and size of each), then the state and the
+stages' arrays as float64.
+"""
+
+import json
+import struct
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+import numpy as np
+
+from app.core.arrays import read_only
+from app.device.checkpoint import Checkpoint
+from app.session.blocks import SLOT_NAMES
+from app.session.errors import BrokenRecordingError
+
+MAGIC: Final = b"ACUC"
+VERSION: Final = 1
+_HEADER: Final = struct.Struct("<4sHI")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RecordedCheckpoint:
+    """A checkpoint, and the slots of the program that recorded it.
+
+    Attributes:
+        checkpoint: the loop at the beginning of the record.
+        slots: names of its state's slots.
+    """
+
+    checkpoint: Checkpoint
+    slots: tuple[str, ...]
+
+    def in_order_of(self, slots: tuple[str, ...]) -> Checkpoint:
+        """Return the checkpoint with its state in another order of the same slots."""
+        order = [self.slots.index(name) for name in slots]
+        return replace(self.checkpoint, state=read_only(self.checkpoint.state[order]))
+
+
+def pack(checkpoint: Checkpoint) -> bytes:
+    """Return the message."""
+    c = checkpoint
+    text = json.dumps(
+        {
+            "tick": c.tick,
+            "slots": SLOT_NAMES,
+            "stages": list(zip(c.names, c.sizes, strict=True)),
+        }
+    ).encode()
+    numbers = np.concatenate((c.state, c.parameters)).astype("<f8")
+    return _HEADER.pack(MAGIC, VERSION, len(text)) + text + numbers.tobytes()
+
+
+def unpack(data: bytes) -> RecordedCheckpoint:
+    """Read the message.
+
+    Raises:
+        BrokenRecordingError: if it is not a checkpoint; says what is wrong.
+    """
+    if len(data) < _HEADER.size or data[:4] != MAGIC:
+        raise BrokenRecordingError(f"a checkpoint does not begin with {MAGIC.decode()}")
+    _, version, length = _HEADER.unpack_from(data)
+    if version != VERSION:
+        raise BrokenRecordingError(f"checkpoint version {version}; this program reads {VERSION}")
+    body = data[_HEADER.size + length :]
+    try:
+        document = json.loads(data[_HEADER.size : _HEADER.size + length])
+        return _read(document, body)
+    except (ValueError, LookupError, TypeError, RecursionError) as error:
+        raise BrokenRecordingError(f"the checkpoint cannot be read: {error}") from error
+
+
+def _read(document: dict[str, Any], body: bytes) -> RecordedCheckpoint:
+    names = tuple(str(name) for name, _ in document["stages"])
+    sizes = tuple(int(size) for _, size in document["stages"])
+    slots = tuple(str(name) for name in document["slots"])
+    numbers = read_only(np.frombuffer(body, dtype="<f8").astype(np.float64))
+    if min(sizes, default=0) < 0 or len(numbers) != len(slots) + sum(sizes):
+        raise ValueError(f"{len(numbers)} numbers for {len(slots)} slots and {sum(sizes)} more")
+    state, parameters = numbers[: len(slots)], numbers[len(slots) :]
+    tick = int(document["tick"])
+    return RecordedCheckpoint(Checkpoint(tick, state, parameters, sizes, names), slots)
