@@ -14,7 +14,7 @@ def one_line(text):
 def test_help_names_every_noun():
     result = acus("--help")
     assert result.returncode == 0
-    for noun in ("ct", "demo", "explain", "run", "session", "study"):
+    for noun in ("ct", "demo", "device", "explain", "run", "session", "study"):
         assert f" {noun} " in result.stdout
 
 

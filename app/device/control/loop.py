@@ -21,6 +21,7 @@ from app.device.control.kernel import MISSED, STOP
 from app.device.control.table import Table
 from app.device.control.timing import Timing, measure
 from app.device.errors import LoopError
+from app.device.links.link import DeviceLink
 from app.device.state import DeviceState
 
 _STOP_TIMEOUT = 5.0
@@ -39,6 +40,8 @@ class Loop:
         host: what runs the ticks; by default chosen for the clock and the platform.
         initial: starting values of the state by slot name, e.g. of `PLANT_*`.
         priority: what to ask the operating system for.
+        link: the robot whose stages are in the table; opened before the first tick, closed when the
+            zero torque has gone out. None: the table needs no opening.
     """
 
     def __init__(
@@ -49,12 +52,14 @@ class Loop:
         host: Host | None = None,
         initial: Mapping[str, float] | None = None,
         priority: Priority = Priority.REALTIME,
+        link: DeviceLink | None = None,
     ) -> None:
         self.table = stages if isinstance(stages, Table) else Table.of(stages)
         self.clock: Clock = clock or SystemClock()
         self.host = host or default_host(self.clock)
         self.rate_hz = min(rate_hz, THREAD_RATE_HZ) if self.host is Host.THREAD else rate_hz
         self.priority = priority
+        self.link = link
         self.inbox = Inbox()
         self._history = History()
         self._state = sv.empty_state()
@@ -78,9 +83,15 @@ class Loop:
         return tuple(stage.name for stage in self.table)
 
     def open(self) -> None:
-        """Start ticking, disarmed. Does nothing if the loop is open."""
+        """Connect to the robot and start ticking, disarmed. Does nothing if the loop is open.
+
+        Raises:
+            LinkError: if the robot cannot be reached; the loop stays closed.
+        """
         if self._is_open:
             return
+        if self.link is not None:
+            self.link.open()
         self._failure = None
         self._history.counters[STOP] = 0
         self.inbox.write(enabled=0.0)
@@ -228,9 +239,13 @@ class Loop:
 
     def _release(self) -> None:
         history = self._history
-        kernel.release(
-            self._state, *self._packed_write, history.ring, history.counters, self.clock.now()
-        )
+        try:
+            kernel.release(
+                self._state, *self._packed_write, history.ring, history.counters, self.clock.now()
+            )
+        finally:
+            if self.link is not None:
+                self.link.close()
 
     def _raise_failure(self) -> None:
         if self._failure is not None:

@@ -1,0 +1,149 @@
+"""`acus device`: robots on serial ports, and one that is emulated."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from app.compose.emulator import Emulator
+
+Port = Annotated[str, typer.Argument(help="Serial port, e.g. /dev/ttyACM0.")]
+Profile = Annotated[str, typer.Option(help="Device profile: a name or a YAML file.")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")]
+
+
+def register(app: typer.Typer) -> None:
+    """Add `acus device …`."""
+    group = typer.Typer(help="Robots on serial ports: list, ask, test, emulate.")
+    group.command("list")(list_ports)
+    group.command("info")(info)
+    group.command("test")(measure)
+    group.command("emulate")(emulate)
+    app.add_typer(group, name="device")
+
+
+def list_ports(as_json: Json = False) -> None:
+    """List serial ports, and the device profiles that a robot may have."""
+    from app.device.links.port import ports
+    from app.mechanisms.profile import load_profile, profile_names
+
+    found = ports()
+    if as_json:
+        _print_json(
+            [
+                {"port": port.path, "description": port.description, "hardware": port.hardware}
+                for port in found
+            ]
+        )
+        return
+    for port in found:
+        typer.echo(f"{port.path:<16} {port.description}  {port.hardware}")
+    if not found:
+        typer.echo("no serial ports; plug the robot in, or try `acus device emulate`")
+    typer.echo("profiles:")
+    for name in profile_names():
+        profile = load_profile(name)
+        typer.echo(f"  {name:<12} {profile.wire.protocol}, {profile.description}")
+
+
+def info(port: Port, profile: Profile = "icube", as_json: Json = False) -> None:
+    """Ask the robot on a port who it is."""
+    from dataclasses import asdict
+
+    from app.device.links.serial_link import SerialLink
+    from app.mechanisms.profile import load_profile
+
+    link = SerialLink(port, load_profile(profile))
+    link.open()
+    found = asdict(link.info())
+    link.close()
+    if as_json:
+        _print_json({"port": port} | found)
+        return
+    for name, value in found.items():
+        typer.echo(f"{name:<10} {value if value != '' else '(the board does not say)'}")
+
+
+def measure(
+    port: Port,
+    profile: Profile = "icube",
+    seconds: Annotated[float, typer.Option(min=0.1, max=3600.0, help="How long.")] = 5.0,
+    as_json: Json = False,
+) -> None:
+    """Send zero torques at the profile's rate; print round trip, losses and errors."""
+    from app.device.link_test import measure_link
+    from app.mechanisms.profile import load_profile
+
+    result = measure_link(port, load_profile(profile), seconds)
+    if as_json:
+        _print_json(result.document())
+        return
+    for label, value in result.lines():
+        typer.echo(f"{label:<24} {value}")
+
+
+def emulate(
+    profile: Profile = "icube",
+    link: Annotated[Path | None, typer.Option(help="Link to the terminal, e.g. robot.")] = None,
+    hand: Annotated[str, typer.Option(help="none, rest or script.")] = "none",
+    record: Annotated[Path | None, typer.Option(help="CSV file of every round.")] = None,
+    fault: Annotated[
+        list[str] | None, typer.Option(help="Fault from the start, e.g. drop=0.1; repeatable.")
+    ] = None,
+    parked: Annotated[bool, typer.Option("--parked", help="Arms rest at the home angles.")] = False,
+    gauge: Annotated[bool, typer.Option("--gauge", help="The board has a force gauge.")] = False,
+    serial: Annotated[str, typer.Option(help="Serial number of the board.")] = "EMULATED",
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the faults.")] = 1,
+) -> None:
+    """Be a robot behind a pseudo-terminal, whose path is printed; faults are typed while it runs.
+
+    Lines on the standard input: drop P, garble P, delay MS, freeze on|off, cut on|off,
+    unplug on|off, reset, version N, error N, park on|off, quit.
+    """
+    from app.compose.emulator import Emulator, EmulatorSetup
+    from app.mechanisms.profile import load_profile
+
+    setup = EmulatorSetup(load_profile(profile), link, hand, record, parked, gauge, serial, seed)
+    emulator = Emulator(setup, lambda line: print(line, flush=True))  # noqa: T201
+    for order in fault or ():
+        emulator.switch(order)
+    _serve(emulator)
+
+
+def _serve(emulator: Emulator) -> None:
+    """Run until `quit`, the end of a pipe on the standard input, or a signal."""
+    import signal
+    import time
+
+    from app.commands.orders import Orders
+    from app.core.errors import AcusError
+
+    ended: list[int] = []
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda received, _: ended.append(received))
+    orders = Orders()
+    emulator.open()
+    try:
+        while not ended and not orders.ended:
+            for order in orders.waiting():
+                if order == "quit":
+                    ended.append(0)
+                    break
+                try:
+                    emulator.switch(order)
+                    typer.echo(f"ok {order}")
+                except AcusError as error:
+                    typer.echo(f"not understood: {error}")
+            emulator.work()
+            time.sleep(0.01)
+    finally:
+        emulator.close()
+
+
+def _print_json(document: object) -> None:
+    from json import dumps
+
+    typer.echo(dumps(document, indent=2))

@@ -1,0 +1,241 @@
+"""A robot as a process of its own: the board's program and the plant behind a pseudo-terminal.
+
+To the program at the other end it is a serial port. The board and the plant run in a compiled loop
+of their own; faults are switched while it runs. Unplugging closes the terminal and plugging in
+makes a new one behind the same link.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import cos, pi, sin
+from pathlib import Path
+from typing import IO, Final
+
+import numpy as np
+
+from app.compose.terminal import Terminal
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.clock import SystemClock
+from app.core.compiled import njit, stage
+from app.device.control import Loop
+from app.device.errors import LinkError
+from app.device.links import board, fault_box, line, wire
+from app.device.links.fault_box import Faults
+from app.device.links.transport import fd_await, fd_send
+from app.mechanisms.profile import DeviceProfile
+from app.simulation.plant import initial_plant, plant_stage
+
+UPRIGHT: Final = (0.0, 0.0, -1.0)
+DEPTH: Final = -0.015
+RATE_HZ: Final = 4000.0
+"""Rounds of the board and steps of the plant in a second."""
+
+_LISTENS: Final = 0.6
+"""Share of a round in which the board waits for bytes, to answer them at once."""
+
+HANDS: Final = ("none", "rest", "script")
+_BOX: Final = wire.END
+_PARKED: Final = _BOX + fault_box.SIZE  # 1: the arms go to the home angles, 0: back
+_SHARE: Final = _PARKED + 1  # of the way there
+_START: Final = _PARKED + 2  # joint angles under the upright needle [rad]: left, right
+_PARK: Final = _PARKED + 4  # home angles [rad]: left, right
+_UNPLUGGED: Final = _PARKED + 6
+_SIZE: Final = _UNPLUGGED + 1
+_PARKING_TIME: Final = 0.5
+_SILENT: Final = 2.0  # LINK_STATUS of a tripped watchdog in the record
+
+
+@njit
+def _move_to_park(state: FloatArray, p: FloatArray) -> None:
+    step = state[sv.DT] / _PARKING_TIME
+    p[_SHARE] += min(max(p[_PARKED] - p[_SHARE], -step), step)
+    if p[_SHARE] > 0.0:
+        for k in range(2):
+            way = p[_SHARE] * (p[_PARK + k] - p[_START + k])
+            state[sv.PLANT_Q_LEFT + k] = p[_START + k] + way
+            state[sv.PLANT_QD_LEFT + k] = 0.0
+
+
+@stage
+def board_stage(state: FloatArray, p: FloatArray) -> None:
+    """Bytes of the port to the board and back; TORQUE_* becomes what its motors give.
+
+    LINK_REPLIES counts valid commands, LINK_ERRORS frames dropped, ROUND_TRIP is the time since the
+    newest command, LINK_STATUS 2 while the watchdog has tripped, LINK_LOST 1 while unplugged, HOMED
+    and ENABLED as the board has them.
+    """
+    end, box = p[:_BOX], p[_BOX:_PARKED]
+    _move_to_park(state, p)
+    now = state[sv.TIME]
+    box[board.Q], box[board.Q + 1] = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
+    box[board.GAUGE_READING] = np.sqrt(
+        state[sv.PULL_X] ** 2 + state[sv.PULL_Y] ** 2 + state[sv.PULL_Z] ** 2
+    )
+    end[wire.OUT_COUNT] = fault_box.exchange(
+        box, now, wire.incoming(end), int(end[wire.IN_COUNT]), wire.outgoing(end), 0
+    )
+    end[wire.IN_COUNT] = 0.0
+    state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = box[board.TORQUE], box[board.TORQUE + 1]
+    state[sv.LINK_REPLIES], state[sv.LINK_ERRORS] = box[board.COMMANDS], box[board.ERRORS]
+    state[sv.ROUND_TRIP] = now - box[board.COMMANDED]
+    state[sv.LINK_STATUS] = _SILENT if box[board.TRIPPED] != 0.0 else 0.0
+    state[sv.HOMED], state[sv.ENABLED] = box[board.HOMED], box[board.ENABLED]
+    state[sv.LINK_LOST] = p[_UNPLUGGED]
+
+
+@dataclass(frozen=True, slots=True)
+class EmulatorSetup:
+    """What is emulated.
+
+    Attributes:
+        profile: the robot.
+        link: path of a symbolic link to the terminal, kept across unplugging; None: no link.
+        hand: `none` (the needle is free), `rest` (held upright), `script` (led round in a cone).
+        record: CSV file of every round of the board; None: no record.
+        parked: whether the arms rest at the home angles at first, as they do for homing.
+        gauge: whether the board has a force gauge.
+        serial: serial number that the board reports.
+        seed: of the faults.
+    """
+
+    profile: DeviceProfile
+    link: Path | None = None
+    hand: str = "none"
+    record: Path | None = None
+    parked: bool = False
+    gauge: bool = False
+    serial: str = "EMULATED"
+    seed: int = 1
+
+    def __post_init__(self) -> None:
+        if self.hand not in HANDS:
+            raise LinkError(f"no hand {self.hand!r}; valid names: {', '.join(HANDS)}")
+
+
+class Emulator:
+    """A robot behind a pseudo-terminal. `work` must be called now and then while it is open.
+
+    Args:
+        setup: what is emulated.
+        tell: called with each line for people, e.g. the path of the terminal.
+    """
+
+    def __init__(self, setup: EmulatorSetup, tell: Callable[[str], None] = print) -> None:
+        profile = setup.profile
+        self.setup = setup
+        self._tell = tell
+        self._array = np.zeros(_SIZE)
+        self._end, box = self._array[:_BOX], self._array[_BOX:_PARKED]
+        box[: board.SIZE] = board.board(profile, setup.serial, boot=int(SystemClock().now()))
+        box[board.GAUGE] = setup.gauge
+        box[fault_box.DOWN : fault_box.UP] = line.line(setup.seed)
+        box[fault_box.UP :] = line.line(setup.seed + 1)
+        self._array[_PARK : _PARK + 2] = profile.encoder.home_offsets
+        self._array[_PARKED] = self._array[_SHARE] = setup.parked
+        self._faults = Faults(box)
+        self._end[wire.WAIT] = _LISTENS / RATE_HZ
+        self._terminal = Terminal(self._end, setup.link)
+        start = initial_plant(profile, UPRIGHT, DEPTH)
+        self._array[_START : _START + 2] = start["plant_q_left"], start["plant_q_right"]
+        if setup.parked:
+            start["plant_q_left"], start["plant_q_right"] = profile.encoder.home_offsets
+        stages = [
+            ("receive", fd_await, self._end),
+            ("board", board_stage, self._array),
+            ("send", fd_send, self._end),
+            plant_stage(profile, UPRIGHT, DEPTH),
+        ]
+        self._loop = Loop(stages, RATE_HZ, initial=start)
+        self._record: IO[str] | None = None
+        self._recorded = 0
+
+    @property
+    def path(self) -> str:
+        """Path of the terminal, or of the link to it."""
+        return str(self.setup.link or self._terminal.path)
+
+    def open(self) -> None:
+        """Plug in and switch on."""
+        holds = self.setup.hand != "none"
+        self._loop.inbox.write(hand_holds=float(holds), hand_depth=DEPTH)
+        if self.setup.record is not None:
+            self._record = self.setup.record.open("w", encoding="utf-8")
+            self._record.write(",".join(COLUMNS) + "\n")
+        self._terminal.open()
+        self._loop.open()
+        self._tell(self.path)
+
+    def close(self) -> None:
+        """Switch off and unplug. Idempotent."""
+        self._loop.close()
+        self._write_record()
+        self._terminal.close()
+        if self._record is not None:
+            self._record.close()
+            self._record = None
+
+    def work(self) -> None:
+        """Move the scripted hand and write the record up to now; at least once a second."""
+        if self.setup.hand == "script":
+            angle, tilt = 2.0 * pi * 0.3 * SystemClock().now(), 0.15
+            self._loop.inbox.write(hand_x=sin(tilt) * cos(angle), hand_y=sin(tilt) * sin(angle))
+        self._write_record()
+
+    def switch(self, order: str) -> None:
+        """Obey one line, e.g. `drop 0.1`, `freeze on`, `unplug off`, `reset`, `park on`.
+
+        Raises:
+            LinkError: if it cannot be understood; names the valid orders.
+        """
+        words = order.replace("=", " ").split()
+        name, text = words[0], words[1] if len(words) > 1 else "on"
+        value = {"on": 1.0, "off": 0.0}.get(text)
+        try:
+            value = float(text) if value is None else value
+        except ValueError as error:
+            raise LinkError(f"fault {name}: {text!r} is no number, on or off") from error
+        if name == "unplug":
+            self._unplug(value != 0.0)
+        elif name == "park":
+            self._array[_PARKED] = value != 0.0
+        else:
+            self._faults.set(name, value)
+
+    def _unplug(self, out: bool) -> None:
+        self._array[_UNPLUGGED] = out
+        if out:
+            self._terminal.take_away()
+        else:
+            self._terminal.put()
+            self._tell(self.path)
+
+    def _write_record(self) -> None:
+        if self._record is None:
+            return
+        rows = self._loop.rows(self._recorded)
+        if len(rows):
+            self._recorded = int(rows[-1, sv.TICK])
+            table = rows[:, list(COLUMNS.values())]
+            self._record.writelines(",".join(f"{x:.9g}" for x in row) + "\n" for row in table)
+            self._record.flush()
+
+
+COLUMNS: Final = {
+    "tick": sv.TICK,
+    "time": sv.TIME,
+    "lateness": sv.LATENESS,
+    "torque_left": sv.TORQUE_LEFT,
+    "torque_right": sv.TORQUE_RIGHT,
+    "commands": sv.LINK_REPLIES,
+    "since_command": sv.ROUND_TRIP,
+    "tripped": sv.LINK_STATUS,
+    "unplugged": sv.LINK_LOST,
+    "enabled": sv.ENABLED,
+    "homed": sv.HOMED,
+    "q_left": sv.PLANT_Q_LEFT,
+    "q_right": sv.PLANT_Q_RIGHT,
+}
+"""Columns of the record -> slots of the emulator's own loop; `tripped` is 2 after the watchdog."""

@@ -1,0 +1,209 @@
+"""Acus' own protocol, version 1, the program's side (docs/protocol.md, byte by byte)."""
+
+import struct
+from enum import IntEnum
+from typing import Any, Final
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.compiled import njit, stage
+from app.device.errors import LinkError
+from app.device.links import framing, wire
+from app.device.links import host_end as host
+from app.device.links.framing import RECEIVER
+from app.device.links.link import BoardInfo
+from app.mechanisms.profile import DeviceProfile
+
+VERSION: Final = 1
+"""Version of the protocol that this program speaks."""
+
+HELLO: Final = 0x01
+COMMAND: Final = 0x02
+HOME: Final = 0x03
+INFO: Final = 0x81
+STATE: Final = 0x82
+"""First byte of a message; the board's have the highest bit set."""
+
+COMMAND_BYTES: Final = 12
+STATE_BYTES: Final = 17
+STATE_WITH_FORCE_BYTES: Final = 21
+INFO_FORMAT: Final = "<BBBBIIfBB16s16s"
+INFO_BYTES: Final = 50
+
+ENABLE: Final = 1
+"""Flag of a command: the torques count."""
+
+ENABLED: Final = 1
+HOMED: Final = 2
+TRIPPED: Final = 4
+FORCE_VALID: Final = 8
+GREETED: Final = 16
+"""Flags of a state."""
+
+FEATURE_GAUGE: Final = 1
+
+
+class BoardError(IntEnum):
+    """What a board reports in the slot BOARD_ERROR."""
+
+    NONE = 0
+    TORQUE_NOT_FINITE = 1
+    HOME_REFUSED = 2
+    ENCODER = 3
+    AMPLIFIER = 4
+    SUPPLY_OFF = 5
+    TOO_HOT = 6
+    INTERNAL = 7
+
+    @property
+    def message(self) -> str:
+        """Say what it means and what to do."""
+        return _MESSAGES[self]
+
+
+_MESSAGES: Final = {
+    BoardError.NONE: "no error",
+    BoardError.TORQUE_NOT_FINITE: "the board was sent a torque that is not a number",
+    BoardError.HOME_REFUSED: "the board homes only while its motors are off and for the power"
+    " cycle it is in; disarm and try again",
+    BoardError.ENCODER: "an encoder is missing or skips; check its cable",
+    BoardError.AMPLIFIER: "a motor amplifier reports a fault; switch its supply off and on",
+    BoardError.SUPPLY_OFF: "the motor supply is off; release the emergency switch",
+    BoardError.TOO_HOT: "a motor or amplifier is too hot; let it cool down",
+    BoardError.INTERNAL: "the board's program reports an error of its own; reset it",
+}
+
+
+def describe_error(code: int) -> str:
+    """Text for a board's error number, known or not."""
+    if code in tuple(BoardError):
+        return BoardError(code).message
+    return f"the board reports error {code}, which this program does not know; see its firmware"
+
+
+def hello() -> bytes:
+    """Frame that asks a board who it is; a zero before it ends whatever was on the line."""
+    return b"\x00" + framing.frame(bytes([HELLO, VERSION]))
+
+
+def home(boot: int) -> bytes:
+    """Frame that makes the present joint angles the zero of the counters, in this power cycle."""
+    return framing.frame(struct.pack("<BI", HOME, boot))
+
+
+def pack_info(profile: DeviceProfile, serial: str, boot: int, gauge: bool) -> bytes:
+    """INFO of a board of a profile (without frame), as firmware would send it."""
+    return struct.pack(
+        INFO_FORMAT,
+        *(INFO, VERSION, 1, 0, boot, profile.encoder.counts_per_turn, profile.limits.joint_torque),
+        *(FEATURE_GAUGE if gauge else 0, round(profile.wire.watchdog_ms)),
+        *(serial.encode("ascii"), profile.name.encode("ascii")),
+    )
+
+
+def read_info(payload: bytes) -> tuple[BoardInfo, int, float, float]:
+    """Parse an INFO.
+
+    Returns:
+        The board, its counts per turn, largest torque [N·m] and watchdog time [s].
+
+    Raises:
+        LinkError: if the board speaks another version; names both. Type and version stand in the
+            same two bytes in every version.
+    """
+    if len(payload) < 2 or payload[1] != VERSION or len(payload) != INFO_BYTES:
+        theirs = payload[1] if len(payload) > 1 else 0
+        raise LinkError(
+            f"the board speaks version {theirs} of the protocol, this program version {VERSION}"
+            f" ({len(payload)} bytes): update the"
+            f" {'board' if theirs < VERSION else 'program'} (docs/protocol.md)"
+        )
+    _, version, major, minor, boot, counts, torque, features, watchdog, serial, name = (
+        struct.unpack(INFO_FORMAT, payload)
+    )
+    info = BoardInfo(
+        profile=_text(name),
+        serial=_text(serial),
+        firmware=f"{major}.{minor}",
+        protocol=f"acus {version}",
+        boot=boot,
+        gauge=bool(features & FEATURE_GAUGE),
+    )
+    return info, counts, torque, watchdog * 1e-3
+
+
+def _text(field: bytes) -> str:
+    return field.split(b"\0")[0].decode("ascii", errors="replace")
+
+
+@njit
+def _answered(p: FloatArray, sequence: int) -> None:
+    """Match a reply with its command: round trip, and commands that were never answered."""
+    newest, before = int(p[wire.SEQUENCE]), int(p[host.ANSWERED])
+    if ((newest - sequence) & 0xFFFF) < wire.SENT_RING:
+        p[host.ROUND_TRIP] = p[wire.NOW] - wire.sent_at(p, sequence)
+    if before >= 0:
+        passed = (sequence - before) & 0xFFFF
+        if 0 < passed < 0x8000:
+            p[host.LOST] += passed - 1
+    p[host.ANSWERED] = sequence
+
+
+@njit
+def _take_state(state: FloatArray, p: FloatArray, data: Any, length: int) -> None:
+    flags = np.int64(data[1])
+    p[host.BOARD_FLAGS] = flags
+    p[host.ESTRANGED] = 0.0 if flags & GREETED else 1.0
+    p[host.HOMED] = 1.0 if flags & HOMED and flags & GREETED else 0.0
+    p[host.ERROR] = data[16]
+    host.heard(p)
+    _answered(p, wire.get_int(data, 2, 2))
+    if not flags & GREETED:  # restarted: its counters mean nothing yet
+        return
+    state[sv.Q_LEFT] = p[host.OFFSET] + wire.get_int32(data, 8) * p[host.STEP]
+    state[sv.Q_RIGHT] = p[host.OFFSET + 1] + wire.get_int32(data, 12) * p[host.STEP + 1]
+    state[sv.Q_TIME] = p[wire.NOW]
+    p[host.GAUGE] = 1.0 if flags & FORCE_VALID and length == STATE_WITH_FORCE_BYTES else 0.0
+    if p[host.GAUGE] != 0.0:
+        force = (wire.get_float(p, data, 17) - p[host.GAUGE_ZERO]) * p[host.GAUGE_SCALE]
+        if np.isfinite(force):
+            p[host.FORCE] = force
+        else:
+            p[host.GAUGE] = 0.0
+
+
+@stage
+def acus_read(state: FloatArray, p: FloatArray) -> None:
+    """Parse what has come; the newest STATE becomes Q_*, GAUGE_* and LINK_*."""
+    receiver = p[host.RECEIVER_AT : host.RECEIVER_AT + RECEIVER]
+    frame, payload = framing.frame_bytes(receiver), framing.payload_bytes(receiver)
+    data = wire.incoming(p)
+    for k in range(int(p[wire.IN_COUNT])):
+        length = framing.receive(receiver, frame, payload, data[k])
+        if length < 0:
+            p[host.ERRORS] += 1.0
+        elif length in (STATE_BYTES, STATE_WITH_FORCE_BYTES) and payload[0] == STATE:
+            _take_state(state, p, payload, length)
+    p[wire.IN_COUNT] = 0.0
+    host.publish(state, p)
+
+
+@stage
+def acus_write(state: FloatArray, p: FloatArray) -> None:
+    """Put one COMMAND with TORQUE_* into `outgoing`, and a HOME when one is asked for."""
+    if not host.may_send(p):
+        return
+    host.append_home(p)
+    left, right = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
+    enable = state[sv.ENABLED] > 0.5 and np.isfinite(left + right)
+    p[wire.SEQUENCE] = (int(p[wire.SEQUENCE]) + 1) & 0xFFFF
+    receiver = p[host.SPARE : host.SPARE + 8]
+    data = receiver.view(np.uint8)
+    data[0], data[1] = COMMAND, ENABLE if enable else 0
+    wire.put_int(data, 2, int(p[wire.SEQUENCE]), 2)
+    wire.put_float(p, data, 4, left * p[host.TORQUE_SIGN] if enable else 0.0)
+    wire.put_float(p, data, 8, right * p[host.TORQUE_SIGN + 1] if enable else 0.0)
+    start = int(p[wire.OUT_COUNT])
+    p[wire.OUT_COUNT] = framing.encode(data, COMMAND_BYTES, wire.outgoing(p), start)

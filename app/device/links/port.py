@@ -1,0 +1,143 @@
+"""Serial ports: which there are, and opening one for a robot alone. pyserial appears only here."""
+
+import errno
+import os
+import time
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+import serial
+from serial.tools import list_ports
+
+from app.device.errors import LinkError
+
+ANSWER_TIME = 0.06
+"""How long one greeting waits for its answer [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class PortInfo:
+    """One serial port.
+
+    Attributes:
+        path: what to open, e.g. `/dev/ttyACM0`.
+        description: maker and product, as the system knows them; empty if it does not.
+        hardware: identity of the USB device (vendor:product:serial number); empty if there is none.
+    """
+
+    path: str
+    description: str
+    hardware: str
+
+
+def ports() -> list[PortInfo]:
+    """Return the serial ports of this computer, sorted by path."""
+    return sorted((_described(port) for port in list_ports.comports()), key=lambda port: port.path)
+
+
+def _described(port: Any) -> PortInfo:
+    known = port.description if port.description not in (None, "n/a") else ""
+    hardware = ""
+    if port.vid is not None:
+        hardware = f"{port.vid:04x}:{port.pid:04x}:{port.serial_number or ''}"
+    return PortInfo(port.device, known or "", hardware)
+
+
+class Port:
+    """An open serial port that nobody else has; its descriptor does not block.
+
+    Args:
+        path: of the device, e.g. `/dev/ttyACM0`, or of a link to it.
+        baud: speed of the line; without meaning on USB and on a pseudo-terminal.
+    """
+
+    def __init__(self, path: str, baud: int) -> None:
+        self.path = path
+        self.baud = baud
+        self._serial: Any = None
+
+    @property
+    def fd(self) -> int:
+        """Descriptor of the open port."""
+        return int(self._serial.fileno())
+
+    def open(self) -> None:
+        """Open the port, lock it against other programs, and set its speed.
+
+        Raises:
+            LinkError: if it is absent, busy, forbidden or no serial port; says how to mend it.
+        """
+        try:
+            self._serial = serial.Serial(
+                self.path, self.baud, timeout=0, write_timeout=0, exclusive=True
+            )
+        except (serial.SerialException, OSError, ValueError) as error:
+            raise LinkError(reason(self.path, self.baud, error)) from error
+
+    def close(self) -> None:
+        """Close the port. Does nothing if it is closed; a port that has gone is closed as well."""
+        port, self._serial = self._serial, None
+        if port is not None:
+            with suppress(OSError):  # the device may be gone, and the descriptor with it
+                port.close()
+
+    def exchange(self, data: bytes) -> bytes:
+        """Send bytes; return what has come once nothing more comes.
+
+        Waits `ANSWER_TIME` for the first byte and a few milliseconds for the next.
+
+        Raises:
+            LinkError: if the port has gone.
+        """
+        try:
+            os.write(self.fd, data)
+            return self._gather()
+        except BlockingIOError:
+            return b""
+        except OSError as error:
+            raise LinkError(reason(self.path, self.baud, error)) from error
+
+    def _gather(self) -> bytes:
+        answer, end = b"", time.monotonic() + ANSWER_TIME
+        while time.monotonic() < end:
+            try:
+                piece = os.read(self.fd, 512)
+            except BlockingIOError:
+                piece = b""
+            answer += piece
+            if piece:
+                end = time.monotonic() + 0.005
+            else:
+                time.sleep(0.001)
+        return answer
+
+
+def reason(path: str, baud: int, error: Exception) -> str:
+    """Say why a port cannot be used, and what to do."""
+    code = getattr(error, "errno", None)
+    cause = error.__context__ if error.__context__ is not None else error
+    code = code if code is not None else getattr(cause, "errno", None)
+    if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV):
+        there = ", ".join(port.path for port in ports()) or "none"
+        return (
+            f"there is no port {path}; serial ports here: {there}. Plug the robot in and look with"
+            " `acus device list`"
+        )
+    if code == errno.EACCES or code == errno.EPERM:
+        return (
+            f"you may not open {path}: add yourself to the group that owns it with"
+            " `sudo usermod -aG dialout $USER`, then log out and in again"
+        )
+    if code in (errno.EAGAIN, errno.EWOULDBLOCK, errno.EBUSY):
+        return (
+            f"{path} is busy: another program is using this robot; close it"
+            f" (`fuser -v {path}` names it)"
+        )
+    if isinstance(error, ValueError) or code == errno.EINVAL:
+        return f"{path} cannot be set to {baud} baud; correct wire.baud in the device profile"
+    if code in (errno.ENOTTY, errno.EISDIR):
+        return f"{path} is not a serial port; see `acus device list`"
+    if code == errno.EIO:
+        return f"{path} has gone; plug the robot in again"
+    return f"{path} cannot be used: {error}"

@@ -1,0 +1,222 @@
+"""The two languages side by side: how to greet a board, fill a wire's array, and which stages."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.device.errors import LinkError
+from app.device.links import acus_protocol as acus
+from app.device.links import haply_protocol as haply
+from app.device.links import host_end as host
+from app.device.links import wire
+from app.device.links.framing import Deframer
+from app.device.links.link import BoardInfo
+from app.mechanisms.profile import DeviceProfile, Protocol
+
+Exchange = Callable[[bytes], bytes]
+"""Send bytes, wait a while, return what has come (maybe nothing)."""
+
+ATTEMPTS = 8
+"""Greetings before a board counts as silent."""
+
+
+@dataclass(frozen=True, slots=True)
+class Calibration:
+    """What was measured on one robot.
+
+    Attributes:
+        home_offsets: joint angles at zero counts [rad], (left, right).
+        encoder_signs, motor_signs: 1 or -1, (left, right); -1: wired the other way round.
+        gauge_zero: reading of the force gauge without load.
+        gauge_scale: force per unit of the reading [N].
+    """
+
+    home_offsets: tuple[float, float]
+    encoder_signs: tuple[int, int] = (1, 1)
+    motor_signs: tuple[int, int] = (1, 1)
+    gauge_zero: float = 0.0
+    gauge_scale: float = 1.0
+
+    def __post_init__(self) -> None:
+        if {*self.encoder_signs, *self.motor_signs} - {1, -1}:
+            raise LinkError(
+                f"signs {self.encoder_signs} and {self.motor_signs}: each must be 1 or -1"
+            )
+        numbers = [*self.home_offsets, self.gauge_zero, self.gauge_scale]
+        if not np.isfinite(numbers).all():
+            raise LinkError(f"calibration values {numbers} must be finite; calibrate anew")
+
+    @classmethod
+    def of(cls, profile: DeviceProfile) -> Calibration:
+        """Calibration as the profile has it."""
+        return cls(profile.encoder.home_offsets)
+
+
+class Speech(ABC):
+    """One protocol. Shared by every link, whatever carries its bytes."""
+
+    name: str
+    stages: tuple[Any, Any]
+
+    @abstractmethod
+    def greet(self, exchange: Exchange) -> BoardInfo:
+        """Find out who is there.
+
+        Raises:
+            LinkError: if nobody answers, or a board of another version or kind.
+        """
+
+    @abstractmethod
+    def fill(self, end: FloatArray, profile: DeviceProfile, calibration: Calibration) -> None:
+        """Write constants of profile and calibration into the program's end of a wire."""
+
+    @abstractmethod
+    def greeted(self, end: FloatArray, info: BoardInfo) -> None:
+        """Begin anew with a board that has just been greeted."""
+
+
+class AcusSpeech(Speech):
+    """Acus' own protocol."""
+
+    name = "acus"
+    stages = (acus.acus_read, acus.acus_write)
+
+    def __init__(self, profile: DeviceProfile) -> None:
+        self._profile = profile
+
+    def greet(self, exchange: Exchange) -> BoardInfo:
+        """Say HELLO until an INFO comes, and compare it with the profile."""
+        deframer, seen = Deframer(), 0
+        for _ in range(ATTEMPTS):
+            data = exchange(acus.hello())
+            seen += len(data)
+            for payload in deframer.feed(data):
+                if payload[0] == acus.INFO:
+                    return self._checked(payload)
+        raise LinkError(silence(seen, "no board that speaks Acus' protocol"))
+
+    def _checked(self, payload: bytes) -> BoardInfo:
+        info, counts, _, watchdog = acus.read_info(payload)
+        wanted = self._profile
+        if info.profile and info.profile != wanted.name:
+            raise LinkError(
+                f"the board says that it belongs to a robot of the profile {info.profile!r}, the"
+                f" program was started for {wanted.name!r}; choose the profile {info.profile}"
+            )
+        if counts != wanted.encoder.counts_per_turn:
+            raise LinkError(
+                f"the board counts {counts} per turn, the profile {wanted.name} says"
+                f" {wanted.encoder.counts_per_turn}; correct the profile or the firmware"
+            )
+        if watchdog > wanted.wire.watchdog_ms * 1e-3 + 1e-9:
+            raise LinkError(
+                f"the board's watchdog waits {watchdog * 1e3:g} ms, the profile {wanted.name}"
+                f" allows {wanted.wire.watchdog_ms:g} ms; update the firmware"
+            )
+        return info
+
+    def fill(self, end: FloatArray, profile: DeviceProfile, calibration: Calibration) -> None:
+        """Angles from counts."""
+        _fill(end, profile, calibration)
+        end[host.OFFSET : host.OFFSET + 2] = calibration.home_offsets
+        step = 2.0 * np.pi / profile.encoder.counts_per_turn
+        end[host.STEP : host.STEP + 2] = step * np.array(calibration.encoder_signs)
+
+    def greeted(self, end: FloatArray, info: BoardInfo) -> None:
+        """Its homing message carries the number of the power cycle."""
+        _begin(end, acus.home(info.boot))
+        end[host.GAUGE] = 0.0
+
+
+class HaplySpeech(Speech):
+    """The Haply 2DIY's protocol."""
+
+    name = "haply"
+    stages = (haply.haply_read, haply.haply_write)
+    _connections = 0
+
+    def __init__(self, profile: DeviceProfile) -> None:
+        self._profile = profile
+        self._setup = haply.setup(profile)
+
+    def greet(self, exchange: Exchange) -> BoardInfo:
+        """Set the board up, and ask for its angles until they come."""
+        number, seen = haply.section_of(self._profile).device_id, 0
+        request = haply.read_request(self._profile)
+        exchange(self._setup)
+        for _ in range(ATTEMPTS):
+            data = exchange(request)
+            seen += len(data)
+            if len(data) == haply.REPLY_BYTES and data[0] == number:
+                return self._found()
+        raise LinkError(silence(seen, f"no Haply board with number {number}"))
+
+    def _found(self) -> BoardInfo:
+        HaplySpeech._connections += 1
+        return BoardInfo(
+            profile="", serial="", firmware="", protocol="haply", boot=HaplySpeech._connections
+        )
+
+    def fill(self, end: FloatArray, profile: DeviceProfile, calibration: Calibration) -> None:
+        """Angles come in degrees, the profile's offsets included."""
+        _fill(end, profile, calibration)
+        section = haply.section_of(profile)
+        end[haply.DEVICE_ID] = section.device_id
+        end[haply.LEFT_SECOND] = section.encoder_ports[0] > section.encoder_ports[1]
+        signs = np.array(calibration.encoder_signs)
+        own = np.radians(section.encoder_offset_deg)
+        end[host.OFFSET : host.OFFSET + 2] = np.array(calibration.home_offsets) - signs * own
+        end[host.STEP : host.STEP + 2] = signs * np.pi / 180.0
+
+    def greeted(self, end: FloatArray, info: BoardInfo) -> None:
+        """Believe the first angles whatever they are."""
+        _begin(end, self._setup)
+        end[haply.FRESH] = 1.0
+        end[haply.AWAITING] = end[haply.LAST_TORQUE] = 0.0
+
+
+def speech_of(profile: DeviceProfile) -> Speech:
+    """Protocol of a profile.
+
+    Raises:
+        ConfigurationError: if the profile lacks the section that its protocol needs.
+    """
+    return HaplySpeech(profile) if profile.wire.protocol is Protocol.HAPLY else AcusSpeech(profile)
+
+
+def silence(seen: int, whom: str) -> str:
+    """Say that nobody answers, and why that may be."""
+    if seen:
+        return (
+            f"{whom} answers: {seen} bytes came, but they make no sense; check the baud rate in"
+            " the profile (wire.baud) and that this is the robot's port (acus device list)"
+        )
+    return (
+        f"{whom} answers; check its power and cable, the baud rate in the profile (wire.baud) and"
+        " that this is the robot's port (acus device list)"
+    )
+
+
+def _fill(end: FloatArray, profile: DeviceProfile, calibration: Calibration) -> None:
+    end[host.SILENT_AFTER] = profile.wire.watchdog_ms * 1e-3
+    end[host.TORQUE_SIGN : host.TORQUE_SIGN + 2] = calibration.motor_signs
+    end[host.GAUGE_ZERO] = calibration.gauge_zero
+    end[host.GAUGE_SCALE] = calibration.gauge_scale
+
+
+def _begin(end: FloatArray, homing: bytes) -> None:
+    """Forget the connection before: sequence, half frames, homing."""
+    end[host.HOME_BYTES : host.RECEIVER_AT].view(np.uint8)[: len(homing)] = np.frombuffer(
+        homing, np.uint8
+    )
+    end[host.HOME_COUNT] = len(homing)
+    end[[host.HOME_WANTED, host.HOME_SENT, host.HOMED, host.ESTRANGED, host.ERROR]] = 0.0
+    end[[wire.IN_COUNT, wire.OUT_COUNT, wire.DEAD, host.FORCE, host.GAUGE]] = 0.0
+    end[host.ANSWERED] = -1.0
+    end[host.RECEIVER_AT : host.SPARE] = 0.0

@@ -1,0 +1,181 @@
+"""A robot on a serial port: driven from the compiled loop, found again when it comes back."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+
+import numpy as np
+
+from app.core.clock import Clock, SystemClock
+from app.core.events import Event, EventQueue
+from app.device.errors import LinkError
+from app.device.links import host_end as host
+from app.device.links import wire
+from app.device.links.link import BoardInfo, DeviceLink, Link, LinkStatus, Triple
+from app.device.links.plug import Plug
+from app.device.links.port import Port
+from app.device.links.protocols import Calibration, speech_of
+from app.device.links.supervisor import Supervisor
+from app.mechanisms.profile import DeviceProfile
+
+
+class SerialLink(DeviceLink):
+    """One robot on one port.
+
+    Its stages live as long as the link. When the board falls silent, restarts or is unplugged, the
+    loop goes on without it (LINK_STATUS says so, Q_TIME gets old) and a thread looks for the same
+    board every half a second. A board that comes back not homed clears the slot HOMED.
+
+    Args:
+        port: path, e.g. `/dev/ttyACM0`.
+        profile: protocol, speed and numbers of the robot.
+        calibration: what was measured on this robot; by default what the profile says.
+        on_connect: called with the board after each greeting, the first included, from the thread
+            that greeted it; must be quick.
+        clock: monotonic clock, for the times of events.
+    """
+
+    def __init__(
+        self,
+        port: str,
+        profile: DeviceProfile,
+        calibration: Calibration | None = None,
+        on_connect: Callable[[BoardInfo], None] | None = None,
+        clock: Clock | None = None,
+    ) -> None:
+        self.port = port
+        self.profile = profile
+        self.calibration = calibration or Calibration.of(profile)
+        self.events = EventQueue()
+        self._on_connect = on_connect
+        self._clock = clock or SystemClock()
+        self._speech = speech_of(profile)
+        self._end = np.zeros(host.SIZE)
+        self._end[host.STATUS] = LinkStatus.CLOSED
+        self._plug = Plug(self._end)
+        self._supervisor = Supervisor(self._end, self._find_again)
+        self._info: BoardInfo | None = None
+
+    def open(self) -> None:
+        """Open the port and greet the board. Does nothing if the link is open.
+
+        Raises:
+            LinkError: if the port is absent, busy or forbidden, nobody answers, or somebody else
+                does; says what to do.
+        """
+        if self._supervisor.running:
+            return
+        _need_linux()
+        self._speech.fill(self._end, self.profile, self.calibration)
+        self._plug.open()
+        try:
+            self._connect(None)
+        except BaseException:
+            self._plug.close()
+            raise
+        self._supervisor.start()
+
+    def close(self) -> None:
+        """Let go of the port. Does nothing if the link is closed."""
+        self._supervisor.stop()
+        self._end[host.STATUS] = LinkStatus.CLOSED
+        self._plug.close()
+
+    def stages(self) -> Link:
+        """Stages of the tick: bytes in and parsed; one command built and sent."""
+        _need_linux()
+        from app.device.links.transport import fd_receive, fd_send
+
+        read, write = self._speech.stages
+        name = self._speech.name
+        return Link.of(
+            [("receive", fd_receive, self._end), (f"{name} read", read, self._end)],
+            [(f"{name} write", write, self._end), ("send", fd_send, self._end)],
+        )
+
+    def info(self) -> BoardInfo:
+        """Return who was found by the last successful greeting.
+
+        Raises:
+            LinkError: before the first.
+        """
+        if self._info is None:
+            raise LinkError(f"nobody was greeted on {self.port} yet; call open() first")
+        return self._info
+
+    @property
+    def is_homed(self) -> bool:
+        """Whether the board was homed since it was switched on (Haply: since it was greeted)."""
+        return bool(self._end[host.HOMED])
+
+    def home(self) -> None:
+        """Let the running loop send the homing message: the joints stand at their home angles.
+
+        The slot HOMED stays 0 until the board has confirmed it; see `is_homed`.
+        """
+        self._end[host.HOME_WANTED] += 1.0
+
+    def test_stages(self, wait: float) -> tuple[Triple, ...]:
+        """Stages that send a command and wait up to `wait` [s] for its answer in the same tick.
+
+        They measure the true round trip. A controller does not wait: it reads an answer in the next
+        tick.
+        """
+        _need_linux()
+        from app.device.links.transport import fd_await
+
+        self._end[wire.WAIT] = wait
+        link = self.stages()
+        return *link.read, *link.write, ("await", fd_await, self._end), link.read[1]
+
+    def _connect(self, serial: str | None) -> None:
+        """Open the port, greet, and put it into the stages; `serial` is the board expected."""
+        self._end[host.STATUS] = LinkStatus.CONNECTING
+        self._plug.take_away()
+        port = Port(self.port, self.profile.wire.baud)
+        port.open()
+        try:
+            info = self._speech.greet(port.exchange)
+            if serial is not None and info.serial != serial:
+                raise LinkError(
+                    f"another robot answers on {self.port} (serial number {info.serial!r} instead"
+                    f" of {serial!r}); plug the first one in again, or close and open the link"
+                )
+        except BaseException:
+            port.close()
+            raise
+        self._speech.greeted(self._end, info)
+        self._info = info
+        self._plug.put(port)
+        self._end[host.HEARD] = self._clock.now()
+        self._end[host.STATUS] = LinkStatus.FINE
+        self._say(f"connected to {info.profile or 'a board'} on {self.port}", boot=info.boot)
+        if self._on_connect is not None:
+            self._on_connect(info)
+
+    def _find_again(self) -> None:
+        self._say(f"the robot on {self.port} is gone; looking for it")
+        while not self._supervisor.wait(0.0):
+            try:
+                self._connect(self.info().serial)
+            except LinkError as error:
+                wrong = "speaks version" in str(error)
+                status = LinkStatus.WRONG_VERSION if wrong else LinkStatus.CONNECTING
+                if self._end[host.STATUS] != status or wrong:
+                    self._say(str(error))
+                self._end[host.STATUS] = status
+                self._supervisor.wait(0.5)
+            else:
+                return
+
+    def _say(self, message: str, **data: object) -> None:
+        self.events.put(Event(self._clock.now(), "link", message, data))
+
+
+def _need_linux() -> None:
+    if sys.platform != "linux":
+        raise LinkError(
+            f"serial robots are driven from inside the compiled loop, which exists on Linux only;"
+            f" this is {sys.platform}: use the simulated robot here"
+        )
