@@ -70,6 +70,19 @@ def test_an_origin_without_a_value_is_refused(tmp_path, document):
         ("encoder", "counts_per_turn", 0, "greater than 0"),
         ("limits", "hand_force", float("nan"), "finite"),
         ("loop", "renders", ["sideways"], "lateral"),
+        ("geometry", "proximal", 100.0, "less than or equal to 2"),  # millimetres
+        ("inertia", "distal_mass", 60.0, "less than or equal to 20"),  # grams
+        ("limits", "joint_torque", 600.0, "less than or equal to 20"),
+        ("encoder", "counts_per_turn", 10**12, "less than or equal to 100000000"),
+        ("encoder", "home_offsets", [194.95, -10.86], "less than or equal to 12.6"),  # degrees
+        ("mounting", "gravity", [0.0, 0.0, -981.0], "greater than or equal to -25"),
+        ("geometry", "fulcrum", [0.0, 0.3, 0.09], r"0.303 m from the left.*0.065 to 0.265 m"),
+        ("geometry", "fulcrum", [0.24, 0.1, 0.09], r"from the left motor axis"),
+        ("geometry", "fulcrum", [0.0, 0.03, 0.09], r"0\.05202 m from the left.*from 0.065"),
+        ("geometry", "fulcrum", [0.0, -0.16, 0.09], "in front of the motors, y > 0"),
+        ("geometry", "needle_length", 0.08, "must be greater than the lever.*0.09 m"),
+        ("workspace", "depth_max", 0.25, r"depth_max 0.25 m must be below.*0.2 m"),
+        ("inertia", "needle_centre", 0.3, r"needle_centre 0.3 m must lie on the needle"),
     ],
 )
 def test_a_wrong_value_is_refused_by_name(tmp_path, document, section, key, value, message):
@@ -78,6 +91,12 @@ def test_a_wrong_value_is_refused_by_name(tmp_path, document, section, key, valu
         load_profile(written(tmp_path, document))
     assert "mine.yaml" in str(caught.value)
     assert section in str(caught.value)
+
+
+def test_a_fulcrum_behind_the_elbows_is_refused(tmp_path, document):
+    document["geometry"] |= {"proximal": 0.165, "distal": 0.1, "fulcrum": [0.0, 0.12, 0.09]}
+    with pytest.raises(ConfigurationError, match="lies behind the elbows"):
+        load_profile(written(tmp_path, document))
 
 
 def test_an_unknown_profile_names_the_valid_ones():

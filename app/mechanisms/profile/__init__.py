@@ -1,0 +1,45 @@
+"""Device profiles: every number of one robot, with where it comes from."""
+
+from app.mechanisms.profile.control import (
+    Axis,
+    EncoderSection,
+    FixtureSection,
+    HaplySection,
+    LimitSection,
+    LoopSection,
+    MotorSection,
+    Protocol,
+    WireSection,
+)
+from app.mechanisms.profile.device import DeviceProfile
+from app.mechanisms.profile.files import load_profile, profile_names
+from app.mechanisms.profile.mechanics import (
+    FrictionSection,
+    GeometrySection,
+    InertiaSection,
+    MountingSection,
+    WorkspaceSection,
+)
+from app.mechanisms.profile.values import Provenance, Section
+
+__all__ = [
+    "Axis",
+    "DeviceProfile",
+    "EncoderSection",
+    "FixtureSection",
+    "FrictionSection",
+    "GeometrySection",
+    "HaplySection",
+    "InertiaSection",
+    "LimitSection",
+    "LoopSection",
+    "MotorSection",
+    "MountingSection",
+    "Protocol",
+    "Provenance",
+    "Section",
+    "WireSection",
+    "WorkspaceSection",
+    "load_profile",
+    "profile_names",
+]

@@ -1,0 +1,83 @@
+"""Sections of a profile that describe sensing, motors, the wire and the loop."""
+
+from enum import StrEnum
+from typing import Annotated
+
+from pydantic import Field
+
+from app.mechanisms.profile.values import Angle, Section, Torque
+
+
+class Axis(StrEnum):
+    """A direction in which a device can push the needle."""
+
+    LATERAL = "lateral"
+    AXIAL = "axial"
+
+
+class EncoderSection(Section):
+    """Joint encoders: counts per turn of the joint, joint angles at zero counts [rad]."""
+
+    counts_per_turn: Annotated[int, Field(gt=0, le=100_000_000)]
+    home_offsets: tuple[Angle, Angle]
+
+
+class LimitSection(Section):
+    """Largest joint torque [N·m] and largest force at the hand [N], never above 5 N."""
+
+    joint_torque: Torque
+    hand_force: Annotated[float, Field(gt=0.0, le=5.0)]
+
+
+class FixtureSection(Section):
+    """Defaults of the virtual fixture: stiffness [N/rad] and damping [N·s/m] at the hub."""
+
+    stiffness: Annotated[float, Field(ge=0.0, le=10_000.0)]
+    damping: Annotated[float, Field(ge=0.0, le=1000.0)]
+
+
+class MotorSection(Section):
+    """Motors and amplifiers, behind the board: what a torque is in amperes and volts.
+
+    Torque constant of the motor shaft [N·m/A], amplifier [A/V], largest current [A].
+    """
+
+    torque_constant: Annotated[float, Field(gt=0.0, le=20.0)]
+    amplifier_gain: Annotated[float, Field(gt=0.0, le=1000.0)]
+    largest_current: Annotated[float, Field(gt=0.0, le=1000.0)]
+
+
+class Protocol(StrEnum):
+    """Language on the wire, see docs/protocol.md."""
+
+    ACUS = "acus"
+    HAPLY = "haply"
+
+
+class WireSection(Section):
+    """The serial line: protocol, speed [baud], time without commands until the board stops [ms]."""
+
+    protocol: Protocol
+    baud: Annotated[int, Field(ge=1200, le=12_000_000)]
+    watchdog_ms: Annotated[float, Field(gt=0.0, le=100.0)]
+
+
+class HaplySection(Section):
+    """Ports of a Haply board for (left, right): numbers, and whether counter-clockwise is positive.
+
+    Angles on its wire are in degrees; `encoder_offset_deg` are those at zero counts.
+    """
+
+    device_id: Annotated[int, Field(ge=0, le=255)]
+    motor_ports: tuple[int, int]
+    motor_ccw: tuple[bool, bool]
+    encoder_ports: tuple[int, int]
+    encoder_ccw: tuple[bool, bool]
+    encoder_offset_deg: tuple[float, float]
+
+
+class LoopSection(Section):
+    """Rate of the control loop [Hz] and the directions in which the device can push."""
+
+    rate_hz: Annotated[float, Field(ge=1.0, le=10_000.0)]
+    renders: tuple[Axis, ...]

@@ -1,0 +1,145 @@
+"""One robot: its sections, and what the other rooms ask of it."""
+
+from math import radians
+
+from pydantic import model_validator
+
+from app.core.arrays import frozen
+from app.core.configuration import Strict
+from app.core.errors import ConfigurationError
+from app.mechanisms.dynamic_model import DynamicModel
+from app.mechanisms.geometry import Geometry
+from app.mechanisms.inertia import LumpedInertia
+from app.mechanisms.profile.control import (
+    Axis,
+    EncoderSection,
+    FixtureSection,
+    HaplySection,
+    LimitSection,
+    LoopSection,
+    MotorSection,
+    WireSection,
+)
+from app.mechanisms.profile.mechanics import (
+    FrictionSection,
+    GeometrySection,
+    InertiaSection,
+    MountingSection,
+    WorkspaceSection,
+)
+
+
+class DeviceProfile(Strict):
+    """One robot. Values are SI; each section carries the provenance of its values."""
+
+    name: str
+    description: str
+    geometry: GeometrySection
+    workspace: WorkspaceSection
+    encoder: EncoderSection
+    limits: LimitSection
+    fixture: FixtureSection
+    inertia: InertiaSection
+    friction: FrictionSection
+    motor: MotorSection
+    mounting: MountingSection
+    wire: WireSection
+    loop: LoopSection
+    haply: HaplySection | None = None
+
+    @model_validator(mode="after")
+    def _fits_the_needle(self) -> "DeviceProfile":
+        length, deepest = self.geometry.needle_length, self.workspace.depth_max
+        if deepest >= length:
+            raise ValueError(
+                f"workspace.depth_max {deepest:g} m must be below geometry.needle_length"
+                f" {length:g} m: the hub stays outside the fulcrum"
+            )
+        if self.inertia.needle_centre > length:
+            raise ValueError(
+                f"inertia.needle_centre {self.inertia.needle_centre:g} m must lie on the needle of"
+                f" geometry.needle_length {length:g} m"
+            )
+        return self
+
+    @property
+    def pantograph(self) -> Geometry:
+        """Geometry for the functions of `mechanisms.pantograph`."""
+        section = self.geometry
+        return Geometry(
+            section.proximal,
+            section.distal,
+            section.base,
+            frozen(section.fulcrum),
+            section.needle_length,
+        )
+
+    @property
+    def lumped_inertia(self) -> LumpedInertia:
+        """Constants of the equations of motion, rotor included."""
+        part, lengths = self.inertia, self.geometry
+        return LumpedInertia(
+            driven=part.proximal_inertia
+            + part.proximal_mass * part.proximal_centre**2
+            + part.distal_mass * lengths.proximal**2
+            + part.reflected_rotor,
+            passive=part.distal_inertia + part.distal_mass * part.distal_centre**2,
+            coupling=part.distal_mass * lengths.proximal * part.distal_centre,
+            tool=part.tool_mass,
+            driven_moment=part.proximal_mass * part.proximal_centre
+            + part.distal_mass * lengths.proximal,
+            passive_moment=part.distal_mass * part.distal_centre,
+            needle_mass=part.needle_mass,
+            needle_inertia=part.needle_inertia,
+            needle_centre=part.needle_centre,
+        )
+
+    @property
+    def dynamic_model(self) -> DynamicModel:
+        """Constants of `pantograph.dynamics`: links, needle, gravity and joint friction."""
+        return DynamicModel(
+            self.pantograph,
+            self.lumped_inertia,
+            frozen(self.mounting.gravity),
+            self.friction.coulomb,
+            self.friction.viscous,
+        )
+
+    @property
+    def tilt_limit_deg(self) -> float:
+        """Tilt limit of the mounted joint [°]."""
+        return self.workspace.tilt_limit_deg[self.workspace.joint]
+
+    @property
+    def tilt_limit(self) -> float:
+        """Tilt limit of the mounted joint [rad]."""
+        return radians(self.tilt_limit_deg)
+
+    @property
+    def depth_range(self) -> tuple[float, float]:
+        """Depths of the tip beyond the fulcrum that the device allows [m]."""
+        return self.workspace.depth_min, self.workspace.depth_max
+
+    @property
+    def rate_hz(self) -> float:
+        """Rate of the control loop [Hz]."""
+        return self.loop.rate_hz
+
+    @property
+    def renders(self) -> tuple[Axis, ...]:
+        """Directions in which the device can push the needle."""
+        return self.loop.renders
+
+    def with_joint(self, joint: str) -> "DeviceProfile":
+        """Return the profile with another of its ball joints mounted.
+
+        Raises:
+            ConfigurationError: if the profile has no such joint; names those it has.
+        """
+        names = sorted(self.workspace.tilt_limit_deg)
+        if joint not in names:
+            raise ConfigurationError(
+                f"device {self.name}: no joint {joint!r}; valid names: {', '.join(names)}"
+            )
+        workspace = self.workspace.model_copy(update={"joint": joint})
+        return self.model_copy(update={"workspace": workspace})
