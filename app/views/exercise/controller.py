@@ -8,7 +8,6 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import Event
-from app.session.machine import RUNNING
 from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
 from app.views.background import run_in_background
@@ -137,7 +136,6 @@ class ExerciseController(QObject):
         limit = force_limit(snapshot, run.profile.limits.hand_force)
         views = self._views
         views.panel.show_figures(figures(snapshot, limit))
-        views.bullseye.source.set_locked(snapshot.state in RUNNING)
         views.panel.energy.show_energy(energy_figures(snapshot))
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         hand = hand_pose(snapshot) if views.bullseye.hand is None else None
@@ -248,4 +246,3 @@ class ExerciseController(QObject):
         panel.buttons.end_requested.connect(self.end)
         panel.buttons.abort_requested.connect(self.abort)
         self._views.bullseye.hand_moved.connect(self._move_hand)
-        self._views.bullseye.source.refused.connect(self._fail)

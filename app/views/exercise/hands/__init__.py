@@ -1,1 +1,0 @@
-"""Hands without a device: what moves the simulated hand, one file each."""
