@@ -13,3 +13,7 @@ class MarkupsError(ExchangeError, ValueError):
 
 class ExportError(ExchangeError):
     """An export that cannot be written."""
+
+
+class UrdfError(ExchangeError, ValueError):
+    """A URDF that does not describe a needle pantograph; names the file, the part and the value."""

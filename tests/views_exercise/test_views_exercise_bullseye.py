@@ -61,7 +61,7 @@ def test_a_drag_to_the_right_tilts_the_tip_to_the_right_and_release_keeps_it(pad
 
 def test_a_drag_moves_the_ghost_by_the_gain_times_the_mouse(pad):
     scene = pad._scene
-    pad._gain.setCurrentIndex(2)
+    pad.source.gain.setCurrentIndex(2)
     before = scene.scale.place(pad._hand.tilts)
     pad.pad.dragged.emit(0.1, -0.05)
     assert np.allclose(scene.scale.place(pad._hand.tilts), np.add(before, (0.1, -0.05)), atol=1e-12)

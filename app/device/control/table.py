@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from app.core.arrays import FloatArray
+from app.device.control.governor import SpeedGovernor
 from app.device.control.kinematics import Kinematics
 from app.device.control.safety import Safety
 from app.device.control.transmission import Transmission
@@ -65,7 +66,7 @@ def pantograph_stages(
     velocity: VelocityMethod = DEFAULT_VELOCITY,
 ) -> Table:
     """Table of a needle pantograph: link read, velocity, kinematics, force laws, effects,
-    transmission, safety, link write.
+    transmission, speed governor, safety, link write.
 
     Args:
         profile: the robot's numbers.
@@ -83,6 +84,7 @@ def pantograph_stages(
             *laws,
             *effects,
             Transmission.of(profile, force_law).stage(),
+            SpeedGovernor.of(profile).stage(),
             Safety.of(profile).stage(),
         ],
         link.write,

@@ -22,12 +22,13 @@ _HAND_LIMIT, _TORQUE_LIMIT, _PRINTED = range(3)
 
 @stage
 def transmission_stage(state: FloatArray, p: FloatArray) -> None:
-    """Write TORQUE_* and LIMIT_SCALE from FORCE_* and JOINT_*.
+    """Write TORQUE_* and LIMIT_SCALE from FORCE_* and JOINT_*; keep the last torques in SENT_*.
 
     Only the part of the force across the needle can be delivered; that part is limited to the
     hand's limit and becomes joint torques, to which those of JOINT_* are added. The sums are scaled
     together to the joints' limit, so that their direction stays.
     """
+    state[sv.SENT_LEFT], state[sv.SENT_RIGHT] = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
     fx, fy, fz = state[sv.FORCE_X], state[sv.FORCE_Y], state[sv.FORCE_Z]
     dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
     along = fx * dx + fy * dy + fz * dz

@@ -1,14 +1,15 @@
-"""The bull's-eye: pad, depth bar, corrections in words, and the simulated hand behind the mouse."""
+"""The bull's-eye: pad, depth bar, corrections in words, and the simulated hand."""
 
-from collections.abc import Callable
 from typing import Final
 
 from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from app.views import theme
 from app.views.exercise.depth_bar import DepthBar
-from app.views.exercise.hand import GAINS, Hand, HandPose
+from app.views.exercise.hand import Hand, HandPose
+from app.views.exercise.hands.chooser import HandChooser
+from app.views.exercise.hands.source import HandChange
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.exercise.pad_view import PadScene, PadView
 from app.views.exercise.words import corrections, remaining
@@ -39,23 +40,22 @@ class Bullseye(QWidget):
         self._in_plane = _label(theme.FONT_PX + 1)
         self._out_of_plane = _label(theme.FONT_PX + 1)
         self._source = _label(theme.SMALL_PX, theme.WARNING)
-        self._gain = _gain_box()
+        self.source = HandChooser(self.pad, self)
         self._intent = QTimer(self, interval=INTENT_MS, singleShot=True)
         self._intent.timeout.connect(self._emit_hand)
         self._remaining.setMinimumWidth(230)  # the pad keeps its size whatever is said
         self._lay_out()
-        self._connect_pad()
+        self._connect_source()
 
     # --- what the controller calls ----------------------------------------------------------------
     def set_scene(self, scene: PadScene | None, interactive: bool) -> None:
-        """Take a new path; `interactive` says whether the mouse moves a simulated hand."""
+        """Take a new path; `interactive` says whether there is a simulated hand to move."""
         self._scene, self._view, self._hand = scene, None, None
         self._interactive = interactive
         self._intent.stop()
         self.pad.set_scene(scene)
         self.depth_bar.set_scene(scene)
-        self._help.setVisible(interactive)
-        self._gain.setEnabled(interactive)
+        self.source.set_interactive(interactive)
         for label in (self._remaining, self._in_plane, self._out_of_plane, self._source):
             label.clear()
 
@@ -94,15 +94,9 @@ class Bullseye(QWidget):
         self._remaining.setText(distance if view.measured else "–")
         self._source.setText("" if view.measured else tr("◇ depth not measured now"))
 
-    def _connect_pad(self) -> None:
-        self.pad.dragged.connect(self._drag)
-        self.pad.tilted.connect(lambda right, up: self._move(lambda h: h.tilt(right, up)))
-        self.pad.advanced.connect(lambda step: self._move(lambda h: h.advance(step)))
-        self.pad.homed.connect(self._home)
-
-    def _drag(self, right: float, up: float) -> None:
-        gain = GAINS[self._gain.currentData()]
-        self._move(lambda hand: hand.drag((gain * right, gain * up)))
+    def _connect_source(self) -> None:
+        self.source.moved.connect(self._move)
+        self.source.homed.connect(self._home)
 
     def _home(self) -> None:
         view = self._view
@@ -110,7 +104,7 @@ class Bullseye(QWidget):
             depth = view.depth if view.measured else None
             self._move(lambda hand: hand.follow(view.direction, depth))
 
-    def _move(self, change: Callable[[Hand], None]) -> None:
+    def _move(self, change: HandChange) -> None:
         if self._hand is None or self._scene is None or self._view is None:
             return
         change(self._hand)
@@ -123,18 +117,10 @@ class Bullseye(QWidget):
             self.hand_moved.emit(self._hand.pose)
 
     def _lay_out(self) -> None:
-        self._help = _label(theme.SMALL_PX, theme.TEXT_DIM)
-        self._help.setWordWrap(True)
-        self._help.setText(help_text())
         words = QVBoxLayout()
         words.setSpacing(2)
         for label in (self._in_plane, self._out_of_plane):
             words.addWidget(label)
-        gain = QHBoxLayout()
-        title = _label(theme.SMALL_PX, theme.TEXT_DIM)
-        title.setText(tr("Mouse"))
-        gain.addWidget(title)
-        gain.addWidget(self._gain)
         grid = QGridLayout(self)
         grid.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
         grid.addWidget(self.pad, 0, 0)
@@ -144,18 +130,9 @@ class Bullseye(QWidget):
         side.addWidget(self._remaining)
         side.addWidget(self._source)
         grid.addLayout(side, 1, 1)
-        grid.addWidget(self._help, 2, 0)
-        grid.addLayout(gain, 2, 1)
+        grid.addWidget(self.source, 2, 0, 1, 2)
         grid.setRowStretch(0, 1)
         grid.setColumnStretch(0, 1)
-
-
-def help_text() -> str:
-    """Return the pad's help line."""
-    return tr(
-        "Drag: tilt  ·  wheel or Page keys: depth 1 mm  ·  arrows: 0.2°  ·  "
-        "Shift: finer  ·  Home: hand to needle"
-    )
 
 
 def _label(pixels: int, colour: str = theme.TEXT) -> QLabel:
@@ -163,14 +140,3 @@ def _label(pixels: int, colour: str = theme.TEXT) -> QLabel:
     label.setStyleSheet(f"font-size: {pixels}px; color: {colour};")
     label.setTextFormat(Qt.TextFormat.PlainText)
     return label
-
-
-def _gain_box() -> QComboBox:
-    box = QComboBox()
-    names = {"fine": tr("fine"), "normal": tr("normal"), "direct": tr("direct")}
-    for key in GAINS:
-        box.addItem(f"{names[key]} ×{GAINS[key]:g}", key)
-    box.setCurrentIndex(list(GAINS).index("normal"))
-    box.setToolTip(tr("How far the hand moves when the mouse moves on the pad"))
-    box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
-    return box

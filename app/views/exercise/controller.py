@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import Event
+from app.session.machine import RUNNING
 from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
 from app.views.background import run_in_background
@@ -136,6 +137,7 @@ class ExerciseController(QObject):
         limit = force_limit(snapshot, run.profile.limits.hand_force)
         views = self._views
         views.panel.show_figures(figures(snapshot, limit))
+        views.bullseye.source.set_locked(snapshot.state in RUNNING)
         views.panel.energy.show_energy(energy_figures(snapshot))
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         hand = hand_pose(snapshot) if views.bullseye.hand is None else None
@@ -177,8 +179,8 @@ class ExerciseController(QObject):
         except AcusError as error:
             self._fail(str(error))
             return
-        if run.held_arming:
-            self.set_held(self._views.panel.enable.is_held)
+        if run.held_arming and not self._views.panel.enable.is_held:
+            run.trainer.disarm()
         self._views.panel.energy.begin(run.is_real)
         self.began.emit(session)
         self._views.bullseye.pad.setFocus()
@@ -246,3 +248,4 @@ class ExerciseController(QObject):
         panel.buttons.end_requested.connect(self.end)
         panel.buttons.abort_requested.connect(self.abort)
         self._views.bullseye.hand_moved.connect(self._move_hand)
+        self._views.bullseye.source.refused.connect(self._fail)

@@ -1,0 +1,62 @@
+"""`acus urdf`: a device profile as URDF, and a profile with the lengths of a URDF."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+app = typer.Typer(help="Export a device profile as URDF; read link lengths from one.")
+
+
+def register(root: typer.Typer) -> None:
+    """Add `urdf` to the command line."""
+    root.add_typer(app, name="urdf", no_args_is_help=True)
+
+
+@app.command("export")
+def export(
+    out: Annotated[Path, typer.Option(metavar="FILE", help="URDF to write.")],
+    profile: Annotated[str, typer.Option(help="Device profile: name or file.")] = "icube",
+    origin: Annotated[
+        str, typer.Option(help="Where `world` stands: left-motor (as ICube's) or midpoint.")
+    ] = "left-motor",
+) -> None:
+    """Write a profile as URDF, the loop cut at the right arm's end."""
+    from app.core.errors import ConfigurationError
+    from app.exchange.text_export import write_text
+    from app.exchange.urdf import Origin, write_urdf
+    from app.mechanisms.profile import load_profile
+
+    try:
+        where = Origin(origin)
+    except ValueError:
+        names = ", ".join(Origin)
+        raise ConfigurationError(f"--origin {origin!r}; valid names: {names}") from None
+    write_text(out, write_urdf(load_profile(profile), where))
+    typer.echo(f"{out}: {profile}, world at the {where.value.replace('-', ' ')}")
+
+
+@app.command("import")
+def import_profile(
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help="URDF, or xacro of literal numbers.")
+    ],
+    out: Annotated[Path, typer.Option(metavar="PROFILE.yaml", help="Profile to write.")],
+    like: Annotated[str, typer.Option(help="Profile that gives all other values.")] = "icube",
+) -> None:
+    """Write a device profile with the link lengths of a URDF and all else from another profile."""
+    import yaml
+
+    from app.core.errors import ConfigurationError
+    from app.exchange.text_export import write_text
+    from app.exchange.urdf_reading import profile_like, read_geometry
+    from app.mechanisms.profile import load_profile
+
+    if out.suffix not in (".yaml", ".yml"):
+        raise ConfigurationError(f"--out {out}: a device profile is a .yaml file")
+    document = profile_like(load_profile(like), read_geometry(file), out.stem)
+    head = f"# Lengths from {file.name}, all else from the profile {like}. SI units.\n"
+    write_text(out, head + yaml.safe_dump(document, sort_keys=False, allow_unicode=True))
+    lengths = document["geometry"]
+    shown = ", ".join(f"{name} {lengths[name]}" for name in lengths if name != "provenance")
+    typer.echo(f"{out}: {shown} m")

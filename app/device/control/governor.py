@@ -1,0 +1,294 @@
+"""The speed governor: a needle that is let go never gets faster than a hand moves it.
+
+A robot as light as this one passes 0.25 m/s within a few milliseconds of being let go, sooner than
+its encoders tell. So the governor does not wait for a speed: it bounds the one that the hub can
+have. Over a window of w s that ends now, the encoders have seen a travel Δx, true to one count δ,
+and the torques sent in it can have added a(t); then the speed now is at most
+
+    v <= [|Δx| + δ + ∫ a(t) (t - t_start) dt] / w      for every w,
+
+and the torque is scaled so that even one more tick of acceleration stays below the limit. |Δx|
+counts where it goes with the force, along any constraint; motion against the force counts as what
+it is, negative. a is the free acceleration, G J M(q)⁻¹ τ with the profile's inertias.
+
+A hand at rest, or moving at up to `hand`, must not make the force flicker: with 2 δ for a travel
+of one count more than there was, the bound stays below the limit as long as
+
+    hand + 2 √(δ a) + a T <= limit,
+
+so the force is capped, by pose, to an acceleration that satisfies this: the largest force whose
+run-away these encoders can tell in time. Only a light lever meets the cap (docs/decisions/0008).
+
+(|Δx| - δ) / w is the lowest speed that the encoders prove. Above `run_away` for some milliseconds,
+along a force that could have caused it, means that nobody holds the needle: LET_GO.
+"""
+
+from dataclasses import dataclass
+from math import isfinite, pi, sqrt
+from typing import Any
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.compiled import njit, stage
+from app.device.control.vectors import norm_kernel, snapped
+from app.mechanisms.pantograph.dynamics import mass_matrix_kernel
+from app.mechanisms.pantograph.kernels import hub_velocity_kernel
+from app.mechanisms.pantograph.status import OK
+from app.mechanisms.profile import DeviceProfile
+
+_A1, _A2, _BASE, _DRIVEN, _PASSIVE, _COUPLING, _TOOL = range(7)
+_COUNT, _LIMIT, _HAND, _RUN_AWAY, _PATIENCE, _CAUSE = range(7, 13)
+_GOVERNED, _ACCELERATION, _CAUSED, _RUNNING, _HAND_SEEN, _SAMPLES, _HEAD = range(13, 20)
+_RING = 20  # rows of (q_left, q_right, time, largest acceleration sent after it)
+_WINDOW = 24
+_SIZE = _RING + 4 * _WINDOW
+_SIDEWAYS = 0.1  # cosine to the force below which a motion counts less and less
+_SHORTEST = 1e-4  # [s] of a tick
+_BEYOND = 1.2  # times the speed that the force can have caused: a hand
+_HAND_STAYS = 0.2  # [s] for which a hand that was seen is taken to hold on
+_JUMP = 0.5  # [rad] between two readings: no motion, a fresh start
+_SHORT = 6  # every window up to this is looked at, then every fourth
+
+
+@njit
+def free_acceleration(
+    state: FloatArray, p: FloatArray, left: float, right: float
+) -> tuple[float, float, float, float, float, float]:
+    """Hub acceleration of the free mechanism under two torques, and how the hub travels.
+
+    Returns its size [m/s²]; the hub's travel in its direction per angle of each joint [m/rad];
+    the Gram matrix (ll, lr, rr) [m²/rad²] of the travels per joint. Zeros where there is none.
+    Links and tool only: needle and hand make it slower.
+    """
+    m11, m12, m22 = mass_matrix_kernel(
+        state[sv.Q_LEFT],
+        state[sv.Q_RIGHT],
+        state[sv.P3_X],
+        state[sv.P3_Y],
+        p[_A1],
+        p[_A2],
+        p[_BASE],
+        p[_DRIVEN],
+        p[_PASSIVE],
+        p[_COUPLING],
+        p[_TOOL],
+    )
+    determinant = m11 * m22 - m12 * m12
+    q1 = (m22 * left - m12 * right) / determinant
+    q2 = (m11 * right - m12 * left) / determinant
+    dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
+    l_in, l_out = state[sv.L_IN], state[sv.L_OUT]
+    lx, ly, lz = hub_velocity_kernel(state[sv.J_XL], state[sv.J_YL], dx, dy, dz, l_in, l_out)
+    rx, ry, rz = hub_velocity_kernel(state[sv.J_XR], state[sv.J_YR], dx, dy, dz, l_in, l_out)
+    ax, ay, az = lx * q1 + rx * q2, ly * q1 + ry * q2, lz * q1 + rz * q2
+    size = norm_kernel(ax, ay, az)
+    if not (isfinite(size) and size > 1e-9):
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    ax, ay, az = ax / size, ay / size, az / size
+    return (
+        size,
+        ax * lx + ay * ly + az * lz,
+        ax * rx + ay * ry + az * rz,
+        lx * lx + ly * ly + lz * lz,
+        lx * rx + ly * ry + lz * rz,
+        rx * rx + ry * ry + rz * rz,
+    )
+
+
+@njit
+def counted(along: float, size: float) -> float:
+    """Travel that counts [m]: its `size` where it goes with the force, `along` where against it.
+
+    `along` is its part in the direction of the force's acceleration; continuous in both.
+    """
+    if along <= 0.0:
+        return along
+    return min(along / _SIDEWAYS, size)
+
+
+@njit
+def speed_bounds(
+    ring: FloatArray,
+    head: int,
+    samples: int,
+    along_left: float,
+    along_right: float,
+    ll: float,
+    lr: float,
+    rr: float,
+    count: float,
+) -> tuple[float, float]:
+    """Bounds of the hub's counted speed now [m/s]: (at least, at most).
+
+    Args:
+        ring: rows (q_left, q_right, time, largest acceleration sent after it), flat.
+        head: row of the newest reading.
+        samples: rows that hold readings.
+        along_left: travel of the hub along the force per angle of the left joint [m/rad].
+        along_right: likewise of the right joint.
+        ll: Gram matrix of its travels per joint angle, left with left [m²/rad²].
+        lr: left with right.
+        rr: right with right.
+        count: one encoder count [rad].
+    """
+    rows = len(ring) // 4
+    newest = 4 * head
+    doubt = count * sqrt(ll + rr + 2.0 * abs(lr))
+    least, most = -np.inf, np.inf
+    gained, moment = 0.0, 0.0  # ∫ a dt, ∫ a (t - t_start) dt over the window
+    end = ring[newest + 2]
+    later = end
+    for k in range(1, samples):
+        row = 4 * ((head - k) % rows)
+        step = later - ring[row + 2]
+        later = ring[row + 2]
+        moment += step * gained + 0.5 * ring[row + 3] * step * step
+        gained += ring[row + 3] * step
+        width = end - later
+        if (k > _SHORT and k % 4 != 3) or not width > 0.0:
+            continue
+        left, right = ring[newest] - ring[row], ring[newest + 1] - ring[row + 1]
+        size = sqrt(max(ll * left * left + 2.0 * lr * left * right + rr * right * right, 0.0))
+        travel = counted(along_left * left + along_right * right, size)
+        least = max(least, (travel - doubt) / width)
+        most = min(most, (travel + doubt + moment) / width)
+    return least, most
+
+
+@njit
+def stoppable(room: float, doubt: float, step: float) -> float:
+    """Largest acceleration a [m/s²] with 2 √(doubt a) + a step <= room [m/s]."""
+    root = (sqrt(doubt + step * max(room, 0.0)) - sqrt(doubt)) / step
+    return root * root
+
+
+@njit
+def _remember(state: FloatArray, p: FloatArray) -> None:
+    """Note what was sent since the newest reading, and the reading if there is a newer one."""
+    head = int(p[_HEAD])
+    sent = max(abs(state[sv.SENT_LEFT]), abs(state[sv.SENT_RIGHT]))
+    pushed = sent / p[_GOVERNED] * p[_ACCELERATION] if p[_GOVERNED] > 0.0 else 0.0
+    p[_CAUSED] = snapped(p[_CAUSED] + (pushed - p[_CAUSED] / p[_CAUSE]) * state[sv.DT])
+    row = _RING + 4 * head
+    p[row + 3] = max(p[row + 3], pushed)
+    if p[_SAMPLES] > 0.0:
+        if state[sv.Q_TIME] == p[row + 2]:
+            return
+        left, right = abs(state[sv.Q_LEFT] - p[row]), abs(state[sv.Q_RIGHT] - p[row + 1])
+        if not (left < _JUMP and right < _JUMP and state[sv.Q_TIME] > p[row + 2]):
+            p[_SAMPLES] = 0.0
+        head = (head + 1) % _WINDOW
+        row = _RING + 4 * head
+    p[_HEAD] = head
+    p[_SAMPLES] = min(p[_SAMPLES] + 1.0, _WINDOW)
+    p[row], p[row + 1] = state[sv.Q_LEFT], state[sv.Q_RIGHT]
+    p[row + 2], p[row + 3] = state[sv.Q_TIME], 0.0
+
+
+@njit
+def _watch(state: FloatArray, p: FloatArray, speed: float) -> None:
+    """Set LET_GO once the hub has run, as the force alone can have made it run, for long enough.
+
+    A speed beyond what was pushed proves a hand that moves the needle, or a blow.
+    """
+    step = max(state[sv.DT], 0.0)
+    p[_HAND_SEEN] = max(p[_HAND_SEEN] - step, 0.0)
+    if speed > _BEYOND * p[_CAUSED] + p[_HAND]:
+        p[_HAND_SEEN] = _HAND_STAYS
+    running = speed > p[_RUN_AWAY] and p[_HAND_SEEN] == 0.0
+    p[_RUNNING] = p[_RUNNING] + step if running else 0.0
+    if p[_RUNNING] >= p[_PATIENCE]:
+        state[sv.LET_GO] = 1.0
+
+
+@stage
+def governor_stage(state: FloatArray, p: FloatArray) -> None:
+    """Scale TORQUE_* so that a needle let go stays slow; write LET_GO_SCALE and LET_GO."""
+    left, right = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
+    if not state[sv.ENABLED] > 0.5:
+        state[sv.LET_GO] = 0.0
+        p[_RUNNING] = p[_CAUSED] = 0.0
+    state[sv.LET_GO_SCALE] = 1.0
+    if state[sv.KINEMATICS] != OK or not isfinite(left + right + state[sv.Q_TIME]):
+        p[_SAMPLES] = p[_GOVERNED] = 0.0  # safety lets nothing pass; a fresh start afterwards
+        return
+    _remember(state, p)
+    size, along_left, along_right, ll, lr, rr = free_acceleration(state, p, left, right)
+    scale = 1.0
+    if size > 0.0:
+        step = max(state[sv.DT], _SHORTEST)
+        doubt = p[_COUNT] * sqrt(ll + rr + 2.0 * abs(lr))  # both joints one count out
+        cap = min(stoppable(p[_LIMIT] - p[_HAND], doubt, step) / size, 1.0)
+        least, most = speed_bounds(
+            p[_RING:],
+            int(p[_HEAD]),
+            int(p[_SAMPLES]),
+            along_left,
+            along_right,
+            ll,
+            lr,
+            rr,
+            p[_COUNT],
+        )
+        # A first reading bounds nothing: no force yet.
+        room = (p[_LIMIT] - max(most, 0.0)) / step
+        state[sv.LET_GO_SCALE] = min(max(room / (cap * size), 0.0), 1.0)
+        state[sv.LIMIT_SCALE] *= cap
+        scale = cap * state[sv.LET_GO_SCALE]
+        _watch(state, p, least)
+    p[_ACCELERATION] = scale * size
+    p[_GOVERNED] = scale * max(abs(left), abs(right))
+    state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = scale * left, scale * right
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedGovernor:
+    """Keeps a needle that is let go below a speed, and notices that it is.
+
+    Attributes:
+        links: proximal and distal length, distance of the motors [m].
+        inertia: lumped inertias of the links [kg·m²], see `mechanisms.inertia.LumpedInertia`.
+        count: one encoder count at the joint [rad].
+        limit: speed of the hub that the governor plans for [m/s]; the promise is 0.25 m/s, the
+            rest is room for what changes within a tick.
+        hand: speed up to which a hand moves without being mistaken for a needle let go [m/s].
+        run_away: speed that the encoders must prove before LET_GO [m/s].
+        patience: time for which they must prove it [s].
+        cause: time over which pushes add up to the speed that they can have caused [s]; a hand
+            that moves faster than that has not let go.
+    """
+
+    links: tuple[float, float, float]
+    inertia: tuple[float, float, float, float]
+    count: float
+    limit: float = 0.235
+    hand: float = 0.08
+    run_away: float = 0.14
+    patience: float = 0.004
+    cause: float = 0.3
+
+    @classmethod
+    def of(cls, profile: DeviceProfile) -> "SpeedGovernor":
+        """Governor with the lengths, inertias and encoders of a device profile."""
+        return cls(
+            profile.pantograph.links,
+            profile.lumped_inertia.values,
+            2.0 * pi / profile.encoder.counts_per_turn,
+        )
+
+    def stage(self) -> tuple[str, Any, FloatArray]:
+        """Return the stage for a loop's table, with memory of its own."""
+        parameters = np.zeros(_SIZE)
+        parameters[:_GOVERNED] = (
+            *self.links,
+            *self.inertia,
+            self.count,
+            self.limit,
+            self.hand,
+            self.run_away,
+            self.patience,
+            self.cause,
+        )
+        return "governor", governor_stage, parameters

@@ -1,0 +1,1 @@
+"""Hands without a device: what moves the simulated hand, one file each."""

@@ -1,0 +1,141 @@
+"""Chooses what moves the simulated hand, and how far; says how it works."""
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QWidget
+
+from app.core.errors import AcusError
+from app.views import theme
+from app.views.exercise.hand import GAINS
+from app.views.exercise.hands.choice import SOURCES, source_help, source_title
+from app.views.exercise.hands.source import HandSource
+from app.views.exercise.pad_canvas import PadCanvas
+from app.views.text import tr
+
+
+class HandChooser(QWidget):
+    """Keeps one source open while there is a simulated hand.
+
+    A source that cannot be opened is refused with its reason, and the mouse takes over.
+
+    Signals:
+        moved(HandChange), homed(): of the source that is open.
+        chosen(str): the user chose this source, by name.
+        refused(str): why a source cannot be used.
+    """
+
+    moved = Signal(object)
+    homed = Signal()
+    chosen = Signal(str)
+    refused = Signal(str)
+
+    def __init__(self, pad: PadCanvas, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._pad = pad
+        self._source: HandSource | None = None
+        self._interactive = False
+        self._note = ""
+        self.box, self.gain, self._help = _source_box(), _gain_box(), QLabel(self)
+        self._help.setWordWrap(True)
+        # Its words keep three lines: the pad keeps its size whatever is chosen.
+        self._help.setFixedHeight(4 * theme.SMALL_PX)
+        self._help.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self._help.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        title = QLabel(tr("Hand"), self)
+        title.setProperty("role", "dim")
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self._help, 1)
+        for widget in (title, self.box, self.gain):
+            row.addWidget(widget)
+        self.box.activated.connect(self._choose)
+        self.gain.currentIndexChanged.connect(self._pass_gain)
+        self.set_interactive(False)
+
+    @property
+    def name(self) -> str:
+        """Source that is chosen."""
+        return str(self.box.currentData())
+
+    @property
+    def source(self) -> HandSource | None:
+        """Source that is open; None without a simulated hand."""
+        return self._source
+
+    def set_source(self, name: str) -> None:
+        """Choose a source by name, as if the user had; an unknown one is the mouse."""
+        with QSignalBlocker(self.box):
+            self.box.setCurrentIndex(max(0, self.box.findData(name)))
+        self._reopen()
+
+    def set_interactive(self, interactive: bool) -> None:
+        """Say whether there is a simulated hand to move; without one nothing listens."""
+        self._interactive = interactive
+        for widget in (self.box, self.gain):
+            widget.setEnabled(interactive)
+        self._reopen()
+
+    def set_locked(self, locked: bool) -> None:
+        """Keep the source while an attempt runs: it is recorded with it."""
+        self.box.setEnabled(self._interactive and not locked)
+
+    def _choose(self) -> None:
+        self._reopen()
+        self.chosen.emit(self.name)
+
+    def _reopen(self) -> None:
+        source, self._source = self._source, None
+        if source is not None:
+            source.close()
+            source.deleteLater()
+        self._show_note("")
+        if self._interactive:
+            try:
+                self._open(self.name)
+            except AcusError as error:
+                self.refused.emit(str(error))
+                self.set_source("mouse")
+
+    def _open(self, name: str) -> None:
+        source = SOURCES[name](self._pad)
+        source.gain = GAINS[self.gain.currentData()]
+        source.moved.connect(self.moved)
+        source.homed.connect(self.homed)
+        source.noted.connect(self._show_note)
+        try:
+            source.open()
+        except AcusError:
+            source.deleteLater()
+            raise
+        self._source = source
+
+    def _pass_gain(self) -> None:
+        if self._source is not None:
+            self._source.gain = GAINS[self.gain.currentData()]
+
+    def _show_note(self, note: str) -> None:
+        self._note = note
+        colour = theme.WARNING if note else theme.TEXT_DIM
+        self._help.setStyleSheet(f"font-size: {theme.SMALL_PX}px; color: {colour};")
+        text = f"▲ {note}" if note else source_help(self.name)
+        self._help.setText(text if self._interactive else "")
+        self.box.setToolTip(source_help(self.name))
+
+
+def _source_box() -> QComboBox:
+    box = QComboBox()
+    for name in SOURCES:
+        box.addItem(source_title(name), name)
+    box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+    box.setAccessibleName(tr("Hand"))
+    return box
+
+
+def _gain_box() -> QComboBox:
+    box = QComboBox()
+    names = {"fine": tr("fine"), "normal": tr("normal"), "direct": tr("direct")}
+    for key in GAINS:
+        box.addItem(f"{names[key]} ×{GAINS[key]:g}", key)
+    box.setCurrentIndex(list(GAINS).index("normal"))
+    box.setToolTip(tr("How far the hand moves when mouse, pen or stick moves"))
+    box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
+    return box
