@@ -205,6 +205,7 @@ def _print_details(document: dict[str, Any]) -> None:
     for key in ("id", "started", "student", "state", "reason", "duration_s", "scans", "file"):
         typer.echo(f"{key:12} {document[key]}")
     typer.echo(f"{'exercise':12} {document['exercise']['title']} ({document['exercise']['id']})")
+    typer.echo(f"{'hand':12} {document['metadata'].get('trainee', {}).get('hand', 'not recorded')}")
     typer.echo(f"{'score':12} {_total(document['score'])}")
     for row in (document["score"] or {}).get("rows", []):
         value = "-" if row["value"] is None else f"{row['value']:.4g} {row['unit']}"

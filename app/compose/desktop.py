@@ -120,6 +120,7 @@ class DesktopRun:
             interactive=setup.skill is None,
             rings=rings(setup.exercise.tolerances),
             pictures=self._rig.tracker.pictures,
+            held_arming=self._rig.trainer.held_arming,
         )
 
     def place(self, placed: PlacedPlan) -> ExerciseRun:

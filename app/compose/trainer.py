@@ -25,6 +25,7 @@ from app.mechanisms.pantograph import system_forward
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.context import RunContext
+from app.session.hands import TRAINEE
 from app.session.header import Attachment
 from app.session.trainer import Trainer
 from app.simulation.plant import initial_plant, plant_stage
@@ -196,7 +197,7 @@ def _context(setup: TrainerSetup, profile: DeviceProfile, rig: RigProfile) -> Ru
             "device": {"name": profile.name, "simulated": "yes"},
             "cameras": {"name": rig.name, "simulated": "yes"},
             "ct": {"pseudonym": setup.ct},
-            "trainee": {"scripted": setup.skill or ""},
+            TRAINEE: {"scripted": setup.skill or ""},
             BUILD: build(),
         },
         attachments=tuple(

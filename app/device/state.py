@@ -32,7 +32,9 @@ class DeviceState:
         angle_error: between needle and path [rad].
         force: wanted at the hub [N], shape (3,).
         guide: share of the virtual fixture [N], shape (3,).
-        felt: at the hub after all limits [N], shape (3,).
+        felt: at the hub after all limits [N], shape (3,), estimated from the torques.
+        force_measured: whether the board's gauge measures the force at the hand.
+        measured_force: what it measures, across the needle [N]; 0 without a gauge.
         torque: joint torques sent (left, right) [N·m], shape (2,).
         axial_force: tissue on needle along the axis [N].
         limit_scale: factor of force and torque limits, 1 when none acts.
@@ -60,6 +62,8 @@ class DeviceState:
     force: FloatArray
     guide: FloatArray
     felt: FloatArray
+    force_measured: bool
+    measured_force: float
     torque: FloatArray
     axial_force: float
     limit_scale: float
@@ -95,6 +99,8 @@ class DeviceState:
             force=copy[sv.FORCE_X : sv.FORCE_X + 3],
             guide=copy[sv.GUIDE_X : sv.GUIDE_X + 3],
             felt=copy[sv.FELT_X : sv.FELT_X + 3],
+            force_measured=bool(copy[sv.GAUGE] > 0.0),
+            measured_force=number(sv.GAUGE_FORCE) if copy[sv.GAUGE] > 0.0 else 0.0,
             torque=copy[sv.TORQUE_LEFT : sv.TORQUE_LEFT + 2],
             axial_force=number(sv.AXIAL_FORCE),
             limit_scale=number(sv.LIMIT_SCALE),

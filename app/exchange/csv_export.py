@@ -11,12 +11,14 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import write_atomically
 from app.exchange.errors import ExportError
 from app.session.curves import curves
 from app.session.recording import Recording
+from app.session.samples import Samples
 from app.session.summary import Summary
 
 FIXED: Final = (
@@ -47,6 +49,8 @@ TRAJECTORY_COLUMNS: Final = (
     "remaining_mm",
     "angle_deg",
     "felt_n",
+    "felt_measured_n",
+    "felt_source",
     "note",
 )
 """Columns of a trajectory; positions in the world frame."""
@@ -90,11 +94,19 @@ def trajectory_table(recording: Recording) -> str:
         figures.remaining * 1e3,
         np.degrees(figures.angle),
         figures.felt,
+        samples.measured,
+        _sources(samples),
     )
     lines = [list(TRAJECTORY_COLUMNS)]
     for values in zip(*(column.tolist() for column in columns), strict=True):
         lines.append([_cell(value) for value in (*values, DISCLAIMER)])
     return _text(lines)
+
+
+def _sources(samples: Samples) -> NDArray[np.str_]:
+    """Say where the force at the hand comes from: the torques, or a gauge; empty without one."""
+    known = np.where(np.isfinite(samples.felt).all(axis=1), "estimated", "")
+    return np.where(np.isfinite(samples.measured), "measured", known)
 
 
 def write_csv(path: Path, text: str) -> None:

@@ -13,6 +13,7 @@ from app.core.paths import sessions
 from app.device.checkpoint import Checkpoint
 from app.planning.placement import PlacedPlan
 from app.session.facts import PLAN, plan_record
+from app.session.hands import TRAINEE, hand_of
 from app.session.header import Attachment, SessionHeader, new_id
 from app.session.ports import ExercisePort, LoopPort
 from app.session.recorder import Recorder
@@ -41,9 +42,15 @@ class RunContext:
     identify: Callable[[datetime], str] = new_id
 
     def header(
-        self, exercise: ExercisePort, placed: PlacedPlan, student: str, now: float
+        self, exercise: ExercisePort, placed: PlacedPlan, student: str, now: float, hand: str = ""
     ) -> SessionHeader:
-        """Head of a record that begins at monotonic time `now` [s]."""
+        """Head of a record that begins at monotonic time `now` [s].
+
+        Raises:
+            SessionError: for a `hand` that is not one of `hands.HANDS`.
+        """
+        trainee = dict(self.metadata.get(TRAINEE, {}))
+        trainee["hand"] = hand_of(trainee, hand)
         started = self.wall()
         return SessionHeader(
             id=self.identify(started),
@@ -54,7 +61,7 @@ class RunContext:
             exercise_title=exercise.title,
             exercise_version=exercise.version,
             seed=self.seed,
-            metadata={PLAN: plan_record(placed), **self.metadata},
+            metadata={PLAN: plan_record(placed), **self.metadata, TRAINEE: trainee},
             attachments=(*self.plan_files(placed), *self.attachments),
         )
 

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
+from app.planning.placement import PlacedPlan
 from app.session.ports import InboxPort
 
 
@@ -19,6 +20,14 @@ class LoopInputs:
         self._inbox = inbox
         self.assistance = 0.0
         self.armed = False
+        self._prepared = False
+
+    def prepare(self, placed: PlacedPlan, assistance: float) -> None:
+        """Set path, target and the exercise's assistance, the first time only."""
+        if not self._prepared:
+            self._prepared = True
+            self.path(placed.axis, placed.p_target)
+            self.assist(assistance)
 
     def path(self, axis: FloatArray, p_target: FloatArray) -> None:
         """Set the wanted direction (unit vector) and the target at rest [m]."""
@@ -40,6 +49,15 @@ class LoopInputs:
         """Arm or disarm the forces."""
         self.armed = armed
         self._inbox.write(enabled=float(armed))
+
+    def clear(self, homed: float, force_cap: float) -> None:
+        """Say whether the device is homed (1 or 0) and how much force it is cleared for [N].
+
+        Raises:
+            NumericalError: if a value is not finite.
+        """
+        checked = frozen((homed, force_cap), (2,), "clearance").tolist()
+        self._inbox.write(homed=float(checked[0] > 0.5), force_cap=max(checked[1], 0.0))
 
     def hand(self, x: float, y: float, depth: float, holds: bool) -> None:
         """Move the simulated hand: direction (x, y), depth [m].

@@ -153,6 +153,7 @@ def _samples(content: Scan, problems: list[str]) -> Samples:
         hub=vectors([row["hub"] for row in rows]),
         guide=vectors([wrench.get("guide") for wrench in wrenches]),
         felt=vectors([wrench.get("felt") for wrench in wrenches]),
+        measured=floats([wrench.get("measured") for wrench in wrenches]),
     )
 
 

@@ -3,6 +3,7 @@
 from app.core.events import Event, EventQueue
 from app.session import machine
 from app.session.attempt_log import AttemptLog
+from app.session.depth_news import DepthNews
 from app.session.errors import IllegalTransitionError
 from app.session.inputs import LoopInputs
 from app.session.machine import Attempt
@@ -26,6 +27,7 @@ class Running:
         self.events = events
         self._thresholds = thresholds
         self._classifier = Classifier()
+        self._depth = DepthNews()
 
     def require_idle(self, what: str) -> None:
         """Refuse what is not possible during an attempt.
@@ -46,7 +48,7 @@ class Running:
         """
         self.require_idle("an attempt cannot begin")
         self.attempt = machine.advance(Attempt(), machine.Event.BEGIN, now)
-        self._classifier, self.log = Classifier(), log
+        self._classifier, self._depth, self.log = Classifier(), DepthNews(), log
         failure = log.open(threaded)
         if failure:
             self.say("recorder", f"this attempt is not recorded: {failure}", now)
@@ -65,6 +67,9 @@ class Running:
         )
         if event is not None:
             self._advance(event, seen.time)
+        news = self._depth.look(seen.pose)
+        if news:
+            self.say("depth", news, seen.time, {"source": seen.pose.depth_source.value})
         log.sample(seen.sample(self.attempt.state, inputs))
         return ""
 

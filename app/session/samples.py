@@ -33,7 +33,8 @@ class Samples:
         target: target with its motion [m], shape (n, 3).
         hub: hub point [m], shape (n, 3).
         guide: the virtual fixture's share of the wanted force [N], shape (n, 3).
-        felt: force at the hub point after all limits [N], shape (n, 3).
+        felt: force at the hub point after all limits [N], shape (n, 3), estimated from torques.
+        measured: force across the needle that a gauge measured [N], shape (n,); NaN without one.
     """
 
     time: FloatArray
@@ -47,6 +48,7 @@ class Samples:
     hub: FloatArray
     guide: FloatArray
     felt: FloatArray
+    measured: FloatArray
 
 
 class History:
@@ -79,7 +81,13 @@ class History:
             hub=vectors([xyz(s.device.hub) if s.device else None for s in kept]),
             guide=vectors([xyz(s.device.guide) if s.device else None for s in kept]),
             felt=vectors([xyz(s.device.felt) if s.device else None for s in kept]),
+            measured=floats([_measured(s) for s in kept]),
         )
+
+
+def _measured(sample: Sample) -> float | None:
+    device = sample.device
+    return device.measured_force if device is not None and device.force_measured else None
 
 
 def xyz(values: FloatArray) -> dict[str, float]:

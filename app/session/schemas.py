@@ -97,11 +97,14 @@ WRENCH: Final = _object(
         "wanted": _VECTOR_OR_NULL,
         "guide": _VECTOR_OR_NULL,
         "felt": _VECTOR_OR_NULL,
+        "felt_source": _TEXT,
+        "measured": _NUMBER_OR_NULL,
         "clamped": _FLAG,
         "enabled": _FLAG,
         "assistance": _NUMBER_OR_NULL,
         "fault": _COUNT,
     },
+    optional=("felt_source", "measured"),
 )
 QUALITY: Final = _object(
     "acus.TrackingQuality",

@@ -5,14 +5,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.core.arrays import FloatArray
+from app.session.arming import Arming
 from app.session.curves import Offset
 from app.session.inputs import LoopInputs
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.observation import Observation
-from app.session.ports import DeviceStatePort
+from app.session.ports import ClearancePort, DeviceStatePort
 from app.session.recorder import RecordingStatus
 from app.session.running import Running
+from app.session.watch import Watch
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,6 +39,8 @@ class Snapshot:
         armed: whether forces are armed.
         recording: how the record stands; None before the first attempt.
         messages: what the student should know, one line each, most urgent first.
+        held_arming: whether the forces are on only while a key or pedal is held.
+        clearance: how much force the device is cleared for; None where nobody is asked.
     """
 
     time: float
@@ -56,6 +60,8 @@ class Snapshot:
     armed: bool
     recording: RecordingStatus | None
     messages: tuple[str, ...]
+    held_arming: bool = False
+    clearance: ClearancePort | None = None
 
 
 _FIX_TEXT = {
@@ -73,6 +79,7 @@ def advice(
     fault: str,
     reason: str,
     recording: RecordingStatus | None,
+    held_back: str = "",
 ) -> tuple[str, ...]:
     """Messages for the student, most urgent first.
 
@@ -82,12 +89,15 @@ def advice(
         fault: name of the device's fault; empty if there is none.
         reason: why the attempt was aborted; empty otherwise.
         recording: how the record stands.
+        held_back: why the device is not cleared for full force; empty if it is.
     """
     found = []
     if reason:
         found.append(f"attempt aborted: {reason}")
     if fault:
         found.append(f"no force: {fault}")
+    if held_back:
+        found.append(held_back)
     if recording is not None and recording.failure:
         found.append(recording.failure)
     if pose.reason:
@@ -104,11 +114,17 @@ def advice(
 
 
 def take(
-    now: float, seen: Observation, running: Running, inputs: LoopInputs, timing: Any, tracker: Any
+    now: float,
+    seen: Observation,
+    running: Running,
+    inputs: LoopInputs,
+    arming: Arming,
+    watch: Watch,
 ) -> Snapshot:
     """Put a snapshot together at `now` [s]."""
-    attempt, log = running.attempt, running.log
+    attempt, log, fault = running.attempt, running.log, seen.device_fault
     recording = log.recorder.status() if log is not None else None
+    held_back = arming.clearance.reason if arming.clearance is not None else ""
     return Snapshot(
         time=now,
         state=attempt.state,
@@ -119,12 +135,14 @@ def take(
         offset=seen.offset,
         p_target=seen.p_target,
         device=seen.device,
-        timing=timing,
-        tracker=tracker,
+        timing=watch.timing,
+        tracker=watch.statistics,
         fix_status=seen.fix_status,
         scans=log.scans if log is not None else 0,
         assistance=inputs.assistance,
         armed=inputs.armed,
         recording=recording,
-        messages=advice(seen.pose, seen.fix_status, seen.device_fault, attempt.reason, recording),
+        messages=advice(seen.pose, seen.fix_status, fault, attempt.reason, recording, held_back),
+        held_arming=arming.held,
+        clearance=arming.clearance,
     )

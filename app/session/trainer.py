@@ -2,33 +2,28 @@
 
 import threading
 from collections.abc import Callable
-from math import inf
-from typing import Any, Final
+from typing import Final
 
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.core.latest import Latest
 from app.planning.placement import PlacedPlan
+from app.session.arming import Arming, ClearanceOf
 from app.session.attempt_log import AttemptLog
 from app.session.context import RunContext
-from app.session.errors import NotReadyError
-from app.session.fixes import Fixes
 from app.session.inputs import LoopInputs
 from app.session.machine import Event
-from app.session.observation import Observation, observe
 from app.session.ports import ExercisePort, FixPort, LoopPort, TrackerPort
 from app.session.result import AttemptResult
 from app.session.running import Running
 from app.session.scored import scorer
 from app.session.snapshot import Snapshot, take
 from app.session.ticker import Ticker
+from app.session.watch import Watch
 
 TICK_PERIOD: Final = 0.02
 """The trainer looks at everything this often [s]."""
-
-STATISTICS_PERIOD: Final = 0.25
-"""Statistics of loop and tracker are taken this often [s]; they cost more than a tick."""
 
 Advance = Callable[[float], None]
 """Lets simulated parts other than the loop catch up with virtual time [s]."""
@@ -55,12 +50,18 @@ class Trainer:
         context: RunContext | None = None,
         clock: Clock | None = None,
         advance: Advance | None = None,
+        clearance: ClearanceOf | None = None,
+        held_arming: bool = False,
     ) -> None:
-        """Keep the parts; `advance` is for virtual time only."""
+        """Keep the parts.
+
+        `advance` is for virtual time only. `clearance` is asked in every tick how much force the
+        device is cleared for; without it, whoever built the loop has written it. With
+        `held_arming`, forces are on only between `arm` and `disarm` during an attempt.
+        """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
         self._loop = loop
-        self._tracker = tracker
         self._placed = placed
         self._exercise = exercise
         self._scorer = scorer(exercise)
@@ -68,16 +69,12 @@ class Trainer:
         self._clock = clock or SystemClock()
         self._advance = advance
         self._inputs = LoopInputs(loop.inbox)
-        self._fixes = Fixes(loop, self._inputs)
+        self._arming = Arming(self._inputs, held_arming, clearance)
+        self._watch = Watch(loop, tracker, self._inputs)
         self._running = Running(self.events)
-        self._seen: Observation | None = None
         self._latest: Latest[Snapshot] = Latest()
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
-        self._prepared = False
-        self._measured = -inf
-        self._timing: Any = None
-        self._statistics: Any = None
 
     # --- life -------------------------------------------------------------------------------------
     def open(self) -> None:
@@ -89,12 +86,10 @@ class Trainer:
         if self._ticker is not None:
             return
         try:
-            self._prepare()
-            self._loop.open()
-            if self._tracker is not None:
-                self._tracker.open()
+            self._inputs.prepare(self._placed, self._exercise.assistance)
+            self._watch.open()
         except BaseException:
-            self._close_parts()
+            self._watch.close()
             raise
         self._ticker = Ticker(lambda: self.tick(self._clock.now()), TICK_PERIOD, self._crashed)
         self._ticker.open()
@@ -106,11 +101,11 @@ class Trainer:
         self.abort("the trainer was closed")
         self._ticker = None
         self.disarm()
-        self._close_parts()
+        self._watch.close()
 
     def step(self, ticks: int = 20) -> Snapshot:
         """Let virtual time pass: `ticks` of the loop, the simulated cameras, then one tick."""
-        self._prepare()
+        self._inputs.prepare(self._placed, self._exercise.assistance)
         self.heartbeat()
         self._loop.step(ticks)
         now = self._clock.now()
@@ -119,33 +114,38 @@ class Trainer:
         return self.tick(now)
 
     # --- the attempt ------------------------------------------------------------------------------
-    def begin(self, student: str = "") -> str:
-        """Begin an attempt: forces armed, everything recorded; returns the session id.
+    def begin(self, student: str = "", hand: str = "") -> str:
+        """Begin an attempt: everything recorded, forces armed; returns the session id.
 
-        A record that cannot be written is told in an event, in the messages and in the summary;
-        the attempt goes on.
+        With `held_arming` the forces stay off until `arm`. A record that cannot be written is told
+        in an event, in the messages and in the summary; the attempt goes on.
+
+        Args:
+            student: pseudonym.
+            hand: what holds the needle, one of `hands.HANDS`; by default what the run was built
+                for.
 
         Raises:
             IllegalTransitionError: if an attempt is running.
             NotReadyError: if loop and ticker were opened but the loop has not run its first tick,
-                or the ticker has ended with a fault of the program.
+                the ticker has ended with a fault of the program, or the device is not cleared.
+            SessionError: for an unknown hand.
         """
         with self._lock:
             self._running.require_idle("an attempt cannot begin")
-            if self._ticker is not None and self._loop.latest().tick == 0:
-                raise NotReadyError("the robot is still starting: begin once it reports its pose")
-            if self._ticker is not None and self._ticker.failed:
-                raise NotReadyError(
-                    "the program has had a fault: close the exercise, open it again"
-                )
-            self._prepare()
+            if self._ticker is not None:
+                self._watch.require_ticks(self._ticker.failed)
+            self._arming.require()
+            self._inputs.prepare(self._placed, self._exercise.assistance)
             now = self._clock.now()
-            log = self._new_log(student, now)
+            header = self._context.header(self._exercise, self._placed, student, now, hand)
+            recorder = self._context.recorder(header, self._loop, self._placed, self._clock)
+            log = AttemptLog(recorder, self._placed, self._scorer)
             self._running.begin(log, now, threaded=self._ticker is not None)
             self.heartbeat()
-            self.arm()
+            self._arming.begin()
             self._publish(now)
-            return log.recorder.header.id
+            return header.id
 
     def end(self) -> AttemptResult:
         """End the attempt: forces off, scored, record finished.
@@ -170,7 +170,7 @@ class Trainer:
             IllegalTransitionError: if no attempt is running.
         """
         with self._lock:
-            return self._running.scan(self._seen, self._clock.now())
+            return self._running.scan(self._watch.seen, self._clock.now())
 
     # --- intents ----------------------------------------------------------------------------------
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
@@ -181,13 +181,18 @@ class Trainer:
         """Set the assistance: 1 full guidance, 0 nothing, -1 full repulsion."""
         self._inputs.assist(value)
 
+    @property
+    def held_arming(self) -> bool:
+        """Whether the forces are on only while `arm` holds them on."""
+        return self._arming.held
+
     def arm(self) -> None:
-        """Arm the forces; `begin` does."""
-        self._inputs.arm(True)
+        """Arm the forces; `begin` does, unless a held key or pedal must. Never waits."""
+        self._arming.arm(lambda: self._running.attempt.running)
 
     def disarm(self) -> None:
-        """Switch the forces off; `end` and `abort` do."""
-        self._inputs.arm(False)
+        """Switch the forces off; `end` and `abort` do. Never waits."""
+        self._arming.off()
 
     def heartbeat(self) -> None:
         """Tell the loop that the window lives."""
@@ -206,7 +211,7 @@ class Trainer:
 
     def on_fix(self, fix: FixPort) -> None:
         """Take a fix at once, as the tracker's callback; without it the ticker takes it."""
-        self._fixes.take(fix, self._placed.p_entry)
+        self._watch.take(fix, self._placed)
 
     def snapshot(self) -> Snapshot:
         """Return everything as of the last tick; never waits for a running one."""
@@ -218,62 +223,31 @@ class Trainer:
         """Pull the latest values, move the attempt, record, publish; `now` is the time [s]."""
         with self._lock:
             try:
-                self._seen = self._observe(now)
-                reason = self._running.look(self._seen, self._inputs) or self._tracker_fault()
+                self._arming.look()
+                seen = self._watch.look(self._placed, now)
+                reason = self._running.look(seen, self._inputs)
+                reason = reason or self._watch.news(self._running, self.events)
             except AcusError as error:
                 reason = str(error)
-                last = self._seen.pose if self._seen is not None else None
-                self._seen = observe(None, self._fixes, self._placed, now, last, reason)
+                self._watch.blind(self._placed, now, reason)
             if reason:
                 self.abort(reason)
             elif self._ticker is None and self._running.log is not None:
                 self._running.log.recorder.drain()
             return self._publish(now)
 
-    def _observe(self, now: float) -> Observation:
-        stamped = self._tracker.latest.read() if self._tracker is not None else None
-        if stamped is not None:
-            self.on_fix(stamped.value)
-        last = self._seen.pose if self._seen is not None else None
-        return observe(self._loop.latest(), self._fixes, self._placed, now, last)
-
-    def _tracker_fault(self) -> str:
-        """Pass on what the tracker tells; returns its fault, if there is one."""
-        if self._tracker is None or self._tracker.events is self.events:
-            return ""  # a queue of one's own is drained by the window already
-        reason = ""
-        for event in self._tracker.events.drain():
-            self._running.say(event.kind, event.message, event.time, dict(event.data))
-            reason = reason or (event.message if event.kind == "fault" else "")
-        return reason
-
     def _publish(self, now: float) -> Snapshot:
         """Publish what the last look saw, with the attempt as it is now."""
-        seen = self._seen or observe(None, self._fixes, self._placed, now, None)
-        if abs(now - self._measured) >= STATISTICS_PERIOD:
-            self._measured = now
-            self._timing = self._loop.timing()
-            self._statistics = self._tracker.statistics() if self._tracker is not None else None
-        snapshot = take(now, seen, self._running, self._inputs, self._timing, self._statistics)
+        seen = self._watch.newest(self._placed, now)
+        snapshot = take(now, seen, self._running, self._inputs, self._arming, self._watch)
         self._latest.publish(snapshot, now)
         return snapshot
-
-    def _prepare(self) -> None:
-        """Write path, target and the exercise's assistance, once."""
-        if not self._prepared:
-            self._prepared = True
-            self._inputs.path(self._placed.axis, self._placed.p_target)
-            self._inputs.assist(self._exercise.assistance)
-
-    def _new_log(self, student: str, now: float) -> AttemptLog:
-        header = self._context.header(self._exercise, self._placed, student, now)
-        recorder = self._context.recorder(header, self._loop, self._placed, self._clock)
-        return AttemptLog(recorder, self._placed, self._scorer)
 
     def _finish(self, event: Event, reason: str = "") -> AttemptResult:
         self.disarm()
         now = self._clock.now()
-        result = self._running.finish(event, self._seen, self._inputs, now, reason)
+        result = self._running.finish(event, self._watch.seen, self._inputs, now, reason)
+        self.disarm()  # a key that was pressed while the attempt was ending
         self.result = result
         self._publish(now)
         return result
@@ -282,8 +256,3 @@ class Trainer:
         """Switch the forces off and keep the record after a fault of the program itself."""
         self.disarm()
         self.abort(f"fault of the program: {type(error).__name__}: {error}")
-
-    def _close_parts(self) -> None:
-        if self._tracker is not None:
-            self._tracker.close()
-        self._loop.close()

@@ -92,10 +92,11 @@ def test_the_jacobians_rate_times_the_rates_is_the_acceleration_of_the_dynamics(
     rates = np.array([1.2, -0.8])
     for p3 in tool_points(20):
         q = inverse(GEOMETRY, p3)
-        u = links.distal_kernel(*q, *p3, *GEOMETRY.links)
+        turns = np.cos(q[0]), np.sin(q[0]), np.cos(q[1]), np.sin(q[1])
+        u = links.distal_kernel(*turns, *p3, *GEOMETRY.links)
         lengths = GEOMETRY.proximal, GEOMETRY.distal
-        s = np.reshape(links.passive_rates_kernel(*q, *u, *lengths), (2, 2)) @ rates
-        moved = links.passive_acceleration_kernel(*q, *rates, *u, *s, *lengths)
+        s = np.reshape(links.passive_rates_kernel(*turns, *u, *lengths), (2, 2)) @ rates
+        moved = links.passive_acceleration_kernel(*turns, *rates, *u, *s, *lengths)
         assert jacobian_rate(GEOMETRY, q, rates) @ rates == pytest.approx(moved[2:], abs=1e-13)
 
 

@@ -242,7 +242,7 @@ def recording(**changes):
         valid=np.ones(3, dtype=bool), depth_source=np.array(["tracked", "held", "model"]),
         depth=np.array([0.0, 0.01, 0.09]), tip=np.tile(placed.p_entry, (3, 1)),
         axis=np.tile(placed.axis, (3, 1)), target=np.tile(placed.p_target, (3, 1)),
-        felt=nothing, hub=nothing, guide=nothing,
+        felt=nothing, hub=nothing, guide=nothing, measured=np.full(3, np.nan),
     )  # fmt: skip
     values = {
         "path": Path("s1.mcap"), "complete": True, "problems": (),

@@ -28,10 +28,11 @@ def singularity_kernel(
     The first two vanish where an arm is stretched or folded (type 1: the tool loses a direction),
     the third where the distal links are in line (type 2: the tool moves with the motors held).
     """
-    c2, s2, c2r, s2r = distal_kernel(q1, q2, x, y, a1, a2, base)
+    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
+    c2, s2, c2r, s2r = distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, base)
     return (
-        s2 * cos(q1) - c2 * sin(q1),
-        s2r * cos(q2) - c2r * sin(q2),
+        s2 * c1 - c2 * s1,
+        s2r * c1r - c2r * s1r,
         s2r * c2 - c2r * s2,
     )
 
@@ -54,13 +55,13 @@ def jacobian_rate_kernel(
     (-s2, c2); the product rule with θ̇2 and θ̇2' from q̇. `SINGULAR` as `jacobian_kernel`.
     """
     c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
-    c2, s2, c2r, s2r = distal_kernel(q1, q2, x, y, a1, a2, base)
+    c2, s2, c2r, s2r = distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, base)
     closing = s2r * c2 - c2r * s2
     if not isfinite(closing + v1 + v2):
         return NOT_FINITE, 0.0, 0.0, 0.0, 0.0
     if abs(closing) <= _RELATIVE:
         return SINGULAR, 0.0, 0.0, 0.0, 0.0
-    ll, lr, rl, rr = passive_rates_kernel(q1, q2, c2, s2, c2r, s2r, a1, a2)
+    ll, lr, rl, rr = passive_rates_kernel(c1, s1, c1r, s1r, c2, s2, c2r, s2r, a1, a2)
     w, wr = ll * v1 + lr * v2, rl * v1 + rr * v2
     closing_rate = (c2r * c2 + s2r * s2) * (wr - w)
     left = a1 * (s2 * c1 - c2 * s1) / closing
@@ -92,7 +93,8 @@ def passive_kernel(
     Absolute from +x; relative to the driven link, what an encoder on the elbow would read. Both in
     (-π, π].
     """
-    c2, s2, c2r, s2r = distal_kernel(q1, q2, x, y, a1, a2, base)
+    turns = cos(q1), sin(q1), cos(q2), sin(q2)
+    c2, s2, c2r, s2r = distal_kernel(*turns, x, y, a1, a2, base)
     left, right = atan2(s2, c2), atan2(s2r, c2r)
     return left, right, _wrapped(left - q1), _wrapped(right - q2)
 

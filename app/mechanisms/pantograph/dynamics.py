@@ -17,7 +17,7 @@ compiled code (call them only where `jacobian_kernel` says `OK`, with (x, y) the
 """
 
 from dataclasses import dataclass
-from math import tanh
+from math import cos, sin, tanh
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -48,11 +48,12 @@ def mass_matrix_kernel(
     tool: float,
 ) -> tuple[float, float, float]:
     """Mass matrix of links and tool [kg·m²]: (m_left, m_cross, m_right), positive definite."""
-    ux, uy, rx, ry = links.distal_kernel(q1, q2, x, y, a1, a2, base)
-    ll, lr, rl, rr = links.passive_rates_kernel(q1, q2, ux, uy, rx, ry, a1, a2)
-    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(q1, ux, uy, ll, lr, a1, a2)
+    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
+    ux, uy, rx, ry = links.distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, base)
+    ll, lr, rl, rr = links.passive_rates_kernel(c1, s1, c1r, s1r, ux, uy, rx, ry, a1, a2)
+    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(c1, s1, ux, uy, ll, lr, a1, a2)
     left, cross, right = links.link_mass_kernel(
-        q1, q2, ux, uy, rx, ry, ll, lr, rl, rr, driven, passive, coupling
+        c1, s1, c1r, s1r, ux, uy, rx, ry, ll, lr, rl, rr, driven, passive, coupling
     )
     return (
         left + tool * (jxl * jxl + jyl * jyl),
@@ -78,16 +79,17 @@ def velocity_terms_kernel(
     tool: float,
 ) -> tuple[float, float]:
     """Centrifugal and Coriolis torques of links and tool [N·m]: (h_left, h_right)."""
-    ux, uy, rx, ry = links.distal_kernel(q1, q2, x, y, a1, a2, base)
-    ll, lr, rl, rr = links.passive_rates_kernel(q1, q2, ux, uy, rx, ry, a1, a2)
+    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
+    ux, uy, rx, ry = links.distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, base)
+    ll, lr, rl, rr = links.passive_rates_kernel(c1, s1, c1r, s1r, ux, uy, rx, ry, a1, a2)
     w, wr = ll * v1 + lr * v2, rl * v1 + rr * v2
     alpha, alpha_r, ax, ay = links.passive_acceleration_kernel(
-        q1, q2, v1, v2, ux, uy, rx, ry, w, wr, a1, a2
+        c1, s1, c1r, s1r, v1, v2, ux, uy, rx, ry, w, wr, a1, a2
     )
     left, right = links.link_velocity_kernel(
-        q1, q2, v1, v2, ux, uy, rx, ry, ll, lr, rl, rr, alpha, alpha_r, passive, coupling
+        c1, s1, c1r, s1r, v1, v2, ux, uy, rx, ry, ll, lr, rl, rr, alpha, alpha_r, passive, coupling
     )
-    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(q1, ux, uy, ll, lr, a1, a2)
+    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(c1, s1, ux, uy, ll, lr, a1, a2)
     t_left, t_right = kernels.torque_kernel(tool * ax, tool * ay, jxl, jxr, jyl, jyr)
     return left + t_left, right + t_right
 
@@ -114,25 +116,26 @@ def dynamics_kernel(
         p[first + dm.NEEDLE_INERTIA],
         depth + p[first + dm.NEEDLE_OFFSET],
     )
-    ux, uy, rx, ry = links.distal_kernel(q1, q2, x, y, a1, a2, p[first + dm.BASE])
-    ll, lr, rl, rr = links.passive_rates_kernel(q1, q2, ux, uy, rx, ry, a1, a2)
+    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
+    ux, uy, rx, ry = links.distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, p[first + dm.BASE])
+    ll, lr, rl, rr = links.passive_rates_kernel(c1, s1, c1r, s1r, ux, uy, rx, ry, a1, a2)
     w, wr = ll * v1 + lr * v2, rl * v1 + rr * v2
     alpha, alpha_r, ax, ay = links.passive_acceleration_kernel(
-        q1, q2, v1, v2, ux, uy, rx, ry, w, wr, a1, a2
+        c1, s1, c1r, s1r, v1, v2, ux, uy, rx, ry, w, wr, a1, a2
     )
-    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(q1, ux, uy, ll, lr, a1, a2)
+    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(c1, s1, ux, uy, ll, lr, a1, a2)
     dx, dy, dz, l_in = kernels.axis_kernel(
         x, y, p[first + dm.FX], p[first + dm.FY], p[first + dm.FZ]
     )
 
     m11, m12, m22 = links.link_mass_kernel(
-        q1, q2, ux, uy, rx, ry, ll, lr, rl, rr, p[first + dm.DRIVEN], passive, coupling
+        c1, s1, c1r, s1r, ux, uy, rx, ry, ll, lr, rl, rr, p[first + dm.DRIVEN], passive, coupling
     )
     xx, xy, yy = needle_dynamics.needle_mass_kernel(dx, dy, l_in, s, mass, inertia)
     n11, n12, n22 = links.at_joints_kernel(tool + xx, xy, tool + yy, jxl, jxr, jyl, jyr)
 
     h1, h2 = links.link_velocity_kernel(
-        q1, q2, v1, v2, ux, uy, rx, ry, ll, lr, rl, rr, alpha, alpha_r, passive, coupling
+        c1, s1, c1r, s1r, v1, v2, ux, uy, rx, ry, ll, lr, rl, rr, alpha, alpha_r, passive, coupling
     )
     vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
     fx, fy = needle_dynamics.needle_velocity_kernel(
@@ -142,7 +145,7 @@ def dynamics_kernel(
 
     moment, moment_2 = p[first + dm.DRIVEN_MOMENT], p[first + dm.PASSIVE_MOMENT]
     g1, g2 = links.link_gravity_kernel(
-        q1, q2, ux, uy, rx, ry, ll, lr, rl, rr, moment, moment_2, gx, gy
+        c1, s1, c1r, s1r, ux, uy, rx, ry, ll, lr, rl, rr, moment, moment_2, gx, gy
     )
     wx, wy = needle_dynamics.needle_gravity_kernel(gx, gy, gz, dx, dy, dz, l_in, s, mass)
     k1, k2 = kernels.torque_kernel(wx - tool * gx, wy - tool * gy, jxl, jxr, jyl, jyr)

@@ -9,33 +9,49 @@ both arms, θ̇2 and θ̇2' are linear in q̇:
 and M = Sᵀ M_w S + Jᵀ W J, h = Sᵀ(M_w Ṡq̇ + h_w) + Jᵀ f, with W the inertia of what moves with P3
 and f what it takes to give it the acceleration J̇q̇ (docs/errata.md).
 
-All divide by s(2'-2): call them only where `jacobian_kernel` says `OK`.
+Arguments: (c1, s1) and (c1r, s1r) are cosine and sine of q1 and q2, taken once by the caller, (ux,
+uy) and (rx, ry) the directions of the distal links, (ll, lr, rl, rr) their rates by q. All divide
+by s(2'-2): call them only where `jacobian_kernel` says `OK`.
 """
-
-from math import cos, sin
 
 from app.core.compiled import njit
 
 
 @njit
 def distal_kernel(
-    q1: float, q2: float, x: float, y: float, a1: float, a2: float, base: float
+    c1: float,
+    s1: float,
+    c1r: float,
+    s1r: float,
+    x: float,
+    y: float,
+    a1: float,
+    a2: float,
+    base: float,
 ) -> tuple[float, float, float, float]:
     """Return the unit vectors along the distal links from elbow to tool: (c2, s2, c2', s2')."""
     return (
-        (x - (a1 * cos(q1) - 0.5 * base)) / a2,
-        (y - a1 * sin(q1)) / a2,
-        (x - (a1 * cos(q2) + 0.5 * base)) / a2,
-        (y - a1 * sin(q2)) / a2,
+        (x - (a1 * c1 - 0.5 * base)) / a2,
+        (y - a1 * s1) / a2,
+        (x - (a1 * c1r + 0.5 * base)) / a2,
+        (y - a1 * s1r) / a2,
     )
 
 
 @njit
 def passive_rates_kernel(
-    q1: float, q2: float, ux: float, uy: float, rx: float, ry: float, a1: float, a2: float
+    c1: float,
+    s1: float,
+    c1r: float,
+    s1r: float,
+    ux: float,
+    uy: float,
+    rx: float,
+    ry: float,
+    a1: float,
+    a2: float,
 ) -> tuple[float, float, float, float]:
     """dθ2/dq and dθ2'/dq: (left by q1, left by q2, right by q1, right by q2)."""
-    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
     gain = a1 / (a2 * (ry * ux - rx * uy))
     return (
         -gain * (ry * c1 - rx * s1),
@@ -47,8 +63,10 @@ def passive_rates_kernel(
 
 @njit
 def passive_acceleration_kernel(
-    q1: float,
-    q2: float,
+    c1: float,
+    s1: float,
+    c1r: float,
+    s1r: float,
     v1: float,
     v2: float,
     ux: float,
@@ -64,9 +82,9 @@ def passive_acceleration_kernel(
 
     P̈3 = k + a2 θ̈2 t2 = k' + a2 θ̈2' t2', k the centripetal accelerations of the two arms.
     """
-    kx, ky = -a1 * v1 * v1 * cos(q1) - a2 * w * w * ux, -a1 * v1 * v1 * sin(q1) - a2 * w * w * uy
-    krx = -a1 * v2 * v2 * cos(q2) - a2 * wr * wr * rx
-    kry = -a1 * v2 * v2 * sin(q2) - a2 * wr * wr * ry
+    kx, ky = -a1 * v1 * v1 * c1 - a2 * w * w * ux, -a1 * v1 * v1 * s1 - a2 * w * w * uy
+    krx = -a1 * v2 * v2 * c1r - a2 * wr * wr * rx
+    kry = -a1 * v2 * v2 * s1r - a2 * wr * wr * ry
     scale = 1.0 / (a2 * (ry * ux - rx * uy))
     alpha = scale * ((krx - kx) * rx + (kry - ky) * ry)
     alpha_r = -scale * ((kx - krx) * ux + (ky - kry) * uy)
@@ -75,21 +93,23 @@ def passive_acceleration_kernel(
 
 @njit
 def tool_jacobian_kernel(
-    q1: float, ux: float, uy: float, ll: float, lr: float, a1: float, a2: float
+    c1: float, s1: float, ux: float, uy: float, ll: float, lr: float, a1: float, a2: float
 ) -> tuple[float, float, float, float]:
     """J = dP2/dq + a2 t2 dθ2/dq along the left arm: (jxl, jxr, jyl, jyr)."""
     return (
-        -a1 * sin(q1) - a2 * uy * ll,
+        -a1 * s1 - a2 * uy * ll,
         -a2 * uy * lr,
-        a1 * cos(q1) + a2 * ux * ll,
+        a1 * c1 + a2 * ux * ll,
         a2 * ux * lr,
     )
 
 
 @njit
 def link_mass_kernel(
-    q1: float,
-    q2: float,
+    c1: float,
+    s1: float,
+    c1r: float,
+    s1r: float,
     ux: float,
     uy: float,
     rx: float,
@@ -103,8 +123,8 @@ def link_mass_kernel(
     coupling: float,
 ) -> tuple[float, float, float]:
     """Sᵀ M_w S: (left, cross, right) [kg·m²]."""
-    left = coupling * (ux * cos(q1) + uy * sin(q1))
-    right = coupling * (rx * cos(q2) + ry * sin(q2))
+    left = coupling * (ux * c1 + uy * s1)
+    right = coupling * (rx * c1r + ry * s1r)
     return (
         driven + 2.0 * left * ll + passive * (ll * ll + rl * rl),
         left * lr + right * rl + passive * (ll * lr + rl * rr),
@@ -114,8 +134,10 @@ def link_mass_kernel(
 
 @njit
 def link_velocity_kernel(
-    q1: float,
-    q2: float,
+    c1: float,
+    s1: float,
+    c1r: float,
+    s1r: float,
     v1: float,
     v2: float,
     ux: float,
@@ -132,7 +154,6 @@ def link_velocity_kernel(
     coupling: float,
 ) -> tuple[float, float]:
     """Sᵀ(M_w Ṡq̇ + h_w) [N·m]: (left, right)."""
-    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
     w, wr = ll * v1 + lr * v2, rl * v1 + rr * v2
     cosine, sine = coupling * (ux * c1 + uy * s1), coupling * (uy * c1 - ux * s1)
     cosine_r, sine_r = coupling * (rx * c1r + ry * s1r), coupling * (ry * c1r - rx * s1r)
@@ -146,8 +167,10 @@ def link_velocity_kernel(
 
 @njit
 def link_gravity_kernel(
-    q1: float,
-    q2: float,
+    c1: float,
+    s1: float,
+    c1r: float,
+    s1r: float,
     ux: float,
     uy: float,
     rx: float,
@@ -165,8 +188,8 @@ def link_gravity_kernel(
     swing = -passive_moment * (gy * ux - gx * uy)
     swing_r = -passive_moment * (gy * rx - gx * ry)
     return (
-        -driven_moment * (gy * cos(q1) - gx * sin(q1)) + ll * swing + rl * swing_r,
-        -driven_moment * (gy * cos(q2) - gx * sin(q2)) + lr * swing + rr * swing_r,
+        -driven_moment * (gy * c1 - gx * s1) + ll * swing + rl * swing_r,
+        -driven_moment * (gy * c1r - gx * s1r) + lr * swing + rr * swing_r,
     )
 
 

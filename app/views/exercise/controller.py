@@ -179,8 +179,8 @@ class ExerciseController(QObject):
         except AcusError as error:
             self._fail(str(error))
             return
-        if run.held_arming and not self._views.panel.enable.is_held:
-            run.trainer.disarm()
+        if run.held_arming:
+            self.set_held(self._views.panel.enable.is_held)
         self._views.panel.energy.begin(run.is_real)
         self.began.emit(session)
         self._views.bullseye.pad.setFocus()

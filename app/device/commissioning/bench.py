@@ -1,0 +1,252 @@
+"""A device on the bench: its link, a loop with the service stage, its record, its routines."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from datetime import datetime
+from pathlib import Path
+from types import TracebackType
+from typing import Final
+
+from app.core.clock import Clock, SystemClock, VirtualClock
+from app.device.commissioning.encoder_offsets import EncoderOffsets
+from app.device.commissioning.errors import CommissioningError
+from app.device.commissioning.force_scale import ForceScale
+from app.device.commissioning.friction import Friction
+from app.device.commissioning.gauge import GaugeCalibration
+from app.device.commissioning.homing import Homing
+from app.device.commissioning.latency import Latency
+from app.device.commissioning.records import DeviceRecord, load_record, save_record
+from app.device.commissioning.report import Report
+from app.device.commissioning.results import AnyResult, Step
+from app.device.commissioning.routine import Routine
+from app.device.commissioning.sign_check import SignCheck
+from app.device.commissioning.table import commissioning_table
+from app.device.control.corrections import Corrections
+from app.device.control.loop import Loop
+from app.device.links.link import BoardInfo, DeviceLink
+from app.device.readiness import Clearance
+from app.mechanisms.profile import DeviceProfile
+
+PERIOD: Final = 0.01
+"""A routine is stepped this often [s]."""
+
+NEEDS_HOMING: Final = frozenset({Step.SIGNS, Step.FRICTION, Step.LATENCY, Step.FORCE})
+NEEDS_SIGNS: Final = frozenset({Step.FRICTION, Step.LATENCY, Step.FORCE})
+"""What must be done in this power cycle before a routine may push."""
+
+
+class Bench:
+    """One device while it is commissioned.
+
+    Args:
+        link: to the device; opened and closed with the bench.
+        profile: of the device.
+        clock: the machine's, or a virtual one.
+        folder: of the records; the user's by default.
+        today: date and time for the record.
+        initial: starting values of the loop's state, for a simulated plant.
+    """
+
+    def __init__(
+        self,
+        link: DeviceLink,
+        profile: DeviceProfile,
+        clock: Clock | None = None,
+        folder: Path | None = None,
+        today: Callable[[], datetime] | None = None,
+        initial: Mapping[str, float] | None = None,
+    ) -> None:
+        self.profile = profile
+        self.clock: Clock = clock or SystemClock()
+        self.corrections = Corrections()
+        self._link, self._folder, self._initial = link, folder, initial
+        self._today = today or (lambda: datetime.now().astimezone())
+        self._loop: Loop | None = None
+        self._record: DeviceRecord | None = None
+
+    # --- life -------------------------------------------------------------------------------------
+    def open(self) -> None:
+        """Connect, read the device's record, start the loop without force.
+
+        Raises:
+            LinkError: if the device does not answer.
+            RecordError: if its record is damaged.
+        """
+        if self._loop is not None:
+            return
+        self._link.open()
+        try:
+            self._record = load_record(self.info, self._folder)
+            self.corrections.set_offsets(*self._record.offsets(self.info.boot))
+            self.corrections.set_gauge(*self._record.gauge())
+            table = commissioning_table(self.profile, self._link.stages(), self.corrections)
+            loop = Loop(table, self.profile.rate_hz, self.clock, initial=self._initial)
+            loop.open()
+            self._loop = loop
+        except BaseException:
+            self._link.close()
+            raise
+
+    def close(self) -> None:
+        """End at zero torque and let go of the device; idempotent."""
+        loop, self._loop = self._loop, None
+        if loop is not None:
+            loop.close()
+        self._link.close()
+
+    def __enter__(self) -> Bench:
+        """Open the bench."""
+        self.open()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        """Close the bench, also after an exception."""
+        self.close()
+
+    # --- the device -------------------------------------------------------------------------------
+    @property
+    def info(self) -> BoardInfo:
+        """Who is at the other end."""
+        return self._link.info()
+
+    @property
+    def loop(self) -> Loop:
+        """The running loop.
+
+        Raises:
+            CommissioningError: if the bench is closed.
+        """
+        if self._loop is None:
+            raise CommissioningError("the bench is closed; open it first")
+        return self._loop
+
+    @property
+    def record(self) -> DeviceRecord:
+        """What is known of the device.
+
+        Raises:
+            CommissioningError: if the bench was never opened.
+        """
+        if self._record is None:
+            raise CommissioningError("the bench was not opened; open it first")
+        return self._record
+
+    def clearance(self) -> Clearance:
+        """How much force the device is cleared for now."""
+        return self.record.readiness().clearance(self.info, self.profile)
+
+    def done(self, *steps: Step) -> bool:
+        """Whether any of some routines has succeeded in this power cycle."""
+        entry = self.record.newest(*steps)
+        return entry is not None and entry.boot == self.info.boot
+
+    # --- routines ---------------------------------------------------------------------------------
+    def routine(self, step: Step, by_hand: bool = True) -> Routine:
+        """Make a routine on the running loop.
+
+        Args:
+            step: which.
+            by_hand: whether the sign check has the links turned by hand.
+
+        Raises:
+            CommissioningError: if the routines that it builds on were not done in this power cycle.
+        """
+        if step in NEEDS_HOMING and not self.done(Step.HOMING, Step.OFFSETS):
+            raise CommissioningError(
+                f"{step.value} needs the device to be homed since it was switched on; run"
+                " `--step homing` first"
+            )
+        if step in NEEDS_SIGNS and not self.done(Step.SIGNS):
+            raise CommissioningError(
+                f"{step.value} pushes, so the signs must be checked since the device was switched"
+                " on; run `--step signs` first"
+            )
+        return self._make(step, by_hand)
+
+    def _make(self, step: Step, by_hand: bool) -> Routine:
+        loop, profile = self.loop, self.profile
+        match step:
+            case Step.HOMING:
+                return Homing(loop, profile, self.corrections, self._zero)
+            case Step.OFFSETS:
+                return EncoderOffsets(loop, profile, self.corrections, self._zero)
+            case Step.SIGNS:
+                return SignCheck(loop, profile, by_hand)
+            case Step.FRICTION:
+                return Friction(loop, profile)
+            case Step.LATENCY:
+                return Latency(loop, profile)
+            case Step.FORCE:
+                return ForceScale(loop, profile)
+            case Step.GAUGE:
+                return GaugeCalibration(loop, profile, self.corrections)
+
+    def keep(self, result: AnyResult) -> Path:
+        """Put a result into the device's record and use it; returns the file.
+
+        Raises:
+            RecordError: if the file cannot be written; the record stays as it was.
+        """
+        return self._store(self.record.added(result, self.info.boot, self._today()))
+
+    def undo(self, *steps: Step) -> Path:
+        """Take the newest result (of some routines, or of any) back; returns the file.
+
+        Raises:
+            RecordError: if there is none, or the file cannot be written.
+        """
+        return self._store(self.record.undo(*steps))
+
+    def run(
+        self,
+        routine: Routine,
+        answer: Callable[[Report], float | None],
+        tell: Callable[[Report], None] = lambda _: None,
+    ) -> Report:
+        """Step a routine to its end; cancelled if `answer` or anything else raises.
+
+        Args:
+            routine: from `routine`.
+            answer: called in each step while something is needed; returns the number (any for a
+                confirmation), or None for not yet. It must not block: after a second without a
+                step the loop drops the force.
+            tell: called after each step.
+        """
+        try:
+            while not (report := routine.step(self.clock.now())).done:
+                tell(report)
+                if report.needs and (value := answer(report)) is not None:
+                    routine.answer(value)
+                self.advance(PERIOD)
+        except BaseException:
+            routine.cancel()
+            raise
+        tell(report)
+        return report
+
+    def advance(self, duration: float) -> None:
+        """Let time [s] pass."""
+        if isinstance(self.clock, VirtualClock):
+            self.loop.step(max(round(duration * self.loop.rate_hz), 1))
+        else:
+            self.clock.sleep(duration)
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _store(self, record: DeviceRecord) -> Path:
+        path = save_record(record, self._folder)
+        self._record = record
+        self.corrections.set_offsets(*record.offsets(self.info.boot))
+        self.corrections.set_gauge(*record.gauge())
+        return path
+
+    def _zero(self) -> None:
+        """Make the present pose the zero of the board's counters, where it can."""
+        zero = getattr(self._link, "home", None)
+        if zero is not None:
+            zero()

@@ -1,0 +1,154 @@
+"""Force scale: is a commanded newton a newton on a kitchen scale?"""
+
+from typing import ClassVar, Final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from app.core.arrays import FloatArray, unit
+from app.device.commissioning.errors import CommissioningError
+from app.device.commissioning.results import ForceScale as Found
+from app.device.commissioning.results import Step
+from app.device.commissioning.routine import Routine, RunningLoop, Script
+from app.device.readiness import SCALE_TOLERANCE, UNVERIFIED_FORCE
+from app.mechanisms.profile import DeviceProfile
+
+FORCES: Final = (0.2, 0.5, 1.0)
+"""Commanded forces at the hub [N], the smallest first: a missing gear makes it ten times more."""
+
+GRAVITY: Final = 9.80665
+"""Standard gravity [m/s²]: what turns a scale's grams into newtons."""
+
+_SETTLE: Final = 1.0
+_RUNAWAY: Final = 2.0  # reading over command at which the next, larger force is not commanded
+_RESIDUAL: Final = 0.06  # [N] root mean square from the line
+_NOTHING: Final = 0.05  # factor below which the scale did not feel the robot
+
+
+class ForceScale(Routine):
+    """Push the hub with 0.2, 0.5 and 1 N and ask what the scale shows after each.
+
+    Args:
+        loop, profile: as in `Routine`.
+        direction: of the force at the hub, in world, shape (3,); only what lies across the needle
+            can be rendered.
+    """
+
+    NAME: ClassVar[Step] = Step.FORCE
+    TITLE: ClassVar[str] = "Force scale"
+
+    def __init__(
+        self,
+        loop: RunningLoop,
+        profile: DeviceProfile,
+        direction: ArrayLike = (1.0, 0.0, 0.0),
+    ) -> None:
+        super().__init__(loop, profile)
+        self._direction = unit(direction, "direction")
+
+    def _script(self) -> Script:
+        self._disarm()
+        x, y, z = self._direction
+        yield from self._ask(
+            "hold the needle upright against the scale (or tie the hub to the weight on it, see"
+            f" docs/hardware.md), so that a force towards ({x:g}, {y:g}, {z:g}) is weighed; tare"
+            " the scale and confirm"
+        )
+        direction = self._across()
+        yield from self._arm(1.0, UNVERIFIED_FORCE)
+        readings: list[float] = []
+        for force in FORCES:
+            self._force(force * direction)
+            yield from self._wait(_SETTLE, f"pushing with {force:g} N")
+            readings.append((yield from self._ask(f"type the reading at {force:g} N", "g")))
+            self._progress += 0.3
+            if abs(newtons(readings[-1])) > _RUNAWAY * force:
+                break  # never command more of what is already far too strong
+        factor, residual = fit(FORCES[: len(readings)], readings)
+        if reason := refusal(factor, residual, self._profile.inertia.gear):
+            raise CommissioningError(f"{self.TITLE}: {reason}")
+        return Found(
+            commanded=FORCES,
+            readings_g=tuple(readings),
+            factor=factor,
+            residual=residual,
+            profile=self._profile.name,
+        )
+
+    def _across(self) -> FloatArray:
+        """Direction of the force, across the needle as it stands now."""
+        axis = self._loop.latest().axis
+        across = self._direction - (self._direction @ axis) * axis
+        if np.linalg.norm(across) < 0.5:
+            raise CommissioningError(
+                f"{self.TITLE}: the force would point along the needle, where the robot cannot"
+                " push; hold the needle upright"
+            )
+        return unit(across, "direction")
+
+
+def newtons(grams: float) -> float:
+    """Force [N] that a scale shows as grams."""
+    return grams * 1e-3 * GRAVITY
+
+
+def fit(commanded: ArrayLike, readings_g: ArrayLike) -> tuple[float, float]:
+    """Slope through zero of measured over commanded force, and the residual [N].
+
+    Raises:
+        CommissioningError: if there is no reading, their numbers differ, or one is not finite.
+    """
+    wanted = np.atleast_1d(np.asarray(commanded, dtype=np.float64))
+    grams = np.atleast_1d(np.asarray(readings_g, dtype=np.float64))
+    if len(grams) == 0 or len(grams) != len(wanted):
+        raise CommissioningError(
+            f"Force scale: {len(grams)} readings for {len(wanted)} forces; give one reading in"
+            " grams for each"
+        )
+    if not np.isfinite(grams).all():
+        raise CommissioningError(
+            f"Force scale: the readings {grams.tolist()} g are not all numbers; weigh again"
+        )
+    measured = grams * 1e-3 * GRAVITY
+    factor = float(wanted @ measured / (wanted @ wanted))
+    return factor, float(np.sqrt(np.mean((measured - factor * wanted) ** 2)))
+
+
+def refusal(factor: float, residual: float, gear: float) -> str:
+    """Say why a factor is not accepted, with the likely reason; empty if it is.
+
+    Args:
+        factor: measured over commanded force.
+        residual: root mean square from the line [N].
+        gear: motor turns per joint turn.
+    """
+    text = f"measured over commanded force is {factor:.3f}"
+    if abs(factor - 1.0) <= SCALE_TOLERANCE:
+        if residual <= _RESIDUAL:
+            return ""
+        return (
+            f"the readings scatter by {residual:.3f} N about a line (at most {_RESIDUAL:g} N):"
+            " tare the scale, keep the needle still, and weigh again"
+        )
+    allowed = f"{text}, outside 1 ± {SCALE_TOLERANCE:g}: "
+    if abs(factor) < _NOTHING:
+        return allowed + "the scale does not feel the robot; check thread, tare and motor supply"
+    if factor < 0.0:
+        return allowed + "the sign is wrong; check the direction of the set-up, then the signs"
+    if gear > 1.0 and _near(factor, gear):
+        return allowed + (
+            f"the gear ratio {gear:g}:1 seems to be missing in the torque factor: the board takes"
+            " the joint torque for the motor shaft's; divide its torque factor by the gear ratio"
+        )
+    if gear > 1.0 and _near(factor, 1.0 / gear):
+        return allowed + (
+            f"the gear ratio {gear:g}:1 seems to be applied twice; multiply the board's torque"
+            " factor by the gear ratio"
+        )
+    return allowed + (
+        "check torque constant, amplifier gain and lengths in the profile against the device"
+    )
+
+
+def _near(factor: float, wanted: float) -> bool:
+    return abs(factor / wanted - 1.0) <= 0.3

@@ -1,0 +1,114 @@
+"""Homing: the joint angles at a known pose, by the hard stops."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, ClassVar, Literal
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.device.commissioning.errors import CommissioningError
+from app.device.commissioning.results import Homing as Found
+from app.device.commissioning.results import Step
+from app.device.commissioning.routine import Part, Routine, RunningLoop, Script
+from app.mechanisms.errors import MechanismError
+from app.mechanisms.pantograph import forward
+from app.mechanisms.profile import DeviceProfile
+
+if TYPE_CHECKING:
+    from app.device.control.corrections import Corrections
+
+_UPRIGHT_DEG = 15.0
+
+
+class Homing(Routine):
+    """Bring both links to the profile's home pose; the encoders' offsets follow from it.
+
+    The new offsets are used at once, so that the check afterwards sees them; if the routine ends
+    without a result, the old ones come back.
+
+    Args:
+        loop, profile: as in `Routine`.
+        corrections: in use; gets the new offsets.
+        zero: makes the present pose the zero of the board's counters, where the board can.
+    """
+
+    NAME: ClassVar[Step] = Step.HOMING
+    TITLE: ClassVar[str] = "Homing"
+    REFERENCE: ClassVar[Literal["stops", "jig"]] = "stops"
+
+    def __init__(
+        self,
+        loop: RunningLoop,
+        profile: DeviceProfile,
+        corrections: "Corrections",
+        zero: Callable[[], None] = lambda: None,
+    ) -> None:
+        super().__init__(loop, profile)
+        self._corrections, self._zero = corrections, zero
+
+    def known(self) -> FloatArray:
+        """Joint angles (left, right) at the reference pose [rad], shape (2,)."""
+        return np.array(self._profile.encoder.home_offsets)
+
+    def instruction(self) -> str:
+        """Say what the user does to reach the reference pose."""
+        left, right = np.degrees(self.known())
+        return (
+            "move both links outwards against their stops"
+            f" (left {left:.1f}°, right {right:.1f}°), hold them there and confirm"
+        )
+
+    def _script(self) -> Script:
+        old = self._corrections.offsets
+        try:
+            return (yield from self._find(old))
+        except BaseException:
+            self._corrections.set_offsets(*old)
+            raise
+
+    def _find(self, old: tuple[float, float]) -> Script:
+        self._disarm()
+        known = self.known()
+        self._require_pose(known, "the profile's reference pose")
+        yield from self._ask(self.instruction())
+        self._progress = 0.3
+        yield from self._at_rest("keep it there")
+        self._zero()
+        seen = yield from self._at_rest("measuring; keep it there")
+        change = known - seen
+        offsets = float(old[0] + change[0]), float(old[1] + change[1])
+        self._corrections.set_offsets(*offsets)
+        self._progress = 0.6
+        yield from self._check()
+        return Found(
+            step=Step.OFFSETS if self.REFERENCE == "jig" else Step.HOMING,
+            reference=self.REFERENCE,
+            offsets=offsets,
+            change=(float(change[0]), float(change[1])),
+        )
+
+    def _check(self) -> Part:
+        """Another pose, which tells wrong counts and directions: the needle upright by eye."""
+        yield from self._ask("bring the needle upright by eye, hold it still and confirm")
+        angles = yield from self._at_rest("checking; keep it there")
+        tilt = self._require_pose(angles, "the pose with the needle upright")
+        if tilt > _UPRIGHT_DEG:
+            raise CommissioningError(
+                f"{self.TITLE}: with the needle upright the angles give a tilt of {tilt:.0f}°"
+                f" (at most {_UPRIGHT_DEG:g}° by eye); an encoder counts the wrong way or not at"
+                " all, the reference pose was not reached, or counts_per_turn"
+                f" ({self._profile.encoder.counts_per_turn}) is wrong"
+            )
+
+    def _require_pose(self, angles: FloatArray, what: str) -> float:
+        """Tilt of the needle [°] at joint angles that the links can take."""
+        geometry = self._profile.pantograph
+        try:
+            beside = forward(geometry, angles) - geometry.fulcrum[:2]
+        except MechanismError as error:
+            left, right = np.degrees(angles)
+            raise CommissioningError(
+                f"{self.TITLE}: {what} (left {left:.1f}°, right {right:.1f}°) is none that the"
+                f" links can take: {error}; check home_offsets and the link lengths"
+            ) from error
+        return float(np.degrees(np.arctan2(np.hypot(*beside), geometry.fulcrum[2])))

@@ -1,0 +1,178 @@
+"""What is known of each device: one YAML file per serial number, with history and undo."""
+
+import re
+from datetime import datetime
+from pathlib import Path
+from typing import Annotated, Any, Final, Literal
+
+import yaml
+from pydantic import Field
+
+from app.core import paths
+from app.core.configuration import Strict, load
+from app.core.errors import ConfigurationError
+from app.core.files import write_atomically
+from app.device.commissioning.errors import RecordError
+from app.device.commissioning.results import (
+    AnyResult,
+    ForceScale,
+    Gauge,
+    Homing,
+    Signs,
+    Step,
+)
+from app.device.links.link import BoardInfo
+from app.device.readiness import Readiness
+
+_SAFE: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
+
+
+class Entry(Strict):
+    """One result of one routine.
+
+    Attributes:
+        date: local time with its offset, ISO 8601.
+        boot: power cycle of the board, `BoardInfo.boot`.
+        result: what was found.
+        undone: whether it was taken back.
+    """
+
+    date: str
+    boot: Annotated[int, Field(ge=0)]
+    result: AnyResult
+    undone: bool = False
+
+
+class DeviceRecord(Strict):
+    """Everything that commissioning found on one device, oldest first; nothing is ever dropped."""
+
+    version: Literal[1] = 1
+    device: str
+    entries: tuple[Entry, ...] = ()
+
+    def newest(self, *steps: Step) -> Entry | None:
+        """Newest entry of any of some routines that was not undone."""
+        for entry in reversed(self.entries):
+            if entry.result.step in steps and not entry.undone:
+                return entry
+        return None
+
+    def added(self, result: AnyResult, boot: int, date: datetime) -> "DeviceRecord":
+        """Return the record with one more result."""
+        entry = Entry(date=date.isoformat(timespec="seconds"), boot=boot, result=result)
+        return self.model_copy(update={"entries": (*self.entries, entry)})
+
+    def undo(self, *steps: Step) -> "DeviceRecord":
+        """Return the record with the newest entry (of some routines, or of any) taken back.
+
+        Raises:
+            RecordError: if there is none.
+        """
+        entry = self.newest(*(steps or tuple(Step)))
+        if entry is None:
+            raise RecordError(f"device {self.device} has no calibration that could be undone")
+        undone = entry.model_copy(update={"undone": True})
+        entries = tuple(undone if one is entry else one for one in self.entries)
+        return self.model_copy(update={"entries": entries})
+
+    def offsets(self, boot: int) -> tuple[float, float]:
+        """Return the encoder offsets of a power cycle (left, right) [rad]; zeros if not homed."""
+        entry = self.newest(Step.HOMING, Step.OFFSETS)
+        if entry is None or entry.boot != boot or not isinstance(entry.result, Homing):
+            return 0.0, 0.0
+        return entry.result.offsets
+
+    def gauge(self) -> tuple[float, float]:
+        """Zero [N] and scale of the gauge; (0, 1) if it was never calibrated."""
+        entry = self.newest(Step.GAUGE)
+        if entry is None or not isinstance(entry.result, Gauge):
+            return 0.0, 1.0
+        return entry.result.zero, entry.result.scale
+
+    def readiness(self) -> Readiness:
+        """Return what the clearance depends on."""
+        homed, signs = self.newest(Step.HOMING, Step.OFFSETS), self.newest(Step.SIGNS)
+        force = self.newest(Step.FORCE)
+        scale = force.result if force is not None else None
+        return Readiness(
+            homed_boot=homed.boot if homed is not None else None,
+            signs_boot=signs.boot if signs is not None else None,
+            directions_known=_directions_known(homed, signs),
+            force_factor=scale.factor if isinstance(scale, ForceScale) else None,
+            force_date=force.date if force is not None else "",
+            profile=scale.profile if isinstance(scale, ForceScale) else "",
+        )
+
+
+def _directions_known(homed: Entry | None, signs: Entry | None) -> bool:
+    """Whether an encoder and a motor that are both reversed would have been seen.
+
+    Either the links were turned by hand, or homing against the stops saw the needle upright.
+    """
+    if signs is not None and isinstance(signs.result, Signs) and signs.result.by_hand:
+        return True
+    return (
+        homed is not None and isinstance(homed.result, Homing) and homed.result.reference == "stops"
+    )
+
+
+def device_key(info: BoardInfo) -> str:
+    """Name of a device's record: its serial number, or its profile's name where it has none.
+
+    Raises:
+        RecordError: if the serial number is no plain name.
+    """
+    key = info.serial or f"unnumbered-{info.profile or 'device'}"
+    if not _SAFE.fullmatch(key):
+        raise RecordError(
+            f"the board calls itself {key!r}; a serial number is up to 64 letters, digits, '.',"
+            " '-' and '_': set another one in its firmware"
+        )
+    return key
+
+
+def records_folder() -> Path:
+    """Folder of the records, in the user's data folder (`ACUS_DATA` overrides)."""
+    return paths.data() / "devices"
+
+
+def load_record(info: BoardInfo, folder: Path | None = None) -> DeviceRecord:
+    """Record of a device; an empty one if there is no file yet.
+
+    Raises:
+        RecordError: if the file is there and cannot be used; it stays as it is.
+    """
+    key = device_key(info)
+    path = (folder or records_folder()) / f"{key}.yaml"
+    if not path.exists():
+        return DeviceRecord(device=key)
+    try:
+        record = load(path, DeviceRecord)
+    except ConfigurationError as error:
+        raise RecordError(
+            f"the calibration record is damaged: {error}; mend it, or move it away and calibrate"
+            " anew (nothing was changed)"
+        ) from error
+    if record.device != key:
+        raise RecordError(
+            f"{path} belongs to device {record.device!r}, not {key!r}; it was copied or renamed"
+        )
+    return record
+
+
+def save_record(record: DeviceRecord, folder: Path | None = None) -> Path:
+    """Write a record, whole or not at all; returns its file.
+
+    Raises:
+        RecordError: if the folder cannot be written.
+    """
+    path = (folder or records_folder()) / f"{record.device}.yaml"
+    document: Any = record.model_dump(mode="json")
+    try:
+        write_atomically(path, yaml.safe_dump(document, sort_keys=False, allow_unicode=True))
+    except OSError as error:
+        raise RecordError(
+            f"cannot write {path}: {error.strerror or error}; set ACUS_DATA to a folder that can"
+            " be written"
+        ) from error
+    return path

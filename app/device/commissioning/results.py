@@ -1,0 +1,180 @@
+"""What the routines find out; kept in the device's record. Frozen, strict, SI."""
+
+from enum import StrEnum
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from app.core.configuration import Strict
+from app.device.readiness import SCALE_TOLERANCE
+
+
+class Step(StrEnum):
+    """Routines of commissioning, in the order in which a new device takes them."""
+
+    HOMING = "homing"
+    OFFSETS = "offsets"
+    SIGNS = "signs"
+    FRICTION = "friction"
+    LATENCY = "latency"
+    FORCE = "force"
+    GAUGE = "gauge"
+
+
+class Side(StrEnum):
+    """The two driven joints, seen from the hand that holds the needle (x to the right)."""
+
+    LEFT = "left"
+    RIGHT = "right"
+
+
+class Homing(Strict):
+    """Offsets [rad] added to the link's joint angles, (left, right).
+
+    Attributes:
+        reference: `stops` (links at the profile's home pose) or `jig` (needle held vertical).
+        change: by how much the routine changed the offsets [rad].
+    """
+
+    step: Literal[Step.HOMING, Step.OFFSETS] = Step.HOMING
+    reference: Literal["stops", "jig"] = "stops"
+    offsets: tuple[float, float]
+    change: tuple[float, float]
+
+    def summary(self) -> str:
+        """One line for people."""
+        left, right = self.offsets
+        return f"encoder offsets left {left:+.5f} rad, right {right:+.5f} rad (by {self.reference})"
+
+
+class Signs(Strict):
+    """Motors and encoders are where they belong and turn the right way.
+
+    Attributes:
+        response: movement [rad] of (left, right) for a pulse on the left, then on the right motor.
+        by_hand: whether the encoders' directions were checked by hand too.
+    """
+
+    step: Literal[Step.SIGNS] = Step.SIGNS
+    response: tuple[tuple[float, float], tuple[float, float]]
+    by_hand: bool
+
+    def summary(self) -> str:
+        """One line for people."""
+        how = "by hand and by pulses" if self.by_hand else "by pulses only"
+        return f"motors and encoders agree, checked {how}"
+
+
+class JointFriction(Strict):
+    """Friction of one joint.
+
+    Attributes:
+        breakaway: torque at which it starts to move, mean of both directions [N·m].
+        breakaway_spread: standard deviation of the single ramps in one direction [N·m].
+        coulomb: speed-independent part of the torque at constant speed [N·m].
+        viscous: slope over speed [N·m·s/rad].
+        residual: root mean square of the fit [N·m].
+    """
+
+    breakaway: float
+    breakaway_spread: Annotated[float, Field(ge=0.0)]
+    coulomb: float
+    viscous: float
+    residual: Annotated[float, Field(ge=0.0)]
+
+
+class Friction(Strict):
+    """Friction of both joints."""
+
+    step: Literal[Step.FRICTION] = Step.FRICTION
+    left: JointFriction
+    right: JointFriction
+
+    def summary(self) -> str:
+        """One line for people."""
+        return "; ".join(
+            f"{side}: breakaway {1e3 * one.breakaway:.1f} ± {1e3 * one.breakaway_spread:.1f} mN·m,"
+            f" Coulomb {1e3 * one.coulomb:.1f} mN·m, viscous {1e3 * one.viscous:.2f} mN·m·s/rad"
+            for side, one in (("left", self.left), ("right", self.right))
+        )
+
+
+class Latency(Strict):
+    """Delays [s].
+
+    Attributes:
+        round_trip: command to answer: median, 99 %, largest; zeros without a wire.
+        lost: share of commands that were never answered.
+        dead_time: torque step to the onset of motion, median; what encoder resolution and
+            inertia add is taken out by a fit.
+        dead_time_spread: standard deviation of the single steps.
+    """
+
+    step: Literal[Step.LATENCY] = Step.LATENCY
+    round_trip: tuple[float, float, float]
+    lost: float
+    dead_time: float
+    dead_time_spread: float
+
+    def summary(self) -> str:
+        """One line for people."""
+        median, high, largest = (1e3 * value for value in self.round_trip)
+        return (
+            f"round trip {median:.2f} ms (99 %: {high:.2f}, largest {largest:.2f}),"
+            f" lost {100 * self.lost:.2f} %, torque to motion {1e3 * self.dead_time:.1f}"
+            f" ± {1e3 * self.dead_time_spread:.1f} ms"
+        )
+
+
+class ForceScale(Strict):
+    """Measured force over commanded force.
+
+    Attributes:
+        commanded: forces at the hub [N].
+        readings_g: what the scale showed [g].
+        factor: slope through zero by least squares.
+        residual: root mean square of what the slope leaves [N].
+        profile: name of the profile in use.
+    """
+
+    step: Literal[Step.FORCE] = Step.FORCE
+    commanded: tuple[float, ...]
+    readings_g: tuple[float, ...]
+    factor: float
+    residual: Annotated[float, Field(ge=0.0)]
+    profile: str
+
+    @property
+    def verified(self) -> bool:
+        """Whether the factor is close enough to 1 to lift the cap."""
+        return abs(self.factor - 1.0) <= SCALE_TOLERANCE
+
+    def summary(self) -> str:
+        """One line for people."""
+        verdict = "verified" if self.verified else "not verified"
+        return f"force scale {self.factor:.3f}, residual {self.residual:.3f} N: {verdict}"
+
+
+class Gauge(Strict):
+    """The board's force gauge, by weights: true force = (reading - zero) times scale.
+
+    Attributes:
+        zero: reading without a weight [N].
+        scale: factor on what is above it.
+        residual: root mean square of the fit [N], of true force.
+        weights_g: the weights [g].
+    """
+
+    step: Literal[Step.GAUGE] = Step.GAUGE
+    zero: float
+    scale: float
+    residual: Annotated[float, Field(ge=0.0)]
+    weights_g: tuple[float, ...]
+
+    def summary(self) -> str:
+        """One line for people."""
+        return f"gauge zero {self.zero:+.3f} N, scale {self.scale:.4f}, ± {self.residual:.3f} N"
+
+
+AnyResult = Homing | Signs | Friction | Latency | ForceScale | Gauge
+"""Any of them; `step` says which in a file."""

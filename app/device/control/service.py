@@ -1,0 +1,78 @@
+"""Service: the small test forces and torques of the commissioning routines."""
+
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any, Final
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.compiled import njit, stage
+from app.device.control.vectors import shrink_kernel
+
+LARGEST_FORCE: Final = 1.0
+"""Largest test force at the hub [N]: what an unverified robot may give."""
+
+LARGEST_TORQUE: Final = 0.03
+"""Largest test torque of a joint [N·m]: about 0.3 N at the hand."""
+
+_FORCE, _TORQUE, _RATE, _X, _Y, _Z, _SIZE = range(7)
+
+
+@njit
+def _bounded(value: float, limit: float) -> float:
+    return min(max(value, -limit), limit) if isfinite(value) else 0.0
+
+
+@njit
+def _follow(state: FloatArray, p: FloatArray, x: float, y: float, z: float) -> None:
+    """Move the force towards (x, y, z) at a limited rate; towards zero at once."""
+    if x == 0.0 and y == 0.0 and z == 0.0:
+        p[_X], p[_Y], p[_Z] = 0.0, 0.0, 0.0
+        return
+    step = p[_RATE] * max(state[sv.DT], 0.0)
+    dx, dy, dz = x - p[_X], y - p[_Y], z - p[_Z]
+    scale = shrink_kernel(dx, dy, dz, step)
+    p[_X] += scale * dx
+    p[_Y] += scale * dy
+    p[_Z] += scale * dz
+
+
+@stage
+def service_stage(state: FloatArray, p: FloatArray) -> None:
+    """Add TEST_X, TEST_Y, TEST_Z to FORCE_* and TEST_LEFT, TEST_RIGHT to JOINT_*, all bounded."""
+    if not state[sv.ENABLED] > 0.5:
+        p[_X], p[_Y], p[_Z] = 0.0, 0.0, 0.0
+        return
+    x, y, z = state[sv.TEST_X], state[sv.TEST_Y], state[sv.TEST_Z]
+    if not (isfinite(x) and isfinite(y) and isfinite(z)):
+        x, y, z = 0.0, 0.0, 0.0
+    scale = shrink_kernel(x, y, z, p[_FORCE])
+    _follow(state, p, scale * x, scale * y, scale * z)
+    state[sv.FORCE_X] += p[_X]
+    state[sv.FORCE_Y] += p[_Y]
+    state[sv.FORCE_Z] += p[_Z]
+    state[sv.JOINT_LEFT] += _bounded(state[sv.TEST_LEFT], p[_TORQUE])
+    state[sv.JOINT_RIGHT] += _bounded(state[sv.TEST_RIGHT], p[_TORQUE])
+
+
+@dataclass(frozen=True, slots=True)
+class Service:
+    """Bounds of the commissioning routines.
+
+    Attributes:
+        force: largest test force [N].
+        torque: largest test torque of a joint [N·m].
+        rate: how fast the force comes up [N/s]; it goes to zero at once.
+    """
+
+    force: float = LARGEST_FORCE
+    torque: float = LARGEST_TORQUE
+    rate: float = 2.0
+
+    def stage(self) -> tuple[str, Any, FloatArray]:
+        """Return the stage for a loop's table, with memory of its own."""
+        parameters = np.zeros(_SIZE)
+        parameters[:_X] = self.force, self.torque, self.rate
+        return "service", service_stage, parameters

@@ -1,0 +1,112 @@
+"""How much force a device is cleared for, and why it is not more."""
+
+from dataclasses import dataclass
+from typing import Final
+
+from app.device.links.link import BoardInfo
+from app.mechanisms.profile import DeviceProfile
+
+UNVERIFIED_FORCE: Final = 1.0
+"""Largest force at the hand [N] before a kitchen scale has confirmed the force scale."""
+
+SCALE_TOLERANCE: Final = 0.10
+"""A force scale within this of 1 counts as verified."""
+
+
+@dataclass(frozen=True, slots=True)
+class Clearance:
+    """What goes into the loop's inputs of the same names.
+
+    Attributes:
+        homed: 1 once homed and signs checked in this power cycle, else 0.
+        force_cap: largest force at the hand [N].
+        reason: why it is less than full, and what to do; empty for full clearance.
+    """
+
+    homed: float
+    force_cap: float
+    reason: str = ""
+
+    @property
+    def full(self) -> bool:
+        """Whether nothing is held back."""
+        return not self.reason
+
+    def inputs(self) -> dict[str, float]:
+        """Return the loop's inputs by name, for `loop.inbox.write(**...)`."""
+        return {"homed": self.homed, "force_cap": self.force_cap}
+
+
+@dataclass(frozen=True, slots=True)
+class Readiness:
+    """What has been commissioned on one device.
+
+    Attributes:
+        homed_boot: power cycle (`BoardInfo.boot`) in which it was homed last; None for never.
+        signs_boot: power cycle of the last passed sign check; None for never.
+        directions_known: whether the directions of the encoders were seen, not only that motors
+            and encoders agree.
+        force_factor: measured force over wanted force; None if never measured.
+        force_date: when that was measured, ISO 8601.
+        profile: name of the profile of that measurement.
+    """
+
+    homed_boot: int | None = None
+    signs_boot: int | None = None
+    directions_known: bool = False
+    force_factor: float | None = None
+    force_date: str = ""
+    profile: str = ""
+
+    def clearance(self, info: BoardInfo, profile: DeviceProfile) -> Clearance:
+        """Clearance of the device behind `info` now, driven with `profile`.
+
+        A board that does not number its power cycles (`boot` 0) is never taken as homed by its
+        record: it may have been switched off in between.
+        """
+        full = profile.limits.hand_force
+        if info.simulated:
+            return Clearance(1.0, full)
+        for done, lacks in ((self.homed_boot, "homed"), (self.signs_boot, "checked for its signs")):
+            if done is None or done != info.boot or info.boot == 0:
+                return Clearance(0.0, 0.0, _power_cycle(lacks, info.boot))
+        if not self.directions_known:
+            return Clearance(
+                0.0,
+                0.0,
+                "no force: the encoders' directions were not seen; home against the stops"
+                " (`--step homing`), or check the signs by hand (`--step signs` without --yes)",
+            )
+        if lack := self._scale_lacks(profile):
+            cap = min(UNVERIFIED_FORCE, full)
+            return Clearance(
+                1.0,
+                cap,
+                f"forces are held to {cap:g} N: {lack}; put a kitchen scale under the hub and run"
+                " `acus device calibrate PORT --step force`",
+            )
+        return Clearance(1.0, full)
+
+    def _scale_lacks(self, profile: DeviceProfile) -> str:
+        if self.force_factor is None:
+            return "the force scale of this device was never measured"
+        if self.profile != profile.name:
+            return f"its force scale was measured with profile {self.profile}, not {profile.name}"
+        if abs(self.force_factor - 1.0) <= SCALE_TOLERANCE:
+            return ""
+        return (
+            f"its force scale was {self.force_factor:.2f} on {self.force_date},"
+            f" outside 1 ± {SCALE_TOLERANCE:g}"
+        )
+
+
+def _power_cycle(lacks: str, boot: int) -> str:
+    if boot == 0:
+        return (
+            f"no force: the board does not number its power cycles, so it counts as not {lacks};"
+            " run `acus device calibrate PORT` after switching it on"
+        )
+    return (
+        f"no force: the robot was not {lacks} since it was switched on; run"
+        " `acus device calibrate PORT --step homing`, then `--step signs`"
+    )

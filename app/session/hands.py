@@ -1,0 +1,29 @@
+"""What held the needle in an attempt; it stands in every record."""
+
+from collections.abc import Mapping
+from typing import Final
+
+from app.session.errors import SessionError
+
+TRAINEE: Final = "trainee"
+"""Name of the metadata record; its key `hand` holds one of `HANDS`."""
+
+HANDS: Final = ("mouse", "keyboard", "tablet", "gamepad", "robot", "script")
+"""Sources of the hand: `robot` is a real hand at a real robot, `script` the scripted trainee."""
+
+
+def hand_of(trainee: Mapping[str, str], asked: str = "") -> str:
+    """Return the hand of an attempt.
+
+    A scripted trainee is `script` whatever is asked for; without a word it is what the run was
+    built for, or the mouse.
+
+    Raises:
+        SessionError: for another name; gives the valid ones.
+    """
+    if trainee.get("scripted"):
+        return "script"
+    hand = asked or trainee.get("hand") or "mouse"
+    if hand not in HANDS:
+        raise SessionError(f"hand {hand!r} is not known; valid names: {', '.join(HANDS)}")
+    return hand

@@ -1,0 +1,1 @@
+"""Parts of the study `stability`: a reduction to one degree of freedom, and the whole device."""
