@@ -8,15 +8,17 @@ from typing import TYPE_CHECKING, Final
 from app.core import paths
 from app.core.loading import ONE_AT_A_TIME, load_modules
 from app.core.progress import Progress
-from app.device.errors import LoopError
+from app.device.errors import LinkError, LoopError
 from app.exercises.library import library
 from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
 
 if TYPE_CHECKING:
     from app.compose.trainer import Rig
+    from app.device.commissioning.bench import Bench
+    from app.mechanisms.profile import DeviceProfile
     from app.views.exercise.run import ExerciseRun
-    from app.views.services import RunSetup
+    from app.views.services import RobotPort, RunSetup
 
 HEAVY_MODULES: Final = (
     "app.imaging.reading",
@@ -65,15 +67,35 @@ class Desktop:
         """Load what an exercise needs; called beside the window as soon as it is painted."""
         load_modules(HEAVY_MODULES, progress)
 
+    def robots(self) -> tuple[RobotPort, ...]:
+        """Ports at which a robot may be plugged in now."""
+        from app.compose.robots import robot_ports
+
+        return robot_ports()
+
+    def open_robot(self, port: str, profile: DeviceProfile, progress: Progress) -> Bench:
+        """Open a robot for commissioning; called beside the window, may take seconds."""
+        from app.compose.robots import open_bench
+
+        return open_bench(port, profile, progress)
+
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""
+        if setup.robot.port:
+            raise LinkError(
+                f"attempts on the robot at {setup.robot.port} are not possible yet: commission it"
+                " (menu Robot), and choose the simulated robot (Robot, Use) for attempts"
+            )
         with ONE_AT_A_TIME:  # kernels and OpenCV: behind the window, not before it
             from app.compose.trainer import TrainerSetup, build_rig
         progress.report(0.1, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed
         rig = build_rig(
-            TrainerSetup(setup.exercise, setup.placed, setup.ct, self._skill, seed, self._sessions)
-        )
+            TrainerSetup(
+                setup.exercise, setup.placed, setup.ct, self._skill, seed, self._sessions,
+                held_arming=setup.robot.held_arming and self._skill is None,
+            )
+        )  # fmt: skip
         try:
             rig.trainer.open()
             _wait_until_alive(rig, progress)

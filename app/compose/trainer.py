@@ -55,6 +55,7 @@ class TrainerSetup:
         seed: of everything random in the run.
         sessions: folder of the records.
         clock: monotonic clock; a virtual one for runs faster than real time.
+        held_arming: whether the forces are on only while a key or pedal is held.
     """
 
     exercise: Exercise
@@ -64,6 +65,7 @@ class TrainerSetup:
     seed: int = 0
     sessions: Path = field(default_factory=paths.sessions)
     clock: Clock = field(default_factory=SystemClock)
+    held_arming: bool = False
 
 
 def build_trainer(setup: TrainerSetup) -> Trainer:
@@ -116,7 +118,10 @@ def build_rig(setup: TrainerSetup) -> Rig:
         on_fix=lambda fix: trainer.on_fix(fix),
     )
     context = _context(setup, profile, cameras)
-    trainer = Trainer(loop, tracker, setup.placed, setup.exercise, context, setup.clock)
+    trainer = Trainer(
+        loop, tracker, setup.placed, setup.exercise, context, setup.clock,
+        held_arming=setup.held_arming,
+    )  # fmt: skip
     trainer.assistance(setup.exercise.assistance)
     return Rig(setup, profile, loop, tracker, trainer)
 

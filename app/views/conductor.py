@@ -2,38 +2,32 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Signal
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
-from app.core.loading import ONE_AT_A_TIME
-from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.exercises.scene import device_of, plan_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.session.machine import RUNNING
 from app.session.snapshot import Snapshot
-from app.views.background import Indicator, Task, run_in_background
+from app.views.background import Indicator
 from app.views.exercise.controller import ExerciseController
 from app.views.exercise.run import ExerciseRun
 from app.views.needle_overlay import NeedleOverlay
 from app.views.patient import Patient
 from app.views.plan.editor import PlanEditor
 from app.views.runs import Runs
+from app.views.scene.extraction import SurfaceExtraction
 from app.views.scene.robot import RobotShape
-from app.views.services import RunSetup
+from app.views.services import RobotChoice, RunSetup
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool
 from app.views.text import tr
 from app.views.workspace import Workspace
-
-if TYPE_CHECKING:
-    from app.views.scene.surfaces import Surfaces
 
 SCENE_DEAD_BAND_MM = 0.25
 """The 3D picture is made anew when the needle moved more than this."""
@@ -66,8 +60,9 @@ class Conductor(QObject):
         self.controller = ExerciseController(workspace.exercise_views, parent=self)
         self.patient: Patient | None = None
         self.exercise: Exercise | None = None
+        self._robot, self._released = RobotChoice(), False
         self._profile: DeviceProfile | None = None
-        self._surfaces_task: Task | None = None
+        self._surfaces = SurfaceExtraction(workspace.scene, self)
         self._drawn: NDArray[np.float64] | None = None
         self._connect()
 
@@ -81,12 +76,18 @@ class Conductor(QObject):
         self._runs.moved.connect(self._moved)
         self._runs.gone.connect(self._detach)
         self._runs.failed.connect(self.failed)
+        self._surfaces.failed.connect(self.failed)
         self.controller.snapshot_taken.connect(self.show_snapshot)
+
+    @property
+    def profile(self) -> DeviceProfile | None:
+        """Device of the exercise; None before there is one."""
+        return self._profile
 
     @property
     def settled(self) -> bool:
         """Whether everything stands: surfaces extracted, robot and cameras on."""
-        return self._surfaces_task is None and self.controller.run is not None
+        return not self._surfaces.is_running and self.controller.run is not None
 
     # --- patient and exercise -----------------------------------------------------------------
     def set_patient(self, patient: Patient) -> None:
@@ -96,7 +97,7 @@ class Conductor(QObject):
         self._workspace.viewing.set_needle(None)
         self._workspace.viewing.set_volume(patient.volume)
         self._workspace.scene.set_volume(patient.volume)
-        self._extract(patient)
+        self._surfaces.start(patient)
         self._editor.set_body(patient.body)
         self._start_plan(patient)
         self.patient_changed.emit()
@@ -113,6 +114,22 @@ class Conductor(QObject):
         self._workspace.exercise_panel.set_assistance(exercise.assistance)
         if self.patient is not None and self.fits(self.patient):
             self._start_plan(self.patient)
+
+    def set_robot(self, choice: RobotChoice) -> None:
+        """Take another robot, from now on; a run on the present one ends."""
+        if choice != self._robot:
+            self._robot = choice
+            self._show_plan()
+
+    def let_go(self) -> None:
+        """End the run, so that somebody else can have the robot; the plan stays."""
+        self._released = True
+        self._runs.want(None)
+
+    def take_again(self) -> None:
+        """Have a run again after `let_go`."""
+        self._released = False
+        self._show_plan()
 
     def fits(self, patient: Patient) -> bool:
         """Whether the exercise is made for this patient."""
@@ -134,32 +151,6 @@ class Conductor(QObject):
         if plan is not None:
             self._workspace.viewing.set_cursor(plan.target_mm)
 
-    def _extract(self, patient: Patient) -> None:
-        if self._surfaces_task is not None:
-            self._surfaces_task.close(timeout=0.0)
-        scene = self._workspace.scene
-
-        def done(surfaces: Surfaces | None) -> None:
-            self._surfaces_task = None
-            scene.set_note("")
-            if surfaces is not None:
-                scene.set_surfaces(surfaces)
-
-        def failed(error: Exception) -> None:
-            done(None)
-            self.failed.emit(error)
-
-        self._surfaces_task = run_in_background(
-            self,
-            lambda progress: _surfaces(patient, progress),
-            done,
-            failed,
-            lambda: done(None),
-        )
-        self._surfaces_task.progressed.connect(
-            lambda share, _: scene.set_note(tr("Surfaces {percent:.0f} %", percent=100 * share))
-        )
-
     # --- plan ---------------------------------------------------------------------------------
     def _show_plan(self) -> None:
         editor, workspace = self._editor, self._workspace
@@ -168,10 +159,12 @@ class Conductor(QObject):
         placed = editor.verdict.placed
         note = "" if placed is not None else tr("Finish a plan that the robot can follow first.")
         workspace.exercise_panel.set_ready(placed is not None and self._runs.run is not None, note)
-        if editor.locked or placed is None or self.exercise is None or self.patient is None:
+        if editor.locked or self._released or placed is None:
             return  # a run that is open stays with its plan until there is a better one
+        if self.exercise is None or self.patient is None:
+            return
         pseudonym = self.patient.volume.series.pseudonym
-        self._runs.want(RunSetup(self.exercise, placed, pseudonym))
+        self._runs.want(RunSetup(self.exercise, placed, pseudonym, self._robot))
 
     def _click_in_scene(self, point: FloatArray, direction: FloatArray) -> None:
         """Take a click on the skin in 3D as the entry, if one is being placed."""
@@ -234,14 +227,6 @@ class Conductor(QObject):
     def close(self) -> None:
         """Let go of everything that runs; idempotent."""
         self.controller.detach()
-        if self._surfaces_task is not None:
-            self._surfaces_task.close()
-            self._surfaces_task = None
+        self._surfaces.close()
         self._runs.close()
         self._workspace.scene.close_renderer()
-
-
-def _surfaces(patient: Patient, progress: Progress) -> Surfaces:
-    with ONE_AT_A_TIME:  # VTK and scipy: behind the window, not before it
-        from app.views.scene.surfaces import extract_surfaces
-    return extract_surfaces(patient.volume, patient.body, progress)

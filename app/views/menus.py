@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu
 
+from app.views.robot.menu import RobotMenu
 from app.views.slices.presets import menu_windows
 from app.views.slices.viewing import Tool
 from app.views.text import tr
@@ -27,6 +28,7 @@ class Menus:
         self.recent_cts, self.recent_plans = self._file()
         self.undo, self.redo = self._edit()
         self.follow, self.bullseye = self._view()
+        self.robot = RobotMenu(self._menu(tr("&Robot")), window.robot, self._show_health)
         self._sessions()
         self._help()
 
@@ -122,6 +124,10 @@ class Menus:
         for name, key, window in menu_windows(viewing.volume):
             action = menu.addAction(f"{name}  {window.width:g} / {window.level:g}\t{key}")
             action.triggered.connect(lambda _=False, w=window: viewing.set_window(w))
+
+    def _show_health(self) -> None:
+        self._window.show_workspace()
+        self._window.workspace.show_health()
 
     def _sessions(self) -> None:
         window = self._window

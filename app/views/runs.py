@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 
 from PySide6.QtCore import QObject, Signal
 
 from app.core.errors import AcusError
-from app.exercises.schema import Exercise
+from app.core.progress import Progress
 from app.planning.placement import PlacedPlan
 from app.views.background import Indicator, Task, run_in_background
 from app.views.exercise.run import ExerciseRun
@@ -16,7 +17,7 @@ from app.views.text import tr
 
 
 class Runs(QObject):
-    """At most one open run; asked for another plan it moves, asked for another exercise it changes.
+    """At most one open run; another plan moves it, another exercise or robot changes it.
 
     Signals:
         ready(ExerciseRun): a trainer runs with this plan.
@@ -34,10 +35,11 @@ class Runs(QObject):
         super().__init__(parent)
         self._services, self._indicator = services, indicator
         self._open: OpenRun | None = None
-        self._exercise: Exercise | None = None
+        self._setup: RunSetup | None = None
         self._task: Task | None = None
         self._preparation: Task | None = None
         self._wanted: RunSetup | None = None
+        self._closing: threading.Thread | None = None
 
     @property
     def run(self) -> ExerciseRun | None:
@@ -63,11 +65,17 @@ class Runs(QObject):
             return  # `_built` looks again
         if setup is None:
             self._drop()
-        elif self._open is not None and setup.exercise == self._exercise:
+        elif self._open is not None and self._setup is not None and setup.same_run(self._setup):
             self._move(setup.placed)
         else:
-            self._drop()
-            self._build(setup)
+            self._drop()  # whoever hears of it may have asked anew, and been heard
+            if self._task is None and self._wanted is setup:
+                self._build(setup)
+
+    def closed(self) -> Callable[[], None]:
+        """Return what waits until the last run has let go of its robot; for other threads."""
+        closing = self._closing
+        return closing.join if closing is not None else lambda: None
 
     def close(self) -> None:
         """End the run and wait for it; for the end of the window; idempotent."""
@@ -83,10 +91,16 @@ class Runs(QObject):
             opened.close()
 
     def _build(self, setup: RunSetup) -> None:
-        self._exercise = setup.exercise
+        self._setup = setup
+        closed, services = self.closed(), self._services
+
+        def operation(progress: Progress) -> OpenRun:
+            closed()  # two runs must not want one robot
+            return services.open_run(setup, progress)
+
         self._task = run_in_background(
             self,
-            lambda progress: self._services.open_run(setup, progress),
+            operation,
             lambda opened: self._built(setup, opened),
             self._not_built,
             lambda: self._not_built(None),
@@ -96,14 +110,14 @@ class Runs(QObject):
 
     def _built(self, setup: RunSetup, opened: OpenRun) -> None:
         self._task, self._open = None, opened
-        if self._wanted is None or self._wanted.exercise != setup.exercise:
+        if self._wanted is None or not self._wanted.same_run(setup):
             self.want(self._wanted)
             return
         self.ready.emit(opened.run)
         self._move(self._wanted.placed)
 
     def _not_built(self, error: Exception | None) -> None:
-        self._task, self._exercise = None, None
+        self._task, self._setup = None, None
         if error is not None:
             self.failed.emit(error)
 
@@ -119,7 +133,10 @@ class Runs(QObject):
         opened, self._open = self._open, None
         if opened is not None:
             self.gone.emit()
-            threading.Thread(target=opened.close, name="acus-run-close", daemon=True).start()
+            self._closing = threading.Thread(
+                target=opened.close, name="acus-run-close", daemon=True
+            )
+            self._closing.start()
 
 
 def _same(placed: PlacedPlan, other: PlacedPlan) -> bool:

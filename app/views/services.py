@@ -8,8 +8,37 @@ from typing import Protocol
 
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
+from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.views.exercise.run import ExerciseRun
+from app.views.robot.bench import BenchPort
+
+
+@dataclass(frozen=True, slots=True)
+class RobotChoice:
+    """Which robot a run is on.
+
+    Attributes:
+        port: where it is plugged in; empty for the simulated one.
+        held_arming: whether the simulated robot too gives force only while a key is held; a real
+            one always does.
+    """
+
+    port: str = ""
+    held_arming: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class RobotPort:
+    """A port at which there may be a robot.
+
+    Attributes:
+        port: its name, as the system calls it.
+        title: what is known of it, for people.
+    """
+
+    port: str
+    title: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -20,11 +49,17 @@ class RunSetup:
         exercise: effects, device, cameras, tolerances.
         placed: the plan in the robot's frame.
         ct: pseudonym of the CT, for the record.
+        robot: which robot.
     """
 
     exercise: Exercise
     placed: PlacedPlan
     ct: str = ""
+    robot: RobotChoice = RobotChoice()
+
+    def same_run(self, other: RunSetup) -> bool:
+        """Whether a run of the other setup only has to take this plan."""
+        return self.exercise == other.exercise and self.robot == other.robot
 
 
 class OpenRun(Protocol):
@@ -64,6 +99,24 @@ class Services(Protocol):
 
         Raises:
             ImportError: if a part of the program cannot be loaded; says which.
+            Cancelled: if `progress` was cancelled.
+        """
+        ...
+
+    def robots(self) -> tuple[RobotPort, ...]:
+        """Ports at which a robot may be plugged in now; quick, opens none."""
+        ...
+
+    def open_robot(self, port: str, profile: DeviceProfile, progress: Progress) -> BenchPort:
+        """Open a robot for commissioning; called beside the window, may take seconds.
+
+        Args:
+            port: where it is plugged in.
+            profile: of the device that it should be.
+            progress: told what is being done.
+
+        Raises:
+            AcusError: if nobody answers, somebody else does, or another program has it.
             Cancelled: if `progress` was cancelled.
         """
         ...

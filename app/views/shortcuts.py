@@ -72,6 +72,7 @@ def groups() -> list[Group]:
                 ("S", tr("control scan")),
                 (tr("Enter"), tr("end the attempt")),
                 (tr("Hold Esc"), tr("abort: force to zero at once")),
+                (tr("Hold H, or a pedal"), tr("forces on, where they are armed by holding")),
                 (tr("Drag in the bull's-eye"), tr("tilt the needle")),
                 (tr("Wheel, Page keys in the bull's-eye"), tr("depth 1 mm, with Shift 0.2 mm")),
             ],

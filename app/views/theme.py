@@ -94,7 +94,7 @@ def style_sheet() -> str:
     template = (paths.resources() / "theme" / "dark.qss").read_text(encoding="utf-8")
     return Template(template).substitute(
         background=BACKGROUND, surface=SURFACE, raised=RAISED, border=BORDER, text=TEXT,
-        dim=TEXT_DIM, accent=ACCENT, font=FONT_PX, small=SMALL_PX, title=TITLE_PX,
+        dim=TEXT_DIM, accent=ACCENT, bad=BAD, font=FONT_PX, small=SMALL_PX, title=TITLE_PX,
         inner=CONTROL_HEIGHT - 12,
     )  # fmt: skip
 

@@ -25,6 +25,7 @@ from app.views.patient import Patient
 from app.views.plan.editor import PlanEditor
 from app.views.plan.files import PlanFiles
 from app.views.progress_strip import ProgressStrip
+from app.views.robot.desk import RobotDesk
 from app.views.runs import Runs
 from app.views.services import Services
 from app.views.settings import Recents, open_settings
@@ -53,6 +54,8 @@ class MainWindow(QMainWindow):
         self.workspace = Workspace(self.editor, self)
         self.runs = Runs(services, self.progress, self)
         self.conductor = Conductor(self.workspace, self.editor, self.runs, self.progress, self)
+        self.robot = RobotDesk(services, self.settings, self.conductor, self.runs, self.workspace,
+                               self.progress, self)  # fmt: skip
         self.plan_files = PlanFiles(self.editor, self.recent_plans, self)
         self.open_ct = OpenCt(self.recent_cts, self.progress, self)
         self.start_page, self.debrief_page = StartPage(self), DebriefPage(self)
@@ -193,7 +196,8 @@ class MainWindow(QMainWindow):
     def _connect(self) -> None:
         bar, conductor = self.message_bar, self.conductor
         for failure in (self.open_ct.failed, conductor.failed, self.plan_files.failed,
-                        self.debrief.failed, conductor.controller.failed):  # fmt: skip
+                        self.debrief.failed, conductor.controller.failed,
+                        self.robot.failed):  # fmt: skip
             failure.connect(bar.show_error)
         self.plan_files.noted.connect(bar.show_note)
         self.debrief.saved.connect(lambda path: bar.show_note(tr("Saved {name}", name=path)))
@@ -277,5 +281,6 @@ class MainWindow(QMainWindow):
             event.ignore()
             return
         self.open_ct.close()
+        self.robot.close()
         self.conductor.close()
         event.accept()

@@ -23,6 +23,7 @@ from app.views.exercise.tracker_panel import TrackerPanel
 from app.views.grid import FIVE, FOUR, ViewGrid
 from app.views.plan.editor import PlanEditor
 from app.views.plan.panel import PlanPanel
+from app.views.robot.health_panel import HealthPanel
 from app.views.scene.renderer import SceneRenderer
 from app.views.scene.view import SceneView
 from app.views.shortcuts import disclaimer_label
@@ -51,6 +52,7 @@ class Workspace(QWidget):
         self.plan_panel = PlanPanel(editor, self.viewing, self)
         self.exercise_panel = ExercisePanel(self)
         self.tracker_panel = TrackerPanel(self)
+        self.health_panel = HealthPanel(self)
         self.messages = MessageList(self)
         self.status = StatusStrip(self)
         self.side = self._side()
@@ -76,6 +78,10 @@ class Workspace(QWidget):
         """Bring the camera pictures to the front."""
         self.side.setCurrentIndex(2)
 
+    def show_health(self) -> None:
+        """Bring the robot's health to the front."""
+        self.side.setCurrentIndex(3)
+
     def show_plan(self) -> None:
         """Bring the plan panel to the front."""
         self.side.setCurrentIndex(0)
@@ -91,6 +97,7 @@ class Workspace(QWidget):
         tabs.addTab(_scrolled(self.plan_panel), tr("Plan"))
         tabs.addTab(_scrolled(self.exercise_panel), tr("Exercise"))
         tabs.addTab(cameras, tr("Cameras"))
+        tabs.addTab(self.health_panel, tr("Robot"))
         tabs.tabBar().setExpanding(True)
         return tabs
 

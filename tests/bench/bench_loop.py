@@ -19,7 +19,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.device.control import Loop, Priority, VirtualFixture, pantograph_stages
-from app.device.links import simulated_link
+from app.device.links.simulated import simulated_link
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
 

@@ -10,7 +10,8 @@ from app.core.clock import VirtualClock
 from app.core.compiled import stage
 from app.device.commissioning.bench import Bench
 from app.device.commissioning.results import Step
-from app.device.links import BoardInfo, DeviceLink, Link, SimulatedEncoders
+from app.device.links import BoardInfo, DeviceLink, Link
+from app.device.links.simulated import SimulatedEncoders
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
 from app.simulation.plant import initial_plant, plant_stage

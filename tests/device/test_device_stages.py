@@ -5,7 +5,7 @@ import pytest
 
 from app.core import state_vector as sv
 from app.device.control.kinematics import HELD, MODEL, TRACKED, Kinematics
-from app.device.links import SimulatedEncoders
+from app.device.links.simulated import SimulatedEncoders
 from app.mechanisms.pantograph import forward, inverse, jacobian, lever_map, needle_at
 from app.mechanisms.profile import load_profile
 

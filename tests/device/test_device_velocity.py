@@ -18,7 +18,7 @@ from app.device.control.velocity import (
     velocity_stage,
 )
 from app.device.control.velocity.foaw import _READINGS, _RING, _TIMES, end_fit
-from app.device.links import simulated_link
+from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile
 
 PROFILE = load_profile("icube")

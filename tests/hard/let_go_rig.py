@@ -7,7 +7,8 @@ from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
 from app.device.control import Loop, laws, pantograph_stages
-from app.device.links import Link, simulated_link
+from app.device.links import Link
+from app.device.links.simulated import simulated_link
 from app.mechanisms.pantograph.kernels import (
     axis_kernel,
     forward_kernel,

@@ -7,6 +7,7 @@ import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtWidgets import QLabel, QMessageBox, QWidget
+from views_robot_fakes import FakeBench
 
 from app.core.disclaimer import DISCLAIMER
 from app.core.errors import AcusError
@@ -26,7 +27,9 @@ from app.views.exercise.run import ExerciseRun
 from app.views.grid import FIVE
 from app.views.needle_overlay import NeedleOverlay
 from app.views.patient import Patient
+from app.views.robot.wizard_pages import ConnectionPage
 from app.views.series_dialog import SeriesDialog
+from app.views.services import RobotPort
 from app.views.shortcuts import ShortcutSheet
 from app.views.slices.viewing import Tool
 from app.views.window import MainWindow
@@ -43,14 +46,15 @@ class FakeTrainer:
         pose = NeedlePose(tip, axis, 0.01, 1.0, 0.0, 0.0, DepthSource.TRACKED, True,
                           1e-9 * np.eye(3))  # fmt: skip
         device = SimpleNamespace(tick=9, q=np.array([3.0, 0.1]), hub=tip - 0.2 * axis,
-                                 felt=np.zeros(3), fault=0, row=empty_state())  # fmt: skip
+                                 felt=np.zeros(3), fault=0, row=empty_state(),
+                                 qd=np.zeros(2), torque=np.zeros(2))  # fmt: skip
         timing = SimpleNamespace(median=8e-5, p99=2e-4, missed=0, ticks=9)
         offset = Offset(*[0.0] * len(Offset.__dataclass_fields__))
         return Snapshot(1.0, self.state, "", 0.0, MappingProxyType({}), pose, offset,
                         placed.p_target, device, timing, None, "valid", 0, 1.0, False, None,
                         ())  # fmt: skip
 
-    def begin(self, student=""):
+    def begin(self, student="", hand=""):
         self.state = State.ALIGNING
         return "session-1"
 
@@ -63,10 +67,11 @@ class FakeTrainer:
 
 class FakeOpen:
     def __init__(self, setup):
-        self.closed = threading.Event()
+        self.closed, self.setup = threading.Event(), setup
         self.run = ExerciseRun(
-            FakeTrainer(setup.placed), setup.placed, device_of(setup.exercise), interactive=True
-        )
+            FakeTrainer(setup.placed), setup.placed, device_of(setup.exercise), interactive=True,
+            held_arming=setup.robot.held_arming, port=setup.robot.port,
+        )  # fmt: skip
 
     def place(self, placed):
         self.run.trainer.placed = placed
@@ -81,6 +86,16 @@ class FakeServices:
     def __init__(self, folder):
         self.folder, self.opened, self.refuses = folder, [], ""
         self.prepared, self.missing = threading.Event(), ""
+        self.ports, self.benches = (RobotPort("/dev/ttyACM0", "icube A17 on /dev/ttyACM0"),), []
+
+    def robots(self):
+        return self.ports
+
+    def open_robot(self, port, profile, progress):
+        if self.refuses:
+            raise AcusError(self.refuses)
+        self.benches.append(FakeBench())
+        return self.benches[-1]
 
     def exercises(self):
         return tuple(library().exercises)
@@ -136,7 +151,7 @@ def test_a_patient_comes_up_in_all_panes(window, patient, settle):
     assert window.pages.currentWidget() is window.workspace
     assert all(pane.canvas.plane is not None for pane in window.workspace.panes)
     assert "CT-TEST" in window.windowTitle()
-    assert settle(lambda: window.conductor._surfaces_task is None, 20.0)
+    assert settle(lambda: not window.conductor._surfaces.is_running, 20.0)
 
 
 def test_a_finished_plan_starts_robot_and_needle(window, patient, services, settle):
@@ -329,3 +344,113 @@ def test_an_overlay_comes_from_world_to_patient():
 def test_the_slices_are_axial_sagittal_and_coronal_in_this_order(window):
     order = [pane.view for pane in window.workspace.panes]
     assert order == [View.AXIAL, View.SAGITTAL, View.CORONAL]
+
+
+# --- the robot ---------------------------------------------------------------------------------
+def test_another_robot_ends_the_run_and_begins_one_on_it(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.menus.robot.robots.aboutToShow.emit()
+    texts = [action.text() for action in window.menus.robot.robots.actions()]
+    assert texts == ["Simulated robot", "icube A17 on /dev/ttyACM0"]
+    window.menus.robot.robots.actions()[1].trigger()
+    assert services.opened[0].closed.wait(5.0)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert len(services.opened) == 2
+    assert services.opened[1].setup.robot.port == "/dev/ttyACM0"
+    assert services.opened[1].setup.robot.held_arming
+    assert not window.workspace.exercise_panel.enable.isHidden()
+    assert window.robot.settings.port == "/dev/ttyACM0"
+
+
+def test_a_robot_that_was_chosen_is_offered_though_it_is_gone(window, services):
+    window.robot.choose("/dev/ttyACM0")
+    services.ports = ()
+    assert [robot.title for robot in window.robot.ports()] == ["/dev/ttyACM0 – not plugged in"]
+    window.robot.choose("")
+
+
+def test_holding_can_be_practised_on_the_simulated_robot(window, patient, services, settle):
+    window.robot.set_practise_holding(True)
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert services.opened[0].setup.robot.held_arming
+    assert window.menus.robot.holding.isChecked()
+    window.robot.set_practise_holding(False)
+    assert settle(lambda: len(services.opened) == 2, 10.0)
+
+
+def test_the_robot_stays_while_an_attempt_runs(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.workspace.exercise_panel.buttons.start.click()
+    assert settle(lambda: window.editor.locked, 5.0)
+    window.robot.choose("/dev/ttyACM0")
+    window.robot.commission()
+    assert "end it first" in window.message_bar.text
+    assert window.robot.settings.port == ""
+    assert services.benches == []
+
+
+def test_the_wizard_has_the_robot_for_itself_and_gives_it_back(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.robot.choose("/dev/ttyACM0")
+    assert settle(lambda: len(services.opened) == 2 and window.runs.run is not None, 10.0)
+    window.robot.commission()
+    assert settle(lambda: window.robot.wizard is not None, 10.0)
+    assert services.opened[1].closed.is_set()
+    assert window.runs.run is None
+    assert isinstance(window.robot.wizard.page, ConnectionPage)
+    window.robot.wizard.reject()
+    assert services.benches[0].closed == 1
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert len(services.opened) == 3
+
+
+def test_the_simulated_robot_needs_no_commissioning(window, patient, services):
+    window.show_patient(patient)
+    window.robot.commission()
+    assert "needs no commissioning" in window.message_bar.text
+    assert services.benches == []
+
+
+def test_a_robot_that_does_not_open_is_told_and_the_run_comes_back(
+    window, patient, services, settle
+):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.robot.choose("/dev/ttyACM0")
+    assert settle(lambda: len(services.opened) == 2 and window.runs.run is not None, 10.0)
+    services.refuses = "nobody answers on /dev/ttyACM0: check cable and power"
+    window.robot.commission()
+    assert settle(lambda: "nobody answers" in window.message_bar.text, 10.0)
+    services.refuses = ""
+    assert window.robot.wizard is None
+
+
+def test_the_robots_health_stands_beside_the_panes(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    window.menus._show_health()
+    panel = window.workspace.health_panel
+    assert settle(lambda: panel.groups != (), 10.0)
+    assert window.workspace.side.currentWidget() is panel
+    window.editor.saved(Path("kept"))
+    window.show_patient(patient)
+    assert settle(lambda: panel.groups == (), 10.0)
+
+
+def test_the_hand_is_remembered(services, window, destroy):
+    box = window.workspace.bullseye.source.box
+    box.setCurrentIndex(1)
+    box.activated.emit(1)
+    window.settings.sync()
+    again = MainWindow(services)
+    destroy(again)
+    assert again.workspace.bullseye.source.name == "tablet"

@@ -60,7 +60,7 @@ def test_the_attempt_is_begun_with_the_pseudonym_and_buttons_follow_its_state(de
     panel.set_student("student-07")
     panel.buttons.start.click()
     desk.controller.look()
-    assert desk.trainer.told("begin") == [("begin", "student-07")]
+    assert desk.trainer.told("begin") == [("begin", "student-07", "mouse")]
     assert not panel.buttons.start.isEnabled()
     assert panel.buttons.end.isEnabled()
     assert not panel.student.isEnabled()

@@ -83,10 +83,10 @@ class FakeTrainer:
     calls: list[tuple[Any, ...]] = field(default_factory=list)
     now: Snapshot = field(default_factory=snapshot)
 
-    def begin(self, student: str = "") -> str:
+    def begin(self, student: str = "", hand: str = "") -> str:
         if self.now.state is not State.READY:
             raise IllegalTransitionError("'begin' is not possible while aligning")
-        self.calls.append(("begin", student))
+        self.calls.append(("begin", student, hand))
         self.now = replace(self.now, state=State.ALIGNING)
         self.events.put(Event(1.0, "state", "aligning"))
         return "20261121-101500-ab12"

@@ -1,14 +1,8 @@
-"""Wire protocols and ports; a link brings joint angles in and carries torques out."""
+"""Wire protocols and ports; a link brings joint angles in and carries torques out.
+
+Only what is light stands here, for the window; drivers are imported from their own modules.
+"""
 
 from app.device.links.link import BoardInfo, DeviceLink, Link, LinkStatus
-from app.device.links.simulated import SimulatedEncoders, SimulatedLink, simulated_link
 
-__all__ = [
-    "BoardInfo",
-    "DeviceLink",
-    "Link",
-    "LinkStatus",
-    "SimulatedEncoders",
-    "SimulatedLink",
-    "simulated_link",
-]
+__all__ = ["BoardInfo", "DeviceLink", "Link", "LinkStatus"]

@@ -14,7 +14,7 @@ from app.core.arrays import FloatArray
 from app.core.compiled import STAGE_TYPE, stage
 from app.device.control import kernel, pantograph_stages
 from app.device.control.velocity import DEFAULT_VELOCITY, VelocityMethod
-from app.device.links import simulated_link
+from app.device.links.simulated import simulated_link
 from app.mechanisms.pantograph.kernels import felt_kernel, forward_kernel
 from app.mechanisms.profile import DeviceProfile
 from app.simulation.plant import initial_plant, plant_stage

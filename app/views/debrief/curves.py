@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QGraphicsRectItem, QLabel, QVBoxLayout, QWidget
 from app.core.arrays import FloatArray
 from app.views import theme
 from app.views.debrief.review import Review, Span
+from app.views.exercise.felt import origin_word
 from app.views.exercise.state_words import state_word
 from app.views.text import tr
 
@@ -66,10 +67,17 @@ def curves_of(review: Review) -> tuple[Curve, ...]:
             tr("Angle error [°]"), np.degrees(c.angle), theme.PATH.colour, None, "", "°",
             tr("angle"),
         ),
-        Curve(
-            tr("Force felt, estimated [N]"), c.felt, "#f0e442", review.force_limit,
-            tr("limit {n:g} N", n=review.force_limit), "N", tr("estimated force"),
-        ),
+        _force_curve(review),
+    )  # fmt: skip
+
+
+def _force_curve(review: Review) -> Curve:
+    """Curve of the force, as the gauge measured it where there was one, else estimated."""
+    force, origin = review.measured_force, origin_word(review.measured_force is not None)
+    return Curve(
+        tr("Force felt, {origin} [N]", origin=origin),
+        review.curves.felt if force is None else np.abs(force), "#f0e442", review.force_limit,
+        tr("limit {n:g} N", n=review.force_limit), "N", tr("{origin} force", origin=origin),
     )  # fmt: skip
 
 

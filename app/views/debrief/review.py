@@ -74,6 +74,8 @@ class Review:
         placed: the plan.
         tip: tip [m], shape (n, 3), NaN where not valid.
         force_limit: of the device [N].
+        measured_force: force across the needle that a gauge measured [N], shape (n,), NaN where it
+            did not; None if there was none: then the force is the estimate in `curves`.
     """
 
     id: str
@@ -93,6 +95,7 @@ class Review:
     placed: PlacedPlan
     tip: FloatArray
     force_limit: float
+    measured_force: FloatArray | None = None
 
     @property
     def rings(self) -> tuple[float, float]:
@@ -179,6 +182,7 @@ def review(recording: Recording) -> Review:
         placed=placed,
         tip=np.where(measured[:, None], samples.tip, np.nan),
         force_limit=_force_limit(recording),
+        measured_force=samples.measured if np.isfinite(samples.measured).any() else None,
     )
 
 

@@ -46,6 +46,9 @@ class ExerciseViews:
 class ExerciseController(QObject):
     """Feeds the exercise's widgets from a trainer, and the trainer from them.
 
+    Attributes:
+        rates: of the loop [Hz], and the share of deadlines it missed of late, at the last look.
+
     Signals:
         needle_moved(NeedlePose): at every look, while the pose is valid.
         snapshot_taken(Snapshot): at every look.
@@ -73,6 +76,7 @@ class ExerciseController(QObject):
         self._ending = False
         self._beat = 0.0
         self._status_time = -1.0
+        self.rates = (0.0, 0.0)
         self._rates = LoopRates()
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.look)
@@ -146,7 +150,7 @@ class ExerciseController(QObject):
         view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
         if view is not None:
             views.bullseye.show_view(view)
-        rate, missing = self._rates.read(snapshot, now)
+        rate, missing = self.rates = self._rates.read(snapshot, now)
         if views.tracker.due(now):
             pictures = tuple(run.pictures()) if run.pictures is not None else ()
             views.tracker.show_tracker(pictures, tracker_figures(snapshot), now)
@@ -175,7 +179,8 @@ class ExerciseController(QObject):
         self._views.messages.clear()
         self._views.messages.start_clock(self._clock.now())
         try:
-            session = run.trainer.begin(student)
+            hand = self._views.bullseye.source.name if run.interactive else ""
+            session = run.trainer.begin(student, hand)
         except AcusError as error:
             self._fail(str(error))
             return

@@ -17,6 +17,7 @@ from app.views.exercise.pad_view import PadScene, rings
 
 if TYPE_CHECKING:
     from app.device.links.link import BoardInfo
+    from app.device.readiness import Clearance, Readiness
     from app.tracking.tracker import TrackedPicture
 
 
@@ -26,8 +27,8 @@ class TrainerPort(Protocol):
     events: EventQueue
     result: AttemptResult | None
 
-    def begin(self, student: str = "") -> str:
-        """Begin an attempt."""
+    def begin(self, student: str = "", hand: str = "") -> str:
+        """Begin an attempt; `hand` names what holds the needle, empty for the run's own."""
         ...
 
     def end(self) -> AttemptResult:
@@ -80,6 +81,11 @@ class ExerciseRun:
         rings: tolerance rings of the pad [m], from the inside.
         pictures: newest pictures of the cameras; None without cameras.
         board: who is at the other end of the wire; None where nobody tells.
+        port: where the robot is plugged in; empty in memory.
+        clearance: how much force the robot is cleared for and why it is not more; None where
+            nobody tells.
+        readiness: what was commissioned on it; None where nobody tells.
+        velocity: name of the estimator of joint velocities; empty where nobody tells.
         held_arming: whether the forces are armed only while key, pedal or button is held.
     """
 
@@ -90,6 +96,10 @@ class ExerciseRun:
     rings: tuple[float, ...] = field(default_factory=rings)
     pictures: Callable[[], Sequence[TrackedPicture]] | None = None
     board: BoardInfo | None = None
+    port: str = ""
+    clearance: Clearance | None = None
+    readiness: Readiness | None = None
+    velocity: str = ""
     held_arming: bool = False
 
     @property

@@ -1,0 +1,207 @@
+"""The technician's panel: every part of the robot as a line, two running curves, a report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import datetime
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app import __version__
+from app.session.snapshot import Snapshot
+from app.views import theme
+from app.views.exercise.run import ExerciseRun
+from app.views.exercise.status_items import StatusItem
+from app.views.robot.health import HealthGroup, health
+from app.views.robot.health_wire import Rates
+from app.views.robot.trace import Trace
+from app.views.robot.wire_watch import WireWatch
+from app.views.text import tr
+
+PERIOD = 0.25
+"""Words are refreshed this often [s]; curves at every look."""
+
+TITLE_WIDTH = 128
+
+
+class HealthPanel(QWidget):
+    """Shows nothing by itself: `show_snapshot` is called at every look.
+
+    Signals:
+        commissioning_wanted(): the technician asks for the wizard.
+    """
+
+    commissioning_wanted = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.groups: tuple[HealthGroup, ...] = ()
+        self._watch = WireWatch()
+        self._shown = -1e9
+        self._sections: list[_Section] = []
+        self.torque = Trace(tr("Torque"), "N·m", 0.05, self)
+        self.speed = Trace(tr("Speed"), "rad/s", 0.5, self)
+        self.copy = QPushButton(tr("Copy report"), self)
+        self.copy.setToolTip(tr("Copies everything on this page as plain text"))
+        self.commission = QPushButton(tr("Commissioning…"), self)
+        self._empty = QLabel(tr("No robot is running: open a patient with a plan."), self)
+        self._empty.setWordWrap(True)
+        self._lay_out()
+        self.copy.clicked.connect(self.copy_report)
+        self.commission.clicked.connect(self.commissioning_wanted)
+        self.clear()
+
+    def show_snapshot(
+        self, run: ExerciseRun, snapshot: Snapshot, rates: tuple[float, float], now: float
+    ) -> None:
+        """Show a moment.
+
+        Args:
+            run: of the robot.
+            snapshot: newest.
+            rates: of the loop [Hz], and share of deadlines missed of late.
+            now: [s].
+        """
+        device = snapshot.device
+        wire = self._watch.read(device.row, now) if device is not None else None
+        if not self.isVisible():
+            return
+        if device is not None:
+            self.torque.add(now, *device.torque.tolist())
+            self.speed.add(now, *device.qd.tolist())
+        if now - self._shown >= PERIOD:
+            self._shown = now
+            self._fill(health(run, snapshot, Rates(*rates, wire)))
+
+    def clear(self) -> None:
+        """Say that there is no robot."""
+        self._watch, self._shown = WireWatch(), -1e9
+        self._fill(())
+
+    def report(self, when: datetime) -> str:
+        """Everything on the page as plain text."""
+        lines = [tr("Acus {version}: health of the robot", version=__version__),
+                 when.isoformat(timespec="seconds")]  # fmt: skip
+        for group in self.groups:
+            lines += ["", group.title]
+            lines += [f"  {i.verdict.look[1]} {i.title}: {i.text}" for i in group.items]
+        return "\n".join(lines) + "\n"
+
+    def copy_report(self) -> None:
+        """Put the report on the clipboard."""
+        QGuiApplication.clipboard().setText(self.report(datetime.now().astimezone()))
+
+    def _fill(self, groups: Sequence[HealthGroup]) -> None:
+        self.groups = tuple(groups)
+        while len(self._sections) < len(groups):
+            section = _Section(self)
+            self._column.insertWidget(len(self._sections), section)
+            self._sections.append(section)
+        for i, section in enumerate(self._sections):
+            section.setVisible(i < len(groups))
+            if i < len(groups):
+                section.show_group(groups[i])
+        for widget in (self.torque, self.speed):
+            widget.setVisible(bool(groups))
+        self._empty.setVisible(not groups)
+        self.copy.setEnabled(bool(groups))
+
+    def _lay_out(self) -> None:
+        content = QWidget(self)
+        self._column = QVBoxLayout(content)
+        self._column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
+        self._column.setSpacing(theme.SPACING)
+        for widget in (self._empty, self.torque, self.speed):
+            self._column.addWidget(widget)
+        self._column.addStretch(1)
+        area = QScrollArea(self)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setWidgetResizable(True)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setWidget(content)
+        buttons = QHBoxLayout()
+        buttons.setContentsMargins(theme.MARGIN, 0, theme.MARGIN, theme.SPACING)
+        buttons.addWidget(self.copy)
+        buttons.addWidget(self.commission)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(0, 0, 0, 0)
+        page.addWidget(area, 1)
+        page.addLayout(buttons)
+
+
+class _Section(QFrame):
+    """Title and lines of one group."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._title = QLabel(self)
+        self._title.setProperty("role", "heading")
+        self._lines: list[_Line] = []
+        self._column = QVBoxLayout(self)
+        self._column.setContentsMargins(0, 0, 0, 0)
+        self._column.setSpacing(2)
+        self._column.addWidget(self._title)
+
+    def show_group(self, group: HealthGroup) -> None:
+        """Show a group."""
+        self._title.setText(group.title)
+        while len(self._lines) < len(group.items):
+            line = _Line(self)
+            self._lines.append(line)
+            self._column.addWidget(line)
+        for i, line in enumerate(self._lines):
+            line.setVisible(i < len(group.items))
+            if i < len(group.items):
+                line.show_item(group.items[i])
+
+
+class _Line(QWidget):
+    """Symbol and title to the left, value to the right; what to do as a tooltip and, if it is not
+    well, below.
+    """
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._item: StatusItem | None = None
+        self._title, self._text, self._help = QLabel(self), QLabel(self), QLabel(self)
+        self._title.setFixedWidth(TITLE_WIDTH)
+        self._title.setAlignment(Qt.AlignmentFlag.AlignTop)
+        for label in (self._text, self._help):
+            label.setWordWrap(True)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+        self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._help.setProperty("role", "dim")
+        row = QHBoxLayout()
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self._title)
+        row.addWidget(self._text, 1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addLayout(row)
+        column.addWidget(self._help)
+
+    def show_item(self, item: StatusItem) -> None:
+        """Show an item; does nothing when it is the one shown."""
+        if item == self._item:
+            return
+        self._item = item
+        colour, symbol = item.verdict.look
+        self._title.setText(f"{symbol} {item.title}")
+        self._title.setStyleSheet(f"color: {colour}; font-size: {theme.SMALL_PX}px;")
+        self._text.setText(item.text)
+        self._text.setStyleSheet(f"font-size: {theme.SMALL_PX}px;")
+        self._help.setText(item.help)
+        self._help.setVisible(item.verdict.value in ("warning", "bad"))
+        self.setToolTip(item.help)
+        self.setAccessibleName(f"{item.title}: {item.text}")

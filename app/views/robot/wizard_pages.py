@@ -1,0 +1,258 @@
+"""The wizard's pages: connection, one per routine, summary."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QLocale, Qt, Signal
+from PySide6.QtGui import QDoubleValidator
+from PySide6.QtWidgets import (
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.views import theme
+from app.views.exercise.status_items import Verdict
+from app.views.robot.bench import BenchPort
+from app.views.robot.wizard_words import (
+    clearance_words,
+    connection_lines,
+    state_of,
+    step_words,
+    steps_of,
+)
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.device.commissioning.report import Report
+    from app.device.commissioning.results import Step
+
+
+class ConnectionPage(QWidget):
+    """Who is at the other end, and what the robot is cleared for."""
+
+    def __init__(self, bench: BenchPort, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._bench = bench
+        self._clearance = _label()
+        column = _column(self, tr("Connected"))
+        grid = QGridLayout()
+        grid.setColumnStretch(1, 1)
+        for row, (name, value) in enumerate(connection_lines(bench)):
+            title = _label("dim")
+            title.setText(name)
+            grid.addWidget(title, row, 0)
+            grid.addWidget(QLabel(value), row, 1)
+        column.addLayout(grid)
+        column.addWidget(self._clearance)
+        note = _label("dim")
+        note.setText(tr(
+            "The program's stop is not safety-rated: use a blunt needle, and keep a hand at the "
+            "switch of the motor supply (docs/hardware.md). Cancel ends every step at once, with "
+            "the forces off."
+        ))  # fmt: skip
+        column.addWidget(note)
+        column.addStretch(1)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the present state."""
+        _tell(self._clearance, *clearance_words(self._bench))
+
+
+class SummaryPage(QWidget):
+    """What was found, when, and what the robot is cleared for now."""
+
+    def __init__(self, bench: BenchPort, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._bench = bench
+        self._clearance = _label()
+        column = _column(self, tr("Summary"))
+        grid = QGridLayout()
+        grid.setColumnStretch(2, 1)
+        grid.setVerticalSpacing(theme.SPACING)
+        self._rows: dict[Step, tuple[QLabel, QLabel]] = {}
+        for row, step in enumerate(steps_of(bench)):
+            when, found = _label(), _label("dim")
+            grid.addWidget(QLabel(step_words(step).title), 2 * row, 0)
+            grid.addWidget(when, 2 * row, 1, 1, 2)
+            grid.addWidget(found, 2 * row + 1, 1, 1, 2)
+            self._rows[step] = (when, found)
+        column.addLayout(grid)
+        column.addWidget(self._clearance)
+        column.addStretch(1)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show the present state."""
+        for step, (when, found) in self._rows.items():
+            verdict, words, summary = state_of(self._bench, step)
+            _tell(when, verdict, words)
+            found.setText(summary)
+            found.setVisible(bool(summary))
+        _tell(self._clearance, *clearance_words(self._bench))
+
+
+class RoutinePage(QWidget):
+    """One routine: what it is for, what it does now, what it asks.
+
+    Signals:
+        start_wanted(Step): begin it, or begin it again.
+        answered(float | None): the answer to what it asks.
+        cancel_wanted(), undo_wanted(Step).
+    """
+
+    start_wanted = Signal(object)
+    answered = Signal(object)
+    cancel_wanted = Signal()
+    undo_wanted = Signal(object)
+
+    def __init__(self, bench: BenchPort, step: Step, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._bench, self.step = bench, step
+        words = step_words(step)
+        self._state, self.message, self.question = _label(), _label(), _label()
+        self.bar = QProgressBar(self)
+        self.bar.setRange(0, 1000)
+        self.bar.setTextVisible(False)
+        self.bar.setFixedHeight(10)
+        self.reading, self._unit = QLineEdit(self), QLabel(self)
+        self.confirm, self.start = QPushButton(tr("Confirm"), self), QPushButton(self)
+        self.cancel = QPushButton(tr("Cancel: forces off"), self)
+        self.undo = QPushButton(tr("Undo the last result"), self)
+        column = _column(self, words.title)
+        for text, role in ((words.purpose, ""), (words.ready, "dim")):
+            line = _label(role)
+            line.setText(text)
+            column.addWidget(line)
+        for widget in (self._state, self.bar, self.message, self.question):
+            column.addWidget(widget)
+        column.addLayout(self._answer_row())
+        column.addStretch(1)
+        column.addLayout(self._buttons())
+        self._prepare()
+        self.set_idle()
+
+    def show_report(self, report: Report) -> None:
+        """Show what the routine says, and ask what it asks."""
+        self.bar.setValue(round(1000 * report.progress))
+        self.message.setText(report.message)
+        self.question.setText(f"➜ {report.needs}" if report.needs else "")
+        asks, numbers = bool(report.needs), bool(report.unit)
+        fresh = asks and not self.confirm.isEnabled()
+        self.confirm.setEnabled(asks)
+        self._ask_number(asks and numbers, report.unit)
+        if fresh:
+            self.reading.clear()
+            (self.reading if numbers else self.confirm).setFocus()
+
+    def set_running(self) -> None:
+        """Be ready for reports."""
+        _tell(self._state, Verdict.WARNING, tr("running"))
+        self.start.setEnabled(False)
+        self.undo.setEnabled(False)
+        self.cancel.setEnabled(True)
+
+    def set_idle(self, failure: str = "") -> None:
+        """Show what is known of the step, and why it failed if it has."""
+        verdict, when, found = state_of(self._bench, self.step)
+        _tell(self._state, verdict, ": ".join(part for part in (when, found) if part))
+        if failure:
+            _tell(self._state, Verdict.BAD, failure)
+        self.message.clear()
+        self.question.clear()
+        self.bar.setValue(0)
+        known = self._bench.record.newest(self.step) is not None
+        self.start.setText(tr("Begin again") if known else tr("Begin"))
+        self.start.setEnabled(True)
+        self.undo.setEnabled(known)
+        self._ask_number(False, "")
+        for widget in (self.confirm, self.cancel):
+            widget.setEnabled(False)
+
+    def show_refusal(self, reason: str) -> None:
+        """Say why an answer was not taken; the question stays."""
+        _tell(self._state, Verdict.BAD, reason)
+
+    def _ask_number(self, asked: bool, unit: str) -> None:
+        self.reading.setVisible(asked)
+        self._unit.setVisible(asked)
+        self.reading.setEnabled(asked)
+        self._unit.setText(unit)
+
+    def _give(self) -> None:
+        if not self.confirm.isEnabled():
+            return
+        if not self.reading.isEnabled():
+            self.answered.emit(None)
+            return
+        value, known = QLocale.c().toDouble(self.reading.text().replace(",", "."))
+        if known:
+            self.answered.emit(value)
+        else:
+            self.show_refusal(tr("type the number that the scale shows, such as 51.5"))
+
+    def _prepare(self) -> None:
+        validator = QDoubleValidator(-1e5, 1e5, 3, self.reading)
+        validator.setLocale(QLocale.c())
+        self.reading.setFixedWidth(120)
+        self.reading.setAccessibleName(tr("Reading"))
+        self.message.setMinimumHeight(2 * theme.TITLE_PX)
+        self.question.setStyleSheet(f"font-size: {theme.FONT_PX + 3}px; font-weight: 600;")
+        self.question.setMinimumHeight(3 * theme.TITLE_PX)
+        for button in (self.confirm, self.start):
+            button.setProperty("role", "primary")
+        self.cancel.setProperty("role", "danger")
+        self.reading.returnPressed.connect(self._give)
+        self.confirm.clicked.connect(self._give)
+        self.start.clicked.connect(lambda: self.start_wanted.emit(self.step))
+        self.cancel.clicked.connect(self.cancel_wanted)
+        self.undo.clicked.connect(lambda: self.undo_wanted.emit(self.step))
+        for button in (self.confirm, self.start, self.cancel, self.undo):
+            button.setAutoDefault(False)
+
+    def _answer_row(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        for widget in (self.reading, self._unit, self.confirm):
+            row.addWidget(widget)
+        row.addStretch(1)
+        return row
+
+    def _buttons(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        row.addWidget(self.start)
+        row.addWidget(self.cancel)
+        row.addStretch(1)
+        row.addWidget(self.undo)
+        return row
+
+
+def _tell(label: QLabel, verdict: Verdict, words: str) -> None:
+    colour, symbol = verdict.look
+    label.setText(f"{symbol} {words}")
+    label.setStyleSheet(f"color: {colour};")
+
+
+def _label(role: str = "") -> QLabel:
+    label = QLabel()
+    label.setWordWrap(True)
+    label.setTextFormat(Qt.TextFormat.PlainText)
+    if role:
+        label.setProperty("role", role)
+    return label
+
+
+def _column(page: QWidget, title: str) -> QVBoxLayout:
+    column = QVBoxLayout(page)
+    column.setContentsMargins(theme.MARGIN, 0, 0, 0)
+    column.setSpacing(theme.MARGIN)
+    heading = QLabel(title, page)
+    heading.setProperty("role", "title")
+    column.addWidget(heading)
+    return column
