@@ -2,8 +2,8 @@
 
 Layout (all little-endian): magic `ACUB`, version u16, columns u16, rows u32, lost u32, first tick
 u64. Version 1: the columns one after the other, each `rows` float64. Version 2: the columns as
-`session.columns` stores them; a digest u32 per row; the whole state after the first row: number of
-slots u16 and as many float64.
+`session.columns` stores them; a digest u32 per row; number of slots u16, and of each row whose tick
+is a multiple of `STATE_EVERY` the whole state as float64.
 """
 
 import struct
@@ -21,6 +21,9 @@ from app.session.errors import BrokenRecordingError
 
 MAGIC: Final = b"ACUB"
 VERSION: Final = 2
+STATE_EVERY: Final = 500
+"""The whole state is stored after every tick whose number is a multiple of this."""
+
 _HEADER: Final = struct.Struct("<4sHHIIQ")
 
 SLOT_NAMES: Final = tuple(
@@ -50,6 +53,7 @@ TRAINEE: Final = ("hand_x", "hand_y", "hand_depth", "hand_holds")
 """Inputs that the scripted trainee writes while it acts: recomputed, so stored as NaN."""
 
 _INDICES: Final = np.array([slots.INDEX[name] for name in COLUMNS])
+_TICK: Final = COLUMNS.index("tick")
 _TRAINEE: Final = np.array([COLUMNS.index(name) for name in TRAINEE])
 
 
@@ -62,14 +66,16 @@ class Block:
         first_tick: tick of the first row.
         lost: ticks between the block before and this one that were overwritten unread.
         digests: of the state after each row, shape (n,); none in version 1.
-        state: whole state after the first row, shape (slots,); none in version 1.
+        state_rows: rows whose whole state is stored, shape (k,); none in version 1.
+        states: these states, shape (k, slots), read-only.
     """
 
     values: FloatArray
     first_tick: int
     lost: int
     digests: NDArray[np.uint32]
-    state: FloatArray
+    state_rows: NDArray[np.int64]
+    states: FloatArray
 
 
 def pack(rows: FloatArray, lost: int) -> bytes:
@@ -82,8 +88,9 @@ def pack(rows: FloatArray, lost: int) -> bytes:
     values = rows[:, _INDICES]
     acts = (rows[:, slots.TRAINEE_PHASE] > 0.0) & (rows[:, slots.ENABLED] > 0.0)
     values[np.ix_(acts, _TRAINEE)] = np.nan
-    state = struct.pack("<H", slots.SLOTS) + rows[0].astype("<f8").tobytes()
-    return head + columns.encode(values) + digests(rows).tobytes() + state
+    whole = rows[_state_rows(rows[:, slots.TICK])].astype("<f8").tobytes()
+    checks = digests(rows).tobytes() + struct.pack("<H", slots.SLOTS) + whole
+    return head + columns.encode(values) + checks
 
 
 def unpack(data: bytes) -> Block:
@@ -107,24 +114,31 @@ def unpack(data: bytes) -> Block:
     if rows > len(body):  # a digest alone takes four bytes a row
         raise BrokenRecordingError(f"a block of {rows} rows has {len(data)} bytes")
     values, place = columns.decode(body, rows, count)
-    hashes, state = _rest(body[place:], rows)
-    return Block(read_only(values), first, lost, hashes, state)
+    if count <= _TICK:
+        raise BrokenRecordingError(f"a block of {count} columns has no tick numbers")
+    where = _state_rows(values[:, _TICK])
+    hashes, states = _checks(body[place:], rows, len(where))
+    return Block(read_only(values), first, lost, hashes, where, states)
+
+
+def _state_rows(tick: FloatArray) -> NDArray[np.int64]:
+    return np.flatnonzero(np.mod(tick, STATE_EVERY) == 0.0)
 
 
 def _plain(body: bytes, count: int, rows: int, lost: int, first: int) -> Block:
     if len(body) != 8 * count * rows:
         raise BrokenRecordingError(f"a block of {rows} rows has {len(body)} bytes of numbers")
     values = np.frombuffer(body, dtype="<f8").reshape(count, rows).T
-    none, nothing = np.zeros(0, dtype=np.uint32), read_only(np.zeros(0))
     array = read_only(np.ascontiguousarray(values, dtype=np.float64))
-    return Block(array, first, lost, none, nothing)
+    none, nowhere = np.zeros(0, dtype=np.uint32), np.zeros(0, dtype=np.int64)
+    return Block(array, first, lost, none, nowhere, read_only(np.zeros((0, 0))))
 
 
-def _rest(data: bytes, rows: int) -> tuple[NDArray[np.uint32], FloatArray]:
+def _checks(data: bytes, rows: int, states: int) -> tuple[NDArray[np.uint32], FloatArray]:
     end = 4 * rows
     size = struct.unpack_from("<H", data, end)[0] if len(data) >= end + 2 else 0
-    if len(data) != end + 2 + 8 * size or size == 0:
+    if len(data) != end + 2 + 8 * size * states or size == 0:
         raise BrokenRecordingError(f"a block of {rows} rows has {len(data)} bytes of checks")
-    state = np.frombuffer(data, dtype="<f8", offset=end + 2)
+    whole = np.frombuffer(data, dtype="<f8", offset=end + 2).reshape(states, size)
     hashes = np.frombuffer(data[:end], dtype="<u4").astype(np.uint32)
-    return hashes, read_only(np.array(state, dtype=np.float64))
+    return hashes, read_only(np.array(whole, dtype=np.float64))

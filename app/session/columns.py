@@ -32,6 +32,7 @@ class Way(IntEnum):
     NANOSECONDS_2 = 6
 
 
+_OF_TIMES: Final = (Way.NANOSECONDS_1, Way.NANOSECONDS_2)
 _ORDER: Final = {Way.BITS_1: 1, Way.BITS_2: 2, Way.NANOSECONDS_1: 1, Way.NANOSECONDS_2: 2}
 
 
@@ -79,13 +80,12 @@ def _encode(column: Bits, index: int, seen: dict[bytes, int]) -> bytes:
     seen[plain] = index
     if np.count_nonzero(np.diff(column)) < _FEW * len(column):
         return bytes([Way.PLAIN]) + plain
-    sources = {Way.BITS_1: column, Way.BITS_2: column}
     nanoseconds = _nanoseconds(column)
-    if nanoseconds is not None:
-        sources |= {Way.NANOSECONDS_1: nanoseconds, Way.NANOSECONDS_2: nanoseconds}
-    planes = {way: _planes(_differences(bits, _ORDER[way])) for way, bits in sources.items()}
-    way = min(planes, key=lambda way: np.count_nonzero(planes[way]))
-    return bytes([way]) + planes[way].tobytes()
+    ways = (Way.BITS_1, Way.BITS_2) if nanoseconds is None else _OF_TIMES
+    first = _differences(column if nanoseconds is None else nanoseconds)
+    found = dict(zip(ways, (_folded(first), _folded(_differences(first))), strict=True))
+    way = min(ways, key=lambda way: np.count_nonzero(found[way].view(np.uint8)))
+    return bytes([way]) + _planes(found[way]).tobytes()
 
 
 def _decode(read: _Reader, rows: int, before: Bits) -> Bits:
@@ -119,16 +119,21 @@ def _nanoseconds(column: Bits) -> Bits | None:
     return whole.view("<u8") if exact else None
 
 
-def _differences(bits: Bits, order: int) -> Bits:
-    """Differences modulo 2⁶⁴, small ones of either sign as small numbers."""
-    for _ in range(order):
-        bits = np.diff(bits, prepend=np.zeros(1, dtype="<u8"))
+def _differences(bits: Bits) -> Bits:
+    """Differences modulo 2⁶⁴, with 0 before the first."""
+    differences = np.array(bits)
+    differences[1:] -= bits[:-1]
+    return differences
+
+
+def _folded(bits: Bits) -> Bits:
+    """Small numbers of either sign as small numbers without a sign."""
     signed = bits.view("<i8")
     return ((signed << 1) ^ (signed >> 63)).view("<u8")
 
 
 def _sums(folded: Bits, order: int) -> Bits:
-    """Inverse of `_differences`."""
+    """Inverse of as many `_differences` and of `_folded`."""
     one = np.uint64(1)
     bits = (folded >> one) ^ (np.uint64(0) - (folded & one))
     for _ in range(order):
@@ -138,4 +143,4 @@ def _sums(folded: Bits, order: int) -> Bits:
 
 def _planes(bits: Bits) -> NDArray[np.uint8]:
     """All lowest bytes, then all second bytes, and so on, shape (8, n)."""
-    return np.ascontiguousarray(np.ascontiguousarray(bits).view(np.uint8).reshape(-1, 8).T)
+    return np.ascontiguousarray(bits.view(np.uint8).reshape(-1, 8).T)

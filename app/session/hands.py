@@ -15,15 +15,19 @@ HANDS: Final = ("mouse", "keyboard", "tablet", "gamepad", "robot", "script")
 def hand_of(trainee: Mapping[str, str], asked: str = "") -> str:
     """Return the hand of an attempt.
 
-    A scripted trainee is `script` whatever is asked for; without a word it is what the run was
-    built for, or the mouse.
+    A run that was built for one hand (a scripted trainee, a real robot) keeps it whatever is asked
+    for; without a word it is the mouse.
+
+    Args:
+        trainee: metadata record of the run: `scripted` not empty, or `hand`, says the one hand.
+        asked: what the window says.
 
     Raises:
         SessionError: for another name; gives the valid ones.
     """
     if trainee.get("scripted"):
         return "script"
-    hand = asked or trainee.get("hand") or "mouse"
+    hand = trainee.get("hand") or asked or "mouse"
     if hand not in HANDS:
         raise SessionError(f"hand {hand!r} is not known; valid names: {', '.join(HANDS)}")
     return hand

@@ -3,7 +3,7 @@
 The loop starts from the record's checkpoint and is given, tick by tick, what was recorded: inputs,
 time and, of a real robot, what its wire read. Everything else is computed: of a simulated robot
 also the plant and so the encoders. Compared is every slot of the state, by a digest per tick; the
-main outputs by their values in every tick; all by their values ten times a second. Not compared is
+main outputs by their values in every tick; all by their values twice a second. Not compared is
 `TICK_COST`, the time that a tick took; `LATENESS` and `MISSED` are measured too and are given.
 """
 

@@ -64,15 +64,15 @@ def read_inputs(content: Scan, problems: list[str]) -> Inputs:
     slots = _names(channel.get("state", ""))
     parts = _blocks(content, len(columns), problems)
     checked = bool(slots) and all(len(part.digests) == len(part.values) for part in parts)
-    keys = [(row, part.state) for row, part in _starts(parts) if len(part.state) == len(slots)]
+    whole = [(row, p) for row, p in _starts(parts) if p.states.shape[1] == len(slots) > 0]
     return Inputs(
         columns=columns,
         values=read_only(_joined([part.values for part in parts], (0, len(columns)))),
         lost=sum(part.lost for part in parts),
         slots=slots,
         digests=np.concatenate([p.digests for p in parts]) if parts and checked else _none(),
-        state_rows=np.array([row for row, _ in keys], dtype=np.int64),
-        states=read_only(np.array([s for _, s in keys]).reshape(len(keys), len(slots))),
+        state_rows=_rows([row + part.state_rows for row, part in whole]),
+        states=read_only(_joined([part.states for _, part in whole], (0, len(slots)))),
         checkpoint=_checkpoint(content, problems),
     )
 
@@ -112,6 +112,10 @@ def _names(text: str) -> tuple[str, ...]:
 
 def _joined(parts: list[FloatArray], empty: tuple[int, int]) -> FloatArray:
     return np.concatenate(parts) if parts else np.empty(empty)
+
+
+def _rows(parts: list[NDArray[np.int64]]) -> NDArray[np.int64]:
+    return np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
 
 
 def _none() -> NDArray[np.uint32]:

@@ -122,8 +122,8 @@ class Trainer:
 
         Args:
             student: pseudonym.
-            hand: what holds the needle, one of `hands.HANDS`; by default what the run was built
-                for.
+            hand: what holds the needle, one of `hands.HANDS`; a run that was built for one hand
+                keeps it.
 
         Raises:
             IllegalTransitionError: if an attempt is running.

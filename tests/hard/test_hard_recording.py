@@ -404,7 +404,7 @@ def test_a_block_of_version_1_still_reads() -> None:
     head = blocks._HEADER.pack(b"ACUB", 1, 3, 4, 2, 17)
     block = blocks.unpack(head + np.ascontiguousarray(values.T).tobytes())
     np.testing.assert_array_equal(block.values, values)
-    assert (block.first_tick, block.lost, len(block.digests), len(block.state)) == (17, 2, 0, 0)
+    assert (block.first_tick, block.lost, len(block.digests), len(block.states)) == (17, 2, 0, 0)
 
 
 @pytest.mark.parametrize(
