@@ -32,6 +32,7 @@ from app.studies.rendering.sweep import (
     highest,
     limits_sheet,
     maps,
+    protected_sheet,
     regions,
 )
 
@@ -45,7 +46,12 @@ def _measure(progress: Progress | None) -> Findings:
     tracks = {pair: Device(profile, *LOOP).release(*pair) for pair in _EXAMPLES}
     slowest, usual = found[0], next(r for r in found if (r.rate_hz, r.delay) == LOOP)
     return Findings(
-        (_reduction_sheet(profile), limits_sheet(found), estimators_sheet(profile)),
+        (
+            _reduction_sheet(profile),
+            limits_sheet(found),
+            estimators_sheet(profile),
+            protected_sheet(profile),
+        ),
         (
             Figure("regions", partial(maps, found=found), (11.0, 9.0)),
             Figure("examples", partial(_draw_examples, tracks=tracks), (9.0, 3.6)),

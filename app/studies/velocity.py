@@ -185,9 +185,7 @@ STUDY: Final = Study(
     ),
     case=_case,
     deadline=Limit(1e-6, "1 µs: a third of the 3 µs that a whole tick may take"),
-    perception=Limit(
-        1.0, "1: 10 mm/s (0.1 N through a damper of 10 N·s/m), or 10 % of the top speed if more"
-    ),
+    perception=Limit(1.0, "1: 10 mm/s (0.1 N at 10 N·s/m), or 10 % of the top speed"),
     default=(
         "FOAW with a window of 20: least error at rest and in slow motion, and quick when the "
         "needle is let go"

@@ -94,6 +94,15 @@ def test_an_unstable_device_swings_ever_wider_but_stays_finite():
     assert np.ptp(track, axis=0).max() > 10.0 * OFFSET
 
 
+def test_what_guards_the_device_keeps_an_unstable_law_slow():
+    rate, swings = 1000.0, {}
+    for protected in (False, True):
+        track = Device(SMOOTH, rate, 1, protected=protected).release(3000.0, 1.0)
+        swings[protected] = np.linalg.norm(np.diff(track, axis=0), axis=1).max() * rate
+    assert swings[False] > 0.5
+    assert swings[True] < 0.25
+
+
 def test_the_edge_of_a_map_is_below_the_first_oscillation():
     stable = np.zeros((16, 2))
     stable[:4, 0] = 1.0

@@ -12,7 +12,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import STAGE_TYPE, stage
-from app.device.control import kernel, pantograph_stages
+from app.device.control import Stage, kernel, pantograph_stages
 from app.device.control.velocity import DEFAULT_VELOCITY, VelocityMethod
 from app.device.links.simulated import simulated_link
 from app.mechanisms.pantograph.kernels import felt_kernel, forward_kernel
@@ -123,12 +123,15 @@ class Device:
         rate_hz: of the loop.
         delay: whole ticks between command and torque.
         velocity: estimator.
+        protected: with what stands between transmission and safety (the speed governor, and what
+            else guards against an unstable law); without it the law alone is judged.
     """
 
     profile: DeviceProfile
     rate_hz: float
     delay: int = 0
     velocity: VelocityMethod = DEFAULT_VELOCITY
+    protected: bool = False
 
     def release(self, stiffness: float, damping: float) -> FloatArray:
         """Let go beside the rest point of a spring-damper at the tool; true P3 per tick (n, 2).
@@ -146,10 +149,7 @@ class Device:
         state[sv.FORCE_CAP], state[sv.TIME] = self.profile.limits.hand_force, 1.0
         law = ("spring", spring_stage, np.array([stiffness, damping, *geometry.fulcrum[:2]]))
         functions, values = kernel.no_stages(), kernel.no_parameters()
-        link = simulated_link(self.profile, [])
-        for _, function, parameters in pantograph_stages(
-            self.profile, [law], [], link, velocity=self.velocity
-        ):
+        for _, function, parameters in self._stages(law):
             kernel.append(functions, values, function, parameters)
         held = np.zeros(_RING + 2 * _MOST_DELAY)
         held[_DELAY] = self.delay
@@ -158,6 +158,13 @@ class Device:
         links = np.array(geometry.links)
         step = 1.0 / self.rate_hz
         return track[: swing(state, functions, values, plant[1], plant[2], links, step, track)]
+
+    def _stages(self, law: tuple[str, Any, FloatArray]) -> list[Stage]:
+        link = simulated_link(self.profile, [])
+        table = list(pantograph_stages(self.profile, [law], [], link, velocity=self.velocity))
+        names = [item.name for item in table]
+        first, last = names.index("transmission") + 1, names.index("safety")
+        return table if self.protected else table[:first] + table[last:]
 
     @property
     def ticks(self) -> int:

@@ -7,6 +7,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
+from app.core.units import MILLIMETRE
 from app.device.control.velocity import VelocityMethod
 from app.mechanisms.profile import DeviceProfile
 from app.studies.findings import Cell, Sheet
@@ -24,6 +25,14 @@ DELAYS: Final = (0, 1, 2)
 STIFFNESS: Final = np.geomspace(50.0, 10_000.0, 16)  # [N/m] at P3
 DAMPING: Final = np.array([0.0, 0.1, 0.3, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0])  # [N·s/m] at P3
 LOOP: Final = (1000.0, 1)  # [Hz], ticks: the device as it is, with a wire in between
+UNSTABLE: Final = (
+    (1000.0, 1, 1500.0, 1.0),
+    (1000.0, 1, 3000.0, 1.0),
+    (1000.0, 1, 10_000.0, 0.0),
+    (1000.0, 2, 3000.0, 1.0),
+    (500.0, 2, 3000.0, 1.0),
+)
+"""Rate [Hz], delay, K and B that oscillate."""
 _FINE: Final = np.geomspace(5.0, 100_000.0, 500)  # [N/m] for the reduction
 _MOST_STEPS: Final = 8  # of a bisection: K to 2 %
 
@@ -166,6 +175,35 @@ def estimators_sheet(profile: DeviceProfile) -> Sheet:
         "estimators",
         f"Largest stable K [N/m] by velocity estimator, {LOOP[0]:g} Hz, {LOOP[1]} tick of delay",
         ("estimator", *headings),
+        tuple(rows),
+    )
+
+
+def protected_sheet(profile: DeviceProfile) -> Sheet:
+    """Show what becomes of unstable pairs without and with what guards the device."""
+    rows: list[tuple[Cell, ...]] = []
+    for rate, delay, k, b in UNSTABLE:
+        cells: list[Cell] = [rate, delay, k, b]
+        for protected in (False, True):
+            device = Device(without_dry_friction(profile), rate, delay, protected=protected)
+            track = device.release(k, b)
+            speed = np.linalg.norm(np.diff(track, axis=0), axis=1).max() * rate
+            late = track[2 * len(track) // 3 :]
+            cells += [float(np.ptp(late, axis=0).max()) / MILLIMETRE, float(speed)]
+        rows.append(tuple(cells))
+    return Sheet(
+        "protected",
+        "Unstable laws without dry friction: swing of the tool in the last third and top speed",
+        (
+            "rate [Hz]",
+            "delay [ticks]",
+            "K [N/m]",
+            "B [N·s/m]",
+            "law alone [mm]",
+            "law alone [m/s]",
+            "protected [mm]",
+            "protected [m/s]",
+        ),
         tuple(rows),
     )
 
