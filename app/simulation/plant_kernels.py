@@ -7,219 +7,25 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.mechanisms.dynamic_model import A1, A2, BASE, COULOMB, FX, FY, FZ, MODEL_SIZE, VISCOUS
-from app.mechanisms.pantograph.dynamics import axial_load_kernel, dynamics_kernel
-from app.mechanisms.pantograph.kernels import (
-    axis_kernel,
-    force_map_kernel,
-    forward_kernel,
-    hub_velocity_kernel,
-    jacobian_kernel,
+from app.mechanisms.dynamic_model import FX, FY, FZ
+from app.mechanisms.pantograph.kernels import axis_kernel, hub_velocity_kernel
+from app.simulation.plant_hand import axial_spring, spring, wanted
+from app.simulation.plant_layout import (
+    HAND_AXIAL_B,
+    HAND_B,
+    LENGTH,
+    SHORTEST_LEVER,
+    START_DEPTH,
+    START_LEFT,
+    START_RIGHT,
+    Pose,
 )
+from app.simulation.plant_motion import pose_of, slide, swing
 
 SUBSTEP: Final = 0.5e-3  # [s]
 LONGEST_STEP: Final = 5e-3  # [s] as the loop clamps it
 _TORQUE: Final = 5.0  # [N·m] far beyond any motor of this size
-_SPEED: Final = 50.0  # [rad/s]
 _AXIAL: Final = 50.0  # [N]
-_SNAP: Final = 1e-12  # slower than this is at rest: subnormal numbers cost 20 times more
-_FLATTEST: Final = 0.98  # sine of the largest tilt that the hand may want
-_SHORTEST_LEVER: Final = 0.01  # [m] of needle outside the fulcrum
-
-# Parameters array: the model of the dynamics first, see `mechanisms.dynamic_model`.
-_MODEL: Final = 0
-LENGTH, RADIUS, STOP_K, STOP_B, DEPTH_MIN, DEPTH_MAX = range(MODEL_SIZE, MODEL_SIZE + 6)
-MASS, SEAL, SEAL_VISCOUS = range(MODEL_SIZE + 6, MODEL_SIZE + 9)
-HAND_K, HAND_B, HAND_AXIAL_K, HAND_AXIAL_B, HAND_MOST = range(MODEL_SIZE + 9, MODEL_SIZE + 14)
-START_LEFT, START_RIGHT, START_DEPTH = range(MODEL_SIZE + 14, MODEL_SIZE + 17)
-
-_ROUNDS: Final = (
-    40  # of joints that stick in turn; each round leaves at most a quarter of the error
-)
-
-
-_System = tuple[float, float, float, float, float]
-"""Force at the tool (x, y) and the matrix (xx, xy, yy) that its spring-damper adds."""
-
-
-@njit
-def _pose(
-    p: FloatArray, q1: float, q2: float
-) -> tuple[bool, float, float, float, float, float, float]:
-    """Tool point and Jacobian: (ok, x, y, jxl, jxr, jyl, jyr)."""
-    status, x, y = forward_kernel(q1, q2, p[A1], p[A2], p[BASE], 1.0)
-    if status != 0:
-        return False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    status, jxl, jxr, jyl, jyr = jacobian_kernel(q1, q2, x, y, p[A1], p[A2], p[BASE])
-    return status == 0, x, y, jxl, jxr, jyl, jyr
-
-
-@njit
-def _slower(impulse: float, most: float) -> float:
-    """Return what dry friction of at most `most` leaves of an impulse."""
-    return impulse - most if impulse > most else (impulse + most if impulse < -most else 0.0)
-
-
-@njit
-def _dry(
-    a11: float, a12: float, a22: float, b1: float, b2: float, v1: float, v2: float, most: float
-) -> tuple[float, float]:
-    """Speeds of A v = b - λ, λ the impulse of dry friction of each joint: (v1, v2).
-
-    |λ| ≤ most; a joint that moves has it whole, against its motion; one that it can hold rests.
-    `v1` and `v2` on entry are the speeds before: where the signs stay, the answer is direct.
-    """
-    determinant = a11 * a22 - a12 * a12
-    s1 = most if v1 > 0.0 else -most
-    s2 = most if v2 > 0.0 else -most
-    u1 = (a22 * (b1 - s1) - a12 * (b2 - s2)) / determinant
-    u2 = (a11 * (b2 - s2) - a12 * (b1 - s1)) / determinant
-    if most == 0.0 or (u1 * s1 > 0.0 and u2 * s2 > 0.0):
-        return u1, u2
-    for _ in range(_ROUNDS):
-        u1 = _slower(b1 - a12 * v2, most) / a11
-        u2 = _slower(b2 - a12 * u1, most) / a22
-        if abs(u1 - v1) + abs(u2 - v2) <= _SNAP:
-            break
-        v1, v2 = u1, u2
-    return u1, u2
-
-
-@njit
-def _spring(
-    p: FloatArray, wx: float, wy: float, wz: float, dx: float, dy: float, dz: float, l_out: float
-) -> tuple[float, float, float, float]:
-    """Hand spring at the hub, across the needle: (stiffness in effect, fx, fy, fz)."""
-    sx, sy, sz = -l_out * (wx - dx), -l_out * (wy - dy), -l_out * (wz - dz)
-    along = sx * dx + sy * dy + sz * dz
-    sx, sy, sz = sx - along * dx, sy - along * dy, sz - along * dz
-    stretch = np.sqrt(sx * sx + sy * sy + sz * sz)
-    k = p[HAND_K]
-    if k * stretch > p[HAND_MOST]:
-        k = p[HAND_MOST] / stretch
-    return k, k * sx, k * sy, k * sz
-
-
-@njit
-def _hand_at_tool(
-    p: FloatArray,
-    h: float,
-    wx: float,
-    wy: float,
-    wz: float,
-    dx: float,
-    dy: float,
-    dz: float,
-    l_in: float,
-    l_out: float,
-) -> _System:
-    """Hand force at the tool and its part of the system matrix: (gx, gy, xx, xy, yy)."""
-    k, fx, fy, fz = _spring(p, wx, wy, wz, dx, dy, dz, l_out)
-    gx, gy = force_map_kernel(fx, fy, fz, dx, dy, dz, l_in, l_out)
-    c = (h * p[HAND_B] + h * h * k) * (l_out / l_in) ** 2
-    return gx, gy, c * (1.0 - dx * dx), -c * dx * dy, c * (1.0 - dy * dy)
-
-
-@njit
-def _stop_at_tool(p: FloatArray, h: float, x: float, y: float, vx: float, vy: float) -> _System:
-    """Force of the tilt stop at the tool, likewise; it only pushes inwards."""
-    ex, ey = x - p[FX], y - p[FY]
-    radius = np.sqrt(ex * ex + ey * ey)
-    beyond = radius - p[RADIUS]
-    if not beyond > 0.0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0
-    ex, ey = ex / radius, ey / radius
-    damping = p[STOP_B] if ex * vx + ey * vy > 0.0 else 0.0
-    c = h * damping + h * h * p[STOP_K]
-    push = -p[STOP_K] * beyond
-    return push * ex, push * ey, c * ex * ex, c * ex * ey, c * ey * ey
-
-
-@njit
-def _swing(
-    state: FloatArray,
-    p: FloatArray,
-    h: float,
-    t1: float,
-    t2: float,
-    holds: bool,
-    wx: float,
-    wy: float,
-    wz: float,
-) -> None:
-    """One substep sideways: solve (M + h D + h² K) q̇⁺ = M q̇ + h (τ - h + spring forces)."""
-    q1, q2 = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
-    v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
-    ok, x, y, jxl, jxr, jyl, jyr = _pose(p, q1, q2)
-    m11, m12, m22, c1, c2, g1, g2 = dynamics_kernel(
-        q1, q2, v1, v2, x, y, state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE], p, _MODEL
-    )
-    vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
-    gx, gy, xx, xy, yy = _stop_at_tool(p, h, x, y, vx, vy)
-    if holds:
-        dx, dy, dz, l_in = axis_kernel(x, y, p[FX], p[FY], p[FZ])
-        l_out = max(p[LENGTH] - state[sv.PLANT_DEPTH], _SHORTEST_LEVER)
-        hx, hy, hxx, hxy, hyy = _hand_at_tool(p, h, wx, wy, wz, dx, dy, dz, l_in, l_out)
-        gx, gy, xx, xy, yy = gx + hx, gy + hy, xx + hxx, xy + hxy, yy + hyy
-    b1 = m11 * v1 + m12 * v2 + h * (t1 - c1 - g1 + jxl * gx + jyl * gy)
-    b2 = m12 * v1 + m22 * v2 + h * (t2 - c2 - g2 + jxr * gx + jyr * gy)
-    a11 = m11 + h * p[VISCOUS] + jxl * (xx * jxl + xy * jyl) + jyl * (xy * jxl + yy * jyl)
-    a12 = m12 + jxl * (xx * jxr + xy * jyr) + jyl * (xy * jxr + yy * jyr)
-    a22 = m22 + h * p[VISCOUS] + jxr * (xx * jxr + xy * jyr) + jyr * (xy * jxr + yy * jyr)
-    v1, v2 = _dry(a11, a12, a22, b1, b2, v1, v2, h * p[COULOMB])
-    v1 = _rest(min(max(v1, -_SPEED), _SPEED))
-    v2 = _rest(min(max(v2, -_SPEED), _SPEED))
-    ok = _pose(p, q1 + h * v1, q2 + h * v2)[0]
-    state[sv.PLANT_Q_LEFT] = q1 + h * v1 if ok else q1
-    state[sv.PLANT_Q_RIGHT] = q2 + h * v2 if ok else q2
-    state[sv.PLANT_QD_LEFT] = v1 if ok else 0.0
-    state[sv.PLANT_QD_RIGHT] = v2 if ok else 0.0
-
-
-@njit
-def _slide(state: FloatArray, p: FloatArray, h: float, tissue: float, holds: bool) -> None:
-    """One substep along the needle; the seal's Coulomb friction is solved exactly (it can hold)."""
-    depth, v = state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE]
-    mass = p[MASS] + h * p[SEAL_VISCOUS]
-    impulse = p[MASS] * v + h * _load(state, p)
-    if tissue * v > 0.0:  # opposes the motion: implicit, as the damper F / v
-        mass += h * tissue / v
-    else:
-        impulse -= h * tissue
-    if holds:
-        k, spring = _axial_spring(state, p)
-        mass += h * p[HAND_AXIAL_B] + h * h * k
-        impulse += h * spring
-    held = h * p[SEAL]
-    v = 0.0 if abs(impulse) <= held else (impulse - np.sign(impulse) * held) / mass
-    v = _rest(v)
-    moved = min(max(depth + h * v, p[DEPTH_MIN]), p[DEPTH_MAX])
-    state[sv.PLANT_DEPTH_RATE] = v if moved == depth + h * v else 0.0
-    state[sv.PLANT_DEPTH] = moved
-
-
-@njit
-def _load(state: FloatArray, p: FloatArray) -> float:
-    """Weight and turning of the needle along its axis, inwards [N]."""
-    ok, x, y, jxl, jxr, jyl, jyr = _pose(p, state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT])
-    v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
-    vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
-    return axial_load_kernel(vx, vy, x, y, state[sv.PLANT_DEPTH], p, _MODEL) if ok else 0.0
-
-
-@njit
-def _axial_spring(state: FloatArray, p: FloatArray) -> tuple[float, float]:
-    """Hand spring along the needle: (stiffness in effect [N/m], force inwards [N])."""
-    stretch = state[sv.HAND_DEPTH] - state[sv.PLANT_DEPTH]
-    k = p[HAND_AXIAL_K]
-    if k * abs(stretch) > p[HAND_MOST]:
-        k = p[HAND_MOST] / abs(stretch)
-    return k, k * stretch
-
-
-@njit
-def _rest(speed: float) -> float:
-    return speed if abs(speed) > _SNAP else 0.0
 
 
 @njit
@@ -229,54 +35,50 @@ def _bounded(value: float, limit: float) -> float:
 
 
 @njit
-def _wanted(state: FloatArray) -> tuple[bool, float, float, float]:
-    """Direction that the hand wants, and whether it holds: (holds, wx, wy, wz)."""
-    x, y = state[sv.HAND_X], state[sv.HAND_Y]
-    sine = np.sqrt(x * x + y * y)
-    if not (state[sv.HAND_HOLDS] > 0.5 and np.isfinite(sine + state[sv.HAND_DEPTH])):
-        return False, 0.0, 0.0, -1.0
-    if sine > _FLATTEST:
-        x, y = x * (_FLATTEST / sine), y * (_FLATTEST / sine)
-    return True, x, y, -np.sqrt(1.0 - x * x - y * y)
+def _recover(state: FloatArray, p: FloatArray) -> Pose:
+    """Go back to the starting pose, at rest, if the pose is none the mechanism can have.
 
-
-@njit
-def _recover(state: FloatArray, p: FloatArray) -> None:
-    """Go back to the starting pose, at rest, if the pose is none the mechanism can have."""
+    Returns the pose.
+    """
     q1, q2 = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
     v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
-    if not (np.isfinite(q1 + q2 + v1 + v2) and _pose(p, q1, q2)[0]):
+    pose = pose_of(p, q1, q2)
+    if not (np.isfinite(q1 + q2 + v1 + v2) and pose[0]):
         state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT] = p[START_LEFT], p[START_RIGHT]
         state[sv.PLANT_QD_LEFT] = state[sv.PLANT_QD_RIGHT] = 0.0
+        pose = pose_of(p, p[START_LEFT], p[START_RIGHT])
     if not np.isfinite(state[sv.PLANT_DEPTH] + state[sv.PLANT_DEPTH_RATE]):
         state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE] = p[START_DEPTH], 0.0
+    return pose
 
 
 @njit
-def _report(state: FloatArray, p: FloatArray, holds: bool, wx: float, wy: float, wz: float) -> None:
+def _report(
+    state: FloatArray, p: FloatArray, holds: bool, wx: float, wy: float, wz: float, pose: Pose
+) -> None:
     """Write the force of the hand across (PULL_*) and along (PUSH) the needle."""
     state[sv.PULL_X] = state[sv.PULL_Y] = state[sv.PULL_Z] = state[sv.PUSH] = 0.0
-    ok, x, y, jxl, jxr, jyl, jyr = _pose(p, state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT])
+    ok, x, y, jxl, jxr, jyl, jyr = pose
     if not (holds and ok):
         return
     v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
     dx, dy, dz, l_in = axis_kernel(x, y, p[FX], p[FY], p[FZ])
-    l_out = max(p[LENGTH] - state[sv.PLANT_DEPTH], _SHORTEST_LEVER)
-    _, fx, fy, fz = _spring(p, wx, wy, wz, dx, dy, dz, l_out)
+    l_out = max(p[LENGTH] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
+    _, fx, fy, fz = spring(p, wx, wy, wz, dx, dy, dz, l_out)
     ux, uy, uz = hub_velocity_kernel(
         jxl * v1 + jxr * v2, jyl * v1 + jyr * v2, dx, dy, dz, l_in, l_out
     )
     state[sv.PULL_X] = fx - p[HAND_B] * ux
     state[sv.PULL_Y] = fy - p[HAND_B] * uy
     state[sv.PULL_Z] = fz - p[HAND_B] * uz
-    state[sv.PUSH] = _axial_spring(state, p)[1] - p[HAND_AXIAL_B] * state[sv.PLANT_DEPTH_RATE]
+    state[sv.PUSH] = axial_spring(state, p)[1] - p[HAND_AXIAL_B] * state[sv.PLANT_DEPTH_RATE]
 
 
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Move robot and needle by DT (at most 5 ms) and write the forces of the hand."""
-    _recover(state, parameters)
-    holds, wx, wy, wz = _wanted(state)
+    pose = _recover(state, parameters)
+    holds, wx, wy, wz = wanted(state)
     if state[sv.DT] > 0.0:  # not for NaN
         dt = min(state[sv.DT], LONGEST_STEP)
         substeps = int(np.ceil(dt / SUBSTEP - 1e-9))
@@ -285,6 +87,6 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
         t2 = _bounded(state[sv.TORQUE_RIGHT], _TORQUE)
         tissue = _bounded(state[sv.AXIAL_FORCE], _AXIAL)
         for _ in range(substeps):
-            _slide(state, parameters, h, tissue, holds)
-            _swing(state, parameters, h, t1, t2, holds, wx, wy, wz)
-    _report(state, parameters, holds, wx, wy, wz)
+            slide(state, parameters, h, tissue, holds, pose)
+            pose = swing(state, parameters, h, t1, t2, holds, wx, wy, wz, pose)
+    _report(state, parameters, holds, wx, wy, wz, pose)
