@@ -6,12 +6,8 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.mechanisms import dynamic_model as dm
+from app.mechanisms.pantograph.differential import jacobian_rate_kernel
 from app.mechanisms.pantograph.dynamics import dynamics_kernel
-from app.mechanisms.pantograph.links import (
-    distal_kernel,
-    passive_acceleration_kernel,
-    passive_rates_kernel,
-)
 
 _SMALLEST_PIVOT: Final = 0.02
 """|det J| over the sum of J's squares below which the inverse of J fades out."""
@@ -28,10 +24,8 @@ def velocity_torques(state: FloatArray, p: FloatArray, first: int) -> tuple[floa
     x, y, depth = state[sv.P3_X], state[sv.P3_Y], state[sv.DEPTH]
     m11, m12, m22, h1, h2, _, _ = dynamics_kernel(q1, q2, v1, v2, x, y, depth, 0.0, p, first)
     a1, a2, base = p[first + dm.A1], p[first + dm.A2], p[first + dm.BASE]
-    ux, uy, rx, ry = distal_kernel(q1, q2, x, y, a1, a2, base)
-    ll, lr, rl, rr = passive_rates_kernel(q1, q2, ux, uy, rx, ry, a1, a2)
-    w, wr = ll * v1 + lr * v2, rl * v1 + rr * v2
-    _, _, ax, ay = passive_acceleration_kernel(q1, q2, v1, v2, ux, uy, rx, ry, w, wr, a1, a2)
+    _, rxl, rxr, ryl, ryr = jacobian_rate_kernel(q1, q2, v1, v2, x, y, a1, a2, base)
+    ax, ay = rxl * v1 + rxr * v2, ryl * v1 + ryr * v2
     jxl, jxr, jyl, jyr = state[sv.J_XL], state[sv.J_XR], state[sv.J_YL], state[sv.J_YR]
     det = jxl * jyr - jxr * jyl
     pivot = _SMALLEST_PIVOT * (jxl * jxl + jxr * jxr + jyl * jyl + jyr * jyr)

@@ -10,7 +10,7 @@ gives; what it gives is counted in FRICTION_WORK.
 """
 
 from collections.abc import Mapping
-from math import isfinite, sqrt
+from math import cos, isfinite, sin, sqrt
 from typing import Any, Final
 
 import numpy as np
@@ -98,10 +98,11 @@ def gravity_potential(
     """Potential of gravity [J] of links, mass at P3 and needle, up to a constant."""
     gx, gy, gz = p[first + dm.GX], p[first + dm.GY], p[first + dm.GZ]
     a1, a2, base = p[first + dm.A1], p[first + dm.A2], p[first + dm.BASE]
-    ux, uy, rx, ry = distal_kernel(q1, q2, x, y, a1, a2, base)
+    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
+    ux, uy, rx, ry = distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, base)
     driven, passive = p[first + dm.DRIVEN_MOMENT], p[first + dm.PASSIVE_MOMENT]
-    mx = driven * (np.cos(q1) + np.cos(q2)) + passive * (ux + rx) + p[first + dm.TOOL] * x
-    my = driven * (np.sin(q1) + np.sin(q2)) + passive * (uy + ry) + p[first + dm.TOOL] * y
+    mx = driven * (c1 + c1r) + passive * (ux + rx) + p[first + dm.TOOL] * x
+    my = driven * (s1 + s1r) + passive * (uy + ry) + p[first + dm.TOOL] * y
     s = p[first + dm.NEEDLE_MASS] * (depth + p[first + dm.NEEDLE_OFFSET])
     fall = gx * axis[0] + gy * axis[1] + gz * axis[2]
     return -(mx * gx + my * gy) - s * fall
