@@ -150,9 +150,11 @@ def loop_table(setup: TrainerSetup, profile: DeviceProfile, simulated: bool = Tr
         placed = setup.placed
         trainee = trainee_stage(placed.axis, placed.length, setup.skill, setup.seed)
         link = Link.of([trainee, *link.read], link.write)
-    forces = laws.stages_of(law_requests(exercise), profile)
-    effects = compile_exercise(exercise, profile, simulated).stages()
-    return pantograph_stages(profile, forces, effects, link)
+    requests = law_requests(exercise)
+    plan = compile_exercise(exercise, profile, simulated)
+    bound = laws.energy_bound(requests, profile) + plan.energy_bound()
+    forces = laws.stages_of(requests, profile)
+    return pantograph_stages(profile, forces, plan.stages(), link, energy_bound=bound)
 
 
 def needle_scene(loop: Loop, profile: DeviceProfile, marker_offset: float) -> Scene:

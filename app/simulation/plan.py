@@ -1,5 +1,6 @@
 """The result of compiling a scene: what is simulated, with which model, and why."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.simulation.declaration import Declaration, class_name
+from app.simulation.errors import SimulationError
 from app.simulation.registry import implementation
 from app.simulation.scene import Binding, Scene
 
@@ -65,6 +67,28 @@ class SimulationPlan:
         from app.simulation.clearing import clear  # compiled; the plan itself is needed sooner
 
         return [("clear_effects", clear, np.zeros(1)), *(self._stage(kept) for kept in self.kept)]
+
+    def energy_bound(self) -> float:
+        """Return the most energy that the kept effects can store behind FORCE_* together [J].
+
+        An effect that does not say (no function `energy_bound(parameters)` in its file) counts as
+        active: it gets no share, and what it gives out is paid by the others.
+
+        Raises:
+            SimulationError: if an effect's own bound is no finite number of 0 or more.
+        """
+        return sum(self._bound(kept) for kept in self.kept)
+
+    def _bound(self, kept: Kept) -> float:
+        module = implementation(kept.name)
+        if not hasattr(module, "energy_bound"):
+            return 0.0
+        bound = float(module.energy_bound(self._stage(kept)[2]))
+        if not 0.0 <= bound < math.inf:
+            raise SimulationError(
+                f"effect {kept.name}: energy_bound is {bound} J; give a finite number of 0 or more"
+            )
+        return bound
 
     def _stage(self, kept: Kept) -> Stage:
         module = implementation(kept.name)

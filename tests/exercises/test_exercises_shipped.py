@@ -15,13 +15,7 @@ from app.scoring.result import Score
 from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
 
-SHIPPED = [
-    "first-insertion",
-    "thick-tissue",
-    "breathing-liver",
-    "past-the-vessel",
-    "against-repulsion",
-]
+SHIPPED = ["first-insertion", "thick-tissue", "breathing-liver"]
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 
 

@@ -132,7 +132,12 @@ def _send(state: FloatArray, p: FloatArray, left: float, right: float) -> None:
     tilt = tilt_kernel(dx, dy, dz)
     if tilt > p[_TILT]:
         gx, gy = inwards(gx, gy, dx, dy, tilt, p[_TILT], p[_TILT_MARGIN])
+        before = abs(left) + abs(right)
         left, right = torque_kernel(gx, gy, jxl, jxr, jyl, jyr)
+        after = abs(left) + abs(right)
+        if after > before:  # the guard before has let pass what was asked, not more
+            left, right = left * before / after, right * before / after
+            gx, gy = gx * before / after, gy * before / after
     fx, fy, fz = felt_kernel(gx, gy, dx, dy, dz, state[sv.L_IN], state[sv.L_OUT])
     homed = state[sv.HOMED]
     torque_limit = p[_TORQUE_LIMIT] if homed >= 1.0 else min(p[_TORQUE_LIMIT], p[_CHECK_TORQUE])

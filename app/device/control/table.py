@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from app.core.arrays import FloatArray
 from app.device.control.governor import SpeedGovernor
 from app.device.control.kinematics import Kinematics
+from app.device.control.passivity import PassivityGuard
 from app.device.control.safety import Safety
 from app.device.control.transmission import Transmission
 from app.device.control.velocity import DEFAULT_VELOCITY, VelocityMethod, velocity_stage
@@ -64,9 +65,10 @@ def pantograph_stages(
     link: Link,
     force_law: ForceLaw = ForceLaw.VIRTUAL_WORK,
     velocity: VelocityMethod = DEFAULT_VELOCITY,
+    energy_bound: float | None = None,
 ) -> Table:
     """Table of a needle pantograph: link read, velocity, kinematics, force laws, effects,
-    transmission, speed governor, safety, link write.
+    transmission, speed governor, passivity guard, safety, link write.
 
     Args:
         profile: the robot's numbers.
@@ -75,7 +77,13 @@ def pantograph_stages(
         link: where joint angles come from and torques go to.
         force_law: how a force at the hand becomes joint torques.
         velocity: how joint velocities come from encoder angles.
+        energy_bound: what laws and effects declare to store together [J]; the guard lets no more
+            out. None leaves the guard out, for tables whose forces declare nothing.
+
+    Raises:
+        DeviceError: if the bound is no finite number of 0 or more.
     """
+    guard = [] if energy_bound is None else [PassivityGuard.of(profile, energy_bound).stage()]
     return Table.of(
         [
             *link.read,
@@ -85,6 +93,7 @@ def pantograph_stages(
             *effects,
             Transmission.of(profile, force_law).stage(),
             SpeedGovernor.of(profile).stage(),
+            *guard,
             Safety.of(profile).stage(),
         ],
         link.write,

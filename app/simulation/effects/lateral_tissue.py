@@ -46,7 +46,7 @@ from app.simulation.scene import Binding
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Side stiffness of layered tissue about the fulcrum",
     "reads": ("axis_x", "axis_y", "axis_z", "depth", "depth_source", "l_out", "kinematics"),
-    "writes": ("force_x", "force_y", "force_z"),
+    "writes": ("force_x", "force_y", "force_z", "potential", "gain_work"),
     "consumers": ("device axis lateral", "score of felt force"),
     "needs": ("layers", "needle"),
     "models": {
@@ -188,6 +188,13 @@ def _retreat(p: FloatArray, depth: float) -> None:
     p[DEPTH] = depth
 
 
+@njit
+def _stored(p: FloatArray, x: float, y: float, z: float) -> float:
+    """U = K - n · C [J], never below 0 for rounding."""
+    stiffness = rotational_stiffness(p, p[DEPTH])
+    return max(stiffness - (x * p[CX] + y * p[CY] + z * p[CZ]), 0.0)
+
+
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Add the tissue's force at the hub point to FORCE_*; nothing without valid kinematics."""
@@ -199,11 +206,15 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     if state[sv.DEPTH_SOURCE] == 0.0:
         depth = parameters[DEPTH]
     depth = min(max(depth, 0.0), parameters[BINS] * BIN - 0.5 * BIN)
+    before = _stored(parameters, x, y, z)
     if depth > parameters[DEPTH]:
         _advance(parameters, depth, x, y, z)
     elif depth < parameters[DEPTH]:
         _retreat(parameters, depth)
     along = x * parameters[CX] + y * parameters[CY] + z * parameters[CZ]
+    stored = _stored(parameters, x, y, z)
+    state[sv.POTENTIAL] += stored
+    state[sv.GAIN_WORK] += stored - before  # what advancing and retreating have changed
     scale = -1.0 / max(lever, parameters[LEVER])
     state[sv.FORCE_X] += scale * (parameters[CX] - along * x)
     state[sv.FORCE_Y] += scale * (parameters[CY] - along * y)
@@ -212,5 +223,9 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
 
 def stored_energy(parameters: FloatArray, axis: FloatArray) -> float:
     """Return U = K - n · C [J] for the needle direction `axis`, shape (3,)."""
-    stiffness = rotational_stiffness(parameters, parameters[DEPTH])
-    return float(stiffness - axis @ parameters[CX : CZ + 1])
+    return float(_stored(parameters, *axis))
+
+
+def energy_bound(parameters: FloatArray) -> float:
+    """Return the most energy that the tissue can store [J]: U <= 2 K at the deepest needle."""
+    return 2.0 * float(rotational_stiffness(parameters, parameters[BINS] * BIN - 0.5 * BIN))

@@ -1,0 +1,271 @@
+"""The passivity guard: no more energy leaves the motors' port than was declared to be stored.
+
+The port is the joints as the encoders see them: torques are held over a tick, so the work that left
+in it is exactly w = τ_sent · Δq. Two accounts of it:
+
+- The *tank*, a guarantee. It starts at the declared bound when forces are armed, pays w, never
+  holds more than the bound, and torques are scaled so that even the fastest motion of the next tick
+  cannot overdraw it. So in any interval while armed at most the bound leaves the port, whatever
+  laws, effects, dial, delays and hand do. A change of gain can only spend what is in the tank.
+- The *account* of the observer. Law and effects say what they store (POTENTIAL) and what changes of
+  gain added to it (GAIN_WORK). What leaves beyond the drop of the potential at unchanged gain, in
+  the share in which the force was sent, was made by sampling, delay or an active effect, and is
+  charged; what the laws dissipate is credited, up to a small `credit`, so that old credit never
+  pays for late action. Overdrawn, the controller adds damping to get it back, of at most the
+  profile's joint inertia over a few ticks, which is itself stable when sampled; beyond `fade_from`
+  it fades the force as well. A debt is forgotten over `forget`.
+
+Time-domain passivity: Hannaford and Ryu 2002; energy tanks: Franken et al. 2011.
+"""
+
+from dataclasses import dataclass
+from math import isfinite, pi
+from typing import Any
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.compiled import njit, stage
+from app.device.control.law_kernels import STOP_GIVES, longest_lever
+from app.device.control.vectors import snapped
+from app.device.errors import DeviceError
+from app.mechanisms.pantograph.status import OK
+from app.mechanisms.profile import DeviceProfile
+
+_BOUND, _FASTEST, _COUNT, _PERIOD, _CREDIT, _FADE_FROM, _FADE_TO, _FORGET, _DAMPING = range(9)
+_LEFT, _RIGHT, _TIME, _KNOWN = range(9, 13)  # the newest reading, and whether there is one
+_HELD_LEFT, _HELD_RIGHT, _TICKS = range(13, 16)  # largest torques sent since, and for how long
+_STORED, _SHARE = range(16, 18)  # potential then; share of the laws' force that was let through
+_ASKED_LEFT, _ASKED_RIGHT, _BRAKE_LEFT, _BRAKE_RIGHT = range(18, 22)
+_CUT_LEFT, _CUT_RIGHT = range(22, 24)
+_TANK, _ACCOUNT, _OUT, _LOSS, _SIZE = range(24, 29)
+_JUMP = 0.5  # [rad] between two readings: no motion
+
+
+@njit
+def port_work(
+    p: FloatArray, left: float, right: float, sent_left: float, sent_right: float
+) -> float:
+    """Work that left the port since the newest reading [J], for readings (left, right) now.
+
+    Exact when there was one tick since. Over more ticks, with readings missing, no more is known
+    than the largest torques: the work is taken as the most it can have been.
+    """
+    turn_left, turn_right = left - p[_LEFT], right - p[_RIGHT]
+    if p[_TICKS] <= 1.0:
+        return sent_left * turn_left + sent_right * turn_right
+    return p[_HELD_LEFT] * abs(turn_left) + p[_HELD_RIGHT] * abs(turn_right)
+
+
+@njit
+def _start(p: FloatArray) -> None:
+    p[_TANK], p[_ACCOUNT], p[_OUT], p[_LOSS] = p[_BOUND], 0.0, 0.0, 0.0
+
+
+@njit
+def _charge(state: FloatArray, p: FloatArray, work: float, share: float) -> None:
+    """Pay `work` from the tank, and what of it no potential explains from the account."""
+    p[_OUT] += work
+    p[_TANK] = min(p[_BOUND], p[_TANK] - work)
+    released = p[_STORED] - (state[sv.POTENTIAL] - state[sv.GAIN_WORK])
+    made = work - share * p[_SHARE] * released
+    if isfinite(made):
+        p[_ACCOUNT] = min(p[_CREDIT], max(p[_ACCOUNT] - made, -p[_FADE_TO]))
+
+
+@njit
+def _hold(state: FloatArray, p: FloatArray) -> None:
+    """Note the torques that were held over the last tick."""
+    p[_TICKS] += 1.0
+    p[_HELD_LEFT] = max(p[_HELD_LEFT], abs(state[sv.SENT_LEFT]))
+    p[_HELD_RIGHT] = max(p[_HELD_RIGHT], abs(state[sv.SENT_RIGHT]))
+
+
+@njit
+def _reach(state: FloatArray, p: FloatArray, ticks: float) -> float:
+    """Furthest that a joint can be seen to turn in some ticks [rad]."""
+    return p[_FASTEST] * max(state[sv.DT], p[_PERIOD]) * ticks + p[_COUNT]
+
+
+@njit
+def _lose_track(state: FloatArray, p: FloatArray) -> None:
+    """Charge the most that the held torques can have done, where no motion is known."""
+    most = (p[_HELD_LEFT] + p[_HELD_RIGHT]) * _reach(state, p, p[_TICKS])
+    p[_OUT] += most
+    p[_TANK] -= most
+    p[_HELD_LEFT] = p[_HELD_RIGHT] = p[_TICKS] = p[_KNOWN] = 0.0
+
+
+@njit
+def _observe(state: FloatArray, p: FloatArray) -> None:
+    """Account for what the torques have done since the newest reading."""
+    left, right = state[sv.Q_LEFT], state[sv.Q_RIGHT]
+    if p[_KNOWN] != 0.0 and state[sv.Q_TIME] == p[_TIME]:
+        return
+    turn_left, turn_right = left - p[_LEFT], right - p[_RIGHT]
+    if p[_KNOWN] != 0.0 and abs(turn_left) < _JUMP and abs(turn_right) < _JUMP:
+        sent_left, sent_right = state[sv.SENT_LEFT], state[sv.SENT_RIGHT]
+        share = _sent_share(p, sent_left, sent_right)
+        _charge(state, p, port_work(p, left, right, sent_left, sent_right), share)
+        p[_LOSS] -= share * (p[_BRAKE_LEFT] * turn_left + p[_BRAKE_RIGHT] * turn_right)
+        p[_LOSS] += max(p[_CUT_LEFT] * turn_left + p[_CUT_RIGHT] * turn_right, 0.0)
+    else:
+        _lose_track(state, p)
+    p[_STORED] = state[sv.POTENTIAL]
+    p[_LEFT], p[_RIGHT], p[_TIME], p[_KNOWN] = left, right, state[sv.Q_TIME], 1.0
+    p[_HELD_LEFT] = p[_HELD_RIGHT] = p[_TICKS] = 0.0
+
+
+@njit
+def _sent_share(p: FloatArray, sent_left: float, sent_right: float) -> float:
+    """Share of the torques asked of safety that it let through, 0...1."""
+    asked = p[_ASKED_LEFT] * p[_ASKED_LEFT] + p[_ASKED_RIGHT] * p[_ASKED_RIGHT]
+    if not asked > 0.0:
+        return 0.0
+    along = sent_left * p[_ASKED_LEFT] + sent_right * p[_ASKED_RIGHT]
+    return min(max(along / asked, 0.0), 1.0)
+
+
+@njit
+def damping_for(debt: float, speed2: float, step: float, most: float) -> float:
+    """Damping [N·m·s/rad] that takes `debt` [J] out within a tick of `step` [s], at most `most`.
+
+    Args:
+        debt: energy to get back; none for 0 or less.
+        speed2: square of the joint speeds [rad²/s²].
+        step: length of the tick.
+        most: largest damping.
+    """
+    if not debt > 0.0:
+        return 0.0
+    takes = speed2 * step
+    return min(debt / takes, most) if takes * most > debt else most
+
+
+@njit
+def _brake(state: FloatArray, p: FloatArray) -> None:
+    """Set the controller's damping torques for the debt of the account."""
+    v1, v2 = state[sv.QD_LEFT], state[sv.QD_RIGHT]
+    p[_BRAKE_LEFT] = p[_BRAKE_RIGHT] = 0.0
+    state[sv.GUARD_DAMPING] = 0.0
+    if isfinite(v1 + v2):
+        step = max(state[sv.DT], p[_PERIOD])
+        b = damping_for(-p[_ACCOUNT], v1 * v1 + v2 * v2, step, p[_DAMPING])
+        state[sv.GUARD_DAMPING] = b
+        p[_BRAKE_LEFT], p[_BRAKE_RIGHT] = snapped(-b * v1), snapped(-b * v2)
+
+
+@njit
+def _fade(state: FloatArray, p: FloatArray) -> float:
+    """Factor on the force for a large debt; a debt is forgotten slowly."""
+    if p[_ACCOUNT] < 0.0:
+        p[_ACCOUNT] = snapped(p[_ACCOUNT] * (1.0 - min(state[sv.DT] / p[_FORGET], 1.0)))
+    debt = -p[_ACCOUNT] - p[_FADE_FROM]
+    return 1.0 - min(max(debt / (p[_FADE_TO] - p[_FADE_FROM]), 0.0), 1.0)
+
+
+@njit
+def _affordable(state: FloatArray, p: FloatArray, left: float, right: float) -> float:
+    """Factor in [0, 1] with which the next tick cannot overdraw the tank."""
+    reach = _reach(state, p, p[_TICKS] + 1.0)
+    room = max(p[_TANK] - (p[_HELD_LEFT] + p[_HELD_RIGHT]) * reach, 0.0)
+    most = (abs(left) + abs(right)) * reach
+    return room / most if most > room else 1.0
+
+
+@stage
+def guard_stage(state: FloatArray, p: FloatArray) -> None:
+    """Account for the energy that left, and scale and damp TORQUE_* accordingly."""
+    left, right = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
+    _hold(state, p)
+    scale = 1.0
+    if state[sv.KINEMATICS] == OK:
+        _observe(state, p)
+    else:
+        _lose_track(state, p)
+    if not state[sv.ENABLED] > 0.5:
+        _start(p)
+    if state[sv.KINEMATICS] == OK and isfinite(left + right):  # else safety holds it at zero
+        _brake(state, p)
+        fade = _fade(state, p)
+        braked_left, braked_right = fade * left + p[_BRAKE_LEFT], fade * right + p[_BRAKE_RIGHT]
+        afford = _affordable(state, p, braked_left, braked_right)
+        scale = fade * afford
+        p[_BRAKE_LEFT], p[_BRAKE_RIGHT] = afford * p[_BRAKE_LEFT], afford * p[_BRAKE_RIGHT]
+        p[_CUT_LEFT], p[_CUT_RIGHT] = (1.0 - scale) * left, (1.0 - scale) * right
+        left, right = afford * braked_left, afford * braked_right
+        p[_ASKED_LEFT], p[_ASKED_RIGHT] = left, right
+        state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = left, right
+    p[_SHARE] = state[sv.LIMIT_SCALE] * state[sv.LET_GO_SCALE] * scale
+    state[sv.GUARD_SCALE] = scale
+    state[sv.ENERGY_OUT], state[sv.ENERGY_TANK] = p[_OUT], p[_TANK]
+    state[sv.ENERGY_BOUND], state[sv.GUARD_LOSS] = p[_BOUND], p[_LOSS]
+
+
+@dataclass(frozen=True, slots=True)
+class PassivityGuard:
+    """Bounds the energy that leaves the motors' port; see the module.
+
+    Attributes:
+        bound: declared stored energy of all laws and effects, the tank's size [J].
+        fastest: joint speed that the guarantee holds up to [rad/s].
+        count: one encoder count at the joint [rad].
+        period: of the loop [s]; a tick is never taken for shorter.
+        damping: most that the controller adds [N·m·s/rad].
+        credit: largest credit of the account [J].
+        fade_from, fade_to: debt over which the force fades to zero [J].
+        forget: time over which a debt is forgotten [s].
+    """
+
+    bound: float
+    fastest: float
+    count: float
+    period: float
+    damping: float
+    credit: float = 5e-4
+    fade_from: float = 5e-3
+    fade_to: float = 20e-3
+    forget: float = 1.0
+
+    @classmethod
+    def of(cls, profile: DeviceProfile, energy_bound: float) -> "PassivityGuard":
+        """Guard of a device for what laws and effects declare to store together [J].
+
+        No more can be in it than the largest force at the hand times the longest way across the
+        workspace. The damping is a tenth of what stops the driven link within a tick.
+        """
+        widest = 2.0 * (profile.tilt_limit + STOP_GIVES)
+        most = profile.limits.hand_force * longest_lever(profile) * widest
+        return cls(
+            bound=min(energy_bound, most),
+            fastest=20.0,
+            count=2.0 * pi / profile.encoder.counts_per_turn,
+            period=1.0 / profile.rate_hz,
+            damping=0.1 * profile.lumped_inertia.driven * profile.rate_hz,
+        )
+
+    def stage(self) -> tuple[str, Any, FloatArray]:
+        """Return the stage for a loop's table, with memory of its own.
+
+        Raises:
+            DeviceError: if the bound is no finite number of 0 or more.
+        """
+        if not 0.0 <= self.bound < np.inf:
+            raise DeviceError(
+                f"the declared energy is {self.bound} J; give a finite number of 0 or more"
+            )
+        parameters = np.zeros(_SIZE)
+        parameters[:_LEFT] = (
+            self.bound,
+            self.fastest,
+            self.count,
+            self.period,
+            self.credit,
+            self.fade_from,
+            self.fade_to,
+            self.forget,
+            self.damping,
+        )
+        parameters[_TANK] = self.bound
+        return "guard", guard_stage, parameters
