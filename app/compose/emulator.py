@@ -7,6 +7,7 @@ makes a new one behind the same link.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, pi, sin
@@ -22,7 +23,9 @@ from app.core.clock import SystemClock
 from app.core.compiled import njit, stage
 from app.device.control import Loop
 from app.device.errors import LinkError
-from app.device.links import board, fault_box, line, wire
+from app.device.links import board_layout as at
+from app.device.links import fault_box, line, wire
+from app.device.links.board_layout import new_board
 from app.device.links.fault_box import Faults
 from app.device.links.transport import fd_await, fd_send
 from app.mechanisms.profile import DeviceProfile
@@ -70,19 +73,19 @@ def board_stage(state: FloatArray, p: FloatArray) -> None:
     end, box = p[:_BOX], p[_BOX:_PARKED]
     _move_to_park(state, p)
     now = state[sv.TIME]
-    box[board.Q], box[board.Q + 1] = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
-    box[board.GAUGE_READING] = np.sqrt(
+    box[at.Q], box[at.Q + 1] = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
+    box[at.GAUGE_READING] = np.sqrt(
         state[sv.PULL_X] ** 2 + state[sv.PULL_Y] ** 2 + state[sv.PULL_Z] ** 2
     )
     end[wire.OUT_COUNT] = fault_box.exchange(
         box, now, wire.incoming(end), int(end[wire.IN_COUNT]), wire.outgoing(end), 0
     )
     end[wire.IN_COUNT] = 0.0
-    state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = box[board.TORQUE], box[board.TORQUE + 1]
-    state[sv.LINK_REPLIES], state[sv.LINK_ERRORS] = box[board.COMMANDS], box[board.ERRORS]
-    state[sv.ROUND_TRIP] = now - box[board.COMMANDED]
-    state[sv.LINK_STATUS] = _SILENT if box[board.TRIPPED] != 0.0 else 0.0
-    state[sv.HOMED], state[sv.ENABLED] = box[board.HOMED], box[board.ENABLED]
+    state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = box[at.TORQUE], box[at.TORQUE + 1]
+    state[sv.LINK_REPLIES], state[sv.LINK_ERRORS] = box[at.COMMANDS], box[at.ERRORS]
+    state[sv.ROUND_TRIP] = now - box[at.COMMANDED]
+    state[sv.LINK_STATUS] = _SILENT if box[at.TRIPPED] != 0.0 else 0.0
+    state[sv.HOMED], state[sv.ENABLED] = box[at.HOMED], box[at.ENABLED]
     state[sv.LINK_LOST] = p[_UNPLUGGED]
 
 
@@ -129,8 +132,8 @@ class Emulator:
         self._tell = tell
         self._array = np.zeros(_SIZE)
         self._end, box = self._array[:_BOX], self._array[_BOX:_PARKED]
-        box[: board.SIZE] = board.board(profile, setup.serial, boot=int(SystemClock().now()))
-        box[board.GAUGE] = setup.gauge
+        box[: at.SIZE] = new_board(profile, setup.serial, boot=int(SystemClock().now()))
+        box[at.GAUGE] = setup.gauge
         box[fault_box.DOWN : fault_box.UP] = line.line(setup.seed)
         box[fault_box.UP :] = line.line(setup.seed + 1)
         self._array[_PARK : _PARK + 2] = profile.encoder.home_offsets
@@ -158,7 +161,7 @@ class Emulator:
         return str(self.setup.link or self._terminal.path)
 
     def open(self) -> None:
-        """Plug in and switch on."""
+        """Plug in and switch on; tells the path once the board runs."""
         holds = self.setup.hand != "none"
         self._loop.inbox.write(hand_holds=float(holds), hand_depth=DEPTH)
         if self.setup.record is not None:
@@ -166,6 +169,8 @@ class Emulator:
             self._record.write(",".join(COLUMNS) + "\n")
         self._terminal.open()
         self._loop.open()
+        while self._loop.latest().tick == 0:
+            time.sleep(0.01)
         self._tell(self.path)
 
     def close(self) -> None:

@@ -19,6 +19,10 @@ class LawError(DeviceError):
     """A force law does not exist, its file is broken, or a parameter cannot be used."""
 
 
+class BoardVersionError(LinkError):
+    """The board speaks another version of the protocol than the program."""
+
+
 class UnknownInputError(DeviceError, KeyError):
     """A name that is not an input of the loop."""
 

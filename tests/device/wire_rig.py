@@ -37,17 +37,19 @@ def joint_angles(profile, tilt=0.1, azimuth=0.3):
 class MemoryRig:
     """Loop on a virtual clock with a robot in memory; forces armed by `arm`."""
 
-    def __init__(self, name="icube", homed=True, seed=1, extra=()):
+    def __init__(self, name="icube", homed=True, seed=1, watch=None):
         self.profile = load_profile(name)
         self.start = tuple(float(q) for q in joint_angles(self.profile))
         plant = ("plant", free_arms, np.array(self.start))
-        self.link = MemoryLink(self.profile, [plant, *extra], self.start, homed, seed)
-        stages = self.link.stages()
+        self.link = MemoryLink(self.profile, [plant], self.start, homed, seed)
+        read, write = self.link.stages().read, self.link.stages().write
+        if watch is not None:  # with the board's torques in the state, its array as parameters
+            write = (*write[:-1], ("watch", watch, self.link._box), write[-1])
         laws = [VirtualFixture.of(self.profile).stage()]
         self.clock = VirtualClock(10.0)
         initial = {"plant_q_left": self.start[0], "plant_q_right": self.start[1]}
         self.loop = Loop(
-            pantograph_stages(self.profile, laws, [], Link.of(stages.read, stages.write)),
+            pantograph_stages(self.profile, laws, [], Link.of(read, write)),
             self.profile.rate_hz,
             self.clock,
             initial=initial,
@@ -58,6 +60,12 @@ class MemoryRig:
         self.loop.inbox.write(enabled=1.0, assistance=1.0, path_x=0.3, path_z=-0.95)
         self.loop.inbox.write(homed=1.0, force_cap=5.0)
         self.step(ticks)
+
+    def rearm(self):
+        """Disarm and arm again, as somebody does after a loss of the link."""
+        self.loop.inbox.write(enabled=0.0)
+        self.step(2)
+        self.arm()
 
     def step(self, ticks):
         for start in range(0, ticks, 100):

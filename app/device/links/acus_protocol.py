@@ -9,7 +9,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.device.errors import LinkError
+from app.device.errors import BoardVersionError
 from app.device.links import framing, wire
 from app.device.links import host_end as host
 from app.device.links.framing import RECEIVER
@@ -110,12 +110,12 @@ def read_info(payload: bytes) -> tuple[BoardInfo, int, float, float]:
         The board, its counts per turn, largest torque [N·m] and watchdog time [s].
 
     Raises:
-        LinkError: if the board speaks another version; names both. Type and version stand in the
-            same two bytes in every version.
+        BoardVersionError: if the board speaks another version; names both. Type and version stand
+            in the same two bytes in every version.
     """
     if len(payload) < 2 or payload[1] != VERSION or len(payload) != INFO_BYTES:
         theirs = payload[1] if len(payload) > 1 else 0
-        raise LinkError(
+        raise BoardVersionError(
             f"the board speaks version {theirs} of the protocol, this program version {VERSION}"
             f" ({len(payload)} bytes): update the"
             f" {'board' if theirs < VERSION else 'program'} (docs/protocol.md)"

@@ -11,8 +11,9 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.device.errors import LinkError
 from app.device.links import board, line, wire
+from app.device.links import board_layout as at
 
-DOWN: Final = board.SIZE  # line to the board
+DOWN: Final = at.SIZE  # line to the board
 UP: Final = DOWN + line.SIZE  # line from it
 SIZE: Final = UP + line.SIZE
 
@@ -24,14 +25,14 @@ def exchange(p: FloatArray, now: float, sent: Any, count: int, answer: Any, fill
     Returns:
         The new fill of `answer`.
     """
-    the_board = p[: board.SIZE]
+    the_board = p[: at.SIZE]
     down, up = p[DOWN:UP], p[UP:SIZE]
     line.push(down, now, sent, count)
     the_board[wire.IN_COUNT] = line.pop(
         down, now, wire.incoming(the_board), int(the_board[wire.IN_COUNT]), wire.IN_BYTES
     )
     if count > 0:
-        the_board[board.HEARD] = now
+        the_board[at.HEARD] = now
     board.work(the_board, now)
     line.push(up, now, wire.outgoing(the_board), int(the_board[wire.OUT_COUNT]))
     the_board[wire.OUT_COUNT] = 0.0
@@ -60,10 +61,10 @@ class Faults:
             "garble": (1.0, 1.0, (DOWN + line.GARBLE, UP + line.GARBLE)),
             "delay": (30.0, 1e-3, (DOWN + line.DELAY, UP + line.DELAY)),
             "cut": (1.0, 1.0, (DOWN + line.CUT, UP + line.CUT)),
-            "freeze": (1.0, 1.0, (board.FROZEN,)),
-            "reset": (1.0, 1.0, (board.RESET,)),
-            "version": (255.0, 1.0, (board.VERSION,)),
-            "error": (255.0, 1.0, (board.ERROR,)),
+            "freeze": (1.0, 1.0, (at.FROZEN,)),
+            "reset": (1.0, 1.0, (at.RESET,)),
+            "version": (255.0, 1.0, (at.VERSION,)),
+            "error": (255.0, 1.0, (at.ERROR,)),
         }
         if name not in valid:
             raise LinkError(f"no fault {name!r}; valid names: {', '.join(valid)}")

@@ -12,8 +12,10 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
 from app.device.errors import LinkError
-from app.device.links import board, fault_box, line, wire
+from app.device.links import board_layout as at
+from app.device.links import fault_box, line, wire
 from app.device.links import host_end as host
+from app.device.links.board_layout import new_board
 from app.device.links.fault_box import Faults
 from app.device.links.link import BoardInfo, DeviceLink, Link, LinkStatus, Triple
 from app.device.links.protocols import Calibration, Speech, speech_of
@@ -28,6 +30,8 @@ _SIZE = _WANTED + 2
 def _clock(state: FloatArray, p: FloatArray) -> None:
     """Say what time it is; what the board has answered lies in `incoming` already."""
     p[wire.NOW] = state[sv.TIME]
+    if p[host.HEARD] == 0.0:  # the silence begins with the first tick
+        p[host.HEARD] = p[wire.NOW]
 
 
 @stage
@@ -37,8 +41,8 @@ def _carry(state: FloatArray, p: FloatArray) -> None:
     now = state[sv.TIME]
     if end[wire.OUT_COUNT] > 0.0:
         wire.note_sent(end, now)
-    box[board.Q], box[board.Q + 1] = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
-    box[board.GAUGE_READING] = np.sqrt(
+    box[at.Q], box[at.Q + 1] = state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT]
+    box[at.GAUGE_READING] = np.sqrt(
         state[sv.PULL_X] ** 2 + state[sv.PULL_Y] ** 2 + state[sv.PULL_Z] ** 2
     )
     end[wire.IN_COUNT] = fault_box.exchange(
@@ -51,7 +55,7 @@ def _carry(state: FloatArray, p: FloatArray) -> None:
     )
     end[wire.OUT_COUNT] = 0.0
     p[_WANTED], p[_WANTED + 1] = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
-    state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = box[board.TORQUE], box[board.TORQUE + 1]
+    state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = box[at.TORQUE], box[at.TORQUE + 1]
 
 
 @stage
@@ -87,7 +91,7 @@ class MemoryLink(DeviceLink):
         self._box = self._array[_BOX:_WANTED]
         self._homed = homed
         self._start = start or profile.encoder.home_offsets
-        self._box[: board.SIZE] = board.board(profile, serial="MEMORY", boot=0)
+        self._box[: at.SIZE] = new_board(profile, serial="MEMORY", boot=0)
         self._box[fault_box.DOWN : fault_box.UP] = line.line(seed)
         self._box[fault_box.UP :] = line.line(seed + 1)
         self._end[host.STATUS] = LinkStatus.CLOSED
@@ -96,12 +100,12 @@ class MemoryLink(DeviceLink):
     @property
     def torque(self) -> tuple[float, float]:
         """Torques of the board's motors now [N·m]: left, right."""
-        return float(self._box[board.TORQUE]), float(self._box[board.TORQUE + 1])
+        return float(self._box[at.TORQUE]), float(self._box[at.TORQUE + 1])
 
     @property
     def largest_torque(self) -> float:
         """Largest torque that its motors have had since power-up [N·m]."""
-        return float(self._box[board.LARGEST])
+        return float(self._box[at.LARGEST])
 
     def open(self) -> None:
         """Greet the board in memory.
@@ -109,17 +113,18 @@ class MemoryLink(DeviceLink):
         Raises:
             LinkError: if it does not answer, or speaks another version.
         """
-        self._box[board.Q : board.Q + 2] = self._start
+        self._box[at.Q : at.Q + 2] = self._start
         self._say(b"")  # power-up
         if self._homed:
-            self._box[board.ZERO : board.ZERO + 2] = self.profile.encoder.home_offsets
-            self._box[board.HOMED] = 1.0
+            self._box[at.ZERO : at.ZERO + 2] = self.profile.encoder.home_offsets
+            self._box[at.HOMED] = 1.0
         self._info = self._speech.greet(self._say)
         self._speech.fill(self._end, self.profile, Calibration.of(self.profile))
         self._speech.greeted(self._end, self._info)
         if self._homed:
-            self._box[board.ZERO : board.ZERO + 2] = self.profile.encoder.home_offsets
+            self._box[at.ZERO : at.ZERO + 2] = self.profile.encoder.home_offsets
             self._end[host.HOME_WANTED] = self._end[host.HOME_SENT] = 1.0
+        self._end[host.HEARD] = 0.0
         self._end[host.STATUS] = LinkStatus.FINE
 
     def close(self) -> None:
@@ -157,6 +162,6 @@ class MemoryLink(DeviceLink):
         sent = np.zeros(max(len(data), 1), np.uint8)
         sent[: len(data)] = np.frombuffer(data, np.uint8)
         answer = np.zeros(wire.IN_BYTES, np.uint8)
-        now = float(self._box[board.LAST])
+        now = float(self._box[at.LAST])
         count = fault_box.exchange(self._box, now, sent, len(data), answer, 0)
         return answer[:count].tobytes()

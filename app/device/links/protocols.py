@@ -22,8 +22,9 @@ from app.mechanisms.profile import DeviceProfile, Protocol
 Exchange = Callable[[bytes], bytes]
 """Send bytes, wait a while, return what has come (maybe nothing)."""
 
-ATTEMPTS = 8
-"""Greetings before a board counts as silent."""
+ATTEMPTS = 32
+"""Greetings before a board counts as silent: two seconds, since some boards restart when their port
+is opened."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ import numpy as np
 
 from app.core.clock import Clock, SystemClock
 from app.core.events import Event, EventQueue
-from app.device.errors import LinkError
+from app.device.errors import BoardVersionError, LinkError
 from app.device.links import host_end as host
 from app.device.links import wire
 from app.device.links.link import BoardInfo, DeviceLink, Link, LinkStatus, Triple
@@ -156,14 +156,16 @@ class SerialLink(DeviceLink):
 
     def _find_again(self) -> None:
         self._say(f"the robot on {self.port} is gone; looking for it")
+        said = ""
         while not self._supervisor.wait(0.0):
             try:
                 self._connect(self.info().serial)
             except LinkError as error:
-                wrong = "speaks version" in str(error)
+                wrong = isinstance(error, BoardVersionError)
                 status = LinkStatus.WRONG_VERSION if wrong else LinkStatus.CONNECTING
-                if self._end[host.STATUS] != status or wrong:
+                if str(error) != said:
                     self._say(str(error))
+                said = str(error)
                 self._end[host.STATUS] = status
                 self._supervisor.wait(0.5)
             else:

@@ -1,0 +1,92 @@
+"""docs/protocol.md says what the program does: its examples are decoded, its numbers compared."""
+
+import re
+import struct
+from pathlib import Path
+
+import pytest
+
+from app.device.links import acus_protocol as acus
+from app.device.links import framing
+from app.device.links import haply_protocol as haply
+from app.mechanisms.profile import load_profile
+
+PAGE = (Path(__file__).parents[2] / "docs" / "protocol.md").read_text(encoding="utf-8")
+EXAMPLES = {
+    text.strip(): bytes.fromhex(data)
+    for data, text in re.findall(r"^((?:[0-9a-f]{2} )+)= (.*)$", PAGE, re.MULTILINE)
+}
+
+
+def example(beginning):
+    (data,) = [data for text, data in EXAMPLES.items() if text.startswith(beginning)]
+    return data
+
+
+def message(beginning):
+    (payload,) = framing.Deframer().feed(example(beginning))
+    return payload
+
+
+def test_the_page_has_an_example_of_every_message():
+    assert len(EXAMPLES) == 9
+
+
+def test_the_greeting_on_the_page_is_what_the_program_sends():
+    assert example("HELLO") == acus.hello()
+
+
+def test_the_command_on_the_page_decodes_by_its_table():
+    kind, flags, sequence, left, right = struct.unpack("<BBHff", message("COMMAND"))
+    assert (kind, flags, sequence, left, right) == (acus.COMMAND, acus.ENABLE, 258, 0.25, -0.125)
+    assert len(message("COMMAND")) == acus.COMMAND_BYTES
+
+
+def test_the_homing_on_the_page_is_what_the_program_sends():
+    assert example("HOME") == acus.home(0x1234)
+
+
+@pytest.mark.parametrize(("beginning", "force"), [("STATE", None), ("the same with a gauge", 1.5)])
+def test_the_states_on_the_page_decode_by_their_table(beginning, force):
+    data = message(beginning)
+    kind, flags, sequence, time, left, right, error = struct.unpack("<BBHIiiB", data[:17])
+    known = acus.ENABLED | acus.HOMED | acus.GREETED
+    assert flags == (known if force is None else known | acus.FORCE_VALID)
+    assert (kind, sequence, time, left, right, error) == (0x82, 258, 1_000_000, -2681, 2400, 0)
+    if force is None:
+        assert len(data) == acus.STATE_BYTES
+    else:
+        assert len(data) == acus.STATE_WITH_FORCE_BYTES
+        assert struct.unpack("<f", data[17:]) == (force,)
+
+
+def test_the_info_on_the_page_is_understood():
+    info, counts, torque, watchdog = acus.read_info(message("INFO"))
+    assert (info.serial, info.profile, info.boot, info.gauge) == ("A0007", "icube", 0x1234, True)
+    assert (counts, torque, watchdog) == (20000, pytest.approx(0.6), pytest.approx(0.020))
+
+
+def test_the_haply_setup_on_the_page_is_what_the_program_sends():
+    assert example("setup") == haply.setup(load_profile("haply-2diy"))
+    assert len(example("setup")) == haply.SETUP_BYTES
+
+
+def test_the_haply_messages_on_the_page_have_their_lengths_and_values():
+    assert struct.unpack("<BBff", example("torques"))[2:] == pytest.approx((-0.05, 0.1))
+    assert struct.unpack("<Bff", example("angles")) == (5, 12.0, 168.0)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "**0x29B1**",
+        f"{haply.LARGEST_JUMP_DEG:g}° per millisecond",
+        f"at most {haply.FARTHEST_JUMP_DEG:g}°",
+        f"after {haply.ANSWER_WITHIN * 1e3:g} ms",
+        f"1 to {framing.LARGEST_PAYLOAD} bytes",
+        "errors: 1 torque not finite, 2 home refused, 3 encoder, 4 amplifier, 5 motor supply off,"
+        " 6 too hot, 7 internal",
+    ],
+)
+def test_the_numbers_on_the_page_are_the_programs(words):
+    assert words.lower() in " ".join(PAGE.split()).lower()
