@@ -13,6 +13,7 @@ from app.core.clock import VirtualClock
 from app.device.faults import Fault
 from app.device.links.link import BoardInfo
 from app.session.machine import State
+from app.views.exercise import assistance_dial
 from app.views.exercise.assistance_dial import AssistanceDial, share_words
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseController, ExerciseViews
@@ -87,6 +88,12 @@ def test_a_wheel_over_the_dial_does_not_turn_it_by_a_slip(dial):
     dial.slider.wheelEvent(event)
     assert dial.share == 0.3
     assert not event.isAccepted()
+
+
+def test_the_dead_zone_on_the_dial_is_the_force_laws():
+    from app.device.control.laws import fixture  # compiled code: the dial keeps its own number
+
+    assert assistance_dial.DEAD_ZONE == fixture.DEAD_ZONE
 
 
 # --- force --------------------------------------------------------------------------------------

@@ -77,7 +77,7 @@ class EnableSwitch(QAbstractButton):
 
     def sizeHint(self) -> QSize:
         """Room for three lines of a fault, so that nothing below moves when one comes."""
-        return QSize(240, 92)
+        return QSize(240, 80)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw frame, ramp, state and what to do."""
@@ -100,7 +100,7 @@ class EnableSwitch(QAbstractButton):
         font.setBold(False)
         painter.setFont(font)
         painter.setPen(QColor(theme.TEXT))
-        below = box.adjusted(10, 34, -10, -4)
+        below = box.adjusted(10, 29, -10, 0)
         painter.drawText(below, Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextWordWrap, help_text)
 
     def _paint_ramp(self, painter: QPainter, box: QRectF, colour: QColor) -> None:

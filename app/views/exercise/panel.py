@@ -126,7 +126,7 @@ class ExercisePanel(QWidget):
         form.addRow(tr("Assistance"), self.assistance)
         column = QVBoxLayout(self)
         column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
-        column.setSpacing(theme.SPACING)
+        column.setSpacing(theme.SPACING - 2)  # with every part shown it still fits 768 lines
         column.addLayout(form)
         for widget in (
             self.steps, self._note, self.buttons, self.enable, _line(), self.readouts, self.energy
