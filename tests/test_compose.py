@@ -20,11 +20,11 @@ from app.tracking.fix import FixStatus, NeedleFix
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 
 
-def run(skill, exercise="first-insertion", seed=3, assistance=0.7, seconds=60.0):
+def run(skill, exercise="first-insertion", seed=3, assistance=0.7, seconds=60.0, plan=PLAN):
     """A whole attempt on the composed loop, the depth measured without cameras."""
     chosen = load_exercise(exercise)
     profile = device_of(chosen)
-    placed = placed_plan_of(chosen, profile, PLAN)
+    placed = placed_plan_of(chosen, profile, plan)
     clock = VirtualClock(100.0)
     loop = build_loop(TrainerSetup(chosen, placed, skill=skill, seed=seed, clock=clock), profile)
 
@@ -75,6 +75,17 @@ def test_the_same_seed_is_the_same_attempt_to_the_last_digit():
 def test_without_guidance_no_force_of_the_fixture_is_felt():
     result = run("expert", assistance=0.0)[0]
     assert np.abs(result.trajectory.guide).max() == 0.0
+
+
+@pytest.mark.parametrize("exercise", ["against-repulsion", "past-the-vessel"])
+def test_a_harder_exercise_can_be_finished_and_its_forces_are_felt(exercise):
+    chosen = load_exercise(exercise)
+    result, states, felt = run("expert", exercise, assistance=chosen.assistance, plan=None)
+    assert {State.ALIGNING, State.INSERTING, State.HOLDING} <= set(states)
+    assert result.state is State.ENDED
+    assert result.score.passed
+    assert np.abs(result.trajectory.guide).max() > 0.1
+    assert max(felt) <= 5.0 + 1e-9
 
 
 def test_breathing_follows_the_way_the_patient_lies():

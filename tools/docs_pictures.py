@@ -52,6 +52,14 @@ def studies() -> None:
                 shutil.copyfile(picture, PICTURES / f"study-{picture.name}")
 
 
+def robot() -> None:
+    """Keep the robot's pictures as docs/pictures/robot-<name>.png, with settings of their own."""
+    with tempfile.TemporaryDirectory() as folder:
+        own = {"ACUS_SETTINGS": f"{folder}/settings", "ACUS_DATA": f"{folder}/data"}
+        order = [sys.executable, "-m", "tools.robot_pictures", str(PICTURES)]
+        subprocess.run(order, check=True, cwd=ROOT, env=os.environ | own)
+
+
 def main() -> None:
     """Make them all; without the shared data the chest's are left as they are."""
     PICTURES.mkdir(parents=True, exist_ok=True)
@@ -60,6 +68,7 @@ def main() -> None:
         demonstration("chest", FROM_CHEST, "--ct", CHEST)
     else:
         print(f"no chest CT in {CHEST}: its pictures stay as they are", file=sys.stderr)
+    robot()
     studies()
 
 

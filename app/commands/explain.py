@@ -76,7 +76,7 @@ def _laws(requests: dict[str, dict[str, float]], profile: "DeviceProfile") -> li
 
     bounds, rows = laws.energy_bounds(requests, profile), []
     for name, function, parameters in laws.stages_of(requests, profile):
-        law, state = laws.declaration(name), _working_state()
+        law, state = laws.declaration(name), _held_pose(profile)
         rows.append(
             {
                 "law": name,
@@ -109,7 +109,25 @@ def _working_state() -> "FloatArray":
     state[sv.TIME], state[sv.DT] = 1.0, 1e-3
     state[sv.AXIS_X], state[sv.AXIS_Z] = 0.2, -(0.96**0.5)
     state[sv.DEPTH], state[sv.PLANT_DEPTH], state[sv.L_OUT] = 0.06, 0.06, 0.14
-    state[sv.L_IN], state[sv.DEPTH_SOURCE] = 0.09 / 0.96**0.5, 1.0
+    state[sv.DEPTH_SOURCE] = 1.0
+    return state
+
+
+def _held_pose(profile: "DeviceProfile") -> "FloatArray":
+    """Return the same with all that a force law reads: joints, path, dial and a moving hand."""
+    from app.core import state_vector as sv
+    from app.mechanisms.pantograph import inverse, jacobian
+
+    state, fulcrum = _working_state(), profile.pantograph.fulcrum
+    axis = state[sv.AXIS_X : sv.AXIS_Z + 1]
+    state[sv.L_IN] = -fulcrum[2] / axis[2]
+    p3 = fulcrum + state[sv.L_IN] * axis
+    q = inverse(profile.pantograph, p3[:2])
+    rates = jacobian(profile.pantograph, q)
+    state[sv.P3_X : sv.P3_Y + 1] = p3[:2]
+    state[[sv.Q_LEFT, sv.Q_RIGHT]], state[[sv.QD_LEFT, sv.QD_RIGHT]] = q, (0.3, -0.2)
+    state[[sv.J_XL, sv.J_XR, sv.J_YL, sv.J_YR]] = rates.ravel()
+    state[sv.P3_VX : sv.P3_VY + 1] = rates @ (0.3, -0.2)
     state[sv.PATH_Z], state[sv.ASSISTANCE], state[sv.HUB_VX] = -1.0, 0.7, 0.02
     return state
 

@@ -109,6 +109,7 @@ JOINT_LEFT: Final = next(_next)  # [N·m] joint torques wanted beside FORCE_*: c
 JOINT_RIGHT: Final = next(_next)
 POTENTIAL: Final = next(_next)  # [J] stored energy behind FORCE_*: sum over force laws and effects
 GAIN_WORK: Final = next(_next)  # [J] share of POTENTIAL that changes of gain added in this tick
+FRICTION_WORK: Final = next(_next)  # [J] let out in this tick for the joints' friction to take
 AXIAL_FORCE: Final = next(_next)  # [N] tissue on needle along the axis; positive pushes the tip out
 FELT_X: Final = next(_next)  # [N] at the hub point after all limits (estimated from torques)
 FELT_Y: Final = next(_next)

@@ -6,7 +6,13 @@ from app.core.errors import ConfigurationError
 from app.exercises.errors import ExerciseError, UnknownExerciseError
 from app.exercises.library import library, load_exercise
 
-SHIPPED = ["first-insertion", "thick-tissue", "breathing-liver"]
+SHIPPED = [
+    "first-insertion",
+    "thick-tissue",
+    "breathing-liver",
+    "past-the-vessel",
+    "against-repulsion",
+]
 
 
 @pytest.fixture
@@ -27,8 +33,7 @@ def test_the_shipped_exercises_come_in_order_of_their_level(own: Path) -> None:
     known = library()
     assert known.ids() == SHIPPED
     assert known.broken == ()
-    assert len(known) == 3
-    assert [exercise.level for exercise in known] == [1, 2, 3]
+    assert [exercise.level for exercise in known] == [1, 2, 3, 4, 5]
 
 
 @pytest.mark.parametrize("name", SHIPPED)
@@ -41,7 +46,7 @@ def test_each_shipped_exercise_is_named_as_its_file_and_describes_itself(name: s
 
 def test_the_users_own_exercises_are_listed_too(own: Path) -> None:
     write(own, "mine.yaml", "id: mine\ntitle: Mine\nlevel: 2\n")
-    assert library().ids() == ["first-insertion", "thick-tissue", "mine", "breathing-liver"]
+    assert library().ids() == [*SHIPPED[:2], "mine", *SHIPPED[2:]]
     assert load_exercise("mine").title == "Mine"
 
 
@@ -87,5 +92,5 @@ def test_no_file_however_broken_hides_the_others(own: Path, content: bytes) -> N
     (own / "broken.yaml").write_bytes(content)
     (own / "folder.yaml").mkdir()
     found = library()
-    assert len(found) == 3
+    assert len(found) == len(SHIPPED)
     assert [item.path.name for item in found.broken] == ["broken.yaml", "folder.yaml"]

@@ -15,7 +15,13 @@ from app.scoring.result import Score
 from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
 
-SHIPPED = ["first-insertion", "thick-tissue", "breathing-liver"]
+SHIPPED = [
+    "first-insertion",
+    "thick-tissue",
+    "breathing-liver",
+    "past-the-vessel",
+    "against-repulsion",
+]
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 
 

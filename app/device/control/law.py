@@ -26,27 +26,28 @@ class LawParameter:
     """One SI parameter of a law.
 
     Attributes:
-        default: a number, or a field of the device profile such as `fixture.stiffness`.
+        default: a number, a field of the device profile such as `fixture.stiffness`, or None: it
+            must be given.
         unit: for display.
         minimum, maximum: the closed range it must lie in.
         meaning: one line.
     """
 
-    default: float | str
+    default: float | str | None
     unit: str
     minimum: float
     maximum: float
     meaning: str
 
-    def value(self, profile: DeviceProfile) -> float:
-        """Return the default for a device.
+    def value(self, profile: DeviceProfile) -> float | None:
+        """Return the default for a device; None where there is none.
 
         Raises:
             AttributeError: if the profile has no such field.
         """
         if isinstance(self.default, str):
             return float(attrgetter(self.default)(profile))
-        return float(self.default)
+        return self.default
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,11 +83,13 @@ class Law:
                 f"it has {', '.join(sorted(self.parameters)) or 'none'}"
             )
         return {
-            name: self._checked(name, given.get(name, self._default(name, profile)))
+            name: self._checked(
+                name, given[name] if name in given else self._default(name, profile)
+            )
             for name in self.parameters
         }
 
-    def _default(self, name: str, profile: DeviceProfile) -> float:
+    def _default(self, name: str, profile: DeviceProfile) -> float | None:
         parameter = self.parameters[name]
         try:
             return parameter.value(profile)
@@ -98,6 +101,8 @@ class Law:
 
     def _checked(self, name: str, value: object) -> float:
         limit = self.parameters[name]
+        if value is None:
+            raise LawError(f"law {self.name!r} needs {name} [{limit.unit}]: {limit.meaning}")
         number = isinstance(value, int | float) and not isinstance(value, bool)
         if not (number and limit.minimum <= value <= limit.maximum):  # type: ignore[operator]
             raise LawError(
@@ -186,7 +191,7 @@ def _parameter(name: str, row: Any, path: Path) -> LawParameter:
         usable = math.isfinite(parameter.minimum) and math.isfinite(parameter.maximum)
     except (TypeError, ValueError):
         usable = False
-    if not (usable and isinstance(default, int | float | str)):
+    if not (usable and isinstance(default, int | float | str | None)):
         raise LawError(
             f"{path}: parameter {name!r} is {row!r}; give (default, unit, least, most, meaning), "
             "the default a number or a field of the device profile"

@@ -12,6 +12,7 @@ from __future__ import annotations
 import importlib.util
 import math
 import sys
+import threading
 from collections.abc import Mapping
 from pathlib import Path
 from types import ModuleType
@@ -26,6 +27,8 @@ from app.mechanisms.profile import DeviceProfile
 
 Requests = Mapping[str, Mapping[str, float]]
 """Law -> parameters that replace its defaults."""
+
+_IMPORTING = threading.RLock()
 
 
 def law_names() -> tuple[str, ...]:
@@ -104,23 +107,22 @@ def _bound(name: str, given: Mapping[str, float], profile: DeviceProfile) -> flo
 def _implementation(law: Law) -> ModuleType:
     """Import a law's file, once."""
     name = f"{__name__}.{law.name}"
-    known = sys.modules.get(name)
-    if known is not None and known.__file__ == str(law.path):
-        return known
-    specification = importlib.util.spec_from_file_location(name, law.path)
-    if specification is None or specification.loader is None:
-        raise LawError(f"law file {law.path} cannot be imported")
-    module = importlib.util.module_from_spec(specification)
-    sys.modules[name] = module
-    try:
-        specification.loader.exec_module(module)
-        _check_step(module, law)
-    except LawError:
-        del sys.modules[name]
-        raise
-    except Exception as error:  # whatever somebody's file does
-        del sys.modules[name]
-        raise LawError(f"law file {law.path} cannot be imported: {error}") from error
+    with _IMPORTING:
+        known = sys.modules.get(name)
+        if known is not None and known.__file__ == str(law.path):
+            return known
+        specification = importlib.util.spec_from_file_location(name, law.path)
+        if specification is None or specification.loader is None:
+            raise LawError(f"law file {law.path} cannot be imported")
+        module = sys.modules[name] = importlib.util.module_from_spec(specification)
+        try:
+            specification.loader.exec_module(module)
+            _check_step(module, law)
+        except BaseException as error:  # whatever somebody's file does: no half of it stays
+            sys.modules.pop(name, None)
+            if isinstance(error, LawError) or not isinstance(error, Exception):
+                raise
+            raise LawError(f"law file {law.path} cannot be imported: {error}") from error
     return module
 
 

@@ -173,8 +173,10 @@ def step(state: FloatArray, p: FloatArray) -> None:
     vx, vy, vz = hub_velocity(state)
     ax, ay, az, angle = across_kernel(dx, dy, dz, px, py, pz)
     guides, repels, stored = fixture_kernel(gain, angle, _tilt(px, py, pz), p)
-    stored *= state[sv.L_OUT]
-    store(state, stored, _stored_before(p, dx, dy, dz))
+    before = stored * p[_LAST_L_OUT]
+    if gain != p[_LAST_GAIN] or px != p[_LAST_X] or py != p[_LAST_Y] or pz != p[_LAST_Z]:
+        before = _stored_before(p, dx, dy, dz)
+    store(state, stored * state[sv.L_OUT], before)
     _remember(p, gain, state[sv.L_OUT], px, py, pz)
     size = (ax * ax + ay * ay + az * az) ** 0.5
     if repels > 0.0 and size > 0.0:  # the hub moves with p's perpendicular part: the tip flees
