@@ -20,7 +20,7 @@ from app.compose.trainer import TrainerSetup, _context, build_loop, device_of
 from app.core import state_vector as sv
 from app.core.build import BUILD
 from app.core.clock import Clock, SystemClock, VirtualClock
-from app.exercises.library import load_exercise
+from app.exercises.library import library, load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
 from app.session.errors import ReplayError
@@ -111,8 +111,10 @@ def test_a_whole_scripted_attempt_is_recomputed_to_the_last_bit(virtual: Recordi
     assert acts.mean() > 0.9, "the trainee's hand is recomputed, not recorded"
 
 
-@pytest.mark.parametrize("exercise", ["first-insertion", "breathing-liver"])
-def test_a_hand_led_attempt_is_recomputed_to_the_last_bit(tmp_path: Path, exercise: str) -> None:
+@pytest.mark.parametrize("exercise", [exercise.id for exercise in library()])
+def test_a_hand_led_attempt_of_every_exercise_is_recomputed_to_the_last_bit(
+    tmp_path: Path, exercise: str
+) -> None:
     recording = attempt(tmp_path, VirtualClock(50.0), 3.0, exercise)
     assert not np.isnan(recording.inputs.column("hand_x")).any()
     assert replay_recording(recording).identical

@@ -77,7 +77,8 @@ def report(title: str, path: Path) -> None:
     recording, content = read_recording(path), scan(path)
     dt = recording.inputs.column("dt")
     hours = float(dt.sum()) / 3600.0
-    sizes = {topic: sum(map(_packed, _seconds(m))) for topic, m in content.messages.items()}
+    seconds = max(1, round(float(dt.sum())))
+    sizes = {t: sum(map(_packed, _parts(m, seconds))) for t, m in content.messages.items()}
     loop = sizes.pop("/loop/inputs")
     peer = sum(map(_packed, _plain(recording.inputs.values)))
     print(f"{title}: {len(dt)} ticks, file {path.stat().st_size / MEGABYTE / hours:.0f} MB/h")
@@ -108,9 +109,9 @@ def costs() -> None:
         print(f"block of 0.1 s, {title:<10} {1e3 * median:6.2f} ms, {1e3 * median:.2f} % of a core")
 
 
-def _seconds(messages: list[bytes]) -> list[bytes]:
-    """Messages as the recorder compresses them: about a second at a time."""
-    step = max(1, len(messages) // 600) * 10
+def _parts(messages: list[bytes], count: int) -> list[bytes]:
+    """Messages in so many pieces: the recorder compresses about a second at a time."""
+    step = max(1, -(-len(messages) // count))
     return [b"".join(messages[k : k + step]) for k in range(0, len(messages), step)]
 
 
