@@ -112,7 +112,7 @@ def test_a_whole_scripted_attempt_is_recomputed_to_the_last_bit(virtual: Recordi
 
 
 @pytest.mark.parametrize("exercise", [exercise.id for exercise in library()])
-def test_a_hand_led_attempt_of_every_exercise_is_recomputed_to_the_last_bit(
+def test_a_hand_led_attempt_at_any_exercise_is_recomputed_to_the_last_bit(
     tmp_path: Path, exercise: str
 ) -> None:
     recording = attempt(tmp_path, VirtualClock(50.0), 3.0, exercise)
