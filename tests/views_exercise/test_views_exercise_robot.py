@@ -174,8 +174,8 @@ def test_the_gauge_is_there_with_a_real_robot_or_once_the_guard_has_acted(qt):
 def test_energies_that_are_not_finite_are_not_shown():
     assert energy_figures(snapshot(slots=ENERGY | {"potential": nan})) is None
     assert energy_figures(snapshot(device=None)) is None
-    assert [millijoules(e) for e in (0.0, 0.0123, 0.456, 250.0)] == [
-        "0.0 mJ", "12.3 mJ", "456 mJ", "250 J",
+    assert [millijoules(e) for e in (0.0, 0.0123, 0.456, 1.643, 250.0)] == [
+        "0.0 mJ", "12.3 mJ", "456 mJ", "1.64 J", "250 J",
     ]  # fmt: skip
 
 

@@ -74,7 +74,7 @@ def energy_figures(snapshot: Snapshot) -> EnergyFigures | None:
 def millijoules(energy: float) -> str:
     """Say an energy [J]; a hand's springs store thousandths."""
     value = 1e3 * energy
-    if abs(value) >= 1e5:
+    if abs(value) >= 1e3:
         return tr("{joules:.3g} J", joules=energy)
     return tr("{value:.1f} mJ", value=value) if abs(value) < 100 else tr("{v:.0f} mJ", v=value)
 

@@ -124,6 +124,7 @@ class EnergyGauge(QWidget):
         painter.setBrush(QColor(STORED_COLOUR))
         painter.drawRoundedRect(filled, 2, 2)
         x = inside.left() + inside.width() * figures.share_left
+        x = min(max(x, 6.0), self.width() - 6.0)  # full or empty, the pointer is seen whole
         painter.setPen(QPen(QColor(theme.BACKGROUND), 1.0))
         painter.setBrush(QColor(theme.TEXT))
         top = bar.top() - 4
