@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from app.commands.device_calibrate import calibrate
+
 if TYPE_CHECKING:
     from app.compose.emulator import Emulator
 
@@ -17,10 +19,11 @@ Json = Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")
 
 def register(app: typer.Typer) -> None:
     """Add `acus device …`."""
-    group = typer.Typer(help="Robots on serial ports: list, ask, test, emulate.")
+    group = typer.Typer(help="Robots on serial ports: list, ask, test, calibrate, emulate.")
     group.command("list")(list_ports)
     group.command("info")(info)
     group.command("test")(measure)
+    group.command("calibrate")(calibrate)
     group.command("emulate")(emulate)
     app.add_typer(group, name="device")
 

@@ -16,15 +16,19 @@ def run(
         Path | None, typer.Option("--ct", help="Folder of a CT to open; default: the start page.")
     ] = None,
     exercise: Annotated[str, typer.Option(help="Exercise to begin with.")] = "",
+    device: Annotated[
+        str | None,
+        typer.Option(help="Serial port of a real robot (docs/hardware.md); default: simulated."),
+    ] = None,
 ) -> None:
-    """Open the trainer; the mouse moves a simulated hand."""
+    """Open the trainer; the mouse moves a simulated hand, or a real robot its own needle."""
     from app.compose import Desktop
     from app.views.application import start
     from app.views.collector import collect_for
     from app.views.window import MainWindow
 
     application = start()
-    window = MainWindow(Desktop())
+    window = MainWindow(Desktop(port=device))
     collector = collect_for(window)
     window.show()
     if exercise:

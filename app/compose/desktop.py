@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 from app.core import paths
 from app.core.loading import ONE_AT_A_TIME, load_modules
 from app.core.progress import Progress
-from app.device.errors import LinkError, LoopError
+from app.device.errors import LoopError
 from app.exercises.library import library
 from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
@@ -47,12 +47,17 @@ class Desktop:
         skill: a scripted trainee inserts the needle instead of the mouse; None for the mouse.
         seed: of everything random; None takes each exercise's own.
         sessions: folder of the records.
+        port: serial port of a real robot; None simulates one.
     """
 
     def __init__(
-        self, skill: str | None = None, seed: int | None = None, sessions: Path | None = None
+        self,
+        skill: str | None = None,
+        seed: int | None = None,
+        sessions: Path | None = None,
+        port: str | None = None,
     ) -> None:
-        self._skill, self._seed = skill, seed
+        self._skill, self._seed, self._port = skill, seed, port
         self._sessions = sessions or paths.sessions()
 
     def exercises(self) -> tuple[Exercise, ...]:
@@ -81,26 +86,26 @@ class Desktop:
 
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""
-        if setup.robot.port:
-            raise LinkError(
-                f"attempts on the robot at {setup.robot.port} are not possible yet: commission it"
-                " (menu Robot), and choose the simulated robot (Robot, Use) for attempts"
-            )
         with ONE_AT_A_TIME:  # kernels and OpenCV: behind the window, not before it
             from app.compose.trainer import TrainerSetup, build_rig
         progress.report(0.1, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed
-        rig = build_rig(
-            TrainerSetup(
-                setup.exercise, setup.placed, setup.ct, self._skill, seed, self._sessions,
-                held_arming=setup.robot.held_arming and self._skill is None,
-            )
-        )  # fmt: skip
+        trainer = TrainerSetup(
+            setup.exercise,
+            setup.placed,
+            setup.ct,
+            self._skill,
+            seed,
+            self._sessions,
+            held_arming=setup.robot.held_arming and self._skill is None,
+            port=setup.robot.port or self._port,
+        )
+        rig = build_rig(trainer)
         try:
             rig.trainer.open()
             _wait_until_alive(rig, progress)
         except BaseException:
-            rig.trainer.close()
+            rig.close()
             raise
         return DesktopRun(rig)
 
@@ -139,7 +144,7 @@ class DesktopRun:
             self._rig.trainer,
             setup.placed,
             self._rig.profile,
-            interactive=setup.skill is None,
+            interactive=setup.skill is None and setup.port is None,
             rings=rings(setup.exercise.tolerances),
             pictures=self._rig.tracker.pictures,
             held_arming=self._rig.trainer.held_arming,
@@ -152,4 +157,4 @@ class DesktopRun:
 
     def close(self) -> None:
         """End everything at zero force; idempotent."""
-        self._rig.trainer.close()
+        self._rig.close()

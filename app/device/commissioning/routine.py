@@ -27,7 +27,8 @@ Part = Generator[Report, float, Any]
 QUIET: Final = {"test_x": 0.0, "test_y": 0.0, "test_z": 0.0, "test_left": 0.0, "test_right": 0.0}
 """Inputs of a routine that pushes nothing."""
 
-_ARMING_PATIENCE: Final = 4.0
+_ARMING_PATIENCE: Final = 6.0
+_REARM: Final = 0.1
 _REST_TIME: Final = 0.3
 _REST_COUNTS: Final = 3.0
 _REST_PATIENCE: Final = 10.0
@@ -155,14 +156,22 @@ class Routine(ABC):
         return self._answers.pop(0)
 
     def _arm(self, homed: float, cap: float) -> Part:
-        """Arm the forces with a clearance of the routine's own and wait for the ramp."""
+        """Arm the forces with a clearance of the routine's own and wait for the ramp.
+
+        Nothing is pushed yet, so a fault that passes (a hiccup of the wire) is waited for:
+        disarmed, because some faults stay until then, and armed again.
+        """
         self._loop.inbox.write(homed=homed, force_cap=cap, enabled=1.0, **QUIET)
         end = self._now + _ARMING_PATIENCE
-        state = self._loop.latest()
-        while state.row[sv.ARMING] < 1.0:
-            state = yield from self._say("arming")
+        state = yield from self._say("arming")
+        while state.row[sv.ARMING] < 1.0 or state.fault is not Fault.NONE:
             if self._now > end:
                 raise CommissioningError(_why_not_armed(state))
+            if state.fault is not Fault.NONE:
+                self._loop.inbox.write(enabled=0.0)
+                yield from self._wait(_REARM, "waiting for the robot")
+                self._loop.inbox.write(homed=homed, force_cap=cap, enabled=1.0)
+            state = yield from self._say("arming")
         self._powered = True
         return state
 

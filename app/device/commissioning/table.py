@@ -1,6 +1,7 @@
 """The tick of a robot that is being commissioned: no force law, only the service stage."""
 
 from app.device.control.corrections import Corrections
+from app.device.control.governor import SpeedGovernor
 from app.device.control.kinematics import Kinematics
 from app.device.control.safety import Safety
 from app.device.control.service import Service
@@ -15,7 +16,7 @@ def commissioning_table(
     profile: DeviceProfile, link: Link, corrections: Corrections | None = None
 ) -> Table:
     """Table of a tick: link read, corrections, velocity, kinematics, service, transmission,
-    safety, link write.
+    speed governor, safety, link write.
 
     Args:
         profile: the robot's numbers.
@@ -30,6 +31,7 @@ def commissioning_table(
             Kinematics.of(profile).stage(),
             Service().stage(),
             Transmission.of(profile).stage(),
+            SpeedGovernor.of(profile).stage(),
             Safety.of(profile).stage(),
         ],
         link.write,

@@ -1,0 +1,98 @@
+"""Typed answers to a routine that must not wait for them: the loop's sign of life goes on."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Sequence
+from math import isfinite
+from queue import Empty, SimpleQueue
+from typing import TYPE_CHECKING
+
+import typer
+
+from app.core.errors import AcusError
+
+if TYPE_CHECKING:
+    from app.device.commissioning.report import Report
+    from app.device.commissioning.routine import Routine
+
+
+class AnswerError(AcusError):
+    """An answer is missing or cannot be understood."""
+
+
+def register(app: typer.Typer) -> None:
+    """Add nothing: this file helps commands."""
+
+
+def numbers(text: str, name: str, count: int) -> tuple[float, ...]:
+    """Read numbers between commas, e.g. `20.5,51,102`.
+
+    Raises:
+        AnswerError: if one is not a finite number, or their count is wrong.
+    """
+    try:
+        found = tuple(float(part) for part in text.split(","))
+    except ValueError as error:
+        raise AnswerError(
+            f"{name}: {text!r} are not numbers between commas, e.g. 20.5,51,102"
+        ) from error
+    if len(found) != count or not all(isfinite(value) for value in found):
+        raise AnswerError(f"{name}: {count} finite numbers are needed, got {text!r}")
+    return found
+
+
+class Answers:
+    """Answers from the keyboard or a pipe, read by a thread one line at a time, or prepared ones.
+
+    Args:
+        confirm: confirm everything without asking.
+        prepared: numbers for the questions that need one, in order.
+    """
+
+    def __init__(self, confirm: bool = False, prepared: Sequence[float] = ()) -> None:
+        self._confirm, self._prepared = confirm, list(prepared)
+        self._lines: SimpleQueue[str] = SimpleQueue()
+        self._asked = False
+
+    def to(self, routine: Routine, report: Report, to_stderr: bool = False) -> float | None:
+        """Answer to what a report needs, or None for not yet.
+
+        Raises:
+            AnswerError: if the input has ended, or a script has no reading for a question.
+        """
+        if report.unit and self._prepared:
+            return self._prepared.pop(0)
+        if self._confirm:
+            if report.unit:
+                raise AnswerError(f"{routine.TITLE}: {report.needs}: give it with --readings")
+            return 0.0
+        if not self._asked:
+            self._asked = True
+            how = f"[{report.unit}]" if report.unit else "[Enter]"
+            typer.echo(f"> {report.needs} {how}", err=to_stderr)
+            threading.Thread(target=self._read, name="acus answers", daemon=True).start()
+        return self._understood(report, to_stderr)
+
+    def _understood(self, report: Report, to_stderr: bool) -> float | None:
+        try:
+            line = self._lines.get_nowait()
+        except Empty:
+            return None
+        self._asked = False
+        if not line:
+            raise AnswerError("the input has ended before the routine; nothing was kept")
+        if not report.unit:
+            return 0.0
+        try:
+            value = float(line.strip().replace(",", "."))
+        except ValueError:
+            value = float("nan")
+        if isfinite(value):
+            return value
+        typer.echo(f"{line.strip()!r} is not a number in {report.unit}", err=to_stderr)
+        return None
+
+    def _read(self) -> None:
+        self._lines.put(sys.stdin.readline())

@@ -1,0 +1,83 @@
+"""A real robot, connected: its link, what is known of it, and how much force it is cleared for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from app.device.commissioning.records import load_record
+from app.device.control.corrections import Corrections
+from app.device.links.link import DeviceLink, Link
+from app.device.links.serial_link import SerialLink
+from app.device.readiness import Clearance, Readiness
+from app.mechanisms.profile import DeviceProfile
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """A robot whose link is open.
+
+    Attributes:
+        link: to the robot.
+        profile: its numbers.
+        corrections: of its encoders and its gauge, from its record.
+        readiness: what has been commissioned on it.
+    """
+
+    link: DeviceLink
+    profile: DeviceProfile
+    corrections: Corrections
+    readiness: Readiness
+
+    @classmethod
+    def connect(cls, link: DeviceLink, profile: DeviceProfile) -> Robot:
+        """Open a link and read the record of who answers.
+
+        Raises:
+            LinkError: if nobody answers, or somebody else.
+            RecordError: if the device's record is damaged.
+        """
+        link.open()
+        try:
+            record = load_record(link.info())
+        except BaseException:
+            link.close()
+            raise
+        corrections = Corrections(record.offsets(link.info().boot), record.gauge())
+        return cls(link, profile, corrections, record.readiness())
+
+    def stages(self) -> Link:
+        """Return the link's stages, its readings corrected."""
+        link = self.link.stages()
+        return Link.of([*link.read, self.corrections.stage()], link.write)
+
+    def clearance(self) -> Clearance:
+        """How much force the robot is cleared for now; another power cycle takes it away."""
+        return self.readiness.clearance(self.link.info(), self.profile)
+
+    def metadata(self) -> dict[str, str]:
+        """Facts of the robot for the head of a record."""
+        info, clearance = self.link.info(), self.clearance()
+        return {
+            "name": self.profile.name,
+            "simulated": "yes" if info.simulated else "no",
+            "serial": info.serial,
+            "boot": str(info.boot),
+            "firmware": info.firmware,
+            "protocol": info.protocol,
+            "force_cap": f"{clearance.force_cap:g}",
+            "clearance": clearance.reason or "full",
+        }
+
+    def close(self) -> None:
+        """Let go of the robot, after its loop has ended at zero torque; idempotent."""
+        self.link.close()
+
+
+def connect(port: str | None, profile: DeviceProfile) -> Robot | None:
+    """Connect to the robot on a serial port; None without one.
+
+    Raises:
+        LinkError: if the port cannot be used or nobody answers; says what to do.
+        RecordError: if the device's record is damaged.
+    """
+    return Robot.connect(SerialLink(port, profile), profile) if port is not None else None
