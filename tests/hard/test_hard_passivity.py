@@ -8,7 +8,8 @@ from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
 from app.device.control import Loop, Table, pantograph_stages
-from app.device.links import simulated_link
+from app.device.control.passivity import PassivityGuard
+from app.device.links.simulated import simulated_link
 from app.simulation.plant import initial_plant, plant_stage
 
 ROUNDING = 1e-9  # J
@@ -123,3 +124,26 @@ def test_a_spring_too_stiff_for_its_delay_is_unstable_without_and_bounded_with_t
     assert rows[:, sv.ENERGY_OUT].max() <= bound + ROUNDING
     assert rows[:, sv.ENERGY_TANK].min() >= -ROUNDING
     assert not rows[:, sv.FAULT].any()
+
+
+@pytest.mark.parametrize("declared", [1.0, 0.0, np.nan])
+def test_what_the_joints_friction_takes_passes_where_it_is_declared_and_only_there(
+    declared,
+):
+    """Motors that make up for friction, minute after minute."""
+    _, guard, memory = PassivityGuard.of(PROFILE, 0.2).stage()
+    state, torque, speed, dt = sv.empty_state(), 0.003, 1.0, 1e-3
+    state[sv.DT], state[sv.ENABLED] = dt, 1.0
+    state[sv.LIMIT_SCALE] = state[sv.LET_GO_SCALE] = 1.0
+    for tick in range(100_000):
+        state[sv.Q_LEFT], state[sv.QD_LEFT] = tick * speed * dt, speed
+        state[sv.Q_TIME] = state[sv.TIME] = tick * dt
+        state[[sv.TORQUE_LEFT, sv.TORQUE_RIGHT]] = torque, 0.0
+        state[sv.FRICTION_WORK] = declared * torque * speed * dt
+        guard(state, memory)
+        state[[sv.SENT_LEFT, sv.SENT_RIGHT]] = state[[sv.TORQUE_LEFT, sv.TORQUE_RIGHT]]
+    assert state[sv.ENERGY_TANK] > 0.198
+    if declared == 1.0:
+        assert state[sv.TORQUE_LEFT] == pytest.approx(torque, rel=1e-6)
+    else:
+        assert abs(state[sv.TORQUE_LEFT]) < 0.1 * torque

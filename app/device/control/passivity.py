@@ -15,6 +15,9 @@ in it is exactly w = τ_sent · Δq. Two accounts of it:
   profile's joint inertia over a few ticks, which is itself stable when sampled; beyond `fade_from`
   it fades the force as well. A debt is forgotten over `forget`.
 
+What a law lets out for the joints' own friction to take (FRICTION_WORK) is charged to neither: it
+never reaches the hand.
+
 Time-domain passivity: Hannaford and Ryu 2002; energy tanks: Franken et al. 2011.
 """
 
@@ -39,7 +42,8 @@ _HELD_LEFT, _HELD_RIGHT, _TICKS = range(13, 16)  # largest torques sent since, a
 _STORED, _SHARE = range(16, 18)  # potential then; share of the laws' force that was let through
 _ASKED_LEFT, _ASKED_RIGHT, _BRAKE_LEFT, _BRAKE_RIGHT = range(18, 22)
 _CUT_LEFT, _CUT_RIGHT = range(22, 24)
-_TANK, _ACCOUNT, _OUT, _LOSS, _SIZE = range(24, 29)
+_TANK, _ACCOUNT, _OUT, _LOSS = range(24, 28)
+_FRICTION, _SIZE = range(28, 30)  # let out in the newest tick for the joints' friction to take
 _JUMP = 0.5  # [rad] between two readings: no motion
 
 
@@ -65,8 +69,12 @@ def _start(p: FloatArray) -> None:
 
 @njit
 def _charge(state: FloatArray, p: FloatArray, work: float, share: float) -> None:
-    """Pay `work` from the tank, and what of it no potential explains from the account."""
+    """Pay `work` from the tank, and what of it no potential explains from the account.
+
+    Not what was let out for the joints' friction, which takes it before the hand.
+    """
     p[_OUT] += work
+    work -= min(max(work, 0.0), share * p[_SHARE] * p[_FRICTION])
     p[_TANK] = min(p[_BOUND], p[_TANK] - work)
     released = p[_STORED] - (state[sv.POTENTIAL] - state[sv.GAIN_WORK])
     made = work - share * p[_SHARE] * released
@@ -113,6 +121,8 @@ def _observe(state: FloatArray, p: FloatArray) -> None:
     else:
         _lose_track(state, p)
     p[_STORED] = state[sv.POTENTIAL]
+    given = state[sv.FRICTION_WORK]
+    p[_FRICTION] = given if given > 0.0 and isfinite(given) else 0.0
     p[_LEFT], p[_RIGHT], p[_TIME], p[_KNOWN] = left, right, state[sv.Q_TIME], 1.0
     p[_HELD_LEFT] = p[_HELD_RIGHT] = p[_TICKS] = 0.0
 
