@@ -104,7 +104,7 @@ def emulate(
     """Be a robot behind a pseudo-terminal, whose path is printed; faults are typed while it runs.
 
     Lines on the standard input: drop P, garble P, delay MS, freeze on|off, cut on|off,
-    unplug on|off, reset, version N, error N, park on|off, quit.
+    unplug on|off, reset, version N, error N, park on|off, hold on|off, quit.
     """
     from app.compose.emulator import Emulator, EmulatorSetup
     from app.mechanisms.profile import load_profile

@@ -204,6 +204,8 @@ class Emulator:
             raise LinkError(f"fault {name}: {text!r} is no number, on or off") from error
         if name == "unplug":
             self._unplug(value != 0.0)
+        elif name == "hold":
+            self._loop.inbox.write(hand_holds=value)
         elif name == "park":
             self._array[_PARKED] = value != 0.0
         else:
