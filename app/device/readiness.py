@@ -67,9 +67,12 @@ class Readiness:
         full = profile.limits.hand_force
         if info.simulated:
             return Clearance(1.0, full)
-        for done, lacks in ((self.homed_boot, "homed"), (self.signs_boot, "checked for its signs")):
+        for done, lacks, step in (
+            (self.homed_boot, "homed", "homing"),
+            (self.signs_boot, "checked for its signs", "signs"),
+        ):
             if done is None or done != info.boot or info.boot == 0:
-                return Clearance(0.0, 0.0, _power_cycle(lacks, info.boot))
+                return Clearance(0.0, 0.0, _power_cycle(lacks, step, info.boot))
         if not self.directions_known:
             return Clearance(
                 0.0,
@@ -82,8 +85,8 @@ class Readiness:
             return Clearance(
                 1.0,
                 cap,
-                f"forces are held to {cap:g} N: {lack}; put a kitchen scale under the hub and run"
-                " `acus device calibrate PORT --step force`",
+                f"forces are held to {cap:g} N: {lack}; weigh it with a kitchen scale"
+                " (docs/hardware.md): `acus device calibrate PORT --step force`",
             )
         return Clearance(1.0, full)
 
@@ -100,7 +103,7 @@ class Readiness:
         )
 
 
-def _power_cycle(lacks: str, boot: int) -> str:
+def _power_cycle(lacks: str, step: str, boot: int) -> str:
     if boot == 0:
         return (
             f"no force: the board does not number its power cycles, so it counts as not {lacks};"
@@ -108,5 +111,5 @@ def _power_cycle(lacks: str, boot: int) -> str:
         )
     return (
         f"no force: the robot was not {lacks} since it was switched on; run"
-        " `acus device calibrate PORT --step homing`, then `--step signs`"
+        f" `acus device calibrate PORT --step {step}`"
     )
