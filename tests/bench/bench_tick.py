@@ -3,6 +3,7 @@
 Exactly: forward, Jacobian, needle (kinematics), fixture, force and torque (transmission), safety.
 The peer in the same run is the same tick written with this project's numpy functions; the
 laboratory's C++ takes 0.57 µs for forward, force and torque without fixture damping or safety.
+Then the whole tick of a loop, with governor, guard, estimator and record (`whole_tick`).
 
 Run as `python -m tests.bench.bench_tick`.
 """
@@ -20,6 +21,7 @@ from app.device.control.safety import Safety
 from app.device.control.transmission import Transmission
 from app.mechanisms import pantograph
 from app.mechanisms.profile import load_profile
+from tests.bench import whole_tick
 
 LIMIT_US = 1.0
 POSES = 200
@@ -109,6 +111,7 @@ def main() -> None:
         f"to reach: at most {LIMIT_US} µs compiled: {verdict};"
         f" numpy/compiled {peer_us / ours_us:.0f}x"
     )
+    whole_tick.main(PROFILE)
 
 
 if __name__ == "__main__":

@@ -89,12 +89,14 @@ class LetGoRig:
         }
         plant = simulated_link(profile, [plant_stage(profile, axis, depth)])
         link = Link.of(plant.read, [*plant.write, ("speed", record_true_speed, self.speeds)])
-        effects = []
+        effects, bound = [], laws.energy_bound(requests, profile)
         if tissue:
             port = DevicePort(profile.name, frozenset(a.value for a in profile.renders), True)
             scene = Scene(effects=(EffectRequest("lateral_tissue"),))
-            effects = compile(scene, port).stages()
-        table = pantograph_stages(profile, laws.stages_of(requests, profile), effects, link)
+            plan = compile(scene, port)
+            effects, bound = plan.stages(), bound + plan.energy_bound()
+        forces = laws.stages_of(requests, profile)
+        table = pantograph_stages(profile, forces, effects, link, energy_bound=bound)
         self.loop = Loop(
             table, profile.rate_hz, self.clock, initial=initial_plant(profile, axis, depth)
         )

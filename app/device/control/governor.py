@@ -140,14 +140,15 @@ def speed_bounds(
     gained, moment = 0.0, 0.0  # ∫ a dt, ∫ a (t - t_start) dt over the window
     end = ring[newest + 2]
     later = end
+    row = newest
     for k in range(1, samples):
-        row = 4 * ((head - k) % rows)
+        row = row - 4 if row > 0 else 4 * (rows - 1)
         step = later - ring[row + 2]
         later = ring[row + 2]
         moment += step * gained + 0.5 * ring[row + 3] * step * step
         gained += ring[row + 3] * step
         width = end - later
-        if (k > _SHORT and k % 4 != 3) or not width > 0.0:
+        if (k > _SHORT and k & 3 != 3) or not width > 0.0:
             continue
         left, right = ring[newest] - ring[row], ring[newest + 1] - ring[row + 1]
         size = sqrt(max(ll * left * left + 2.0 * lr * left * right + rr * right * right, 0.0))

@@ -206,15 +206,17 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     if state[sv.DEPTH_SOURCE] == 0.0:
         depth = parameters[DEPTH]
     depth = min(max(depth, 0.0), parameters[BINS] * BIN - 0.5 * BIN)
-    before = _stored(parameters, x, y, z)
-    if depth > parameters[DEPTH]:
-        _advance(parameters, depth, x, y, z)
-    elif depth < parameters[DEPTH]:
-        _retreat(parameters, depth)
+    change = 0.0
+    if depth != parameters[DEPTH]:
+        change = -_stored(parameters, x, y, z)
+        if depth > parameters[DEPTH]:
+            _advance(parameters, depth, x, y, z)
+        else:
+            _retreat(parameters, depth)
+        change += _stored(parameters, x, y, z)
     along = x * parameters[CX] + y * parameters[CY] + z * parameters[CZ]
-    stored = _stored(parameters, x, y, z)
-    state[sv.POTENTIAL] += stored
-    state[sv.GAIN_WORK] += stored - before  # what advancing and retreating have changed
+    state[sv.POTENTIAL] += _stored(parameters, x, y, z)
+    state[sv.GAIN_WORK] += change  # by advancing and retreating
     scale = -1.0 / max(lever, parameters[LEVER])
     state[sv.FORCE_X] += scale * (parameters[CX] - along * x)
     state[sv.FORCE_Y] += scale * (parameters[CY] - along * y)
