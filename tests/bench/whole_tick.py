@@ -36,8 +36,8 @@ def slow_hand(state: FloatArray, p: FloatArray) -> None:
 
 
 def requests() -> dict[str, dict[str, float]]:
-    """Return the fixture, and impedance control where it is installed."""
-    return {name: {} for name in ("fixture", "impedance") if name in laws.law_names()}
+    """Return impedance control on the dynamic model, with gravity and friction made up for."""
+    return {"impedance": {}, "compensation": {}}
 
 
 def build(profile: DeviceProfile) -> Loop:

@@ -62,6 +62,7 @@ class LetGoRig:
         dial: assistance, -1...1: repels, guides.
         stiffness: of the guidance, as a factor on the profile's.
         tissue: with the side stiffness of the default layers.
+        others: further force laws, with their defaults.
     """
 
     def __init__(
@@ -73,6 +74,7 @@ class LetGoRig:
         dial: float = 1.0,
         stiffness: float = 1.0,
         tissue: bool = False,
+        others: tuple[str, ...] = (),
     ) -> None:
         geometry, fixture = profile.pantograph, profile.fixture
         limit = profile.limits.hand_force
@@ -87,6 +89,7 @@ class LetGoRig:
                 "limit": limit,
             }
         }
+        requests |= {name: {} for name in others}
         plant = simulated_link(profile, [plant_stage(profile, axis, depth)])
         link = Link.of(plant.read, [*plant.write, ("speed", record_true_speed, self.speeds)])
         effects, bound = [], laws.energy_bound(requests, profile)

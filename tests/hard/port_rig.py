@@ -21,7 +21,7 @@ LONGEST = 16  # ticks of one motion
 # Parameters: generator; kind and rest of the motion; angles; home; largest way from it; amount of
 # the motion; work; its least; largest rise of it in any window while armed; motions; whether armed.
 SEED, KIND, LEFT_OVER, Q1, Q2, HOME1, HOME2, WAY, A, B, C = range(11)
-WORK, LEAST, RISE, MOTIONS, ARMED, COUNT, SIZE = range(11, 18)
+WORK, LEAST, RISE, MOTIONS, ARMED, COUNT, COULOMB, VISCOUS, SIZE = range(11, 20)
 
 
 @njit
@@ -73,7 +73,11 @@ def any_hand(state: FloatArray, p: FloatArray) -> None:
     if p[COUNT] > 0.0:
         q1, q2 = np.floor(q1 / p[COUNT]) * p[COUNT], np.floor(q2 / p[COUNT]) * p[COUNT]
     if state[sv.TICK] > 1.0 and p[ARMED] > 0.5:
-        p[WORK] += t1 * (q1 - state[sv.Q_LEFT]) + t2 * (q2 - state[sv.Q_RIGHT])
+        left, right = q1 - state[sv.Q_LEFT], q2 - state[sv.Q_RIGHT]
+        taken = p[COULOMB] * (abs(left) + abs(right))
+        taken += p[VISCOUS] * (left * left + right * right) / max(dt, 1e-3)
+        work = t1 * left + t2 * right
+        p[WORK] += work - min(max(work, 0.0), taken)
         p[LEAST] = min(p[LEAST], p[WORK])
         p[RISE] = max(p[RISE], p[WORK] - p[LEAST])
     if state[sv.ENABLED] > 0.5 and p[ARMED] < 0.5:  # armed anew: a new account
@@ -114,6 +118,8 @@ class PortRig:
         home = inverse(PROFILE.pantograph, PROFILE.pantograph.fulcrum[:2])
         self.hand[[SEED, WAY]] = 12345.0 + seed, 0.35
         self.hand[[Q1, Q2]] = self.hand[[HOME1, HOME2]] = home
+        if "compensation" in requests:  # what the joints' own friction takes is no energy let out
+            self.hand[[COULOMB, VISCOUS]] = PROFILE.friction.coulomb, PROFILE.friction.viscous
         if counts:
             self.hand[COUNT] = 2.0 * np.pi / PROFILE.encoder.counts_per_turn
         table = pantograph_stages(

@@ -45,15 +45,16 @@ def assert_calm(speeds, rows) -> None:
     dial=st.sampled_from([1.0, 0.3, -1.0, -0.5]),
     stiffness=st.sampled_from([1.0, 4.0]),
     tissue=st.booleans(),
+    others=st.sampled_from([(), ("cone_wall",), ("impedance",), ("impedance", "compensation")]),
 )
 def test_let_go_anywhere_under_any_law_the_hub_stays_slow(
-    name, tilt, azimuth, away, towards, depth, dial, stiffness, tissue
+    name, tilt, azimuth, away, towards, depth, dial, stiffness, tissue, others
 ):
     profile = weightless(name)
     low, high = profile.depth_range
     held = direction(tilt * profile.tilt_limit, azimuth)
     path = direction(away, towards)
-    rig = LetGoRig(profile, held, path, low + depth * (high - low), dial, stiffness, tissue)
+    rig = LetGoRig(profile, held, path, low + depth * (high - low), dial, stiffness, tissue, others)
     with rig.loop:
         rig.arm()
         assert_calm(*rig.let_go())

@@ -39,11 +39,13 @@ def wild_run(rig: PortRig, motions: int, seed: int) -> None:
 
 
 @pytest.mark.parametrize("counts", [True, False])
-def test_in_a_hundred_thousand_wild_motions_no_window_lets_out_more_than_declared(counts):
-    rig = PortRig(seed=3, counts=counts)
-    wild_run(rig, 50_000, 4)
+@pytest.mark.parametrize("requests", [{"fixture": {}}, {"impedance": {}, "compensation": {}}])
+def test_in_a_hundred_thousand_wild_motions_no_window_lets_out_more_than_declared(requests, counts):
+    """Beside what the joints' own friction takes, where a law makes up for it."""
+    rig = PortRig(seed=3, requests=requests, counts=counts)
+    wild_run(rig, 30_000, 4)
     assert rig.hand[RISE] <= rig.bound + ROUNDING
-    assert rig.hand[RISE] > 0.05, "the hand did get energy out"
+    assert rig.hand[RISE] > 0.01, "the hand did get energy out"
 
 
 def test_a_small_tank_holds_as_well_and_without_the_guard_it_would_not():

@@ -16,7 +16,7 @@ in it is exactly w = τ_sent · Δq. Two accounts of it:
   it fades the force as well. A debt is forgotten over `forget`.
 
 What a law lets out for the joints' own friction to take (FRICTION_WORK) is charged to neither: it
-never reaches the hand.
+never reaches the hand. No more of it, though, than the profile's friction takes over the motion.
 
 Time-domain passivity: Hannaford and Ryu 2002; energy tanks: Franken et al. 2011.
 """
@@ -43,7 +43,8 @@ _STORED, _SHARE = range(16, 18)  # potential then; share of the laws' force that
 _ASKED_LEFT, _ASKED_RIGHT, _BRAKE_LEFT, _BRAKE_RIGHT = range(18, 22)
 _CUT_LEFT, _CUT_RIGHT = range(22, 24)
 _TANK, _ACCOUNT, _OUT, _LOSS = range(24, 28)
-_FRICTION, _SIZE = range(28, 30)  # let out in the newest tick for the joints' friction to take
+_FRICTION = 28  # let out in the newest tick for the joints' friction to take
+_COULOMB, _VISCOUS, _SIZE = range(29, 32)
 _JUMP = 0.5  # [rad] between two readings: no motion
 
 
@@ -68,13 +69,20 @@ def _start(p: FloatArray) -> None:
 
 
 @njit
-def _charge(state: FloatArray, p: FloatArray, work: float, share: float) -> None:
+def friction_takes(p: FloatArray, turn_left: float, turn_right: float, step: float) -> float:
+    """Energy that the joints' own friction takes [J] over turns of `step` s, by the profile."""
+    square = turn_left * turn_left + turn_right * turn_right
+    return p[_COULOMB] * (abs(turn_left) + abs(turn_right)) + p[_VISCOUS] * square / step
+
+
+@njit
+def _charge(state: FloatArray, p: FloatArray, work: float, share: float, taken: float) -> None:
     """Pay `work` from the tank, and what of it no potential explains from the account.
 
-    Not what was let out for the joints' friction, which takes it before the hand.
+    Not what was let out for the joints' friction, of which they can have `taken` so much.
     """
     p[_OUT] += work
-    work -= min(max(work, 0.0), share * p[_SHARE] * p[_FRICTION])
+    work -= min(max(work, 0.0), max(min(share * p[_SHARE] * p[_FRICTION], taken), 0.0))
     p[_TANK] = min(p[_BOUND], p[_TANK] - work)
     released = p[_STORED] - (state[sv.POTENTIAL] - state[sv.GAIN_WORK])
     made = work - share * p[_SHARE] * released
@@ -115,7 +123,8 @@ def _observe(state: FloatArray, p: FloatArray) -> None:
     if p[_KNOWN] != 0.0 and abs(turn_left) < _JUMP and abs(turn_right) < _JUMP:
         sent_left, sent_right = state[sv.SENT_LEFT], state[sv.SENT_RIGHT]
         share = _sent_share(p, sent_left, sent_right)
-        _charge(state, p, port_work(p, left, right, sent_left, sent_right), share)
+        taken = friction_takes(p, turn_left, turn_right, max(state[sv.DT], p[_PERIOD]))
+        _charge(state, p, port_work(p, left, right, sent_left, sent_right), share, taken)
         p[_LOSS] -= share * (p[_BRAKE_LEFT] * turn_left + p[_BRAKE_RIGHT] * turn_right)
         p[_LOSS] += max(p[_CUT_LEFT] * turn_left + p[_CUT_RIGHT] * turn_right, 0.0)
     else:
@@ -223,6 +232,7 @@ class PassivityGuard:
         count: one encoder count at the joint [rad].
         period: of the loop [s]; a tick is never taken for shorter.
         damping: most that the controller adds [N·m·s/rad].
+        friction: Coulomb and viscous, of each joint [N·m, N·m·s/rad].
         credit: largest credit of the account [J].
         fade_from, fade_to: debt over which the force fades to zero [J].
         forget: time over which a debt is forgotten [s].
@@ -233,6 +243,7 @@ class PassivityGuard:
     count: float
     period: float
     damping: float
+    friction: tuple[float, float] = (0.0, 0.0)
     credit: float = 5e-4
     fade_from: float = 5e-3
     fade_to: float = 20e-3
@@ -253,6 +264,7 @@ class PassivityGuard:
             count=2.0 * pi / profile.encoder.counts_per_turn,
             period=1.0 / profile.rate_hz,
             damping=0.1 * profile.lumped_inertia.driven * profile.rate_hz,
+            friction=(profile.friction.coulomb, profile.friction.viscous),
         )
 
     def stage(self) -> tuple[str, Any, FloatArray]:
@@ -278,4 +290,5 @@ class PassivityGuard:
             self.damping,
         )
         parameters[_TANK] = self.bound
+        parameters[_COULOMB], parameters[_VISCOUS] = self.friction
         return "guard", guard_stage, parameters
