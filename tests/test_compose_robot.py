@@ -62,7 +62,10 @@ def commission(emulator):
             return 0.0
 
         for step in (Step.HOMING, Step.SIGNS):
-            report = bench.run(bench.routine(step, by_hand=False), answer)
+            for _ in range(10):  # a busy computer may lose the wire for a moment
+                report = bench.run(bench.routine(step, by_hand=False), answer)
+                if "does not answer" not in report.failure:
+                    break
             assert report.failure == ""
             bench.keep(report.result)
         return bench.clearance()
@@ -93,7 +96,7 @@ def test_a_whole_attempt_on_a_device_that_was_commissioned_over_the_wire(emulato
     clearance = commission(emulator)
     assert (clearance.homed, clearance.force_cap) == (1.0, 1.0)
     emulator._loop.inbox.write(hand_holds=1.0, hand_depth=-0.015)  # a hand takes the needle
-    for _ in range(5):  # a busy computer may lose the wire for a moment, which ends an attempt
+    for _ in range(10):  # as above; it ends an attempt
         rig = build_rig(setup(emulator.path, tmp_path))
         try:
             rig.trainer.open()
