@@ -61,8 +61,10 @@ def info(port: Port, profile: Profile = "icube", as_json: Json = False) -> None:
 
     link = SerialLink(port, load_profile(profile))
     link.open()
-    found = asdict(link.info())
-    link.close()
+    try:
+        found = asdict(link.info())
+    finally:
+        link.close()
     if as_json:
         _print_json({"port": port} | found)
         return

@@ -195,13 +195,7 @@ class Emulator:
         Raises:
             LinkError: if it cannot be understood; names the valid orders.
         """
-        words = order.replace("=", " ").split()
-        name, text = words[0], words[1] if len(words) > 1 else "on"
-        value = {"on": 1.0, "off": 0.0}.get(text)
-        try:
-            value = float(text) if value is None else value
-        except ValueError as error:
-            raise LinkError(f"fault {name}: {text!r} is no number, on or off") from error
+        name, value = _understood(order)
         if name == "unplug":
             self._unplug(value != 0.0)
         elif name == "hold":
@@ -228,6 +222,18 @@ class Emulator:
             table = rows[:, list(COLUMNS.values())]
             self._record.writelines(",".join(f"{x:.9g}" for x in row) + "\n" for row in table)
             self._record.flush()
+
+
+def _understood(order: str) -> tuple[str, float]:
+    """Split an order into its name and value; only a switch may stand without its `on`."""
+    words = order.replace("=", " ").split() or [""]
+    name, text = words[0], words[1] if len(words) > 1 else "on"
+    if len(words) == 1 and name in ("drop", "garble", "delay", "version", "error"):
+        raise LinkError(f"fault {name} needs a number, e.g. `{name} 1`")
+    try:
+        return name, float({"on": "1", "off": "0"}.get(text, text))
+    except ValueError as error:
+        raise LinkError(f"fault {name}: {text!r} is no number, on or off") from error
 
 
 COLUMNS: Final = {

@@ -32,10 +32,13 @@ class Terminal:
         """Plug in.
 
         Raises:
-            LinkError: if the link's path is taken by something that is not a link.
+            LinkError: if the link's path is taken by something that is not a link, or is in a
+                folder that is absent or may not be written.
         """
         if self._link is not None and self._link.exists() and not self._link.is_symlink():
             raise LinkError(f"{self._link} exists and is not a link; choose another --link")
+        if self._link is not None and not os.access(self._link.parent, os.W_OK):
+            raise LinkError(f"no link can be made in {self._link.parent}; choose another --link")
         self._fd = os.open(os.devnull, os.O_RDWR | os.O_NONBLOCK)
         self._end[wire.FD] = self._fd
         self.put()

@@ -10,6 +10,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.device.control import Loop, Table
 from app.device.errors import LinkError
+from app.device.links.acus_protocol import describe_error
 from app.device.links.serial_link import SerialLink
 from app.mechanisms.profile import DeviceProfile
 
@@ -38,6 +39,7 @@ class LinkResult:
     errors: int
     late: int
     missed_deadlines: int
+    board_error: str
     round_trip_p50_ms: float
     round_trip_p90_ms: float
     round_trip_p99_ms: float
@@ -63,6 +65,7 @@ class LinkResult:
             ("damaged", str(self.errors)),
             ("answered a tick late", str(self.late)),
             ("own deadlines missed", str(self.missed_deadlines)),
+            ("board's own error", self.board_error or "none"),
         ]
 
 
@@ -102,6 +105,7 @@ _KEPT = (
     sv.LINK_LOST,
     sv.LINK_ERRORS,
     sv.MISSED,
+    sv.BOARD_ERROR,
 )
 
 
@@ -114,7 +118,7 @@ def _result(
     rows: FloatArray,
     rate_hz: float,
 ) -> LinkResult:
-    replies, trip, lost, errors, missed = rows.T
+    replies, trip, lost, errors, missed, board_errors = rows.T
     fresh = np.diff(replies, prepend=before[sv.LINK_REPLIES]) > 0
     trips = trip[fresh] * 1e3
     in_time = trips < 1e3 / rate_hz
@@ -136,6 +140,7 @@ def _result(
         errors=int(errors[-1] - before[sv.LINK_ERRORS]),
         late=int(np.count_nonzero(~in_time)),
         missed_deadlines=int(missed[-1] - before[sv.MISSED]),
+        board_error=describe_error(int(board_errors[-1])) if board_errors[-1] else "",
         round_trip_p50_ms=float(p50),
         round_trip_p90_ms=float(p90),
         round_trip_p99_ms=float(p99),

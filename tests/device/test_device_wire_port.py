@@ -1,9 +1,11 @@
 """Ports that cannot be used: the message says what is wrong and how to mend it."""
 
+import contextlib
 import errno
 import os
 import pty
 import threading
+import time
 import tty
 
 import pytest
@@ -69,7 +71,7 @@ def test_a_port_that_is_in_use_says_so(terminal):
 @pytest.mark.parametrize("profile", [ICUBE, HAPLY], ids=lambda profile: profile.name)
 def test_a_port_where_nobody_answers_says_what_to_check(profile, terminal, monkeypatch):
     quickly(monkeypatch)
-    with pytest.raises(LinkError, match=r"answers; check its power and cable, the baud rate"):
+    with pytest.raises(LinkError, match=r"answers; check its power and cable, that this is the"):
         SerialLink(terminal[1], profile).open()
 
 
@@ -86,7 +88,7 @@ def test_garbage_on_the_wire_is_told_from_silence(profile, terminal, monkeypatch
     thread = threading.Thread(target=talk)
     thread.start()
     try:
-        with pytest.raises(LinkError, match=r"bytes came, but they make no sense; check the baud"):
+        with pytest.raises(LinkError, match="they make no sense; check that this is"):
             SerialLink(terminal[1], profile).open()
     finally:
         ended.set()
@@ -114,3 +116,35 @@ def test_a_calibration_with_impossible_signs_or_numbers_is_refused():
         protocols.Calibration((0.0, 0.0), encoder_signs=(1, 0))
     with pytest.raises(LinkError, match="finite"):
         protocols.Calibration((0.0, float("nan")))
+
+
+def test_a_line_that_never_falls_silent_does_not_hold_a_greeting():
+    master, slave = pty.openpty()
+    tty.setraw(slave)
+    os.set_blocking(master, False)
+    ended = threading.Event()
+
+    def babble():
+        while not ended.is_set():
+            with contextlib.suppress(BlockingIOError):
+                os.write(master, b"\x55" * 64)
+
+    noise = threading.Thread(target=babble)
+    port = Port(os.ttyname(slave), 115200)
+    port.open()
+    noise.start()
+    try:
+        begin = time.monotonic()
+        assert port.exchange(b"\0")
+        assert time.monotonic() - begin < 5.0
+    finally:
+        ended.set()
+        noise.join()
+        port.close()
+        os.close(master)
+        os.close(slave)
+
+
+def test_a_file_that_is_no_port_is_named_so():
+    with pytest.raises(LinkError, match="is not a serial port"):
+        Port(os.devnull, 115200).open()

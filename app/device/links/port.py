@@ -15,6 +15,9 @@ from app.device.errors import LinkError
 ANSWER_TIME = 0.06
 """How long one greeting waits for its answer [s]."""
 
+LONGEST_ANSWER = 0.2
+"""How long bytes are taken for one answer, if they never end [s]."""
+
 
 @dataclass(frozen=True, slots=True)
 class PortInfo:
@@ -85,7 +88,8 @@ class Port:
     def exchange(self, data: bytes) -> bytes:
         """Send bytes; return what has come once nothing more comes.
 
-        Waits `ANSWER_TIME` for the first byte and a few milliseconds for the next.
+        Waits `ANSWER_TIME` for the first byte and a few milliseconds for the next, and no longer
+        than `LONGEST_ANSWER` for a line that never falls silent.
 
         Raises:
             LinkError: if the port has gone.
@@ -99,8 +103,9 @@ class Port:
             raise LinkError(reason(self.path, self.baud, error)) from error
 
     def _gather(self) -> bytes:
-        answer, end = b"", time.monotonic() + ANSWER_TIME
-        while time.monotonic() < end:
+        answer, begin = b"", time.monotonic()
+        end = begin + ANSWER_TIME
+        while time.monotonic() < min(end, begin + LONGEST_ANSWER):
             try:
                 piece = os.read(self.fd, 512)
             except BlockingIOError:
@@ -118,6 +123,8 @@ def reason(path: str, baud: int, error: Exception) -> str:
     code = getattr(error, "errno", None)
     cause = error.__context__ if error.__context__ is not None else error
     code = code if code is not None else getattr(cause, "errno", None)
+    if code is None and cause.args and isinstance(cause.args[0], int):
+        code = cause.args[0]  # termios names its errors by number only
     if code in (errno.ENOENT, errno.ENXIO, errno.ENODEV):
         there = ", ".join(port.path for port in ports()) or "none"
         return (

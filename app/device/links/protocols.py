@@ -195,12 +195,12 @@ def silence(seen: int, whom: str) -> str:
     """Say that nobody answers, and why that may be."""
     if seen:
         return (
-            f"{whom} answers: {seen} bytes came, but they make no sense; check the baud rate in"
-            " the profile (wire.baud) and that this is the robot's port (acus device list)"
+            f"{whom} answers: {seen} bytes came, but they make no sense; check that this is the"
+            " robot's port (acus device list), its profile, and the baud rate there (wire.baud)"
         )
     return (
-        f"{whom} answers; check its power and cable, the baud rate in the profile (wire.baud) and"
-        " that this is the robot's port (acus device list)"
+        f"{whom} answers; check its power and cable, that this is the robot's port (acus device"
+        " list), its profile, and the baud rate there (wire.baud)"
     )
 
 
