@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from app.compose.desktop import DesktopRun
 from app.compose.emulator import Emulator, EmulatorSetup
 from app.compose.needle import UPRIGHT
 from app.compose.robot import Robot
@@ -113,8 +114,10 @@ def test_a_whole_attempt_on_a_device_that_was_commissioned_over_the_wire(emulato
             break
     assert result.state is State.ENDED
     assert 0.3 < felt <= 1.0 + 1e-9
-    device = read_recording(result.record).metadata["device"]
+    metadata = read_recording(result.record).metadata
+    device = metadata["device"]
     assert device["simulated"] == "no"
+    assert metadata["trainee"]["hand"] == "robot"
     assert device["serial"] == "E-1"
     assert device["force_cap"] == "1"
     assert "force scale" in device["clearance"]
@@ -189,3 +192,16 @@ def test_a_port_that_is_not_there_is_told(tmp_path):
     with pytest.raises(LinkError, match="absent"):
         build_rig(absent)
     assert build_rig(replace(absent, port=None)).robot is None
+
+
+def test_the_window_is_told_who_answers_and_what_is_commissioned(emulator, tmp_path):
+    rig = build_rig(setup(emulator.path, tmp_path))
+    run = DesktopRun(rig).run
+    try:
+        assert run.is_real
+        assert run.interactive
+        assert (run.board.serial, run.port, run.velocity) == ("E-1", emulator.path, "foaw")
+        assert run.clearance.force_cap == 0.0
+        assert run.readiness.homed_boot is None
+    finally:
+        rig.close()

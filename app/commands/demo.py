@@ -66,6 +66,7 @@ def _show(ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: Ski
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
     window = MainWindow(Desktop(skill.value, seed, sessions))
+    window.robot.take("")  # nobody stands beside the robot that is remembered
     script = Script(ct=ct, pictures=out)
     collector = collect_for(window)
     show = Demonstration(window, script)

@@ -106,7 +106,8 @@ def emulate(
     """Be a robot behind a pseudo-terminal, whose path is printed; faults are typed while it runs.
 
     Lines on the standard input: drop P, garble P, delay MS, freeze on|off, cut on|off,
-    unplug on|off, reset, version N, error N, park on|off, hold on|off, quit.
+    unplug on|off, reset, version N, error N, park on|off, quit. For the hand: hold
+    on|off, turn left|right DEGREES (one link), lean X Y (degrees).
     """
     from app.compose.emulator import Emulator, EmulatorSetup
     from app.mechanisms.profile import load_profile

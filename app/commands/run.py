@@ -28,7 +28,9 @@ def run(
     from app.views.window import MainWindow
 
     application = start()
-    window = MainWindow(Desktop(port=device))
+    window = MainWindow(Desktop())
+    if device is not None:
+        window.robot.take(device)
     collector = collect_for(window)
     window.show()
     if exercise:

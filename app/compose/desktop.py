@@ -1,4 +1,4 @@
-"""What the window asks for, on the simulated devices; light, so that the window comes first."""
+"""What the window asks for; light, so that the window comes first."""
 
 from __future__ import annotations
 
@@ -41,13 +41,12 @@ _LOOK: Final = 0.02
 
 
 class Desktop:
-    """What the window asks for (`views.services.Services`), on the simulated devices.
+    """What the window asks for (`views.services.Services`).
 
     Args:
         skill: a scripted trainee inserts the needle instead of the mouse; None for the mouse.
         seed: of everything random; None takes each exercise's own.
         sessions: folder of the records.
-        port: serial port of a real robot; None simulates one.
     """
 
     def __init__(
@@ -55,9 +54,8 @@ class Desktop:
         skill: str | None = None,
         seed: int | None = None,
         sessions: Path | None = None,
-        port: str | None = None,
     ) -> None:
-        self._skill, self._seed, self._port = skill, seed, port
+        self._skill, self._seed = skill, seed
         self._sessions = sessions or paths.sessions()
 
     def exercises(self) -> tuple[Exercise, ...]:
@@ -98,7 +96,7 @@ class Desktop:
             seed,
             self._sessions,
             held_arming=setup.robot.held_arming and self._skill is None,
-            port=setup.robot.port or self._port,
+            port=setup.robot.port or None,
         )
         rig = build_rig(trainer)
         try:
@@ -135,18 +133,24 @@ class DesktopRun:
 
     @property
     def run(self) -> ExerciseRun:
-        """What its views need."""
+        """What its views need, as the robot's board says it now: it may have come back anew."""
+        from app.device.control.velocity import DEFAULT_VELOCITY
         from app.views.exercise.pad_view import rings  # Qt only for who has a window
         from app.views.exercise.run import ExerciseRun
 
-        setup = self._rig.setup
+        setup, robot = self._rig.setup, self._rig.robot
         return ExerciseRun(
             self._rig.trainer,
             setup.placed,
             self._rig.profile,
-            interactive=setup.skill is None and setup.port is None,
+            interactive=setup.skill is None,
             rings=rings(setup.exercise.tolerances),
             pictures=self._rig.tracker.pictures,
+            board=None if robot is None else robot.link.info(),
+            port=setup.port or "",
+            clearance=None if robot is None else robot.clearance(),
+            readiness=None if robot is None else robot.readiness,
+            velocity=DEFAULT_VELOCITY.value,
             held_arming=self._rig.trainer.held_arming,
         )
 

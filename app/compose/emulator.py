@@ -10,12 +10,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import cos, pi, sin
 from pathlib import Path
 from typing import IO, Final
 
 import numpy as np
 
+from app.compose.emulated_hand import HANDS, ORDERS, EmulatedHand
 from app.compose.terminal import Terminal
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
@@ -39,7 +39,6 @@ RATE_HZ: Final = 4000.0
 _LISTENS: Final = 0.6
 """Share of a round in which the board waits for bytes, to answer them at once."""
 
-HANDS: Final = ("none", "rest", "script")
 _BOX: Final = wire.END
 _PARKED: Final = _BOX + fault_box.SIZE  # 1: the arms go to the home angles, 0: back
 _SHARE: Final = _PARKED + 1  # of the way there
@@ -142,7 +141,9 @@ class Emulator:
         self._end[wire.WAIT] = _LISTENS / RATE_HZ
         self._terminal = Terminal(self._end, setup.link)
         start = initial_plant(profile, UPRIGHT, DEPTH)
-        self._array[_START : _START + 2] = start["plant_q_left"], start["plant_q_right"]
+        q = start["plant_q_left"], start["plant_q_right"]
+        self._hand = EmulatedHand(profile, DEPTH, q, setup.hand)
+        self._array[_START : _START + 2] = q
         if setup.parked:
             start["plant_q_left"], start["plant_q_right"] = profile.encoder.home_offsets
         stages = [
@@ -162,8 +163,7 @@ class Emulator:
 
     def open(self) -> None:
         """Plug in and switch on; tells the path once the board runs."""
-        holds = self.setup.hand != "none"
-        self._loop.inbox.write(hand_holds=float(holds), hand_depth=DEPTH)
+        self._hand.work(SystemClock().now(), self._loop.inbox)
         if self.setup.record is not None:
             self._record = self.setup.record.open("w", encoding="utf-8")
             self._record.write(",".join(COLUMNS) + "\n")
@@ -183,18 +183,21 @@ class Emulator:
             self._record = None
 
     def work(self) -> None:
-        """Move the scripted hand and write the record up to now; at least once a second."""
-        if self.setup.hand == "script":
-            angle, tilt = 2.0 * pi * 0.3 * SystemClock().now(), 0.15
-            self._loop.inbox.write(hand_x=sin(tilt) * cos(angle), hand_y=sin(tilt) * sin(angle))
+        """Move the hand and write the record up to now; at least once a second."""
+        self._hand.work(SystemClock().now(), self._loop.inbox)
         self._write_record()
 
     def switch(self, order: str) -> None:
-        """Obey one line, e.g. `drop 0.1`, `freeze on`, `unplug off`, `reset`, `park on`.
+        """Obey one line, e.g. `drop 0.1`, `freeze on`, `unplug off`, `reset`, `park on`,
+        `turn left 10`.
 
         Raises:
             LinkError: if it cannot be understood; names the valid orders.
         """
+        words = order.replace("=", " ").split()
+        if words and words[0] in ORDERS:
+            self._hand.obey(words)
+            return
         name, value = _understood(order)
         if name == "unplug":
             self._unplug(value != 0.0)

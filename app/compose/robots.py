@@ -22,7 +22,8 @@ def robot_ports() -> tuple[RobotPort, ...]:
     """Return the serial ports of this computer; opens none."""
     from app.device.links.port import ports
 
-    return tuple(RobotPort(port.path, f"{port.description} ({port.path})") for port in ports())
+    found = [(port.path, port.description) for port in ports()]
+    return tuple(RobotPort(path, f"{said} ({path})" if said else path) for path, said in found)
 
 
 def open_bench(port: str, profile: DeviceProfile, progress: Progress) -> Bench:

@@ -209,7 +209,7 @@ def _context(
             "device": device if robot is None else robot.metadata(),
             "cameras": {"name": rig.name, "simulated": "yes"},
             "ct": {"pseudonym": setup.ct},
-            TRAINEE: {"scripted": setup.skill or ""},
+            TRAINEE: {"scripted": setup.skill or ""} | ({"hand": "robot"} if robot else {}),
             BUILD: build(),
         },
         attachments=tuple(

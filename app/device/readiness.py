@@ -110,6 +110,6 @@ def _power_cycle(lacks: str, step: str, boot: int) -> str:
             " run `acus device calibrate PORT` after switching it on"
         )
     return (
-        f"no force: the robot was not {lacks} since it was switched on; run"
-        f" `acus device calibrate PORT --step {step}`"
+        f"no force: the robot was not {lacks} since it was switched on; do that step in the menu"
+        f" Robot, Commissioning, or with `acus device calibrate PORT --step {step}`"
     )

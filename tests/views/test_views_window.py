@@ -353,7 +353,7 @@ def test_another_robot_ends_the_run_and_begins_one_on_it(window, patient, servic
     assert settle(lambda: window.runs.run is not None, 10.0)
     window.menus.robot.robots.aboutToShow.emit()
     texts = [action.text() for action in window.menus.robot.robots.actions()]
-    assert texts == ["Simulated robot", "icube A17 on /dev/ttyACM0"]
+    assert texts == ["Simulated robot", "icube A17 on /dev/ttyACM0", "", "Other port…"]
     window.menus.robot.robots.actions()[1].trigger()
     assert services.opened[0].closed.wait(5.0)
     assert settle(lambda: window.runs.run is not None, 10.0)
@@ -369,6 +369,18 @@ def test_a_robot_that_was_chosen_is_offered_though_it_is_gone(window, services):
     services.ports = ()
     assert [robot.title for robot in window.robot.ports()] == ["/dev/ttyACM0 – not plugged in"]
     window.robot.choose("")
+
+
+def test_a_robot_is_taken_for_once_without_being_remembered(window, patient, services, settle):
+    window.robot.choose("/dev/ttyACM0")
+    window.robot.take("/tmp/robot")
+    assert window.robot.settings.port == "/dev/ttyACM0"
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert services.opened[-1].setup.robot.port == "/tmp/robot"
+    window.robot.choose("")
+    assert window.robot.port == ""
 
 
 def test_holding_can_be_practised_on_the_simulated_robot(window, patient, services, settle):

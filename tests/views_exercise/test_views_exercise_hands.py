@@ -342,6 +342,20 @@ def test_the_source_stays_while_an_attempt_runs_and_a_choice_is_told(pad):
     assert told == ["tablet"]
 
 
+def test_with_a_real_robot_the_hand_moves_the_depth_alone_whatever_was_chosen(qt):
+    widget = Bullseye()
+    widget.source.set_source("gamepad")
+    widget.set_scene(run().scene(), interactive=True, depth_only=True)
+    assert widget.source.source.name == "mouse"
+    assert not widget.source.box.isEnabled()
+    assert "cannot see how deep" in widget.source.box.toolTip()
+    widget.source.set_locked(False)
+    assert not widget.source.box.isEnabled()
+    assert widget.source.name == "gamepad"
+    widget.set_scene(None, interactive=False)
+    widget.deleteLater()
+
+
 def test_without_a_simulated_hand_nothing_listens(qt):
     widget = Bullseye()
     widget.set_scene(run().scene(), interactive=False)

@@ -277,6 +277,7 @@ def test_another_key_can_be_chosen(window):
     ("now", "verdict", "title", "todo"),
     [
         (Enabling(False, False, 0.0), Verdict.IDLE, "forces off", "start the attempt"),
+        (Enabling(False, False, 0.0, ready=False), Verdict.BAD, "not ready", "Robot's health"),
         (Enabling(True, False, 0.0), Verdict.IDLE, "forces off", "hold H"),
         (Enabling(True, True, 0.4), Verdict.WARNING, "switching on 40 %", "keep holding"),
         (Enabling(True, True, 1.0), Verdict.GOOD, "FORCES ON", "let go of H: forces off"),

@@ -33,7 +33,7 @@ class Bullseye(QWidget):
         self._scene: PadScene | None = None
         self._view: PadView | None = None
         self._hand: Hand | None = None
-        self._interactive = False
+        self._interactive = self._depth_only = False
         self.pad = PadCanvas(self)
         self.depth_bar = DepthBar(self)
         self._remaining = _label(theme.FONT_PX + 6)
@@ -48,14 +48,23 @@ class Bullseye(QWidget):
         self._connect_source()
 
     # --- what the controller calls ----------------------------------------------------------------
-    def set_scene(self, scene: PadScene | None, interactive: bool) -> None:
-        """Take a new path; `interactive` says whether there is a simulated hand to move."""
+    def set_scene(
+        self, scene: PadScene | None, interactive: bool, depth_only: bool = False
+    ) -> None:
+        """Take a new path.
+
+        Args:
+            scene: of the path; None clears everything.
+            interactive: whether there is a simulated hand to move.
+            depth_only: whether it moves the depth alone, because a person holds a real robot's
+                needle and simulated cameras cannot see how deep it is.
+        """
         self._scene, self._view, self._hand = scene, None, None
-        self._interactive = interactive
+        self._interactive, self._depth_only = interactive, depth_only
         self._intent.stop()
         self.pad.set_scene(scene)
         self.depth_bar.set_scene(scene)
-        self.source.set_interactive(interactive)
+        self.source.set_interactive(interactive, depth_only)
         for label in (self._remaining, self._in_plane, self._out_of_plane, self._source):
             label.clear()
 
@@ -83,7 +92,7 @@ class Bullseye(QWidget):
     # --- inside -----------------------------------------------------------------------------------
     def _show(self, scene: PadScene, view: PadView) -> None:
         hand = self._hand
-        self.pad.show_view(view, hand.tilts if hand else None)
+        self.pad.show_view(view, hand.tilts if hand and not self._depth_only else None)
         self.depth_bar.show_depth(view.depth, view.measured, hand.pose.depth if hand else None)
         in_plane, out_of_plane = corrections(scene.frame, scene.frame.tilts(view.direction))
         self._in_plane.setText(in_plane)

@@ -89,7 +89,7 @@ class ExerciseController(QObject):
         self._run, self._seen = run, run.trainer.result
         self._beat = self._clock.now()
         self._rates = LoopRates()
-        self._views.bullseye.set_scene(run.scene(), run.interactive)
+        self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
         self._views.panel.set_ready(True)
         self._views.panel.enable.set_wanted(run.held_arming)
         self._views.panel.energy.begin(run.is_real)
@@ -109,7 +109,7 @@ class ExerciseController(QObject):
     def replan(self, run: ExerciseRun) -> None:
         """Take another plan of the same trainer: the pad is drawn anew, the rest goes on."""
         self._run = run
-        self._views.bullseye.set_scene(run.scene(), run.interactive)
+        self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
 
     @property
     def run(self) -> ExerciseRun | None:

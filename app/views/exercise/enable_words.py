@@ -19,12 +19,14 @@ class Enabling:
         held: whether key, pedal or button is held.
         ramp: arming ramp, 0 off … 1 fully on.
         fault: what holds the force at zero, in words; empty if nothing does.
+        ready: whether an attempt can begin on this robot: it is homed, its signs are checked.
     """
 
     running: bool
     held: bool
     ramp: float
     fault: str = ""
+    ready: bool = True
 
 
 def enabling(snapshot: Snapshot, held: bool) -> Enabling:
@@ -32,11 +34,15 @@ def enabling(snapshot: Snapshot, held: bool) -> Enabling:
     device = snapshot.device
     ramp = float(device.row[sv.ARMING]) if device is not None else 0.0
     fault = fault_text(int(device.fault)) if device is not None else ""
-    return Enabling(snapshot.state in RUNNING, held, min(1.0, max(0.0, ramp)), fault)
+    clearance = snapshot.clearance
+    ready = clearance is None or clearance.homed > 0.5
+    return Enabling(snapshot.state in RUNNING, held, min(1.0, max(0.0, ramp)), fault, ready)
 
 
 def enable_words(now: Enabling, key: str) -> tuple[Verdict, str, str]:
     """Verdict, the state in a few words, and what to do; `key` is the key's name."""
+    if not now.running and not now.ready:
+        return Verdict.BAD, tr("✖ robot not ready"), tr("why, and what to do: Robot's health (F8)")
     if not now.running:
         return Verdict.IDLE, tr("– forces off"), tr("start the attempt first")
     if now.fault:

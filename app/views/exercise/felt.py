@@ -36,8 +36,11 @@ def felt(snapshot: Snapshot) -> Felt:
 
 def force_limit(snapshot: Snapshot, device_limit: float) -> float:
     """Return the largest force at the hand now [N]: the device's own limit, or what it is
-    cleared for where that is less; a cap of 0 says that nobody has set one.
+    cleared for where that is less. Where nobody asks a device for its clearance, a cap of 0 in
+    the loop says that none has been set yet.
     """
+    if snapshot.clearance is not None:
+        return min(device_limit, float(snapshot.clearance.force_cap))
     cap = float(snapshot.device.row[sv.FORCE_CAP]) if snapshot.device is not None else 0.0
     return min(device_limit, cap) if cap > 0.0 else device_limit
 

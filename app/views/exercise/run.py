@@ -76,8 +76,8 @@ class ExerciseRun:
         trainer: does everything.
         placed: the plan in world.
         profile: of the device.
-        interactive: whether the mouse moves a simulated hand; False for a real robot or a scripted
-            trainee.
+        interactive: whether the mouse moves a simulated hand, with a real robot its depth alone;
+            False for a scripted trainee.
         rings: tolerance rings of the pad [m], from the inside.
         pictures: newest pictures of the cameras; None without cameras.
         board: who is at the other end of the wire; None where nobody tells.

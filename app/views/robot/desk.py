@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QInputDialog, QWidget
 
 from app.core.progress import Progress
 from app.session.machine import RUNNING
@@ -53,25 +54,53 @@ class RobotDesk(QObject):
         self._services, self._conductor, self._runs = services, conductor, runs
         self._workspace, self._indicator, self._window = workspace, indicator, parent
         self._opening = False
+        self._taken: str | None = None
         self.wizard: Wizard | None = None
         self._connect()
         self._apply()
 
     # --- which robot ------------------------------------------------------------------------------
+    @property
+    def port(self) -> str:
+        """Port of the robot that is used; empty for the simulated one."""
+        return self.settings.port if self._taken is None else self._taken
+
+    def take(self, port: str) -> None:
+        """Take a robot until another one is chosen, without remembering it."""
+        self._taken = port
+        self._apply()
+
     def ports(self) -> tuple[RobotPort, ...]:
-        """Ports at which a robot may be; the chosen one is among them though it be gone."""
+        """Ports at which a robot may be; the chosen one is always among them.
+
+        The system lists no pseudo-terminals, and a port whose robot is unplugged no more.
+        """
         found = self._services.robots()
-        chosen = self.settings.port
+        chosen = self.port
         if chosen and chosen not in [robot.port for robot in found]:
-            found = (*found, RobotPort(chosen, tr("{port} – not plugged in", port=chosen)))
+            there = Path(chosen).exists()
+            title = chosen if there else tr("{port} – not plugged in", port=chosen)
+            found = (*found, RobotPort(chosen, title))
         return found
 
     def choose(self, port: str) -> None:
         """Take another robot; empty for the simulated one. Refused while an attempt runs."""
         if self._refused_in_attempt():
             return
-        self.settings.port = port
+        self.settings.port, self._taken = port, None
         self._apply()
+
+    def ask_port(self) -> None:
+        """Ask for a port that the system does not list, such as an emulated robot's."""
+        dialog = QInputDialog(self._window)
+        dialog.setWindowTitle(tr("Other port"))
+        dialog.setLabelText(tr(
+            "Port of the robot, for example /dev/ttyUSB0, or what `acus device emulate` has printed"
+        ))  # fmt: skip
+        dialog.setTextValue(self.port)
+        dialog.textValueSelected.connect(self._choose_typed)
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
 
     def set_practise_holding(self, wanted: bool) -> None:
         """Arm the simulated robot by a held key as well, or by the attempt's beginning."""
@@ -96,7 +125,7 @@ class RobotDesk(QObject):
         """Let the run go and open the chosen robot for the wizard."""
         if self._opening or self.wizard is not None or self._refused_in_attempt():
             return
-        port, profile = self.settings.port, self._conductor.profile
+        port, profile = self.port, self._conductor.profile
         if not port:
             self.failed.emit(tr(
                 "The simulated robot needs no commissioning: choose the robot's port in the menu "
@@ -159,15 +188,19 @@ class RobotDesk(QObject):
         source = self._workspace.bullseye.source
         if remembered.hand and remembered.hand != source.name:
             source.set_source(remembered.hand)
-        port = remembered.port
-        self._conductor.set_robot(RobotChoice(port, bool(port) or remembered.practise_holding))
+        held = bool(self.port) or remembered.practise_holding
+        self._conductor.set_robot(RobotChoice(self.port, held))
         self.changed.emit()
 
+    def _choose_typed(self, text: str) -> None:
+        if text.strip():
+            self.choose(text.strip())
+
     def _show_health(self, snapshot: Snapshot) -> None:
-        controller = self._conductor.controller
-        if controller.run is not None:
+        run = self._runs.run  # asked each time: another power cycle of the board is told at once
+        if run is not None:
             self._workspace.health_panel.show_snapshot(
-                controller.run, snapshot, controller.rates, snapshot.time
+                run, snapshot, self._conductor.controller.rates, snapshot.time
             )
 
     def _remember_hand(self, name: str) -> None:

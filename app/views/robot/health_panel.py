@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import datetime
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QFrame,
@@ -117,7 +117,7 @@ class HealthPanel(QWidget):
         self.copy.setEnabled(bool(groups))
 
     def _lay_out(self) -> None:
-        content = QWidget(self)
+        content = _Content(self)
         self._column = QVBoxLayout(content)
         self._column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
         self._column.setSpacing(theme.SPACING)
@@ -137,6 +137,18 @@ class HealthPanel(QWidget):
         page.setContentsMargins(0, 0, 0, 0)
         page.addWidget(area, 1)
         page.addLayout(buttons)
+
+
+class _Content(QWidget):
+    """As high as its wrapped words need at its width: a scroll area alone would squeeze them."""
+
+    def event(self, event: QEvent) -> bool:
+        """Follow another width and other words."""
+        done = super().event(event)
+        layout = self.layout()
+        if layout is not None and event.type() in (QEvent.Type.Resize, QEvent.Type.LayoutRequest):
+            self.setMinimumHeight(layout.heightForWidth(self.width()))
+        return done
 
 
 class _Section(QFrame):

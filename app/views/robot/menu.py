@@ -41,7 +41,7 @@ class RobotMenu:
 
     def _fill_robots(self) -> None:
         self.robots.clear()
-        chosen = self._desk.settings.port
+        chosen = self._desk.port
         choices = [("", tr("Simulated robot"))]
         choices += [(robot.port, robot.title) for robot in self._desk.ports()]
         for port, title in choices:
@@ -51,6 +51,8 @@ class RobotMenu:
             action.triggered.connect(lambda _=False, port=port: self._desk.choose(port))
         if len(choices) == 1:
             self.robots.addAction(tr("no other robot is plugged in")).setEnabled(False)
+        self.robots.addSeparator()
+        self._add(self.robots, tr("Other port…"), self._desk.ask_port)
 
     def _gauge(self, menu: QMenu) -> dict[GaugeMode, QAction]:
         group = QActionGroup(menu)

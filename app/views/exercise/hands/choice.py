@@ -41,3 +41,11 @@ def source_help(name: str) -> str:
             "A: hand to needle"
         ),
     }.get(name, "")
+
+
+def depth_help() -> str:
+    """Say in one line what is left to move where a person holds a real robot's needle."""
+    return tr(
+        "You hold the needle. The simulated cameras cannot see how deep it is: say it by "
+        "wheel or Page keys, 1 mm  ·  Shift: finer"
+    )

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QWidg
 from app.core.errors import AcusError
 from app.views import theme
 from app.views.exercise.hand import GAINS
-from app.views.exercise.hands.choice import SOURCES, source_help, source_title
+from app.views.exercise.hands.choice import SOURCES, depth_help, source_help, source_title
 from app.views.exercise.hands.source import HandSource
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.text import tr
@@ -32,7 +32,7 @@ class HandChooser(QWidget):
         super().__init__(parent)
         self._pad = pad
         self._source: HandSource | None = None
-        self._interactive = False
+        self._interactive = self._depth_only = False
         self._note = ""
         self.box, self.gain, self._help = _source_box(), _gain_box(), QLabel(self)
         self._help.setWordWrap(True)
@@ -67,16 +67,19 @@ class HandChooser(QWidget):
             self.box.setCurrentIndex(max(0, self.box.findData(name)))
         self._reopen()
 
-    def set_interactive(self, interactive: bool) -> None:
-        """Say whether there is a simulated hand to move; without one nothing listens."""
-        self._interactive = interactive
+    def set_interactive(self, interactive: bool, depth_only: bool = False) -> None:
+        """Say whether there is a simulated hand to move; without one nothing listens.
+
+        With `depth_only` it is the mouse whatever is chosen, and its wheel and Page keys count.
+        """
+        self._interactive, self._depth_only = interactive, depth_only
         for widget in (self.box, self.gain):
-            widget.setEnabled(interactive)
+            widget.setEnabled(interactive and not depth_only)
         self._reopen()
 
     def set_locked(self, locked: bool) -> None:
         """Keep the source while an attempt runs: it is recorded with it."""
-        self.box.setEnabled(self._interactive and not locked)
+        self.box.setEnabled(self._interactive and not self._depth_only and not locked)
 
     def _choose(self) -> None:
         self._reopen()
@@ -90,7 +93,7 @@ class HandChooser(QWidget):
         self._show_note("")
         if self._interactive:
             try:
-                self._open(self.name)
+                self._open("mouse" if self._depth_only else self.name)
             except AcusError as error:
                 self.refused.emit(str(error))
                 self.set_source("mouse")
@@ -116,9 +119,12 @@ class HandChooser(QWidget):
         self._note = note
         colour = theme.WARNING if note else theme.TEXT_DIM
         self._help.setStyleSheet(f"font-size: {theme.SMALL_PX}px; color: {colour};")
-        text = f"▲ {note}" if note else source_help(self.name)
+        text = f"▲ {note}" if note else self._words()
         self._help.setText(text if self._interactive else "")
-        self.box.setToolTip(source_help(self.name))
+        self.box.setToolTip(self._words())
+
+    def _words(self) -> str:
+        return depth_help() if self._depth_only else source_help(self.name)
 
 
 def _source_box() -> QComboBox:
