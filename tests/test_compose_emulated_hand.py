@@ -84,7 +84,11 @@ def test_an_order_that_cannot_be_obeyed_is_refused_with_what_can(hand, order, re
     assert reason in str(refused.value)
 
 
-def test_a_link_that_cannot_be_turned_so_far_stays(hand):
+def turn_round(hand):
+    for _ in range(20):
+        hand.obey(["turn", "left", "40"])
+
+
+def test_a_link_that_cannot_be_turned_so_far_is_refused(hand):
     with pytest.raises(MechanismError):
-        for _ in range(20):
-            hand.obey(["turn", "left", "40"])
+        turn_round(hand)

@@ -1,6 +1,7 @@
 """Dial, force, energy and enabling switch: what stands between a hand and a robot."""
 
 from math import inf, nan
+from types import SimpleNamespace
 
 import pytest
 from PySide6.QtCore import QEvent, QPointF, Qt
@@ -123,6 +124,10 @@ def test_the_limit_is_what_the_device_is_cleared_for():
     assert force_limit(snapshot(slots={"force_cap": 1.0}), 5.0) == 1.0
     assert force_limit(snapshot(slots={"force_cap": 9.0}), 5.0) == 5.0
     assert force_limit(snapshot(device=None), 5.0) == 5.0
+    nothing = SimpleNamespace(homed=0.0, force_cap=0.0, reason="not homed")
+    assert force_limit(snapshot(clearance=nothing), 5.0) == 0.0
+    assert not enabling(snapshot(clearance=nothing), False).ready
+    assert enabling(snapshot(), False).ready
 
 
 # --- energy -------------------------------------------------------------------------------------
