@@ -61,16 +61,16 @@ def test_a_typed_order_never_moves_the_needle_faster_than_a_hand_would(hand):
 
 def test_the_needle_can_be_let_go_and_taken_again(hand):
     assert after(hand, 0.1)["hand_holds"] == 0.0
-    hand.obey(["hand", "script"])
+    hand.obey(["hold", "on"])
     assert after(hand, 0.1)["hand_holds"] == 1.0
-    hand.obey(["hand", "none"])
+    hand.obey(["hold", "off"])
     assert after(hand, 0.1)["hand_holds"] == 0.0
 
 
 @pytest.mark.parametrize(
     ("order", "reason"),
     [
-        ("hand nobody", "valid names: none, rest, script"),
+        ("hold nobody", "hold on|off"),
         ("turn up 3", "turn left|right DEGREES"),
         ("turn left far", "'far' is no number"),
         ("lean 3", "lean X Y"),
@@ -90,5 +90,10 @@ def turn_round(hand):
 
 
 def test_a_link_that_cannot_be_turned_so_far_is_refused(hand):
-    with pytest.raises(MechanismError):
+    with pytest.raises((LinkError, MechanismError)):
         turn_round(hand)
+
+
+def test_a_hand_that_is_not_known_is_refused():
+    with pytest.raises(LinkError, match="valid names: none, rest, script"):
+        EmulatedHand(PROFILE, DEPTH, Q, "nobody")

@@ -14,7 +14,7 @@ from app.mechanisms.pantograph import system_forward
 from app.mechanisms.profile import DeviceProfile
 
 HANDS: Final = ("none", "rest", "script")
-ORDERS: Final = ("hand", "turn", "lean")
+ORDERS: Final = ("hold", "turn", "lean")
 SPEED: Final = 0.3
 """How fast a typed order moves the needle's direction [1/s]: slower than what counts as let go."""
 
@@ -53,17 +53,17 @@ class EmulatedHand:
         self.name = name
 
     def obey(self, words: list[str]) -> None:
-        """Obey `hand NAME`, `turn left|right DEGREES` of one link, or `lean X Y` in degrees.
+        """Obey `hold on|off`, `turn left|right DEGREES` of one link, or `lean X Y` in degrees.
 
         Turning and leaning take the needle into the hand, and move it at `SPEED`.
 
         Raises:
-            LinkError: if it cannot be understood.
+            LinkError: if it cannot be understood, or would lean the needle too far.
             MechanismError: if the links cannot take the pose.
         """
         match words:
-            case ["hand", name]:
-                self.take(name)
+            case ["hold", "on" | "off" as held]:
+                self.take("rest" if held == "on" else "none")
             case ["turn", side, angle] if side in _SIDES:
                 self._turn(_SIDES[side], radians(_degrees(angle)))
             case ["lean", x, y]:
@@ -71,7 +71,7 @@ class EmulatedHand:
                 self.name = "rest"
             case _:
                 raise LinkError(
-                    f"{' '.join(words)!r} is not understood; valid are: hand {'|'.join(HANDS)},"
+                    f"{' '.join(words)!r} is not understood; valid are: hold on|off,"
                     " turn left|right DEGREES, lean X Y (degrees towards x and y)"
                 )
 
@@ -93,6 +93,10 @@ class EmulatedHand:
         q[side] += angle
         geometry = self._profile.pantograph
         needle = system_forward(geometry, q, geometry.needle_length - self._depth)
+        if not np.hypot(*needle.axis[:2]) <= sin(radians(_LARGEST_TILT)) or needle.axis[2] > 0.0:
+            raise LinkError(
+                f"the needle would lean by more than {_LARGEST_TILT:g} degrees; turn by less"
+            )
         self._q, self._wanted, self.name = q, np.array(needle.axis[:2]), "rest"
 
 
