@@ -201,8 +201,6 @@ class Emulator:
         name, value = _understood(order)
         if name == "unplug":
             self._unplug(value != 0.0)
-        elif name == "hold":
-            self._loop.inbox.write(hand_holds=value)
         elif name == "park":
             self._array[_PARKED] = value != 0.0
         else:
