@@ -70,6 +70,7 @@ def test_the_needle_can_be_let_go_and_taken_again(hand):
 @pytest.mark.parametrize(
     ("order", "reason"),
     [
+        ("hold 2", "hold on|off"),
         ("hold nobody", "hold on|off"),
         ("turn up 3", "turn left|right DEGREES"),
         ("turn left far", "'far' is no number"),

@@ -62,8 +62,10 @@ class EmulatedHand:
             MechanismError: if the links cannot take the pose.
         """
         match words:
-            case ["hold", "on" | "off" as held]:
-                self.take("rest" if held == "on" else "none")
+            case ["hold"] | ["hold", "on" | "1"]:
+                self.take("rest")
+            case ["hold", "off" | "0"]:
+                self.take("none")
             case ["turn", side, angle] if side in _SIDES:
                 self._turn(_SIDES[side], radians(_degrees(angle)))
             case ["lean", x, y]:
