@@ -6,9 +6,11 @@ therefore carries a digest of every file that holds kernels or the constants the
 (`Final`), so that an edit in any of them is never run from a stale build.
 """
 
+import atexit
 import hashlib
 import os
 import shutil
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -41,8 +43,13 @@ def _cache_folder() -> Path:
         for path in old:
             shutil.rmtree(path, ignore_errors=True)
     except OSError:
-        pass  # a read-only home: numba falls back to compiling in memory
-    return folder
+        pass
+    if os.access(folder, os.W_OK):
+        return folder
+    # A read-only home: numba refuses a folder that it cannot write; this run gets its own.
+    passing = Path(tempfile.mkdtemp(prefix="acus-kernels-"))
+    atexit.register(shutil.rmtree, passing, ignore_errors=True)
+    return passing
 
 
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
