@@ -362,3 +362,33 @@ def test_the_held_links_of_these_tests_really_stand(parts):
     assert link.motors[HOLD] == 1.0
     assert bench.loop.latest().q == pytest.approx(HOME, abs=4e-4)
     assert isinstance(link, WiredLink)
+
+
+def test_a_homing_that_fails_after_it_has_moved_the_boards_zero_takes_the_clearance_away(parts):
+    """The offsets of the homing before do not fit the new zero: no force until homed again."""
+    link, bench, person = parts
+
+    def home():
+        link.encoders[4:6] += HOME - bench.loop.latest().q + bench.corrections.offsets
+
+    link.home = home
+    link.encoders[4:6] = 0.3, -0.2
+    commission(bench, person)
+    assert bench.clearance().homed == 1.0
+
+    def careless(report):
+        value = person(report)
+        if "against their stops" in report.needs:
+            link.hold(UPRIGHT + [0.3, 0.3])
+            bench.advance(0.1)
+        return value
+
+    assert "upright" in run(bench, careless, Step.HOMING).failure
+    assert bench.clearance().homed == 0.0
+    commission(bench, person)
+    assert bench.clearance().homed == 1.0
+    link.hold(UPRIGHT)
+    bench.advance(0.1)
+    assert bench.loop.latest().q == pytest.approx(UPRIGHT, abs=4e-4)
+    bench.undo(Step.HOMING)
+    assert bench.clearance().homed == 0.0

@@ -7,7 +7,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
 from app.device.control import Loop, laws, pantograph_stages
-from app.device.links import Link
+from app.device.links.memory_link import MemoryLink
 from app.device.links.simulated import simulated_link
 from app.mechanisms.pantograph.kernels import (
     axis_kernel,
@@ -63,6 +63,7 @@ class LetGoRig:
         stiffness: of the guidance, as a factor on the profile's.
         tissue: with the side stiffness of the default layers.
         others: further force laws, with their defaults.
+        wire: over the protocol's bytes and a board in memory: angles come a tick late.
     """
 
     def __init__(
@@ -75,6 +76,7 @@ class LetGoRig:
         stiffness: float = 1.0,
         tissue: bool = False,
         others: tuple[str, ...] = (),
+        wire: bool = False,
     ) -> None:
         geometry, fixture = profile.pantograph, profile.fixture
         limit = profile.limits.hand_force
@@ -90,8 +92,11 @@ class LetGoRig:
             }
         }
         requests |= {name: {} for name in others}
-        plant = simulated_link(profile, [plant_stage(profile, axis, depth)])
-        link = Link.of(plant.read, [*plant.write, ("speed", record_true_speed, self.speeds)])
+        stages = [plant_stage(profile, axis, depth), ("speed", record_true_speed, self.speeds)]
+        initial = initial_plant(profile, axis, depth)
+        start = initial["plant_q_left"], initial["plant_q_right"]
+        self.board = MemoryLink(profile, stages, start) if wire else None
+        link = self.board.stages() if self.board else simulated_link(profile, stages)
         effects, bound = [], laws.energy_bound(requests, profile)
         if tissue:
             port = DevicePort(profile.name, frozenset(a.value for a in profile.renders), True)
@@ -100,9 +105,7 @@ class LetGoRig:
             effects, bound = plan.stages(), bound + plan.energy_bound()
         forces = laws.stages_of(requests, profile)
         table = pantograph_stages(profile, forces, effects, link, energy_bound=bound)
-        self.loop = Loop(
-            table, profile.rate_hz, self.clock, initial=initial_plant(profile, axis, depth)
-        )
+        self.loop = Loop(table, profile.rate_hz, self.clock, initial=initial, link=self.board)
         self.loop.inbox.write(
             homed=1.0,
             force_cap=limit,
@@ -129,7 +132,7 @@ class LetGoRig:
     def arm(self) -> None:
         """Arm, and let the ramp pass."""
         self.loop.inbox.write(enabled=1.0)
-        self.step(1150)
+        self.step(round(1.15 * self.loop.rate_hz))
 
     def let_go(self, ticks: int = 1000) -> tuple[FloatArray, FloatArray]:
         """Let go: (true speed of the hub after each tick, rows of the state)."""

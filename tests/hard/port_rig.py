@@ -21,7 +21,8 @@ LONGEST = 16  # ticks of one motion
 # Parameters: generator; kind and rest of the motion; angles; home; largest way from it; amount of
 # the motion; work; its least; largest rise of it in any window while armed; motions; whether armed.
 SEED, KIND, LEFT_OVER, Q1, Q2, HOME1, HOME2, WAY, A, B, C = range(11)
-WORK, LEAST, RISE, MOTIONS, ARMED, COUNT, COULOMB, VISCOUS, SIZE = range(11, 20)
+WORK, LEAST, RISE, MOTIONS, ARMED, COUNT, COULOMB, VISCOUS = range(11, 19)
+READ1, READ2, SIZE = range(19, 22)
 
 
 @njit
@@ -73,7 +74,7 @@ def any_hand(state: FloatArray, p: FloatArray) -> None:
     if p[COUNT] > 0.0:
         q1, q2 = np.floor(q1 / p[COUNT]) * p[COUNT], np.floor(q2 / p[COUNT]) * p[COUNT]
     if state[sv.TICK] > 1.0 and p[ARMED] > 0.5:
-        left, right = q1 - state[sv.Q_LEFT], q2 - state[sv.Q_RIGHT]
+        left, right = q1 - p[READ1], q2 - p[READ2]
         taken = p[COULOMB] * (abs(left) + abs(right))
         taken += p[VISCOUS] * (left * left + right * right) / max(dt, 1e-3)
         work = t1 * left + t2 * right
@@ -83,7 +84,17 @@ def any_hand(state: FloatArray, p: FloatArray) -> None:
     if state[sv.ENABLED] > 0.5 and p[ARMED] < 0.5:  # armed anew: a new account
         p[WORK] = p[LEAST] = 0.0
     p[ARMED] = state[sv.ENABLED]
+    p[READ1], p[READ2] = q1, q2
     state[sv.Q_LEFT], state[sv.Q_RIGHT], state[sv.Q_TIME] = q1, q2, state[sv.TIME]
+
+
+@stage
+def a_tick_late(state: FloatArray, p: FloatArray) -> None:
+    """Readings as a wire brings them: those of the tick before."""
+    q1, q2, time = state[sv.Q_LEFT], state[sv.Q_RIGHT], state[sv.Q_TIME]
+    if p[2] > 0.0:
+        state[sv.Q_LEFT], state[sv.Q_RIGHT], state[sv.Q_TIME] = p[0], p[1], p[2]
+    p[0], p[1], p[2] = q1, q2, time
 
 
 class PortRig:
@@ -97,6 +108,7 @@ class PortRig:
         guarded: with the guard.
         bound: the declared energy [J]; by default what laws and tissue declare.
         counts: with whole encoder counts.
+        late: with readings that come a tick late, as over a wire.
     """
 
     def __init__(
@@ -107,6 +119,7 @@ class PortRig:
         bound: float | None = None,
         counts: bool = True,
         extra: list | None = None,
+        late: bool = False,
     ) -> None:
         requests = {"fixture": {}} if requests is None else requests
         port = DevicePort(PROFILE.name, frozenset(a.value for a in PROFILE.renders), True)
@@ -122,11 +135,12 @@ class PortRig:
             self.hand[[COULOMB, VISCOUS]] = PROFILE.friction.coulomb, PROFILE.friction.viscous
         if counts:
             self.hand[COUNT] = 2.0 * np.pi / PROFILE.encoder.counts_per_turn
+        wire = [("wire", a_tick_late, np.zeros(3))] if late else []
         table = pantograph_stages(
             PROFILE,
             laws.stages_of(requests, PROFILE),
             [*plan.stages(), *(extra or [])],
-            Link.of([("hand", any_hand, self.hand)], []),
+            Link.of([("hand", any_hand, self.hand), *wire], []),
             energy_bound=bound if guarded else None,
         )
         stages = [s for s in table.compute if s.name != "governor"]

@@ -167,3 +167,26 @@ def test_the_true_speed_always_lies_between_the_bounds(pushes, start, phase, cou
     least, most = speed_bounds(ring, n - 1, n, arm, 0.0, arm * arm, 0.0, 0.0, count)
     assert speeds[-1] <= most + 1e-9
     assert least <= max(speeds) + 1e-9
+
+
+@pytest.mark.parametrize(
+    ("name", "rate_hz"), [("icube", 500.0), ("icube", 1000.0), ("haply-2diy", 1000.0)]
+)
+@pytest.mark.parametrize("drop", [0.0, 0.3])
+def test_over_a_wire_that_is_a_tick_late_and_loses_messages_the_hub_stays_as_slow(
+    name, rate_hz, drop
+):
+    profile = weightless(name)
+    loop = profile.loop.model_copy(update={"rate_hz": rate_hz})
+    profile = profile.model_copy(update={"loop": loop})
+    rng = np.random.default_rng(7)
+    for _ in range(8):
+        held = direction(rng.uniform(0.0, profile.tilt_limit), rng.uniform(-3.1, 3.1))
+        path = direction(rng.uniform(0.0, 0.6), rng.uniform(-3.1, 3.1))
+        depth = rng.uniform(*profile.depth_range)
+        rig = LetGoRig(profile, held, path, depth, stiffness=4.0, wire=True)
+        with rig.loop:
+            rig.arm()
+            rig.board.faults.set("drop", drop)
+            speeds, _ = rig.let_go(round(0.4 * rate_hz))
+        assert speeds.max() <= FASTEST

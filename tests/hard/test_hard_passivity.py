@@ -57,6 +57,14 @@ def test_a_small_tank_holds_as_well_and_without_the_guard_it_would_not():
     assert free.hand[RISE] > 4.0 * small
 
 
+@pytest.mark.parametrize("bound", [None, 0.05])
+def test_over_a_wire_that_brings_the_angles_a_tick_late_no_more_gets_out(bound):
+    rig = PortRig(seed=3, bound=bound, late=True)
+    wild_run(rig, 20_000, 4)
+    assert rig.hand[RISE] <= rig.bound + ROUNDING
+    assert rig.hand[RISE] > 0.2 * rig.bound, "the hand did get energy out"
+
+
 def test_no_declared_energy_is_no_force():
     rig = PortRig(bound=0.0)
     with rig.loop:

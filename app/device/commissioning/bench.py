@@ -246,7 +246,14 @@ class Bench:
         return path
 
     def _zero(self) -> None:
-        """Make the present pose the zero of the board's counters, where it can."""
+        """Make the present pose the zero of the board's counters, where it can.
+
+        An earlier homing of this power cycle measured from another zero: it is taken back first,
+        so that its offsets and its clearance never meet the new one, however the routine ends.
+        """
         zero = getattr(self._link, "home", None)
-        if zero is not None:
-            zero()
+        if zero is None:
+            return
+        while self.done(Step.HOMING, Step.OFFSETS):
+            self.undo(Step.HOMING, Step.OFFSETS)
+        zero()

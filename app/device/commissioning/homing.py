@@ -74,6 +74,7 @@ class Homing(Routine):
         self._progress = 0.3
         yield from self._at_rest("keep it there")
         self._zero()
+        old = self._corrections.offsets  # those of an earlier homing have gone with its zero
         seen = yield from self._at_rest("measuring; keep it there")
         change = known - seen
         offsets = float(old[0] + change[0]), float(old[1] + change[1])

@@ -40,8 +40,8 @@ from app.mechanisms.profile import DeviceProfile
 
 _A1, _A2, _BASE, _DRIVEN, _PASSIVE, _COUPLING, _TOOL = range(7)
 _COUNT, _LIMIT, _HAND, _RUN_AWAY, _PATIENCE, _CAUSE = range(7, 13)
-_GOVERNED, _ACCELERATION, _CAUSED, _RUNNING, _HAND_SEEN, _SAMPLES, _HEAD = range(13, 20)
-_RING = 20  # rows of (q_left, q_right, time, largest acceleration sent after it)
+_GOVERNED, _ACCELERATION, _CAUSED, _RUNNING, _HAND_SEEN, _SAMPLES, _HEAD, _PEAK = range(13, 21)
+_RING = 21  # rows of (q_left, q_right, time, largest acceleration sent after it)
 _WINDOW = 24
 _SIZE = _RING + 4 * _WINDOW
 _SIDEWAYS = 0.1  # cosine to the force below which a motion counts less and less
@@ -49,6 +49,7 @@ _SHORTEST = 1e-4  # [s] of a tick
 _BEYOND = 1.2  # times the speed that the force can have caused: a hand
 _HAND_STAYS = 0.2  # [s] for which a hand that was seen is taken to hold on
 _JUMP = 0.5  # [rad] between two readings: no motion, a fresh start
+_PEAK_LASTS = 0.1  # [s] over which the largest push of late is forgotten
 _SHORT = 6  # every window up to this is looked at, then every fourth
 
 
@@ -166,12 +167,19 @@ def stoppable(room: float, doubt: float, step: float) -> float:
 
 
 @njit
+def _age(state: FloatArray) -> float:
+    """Age of the newest reading [s]: on a wire about a tick."""
+    return max(state[sv.TIME] - state[sv.Q_TIME], 0.0)
+
+
+@njit
 def _remember(state: FloatArray, p: FloatArray) -> None:
     """Note what was sent since the newest reading, and the reading if there is a newer one."""
     head = int(p[_HEAD])
     sent = max(abs(state[sv.SENT_LEFT]), abs(state[sv.SENT_RIGHT]))
     pushed = sent / p[_GOVERNED] * p[_ACCELERATION] if p[_GOVERNED] > 0.0 else 0.0
     p[_CAUSED] = snapped(p[_CAUSED] + (pushed - p[_CAUSED] / p[_CAUSE]) * state[sv.DT])
+    p[_PEAK] = max(pushed, p[_PEAK] * (1.0 - min(state[sv.DT] / _PEAK_LASTS, 1.0)))
     row = _RING + 4 * head
     p[row + 3] = max(p[row + 3], pushed)
     if p[_SAMPLES] > 0.0:
@@ -185,7 +193,8 @@ def _remember(state: FloatArray, p: FloatArray) -> None:
     p[_HEAD] = head
     p[_SAMPLES] = min(p[_SAMPLES] + 1.0, _WINDOW)
     p[row], p[row + 1] = state[sv.Q_LEFT], state[sv.Q_RIGHT]
-    p[row + 2], p[row + 3] = state[sv.Q_TIME], 0.0
+    # What was sent before it came acts after it, if it was read before now.
+    p[row + 2], p[row + 3] = state[sv.Q_TIME], p[_PEAK] if _age(state) > 0.0 else 0.0
 
 
 @njit
@@ -219,9 +228,9 @@ def governor_stage(state: FloatArray, p: FloatArray) -> None:
     size, along_left, along_right, ll, lr, rr = free_acceleration(state, p, left, right)
     scale = 1.0
     if size > 0.0:
-        step = max(state[sv.DT], _SHORTEST)
+        step, age = max(state[sv.DT], _SHORTEST), _age(state)
         doubt = p[_COUNT] * sqrt(ll + rr + 2.0 * abs(lr))  # both joints one count out
-        cap = min(stoppable(p[_LIMIT] - p[_HAND], doubt, step) / size, 1.0)
+        cap = min(stoppable(p[_LIMIT] - p[_HAND], doubt, step + age) / size, 1.0)
         least, most = speed_bounds(
             p[_RING:],
             int(p[_HEAD]),
@@ -233,8 +242,9 @@ def governor_stage(state: FloatArray, p: FloatArray) -> None:
             rr,
             p[_COUNT],
         )
-        # A first reading bounds nothing: no force yet.
-        room = (p[_LIMIT] - max(most, 0.0)) / step
+        # A first reading bounds nothing: no force yet. Since the newest, the force went on.
+        since = p[_RING + 4 * int(p[_HEAD]) + 3] * age
+        room = (p[_LIMIT] - max(most + since, 0.0)) / step
         state[sv.LET_GO_SCALE] = min(max(room / (cap * size), 0.0), 1.0)
         state[sv.LIMIT_SCALE] *= cap
         scale = cap * state[sv.LET_GO_SCALE]

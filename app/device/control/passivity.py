@@ -44,8 +44,12 @@ _ASKED_LEFT, _ASKED_RIGHT, _BRAKE_LEFT, _BRAKE_RIGHT = range(18, 22)
 _CUT_LEFT, _CUT_RIGHT = range(22, 24)
 _TANK, _ACCOUNT, _OUT, _LOSS = range(24, 28)
 _FRICTION = 28  # let out in the newest tick for the joints' friction to take
-_COULOMB, _VISCOUS, _SIZE = range(29, 32)
+_COULOMB, _VISCOUS = range(29, 31)
+_OLD = 31  # ticks by which the newest reading is older than its tick: about one on a wire
+_BEFORE_LEFT, _BEFORE_RIGHT, _SIZE = range(32, 35)  # torques sent in the tick before the last
+_KEEPS = 0.98  # of the largest torque, per reading that is many ticks old
 _JUMP = 0.5  # [rad] between two readings: no motion
+_A_TICK = 1.5  # ticks: an ordinary age on a wire
 
 
 @njit
@@ -54,12 +58,17 @@ def port_work(
 ) -> float:
     """Work that left the port since the newest reading [J], for readings (left, right) now.
 
-    Exact when there was one tick since. Over more ticks, with readings missing, no more is known
-    than the largest torques: the work is taken as the most it can have been.
+    Exact when there was one tick since, and the reading is of now. One that came over a wire was
+    taken about a tick ago, under this torque or the one before: each joint's work is the larger of
+    the two. Over more ticks, with readings missing or late, no more is known than the largest
+    torques: the work is taken as the most it can have been.
     """
     turn_left, turn_right = left - p[_LEFT], right - p[_RIGHT]
-    if p[_TICKS] <= 1.0:
+    if p[_TICKS] <= 1.0 and p[_OLD] == 0.0:
         return sent_left * turn_left + sent_right * turn_right
+    if p[_TICKS] <= 1.0 and p[_OLD] <= _A_TICK:
+        before = max(sent_left * turn_left, p[_BEFORE_LEFT] * turn_left)
+        return before + max(sent_right * turn_right, p[_BEFORE_RIGHT] * turn_right)
     return p[_HELD_LEFT] * abs(turn_left) + p[_HELD_RIGHT] * abs(turn_right)
 
 
@@ -107,10 +116,20 @@ def _reach(state: FloatArray, p: FloatArray, ticks: float) -> float:
 @njit
 def _lose_track(state: FloatArray, p: FloatArray) -> None:
     """Charge the most that the held torques can have done, where no motion is known."""
-    most = (p[_HELD_LEFT] + p[_HELD_RIGHT]) * _reach(state, p, p[_TICKS])
+    most = (p[_HELD_LEFT] + p[_HELD_RIGHT]) * _reach(state, p, p[_TICKS] + p[_OLD])
     p[_OUT] += most
     p[_TANK] -= most
     p[_HELD_LEFT] = p[_HELD_RIGHT] = p[_TICKS] = p[_KNOWN] = 0.0
+
+
+@njit
+def _hold_on(state: FloatArray, p: FloatArray) -> None:
+    """After a reading: what was sent since it was taken has done work that nobody has seen yet."""
+    p[_TICKS] = 0.0
+    keeps = _KEEPS if p[_OLD] > _A_TICK else 0.0
+    unseen = 1.0 if p[_OLD] > 0.0 else 0.0
+    p[_HELD_LEFT] = max(unseen * abs(state[sv.SENT_LEFT]), keeps * p[_HELD_LEFT])
+    p[_HELD_RIGHT] = max(unseen * abs(state[sv.SENT_RIGHT]), keeps * p[_HELD_RIGHT])
 
 
 @njit
@@ -120,6 +139,8 @@ def _observe(state: FloatArray, p: FloatArray) -> None:
     if p[_KNOWN] != 0.0 and state[sv.Q_TIME] == p[_TIME]:
         return
     turn_left, turn_right = left - p[_LEFT], right - p[_RIGHT]
+    age = (state[sv.TIME] - state[sv.Q_TIME]) / max(state[sv.DT], p[_PERIOD])
+    p[_OLD] = max(p[_OLD], age) if age > 0.5 else p[_OLD]
     if p[_KNOWN] != 0.0 and abs(turn_left) < _JUMP and abs(turn_right) < _JUMP:
         sent_left, sent_right = state[sv.SENT_LEFT], state[sv.SENT_RIGHT]
         share = _sent_share(p, sent_left, sent_right)
@@ -133,7 +154,8 @@ def _observe(state: FloatArray, p: FloatArray) -> None:
     given = state[sv.FRICTION_WORK]
     p[_FRICTION] = given if given > 0.0 and isfinite(given) else 0.0
     p[_LEFT], p[_RIGHT], p[_TIME], p[_KNOWN] = left, right, state[sv.Q_TIME], 1.0
-    p[_HELD_LEFT] = p[_HELD_RIGHT] = p[_TICKS] = 0.0
+    p[_OLD] = age if age > 0.5 else 0.0
+    _hold_on(state, p)
 
 
 @njit
@@ -187,7 +209,7 @@ def _fade(state: FloatArray, p: FloatArray) -> float:
 @njit
 def _affordable(state: FloatArray, p: FloatArray, left: float, right: float) -> float:
     """Factor in [0, 1] with which the next tick cannot overdraw the tank."""
-    reach = _reach(state, p, p[_TICKS] + 1.0)
+    reach = _reach(state, p, p[_TICKS] + p[_OLD] + 1.0)
     room = max(p[_TANK] - (p[_HELD_LEFT] + p[_HELD_RIGHT]) * reach, 0.0)
     most = (abs(left) + abs(right)) * reach
     return room / most if most > room else 1.0
@@ -203,6 +225,7 @@ def guard_stage(state: FloatArray, p: FloatArray) -> None:
         _observe(state, p)
     else:
         _lose_track(state, p)
+    p[_BEFORE_LEFT], p[_BEFORE_RIGHT] = state[sv.SENT_LEFT], state[sv.SENT_RIGHT]
     if not state[sv.ENABLED] > 0.5:
         _start(p)
     if state[sv.KINEMATICS] == OK and isfinite(left + right):  # else safety holds it at zero

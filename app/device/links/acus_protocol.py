@@ -139,16 +139,23 @@ def _text(field: bytes) -> str:
 
 
 @njit
-def _answered(p: FloatArray, sequence: int) -> None:
-    """Match a reply with its command: round trip, and commands that were never answered."""
+def _answered(p: FloatArray, sequence: int) -> bool:
+    """Match a reply with its command: round trip, and commands that were never answered.
+
+    Returns:
+        Whether it answers one of the last commands, and a newer one than the reply before.
+    """
     newest, before = int(p[wire.SEQUENCE]), int(p[host.ANSWERED])
-    if ((newest - sequence) & 0xFFFF) < wire.SENT_RING:
-        p[host.ROUND_TRIP] = p[wire.NOW] - wire.sent_at(p, sequence)
+    if ((newest - sequence) & 0xFFFF) >= wire.SENT_RING:
+        return False
     if before >= 0:
         passed = (sequence - before) & 0xFFFF
-        if 0 < passed < 0x8000:
-            p[host.LOST] += passed - 1
+        if not 0 < passed < 0x8000:
+            return False
+        p[host.LOST] += passed - 1
+    p[host.ROUND_TRIP] = p[wire.NOW] - wire.sent_at(p, sequence)
     p[host.ANSWERED] = sequence
+    return True
 
 
 @njit
@@ -158,13 +165,14 @@ def _take_state(state: FloatArray, p: FloatArray, data: Any, length: int) -> Non
     p[host.ESTRANGED] = 0.0 if flags & GREETED else 1.0
     p[host.HOMED] = 1.0 if flags & HOMED and flags & GREETED else 0.0
     p[host.ERROR] = data[16]
-    host.heard(p)
-    _answered(p, wire.get_int(data, 2, 2))
-    if not flags & GREETED:  # restarted: its counters mean nothing yet
+    fresh = _answered(p, wire.get_int(data, 2, 2))
+    if fresh:  # what was recorded or held back is no sign of life
+        host.heard(p)
+    if not flags & GREETED or not fresh:  # restarted: its counters mean nothing yet; or old news
         return
     state[sv.Q_LEFT] = p[host.OFFSET] + wire.get_int32(data, 8) * p[host.STEP]
     state[sv.Q_RIGHT] = p[host.OFFSET + 1] + wire.get_int32(data, 12) * p[host.STEP + 1]
-    state[sv.Q_TIME] = p[wire.NOW]
+    state[sv.Q_TIME] = p[wire.NOW] - p[host.ROUND_TRIP]  # read after that, not when it came
     p[host.GAUGE] = 1.0 if flags & FORCE_VALID and length == STATE_WITH_FORCE_BYTES else 0.0
     if p[host.GAUGE] != 0.0:
         force = (wire.get_float(p, data, 17) - p[host.GAUGE_ZERO]) * p[host.GAUGE_SCALE]

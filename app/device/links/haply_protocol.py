@@ -105,14 +105,15 @@ def _take_reply(state: FloatArray, p: FloatArray, data: Any, k: int) -> bool:
         return False
     p[LAST_ANGLE], p[LAST_ANGLE + 1], p[FRESH] = left, right, 0.0
     host.heard(p)
+    asked = wire.sent_at(p, int(p[wire.SEQUENCE]))
     if p[AWAITING] != 0.0:
-        p[host.ROUND_TRIP] = p[wire.NOW] - wire.sent_at(p, int(p[wire.SEQUENCE]))
+        p[host.ROUND_TRIP] = p[wire.NOW] - asked
     p[AWAITING] = 0.0
     p[host.HOMED] = 1.0 if p[host.HOME_SENT] > 0.0 else 0.0
     # Here OFFSET is what the calibration adds and STEP the radians of a degree, with sign.
     state[sv.Q_LEFT] = p[host.OFFSET] + left * p[host.STEP]
     state[sv.Q_RIGHT] = p[host.OFFSET + 1] + right * p[host.STEP + 1]
-    state[sv.Q_TIME] = p[wire.NOW]
+    state[sv.Q_TIME] = min(asked, p[wire.NOW])  # read after the question, not when it came
     return True
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -140,7 +141,6 @@ class HaplySpeech(Speech):
 
     name = "haply"
     stages = (haply.haply_read, haply.haply_write)
-    _connections = 0
 
     def __init__(self, profile: DeviceProfile) -> None:
         self._profile = profile
@@ -159,10 +159,9 @@ class HaplySpeech(Speech):
         raise LinkError(silence(seen, f"no Haply board with number {number}"))
 
     def _found(self) -> BoardInfo:
-        HaplySpeech._connections += 1
-        return BoardInfo(
-            profile="", serial="", firmware="", protocol="haply", boot=HaplySpeech._connections
-        )
+        # A number that no other connection has, of any program: records outlive them.
+        boot = 1 + secrets.randbelow(2**31 - 1)
+        return BoardInfo(profile="", serial="", firmware="", protocol="haply", boot=boot)
 
     def fill(self, end: FloatArray, profile: DeviceProfile, calibration: Calibration) -> None:
         """Angles come in degrees, the profile's offsets included."""
