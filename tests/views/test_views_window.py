@@ -371,6 +371,18 @@ def test_a_robot_that_was_chosen_is_offered_though_it_is_gone(window, services):
     window.robot.choose("")
 
 
+def test_choosing_a_robot_again_tries_again(window, patient, services, settle):
+    services.refuses = "there is no port"
+    window.robot.choose("/dev/ttyACM0")
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: "no port" in window.message_bar.text, 10.0)
+    services.refuses = ""
+    window.robot.choose("/dev/ttyACM0")
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.robot.choose("")
+
+
 def test_a_robot_is_taken_for_once_without_being_remembered(window, patient, services, settle):
     window.robot.choose("/dev/ttyACM0")
     window.robot.take("/tmp/robot")

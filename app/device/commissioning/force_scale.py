@@ -51,8 +51,8 @@ class ForceScale(Routine):
         x, y, z = self._direction
         yield from self._ask(
             "hold the needle upright against the scale (or tie the hub to the weight on it, see"
-            f" docs/hardware.md), so that a force towards ({x:g}, {y:g}, {z:g}) is weighed; tare"
-            " the scale and confirm"
+            f" docs/hardware.md), so that a force towards ({x:g}, {y:g}, {z:g}) is weighed"
+            " (x to the right, z up); tare the scale and confirm"
         )
         direction = self._across()
         yield from self._arm(1.0, UNVERIFIED_FORCE)

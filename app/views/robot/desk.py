@@ -89,6 +89,8 @@ class RobotDesk(QObject):
             return
         self.settings.port, self._taken = port, None
         self._apply()
+        if not self._opening:
+            self._conductor.take_again()  # one that failed before may be there now
 
     def ask_port(self) -> None:
         """Ask for a port that the system does not list, such as an emulated robot's."""
