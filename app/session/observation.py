@@ -7,6 +7,7 @@ import numpy as np
 
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
+from app.device.faults import Fault
 from app.planning.placement import PlacedPlan
 from app.session.curves import Offset, offset
 from app.session.fixes import Fixes
@@ -18,6 +19,10 @@ from app.session.sample import Sample
 
 LOOP_LIMIT: Final = 0.5
 """Age of the loop's newest state [s] from which the loop counts as dead."""
+
+SILENCE: Final = 1.0
+"""A robot that has not answered for this long [s] ends the attempt; shorter silence only takes the
+force away until the person lets go and arms again."""
 
 GRACE: Final = 0.1
 """A fault left over from before arming is forgiven this long after the beginning [s]."""
@@ -53,14 +58,29 @@ class Observation:
         code = self.device.fault
         return str(getattr(code, "message", f"fault {int(code)} of the device"))
 
-    def fatal(self, began: float) -> str:
-        """Why an attempt that began at `began` [s] cannot go on; empty if it can."""
+    @staticmethod
+    def _can_be_armed_again(device: DeviceStatePort) -> bool:
+        """Whether the fault is one that ends by letting go of the switch and holding it again."""
+        silence = device.time - float(device.row[slots.Q_TIME])
+        return int(device.fault) == Fault.LET_GO or (
+            int(device.fault) == Fault.LINK_LOST and silence <= SILENCE
+        )
+
+    def fatal(self, began: float, held_arming: bool = False) -> str:
+        """Why an attempt that began at `began` [s] cannot go on; empty if it can.
+
+        With `held_arming` a fault that ends when the person arms again is no reason.
+        """
         if self.device is None:
             return "" if self.time - began < LOOP_LIMIT else "the loop does not run"
         age = self.time - self.device.time
         if age > LOOP_LIMIT:
             return f"the loop has stopped: its newest state is {age:.1f} s old"
-        return self.device_fault if self.device.time > began + GRACE else ""
+        if self.device.time <= began + GRACE:
+            return ""
+        if held_arming and self._can_be_armed_again(self.device):
+            return ""
+        return self.device_fault
 
     def sample(self, state: State, inputs: LoopInputs) -> Sample:
         """Return what is recorded of it."""

@@ -54,12 +54,15 @@ class Running:
             self.say("recorder", f"this attempt is not recorded: {failure}", now)
         self._say_state(now)
 
-    def look(self, seen: Observation, inputs: LoopInputs) -> str:
-        """Classify and record one observation; returns why the attempt cannot go on, or nothing."""
+    def look(self, seen: Observation, inputs: LoopInputs, held_arming: bool = False) -> str:
+        """Classify and record one observation; returns why the attempt cannot go on, or nothing.
+
+        `held_arming`: whether a person can arm again after a fault.
+        """
         log, attempt = self.log, self.attempt
         if log is None or not attempt.running or attempt.began is None:
             return ""
-        reason = seen.fatal(attempt.began)
+        reason = seen.fatal(attempt.began, held_arming)
         if reason:
             return reason
         self._classifier, event = classify(

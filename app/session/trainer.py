@@ -225,7 +225,7 @@ class Trainer:
             try:
                 self._arming.look()
                 seen = self._watch.look(self._placed, now)
-                reason = self._running.look(seen, self._inputs)
+                reason = self._running.look(seen, self._inputs, self.held_arming)
                 reason = reason or self._watch.news(self._running, self.events)
             except AcusError as error:
                 reason = str(error)

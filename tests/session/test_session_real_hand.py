@@ -16,6 +16,7 @@ from app.device.errors import LinkError
 from app.exchange.csv_export import trajectory_table
 from app.session.context import RunContext
 from app.session.errors import NotReadyError, SessionError
+from app.session.machine import State
 from app.session.recording import Recording, read_recording
 from app.session.scan import scan
 from app.session.trainer import Trainer
@@ -125,6 +126,28 @@ def test_with_a_held_key_an_attempt_begins_without_force_and_follows_the_key(mak
     changes = recording.inputs.column("enabled")
     assert changes.min() == 0.0
     assert changes.max() == 1.0
+
+
+@pytest.mark.parametrize(
+    ("fault", "silence", "held", "ends"),
+    [
+        (10.0, 0.0, True, False),
+        (12.0, 0.3, True, False),
+        (12.0, 1.2, True, True),
+        (8.0, 0.3, True, True),
+        (10.0, 0.0, False, True),
+    ],
+)
+def test_an_attempt_outlives_only_what_arming_again_ends(
+    make: Make, fault: float, silence: float, held: bool, ends: bool
+) -> None:
+    bench = make(held_arming=held)
+    bench.run(0.1)
+    bench.trainer.begin()
+    bench.run(0.5)
+    bench.loop.extra["fault"] = fault
+    bench.loop.extra["q_time"] = bench.loop.clock.now() - silence
+    assert (bench.run(0.2).state is State.ABORTED) is ends
 
 
 @pytest.mark.parametrize("ending", ["end", "abort", "fault", "close"])
