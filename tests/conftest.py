@@ -1,6 +1,7 @@
 """What every test may rely on: no display, own user folders, the shared data or a reason."""
 
 import os
+import sys
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,10 @@ import pytest
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 ROOT = Path(__file__).resolve().parents[1]
+
+# A kernel of a test's rig is cached under the name by which its module was imported first; whichever
+# tests run, and in which order, that name must be found again.
+sys.path.extend(str(folder) for folder in sorted((ROOT / "tests").iterdir()) if folder.is_dir())
 
 
 @pytest.fixture(autouse=True)
