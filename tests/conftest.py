@@ -10,8 +10,8 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 ROOT = Path(__file__).resolve().parents[1]
 
-# A kernel of a test's rig is cached under the name by which its module was imported first; whichever
-# tests run, and in which order, that name must be found again.
+# A kernel of a test's rig is cached under the name by which its module was imported first;
+# whichever tests run, and in which order, that name must be found again.
 sys.path.extend(str(folder) for folder in sorted((ROOT / "tests").iterdir()) if folder.is_dir())
 
 
