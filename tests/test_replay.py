@@ -28,7 +28,7 @@ from app.session.recording import Recording, read_recording
 from app.session.replay_contents import contents
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
-from app.tracking.rig import load_rig
+from app.tracking.optics.rig import load_rig
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 

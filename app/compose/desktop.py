@@ -28,7 +28,7 @@ HEAVY_MODULES: Final = (
     "app.mechanisms.pantograph",
     "app.device.control",
     "app.simulation.clearing",
-    "app.tracking.simulated",
+    "app.tracking.simulated.cameras",
     "app.tracking.tracker",
     "app.compose.trainer",
     "app.views.scene.surfaces",

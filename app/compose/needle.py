@@ -12,7 +12,7 @@ from app.core.arrays import FloatArray
 from app.device.control import Loop
 from app.mechanisms.pantograph import system_forward
 from app.mechanisms.profile import DeviceProfile
-from app.tracking.scene import MarkerScene, Scene
+from app.tracking.simulated.scene import MarkerScene, Scene
 
 UPRIGHT: Final = (0.0, 0.0, -1.0)
 """Needle direction at the start, hub to tip."""

@@ -26,8 +26,8 @@ from app.session.header import Attachment
 from app.session.trainer import Trainer
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.trainee import trainee_stage
-from app.tracking.rig import RigProfile, load_rig
-from app.tracking.simulated import simulated_cameras
+from app.tracking.optics.rig import RigProfile, load_rig
+from app.tracking.simulated.cameras import simulated_cameras
 from app.tracking.tracker import Tracker
 
 START_DEPTH: Final = -0.015

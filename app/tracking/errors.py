@@ -13,3 +13,7 @@ class RigError(TrackingError, ConfigurationError):
 
 class CameraError(TrackingError):
     """A camera that cannot be opened or delivers no picture."""
+
+
+class CalibrationError(TrackingError):
+    """Pictures, boards or files from which no calibration can be had."""

@@ -1,9 +1,9 @@
 """Follows the marker through both cameras' pictures and brings its pixels to one time."""
 
 from app.core.arrays import FloatArray
-from app.tracking.feed import Pair
+from app.tracking.cameras.feed import Pair
 from app.tracking.fix import FixStatus
-from app.tracking.marker import Extractor, MarkerFix
+from app.tracking.markers.extractor import Extractor, MarkerFix
 from app.tracking.solver import FixSolver, Sighting
 from app.tracking.track import PixelTrack
 

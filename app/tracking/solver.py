@@ -8,10 +8,10 @@ from app.core.arrays import FloatArray, frozen, unit
 from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.fix import FixStatus, NeedleFix
-from app.tracking.marker import MarkerFix
-from app.tracking.rig import RigProfile
-from app.tracking.silhouette import centroid_shift
-from app.tracking.stereo import StereoStatus, Triangulation, Way, triangulate
+from app.tracking.markers.extractor import MarkerFix
+from app.tracking.markers.silhouette import centroid_shift
+from app.tracking.optics.rig import RigProfile
+from app.tracking.stereo.triangulation import StereoStatus, Triangulation, Way, triangulate
 
 GATE = 1e-5
 """Probability with which a good fix is refused by the consistency check."""

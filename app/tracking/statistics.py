@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.fix import FixStatus, NeedleFix
-from app.tracking.watch import CameraHealth, CameraState
 
 WINDOW = 2.0
 """Time [s] over which rate, share and latency are taken."""

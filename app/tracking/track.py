@@ -3,7 +3,7 @@
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.tracking.marker import MarkerFix
+from app.tracking.markers.extractor import MarkerFix
 from app.tracking.solver import Sighting
 
 _GAP = 0.1

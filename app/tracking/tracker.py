@@ -8,14 +8,14 @@ from app.core.arrays import FloatArray
 from app.core.clock import Clock
 from app.core.events import Event, EventQueue
 from app.core.latest import Latest
-from app.tracking.camera import Camera, Frame, Image
+from app.tracking.cameras.camera import Camera, Frame, Image
+from app.tracking.cameras.feed import CameraFeed, Pair
 from app.tracking.errors import TrackingError
-from app.tracking.feed import CameraFeed, Pair
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.follower import MarkerFollower, Markers
-from app.tracking.marker import Extractor
-from app.tracking.outline_centroid import OutlineCentroid
-from app.tracking.rig import RigProfile
+from app.tracking.markers.extractor import Extractor
+from app.tracking.markers.outline_centroid import OutlineCentroid
+from app.tracking.optics.rig import RigProfile
 from app.tracking.solver import FixSolver
 from app.tracking.statistics import TrackerMeter, TrackerStatistics
 

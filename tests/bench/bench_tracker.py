@@ -12,14 +12,14 @@ import cv2
 import numpy as np
 
 from app.core.clock import VirtualClock
-from app.tracking.camera import Frame
+from app.tracking.cameras.camera import Frame
 from app.tracking.fix import FixStatus, NeedleFix
-from app.tracking.marker import Extractor
-from app.tracking.picture_effects import NoiseTile, noise
-from app.tracking.rig import RigProfile, load_rig
-from app.tracking.scene import MarkerScene
-from app.tracking.simulated import NeedleRenderer, simulated_cameras
-from app.tracking.thesis_marker import ThesisMarker
+from app.tracking.markers.extractor import Extractor
+from app.tracking.markers.thesis import ThesisMarker
+from app.tracking.optics.rig import RigProfile, load_rig
+from app.tracking.simulated.cameras import NeedleRenderer, simulated_cameras
+from app.tracking.simulated.picture_effects import NoiseTile, noise
+from app.tracking.simulated.scene import MarkerScene
 from app.tracking.tracker import Tracker
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])

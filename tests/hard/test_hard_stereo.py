@@ -6,15 +6,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.transform import RigidTransform
-from app.tracking.camera import Frame
-from app.tracking.distortion import distort_point, fold_radius, undistort_point
+from app.tracking.cameras.camera import Frame
 from app.tracking.errors import CameraError
 from app.tracking.fix import FixStatus
-from app.tracking.outline_centroid import OutlineCentroid
-from app.tracking.rig import load_rig
+from app.tracking.markers.outline_centroid import OutlineCentroid
+from app.tracking.markers.thesis import ThesisMarker
+from app.tracking.optics.distortion import distort_point, fold_radius, undistort_point
+from app.tracking.optics.rig import load_rig
 from app.tracking.solver import FixSolver, Sighting
-from app.tracking.stereo import StereoStatus, Way, triangulate
-from app.tracking.thesis_marker import ThesisMarker
+from app.tracking.stereo.triangulation import StereoStatus, Way, triangulate
 
 THESIS = np.array([-0.091006, 2.735876, -0.001135, -0.004749, -20.789586])
 SIGMA = np.array([np.eye(2) * 1e-8, np.eye(2) * 1e-8])

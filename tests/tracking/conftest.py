@@ -5,9 +5,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from app.tracking.rig import RigProfile, load_rig
-from app.tracking.scene import MarkerScene
-from app.tracking.simulated import NeedleRenderer
+from app.tracking.optics.rig import RigProfile, load_rig
+from app.tracking.simulated.cameras import NeedleRenderer
+from app.tracking.simulated.scene import MarkerScene
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 

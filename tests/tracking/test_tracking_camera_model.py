@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.tracking.distortion import (
+from app.tracking.optics.distortion import (
     distort_point,
     distortion_jacobian,
     fold_radius,
     undistort_point,
 )
-from app.tracking.rig import RigProfile
+from app.tracking.optics.rig import RigProfile
 
 THESIS = np.array([-0.091006, 2.735876, -0.001135, -0.004749, -20.789586])
 WIDE = np.array([-0.11, 0.14, 0.0004, -0.0003, 0.0])

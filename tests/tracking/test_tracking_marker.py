@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from app.tracking.outline_centroid import OutlineCentroid
-from app.tracking.picture_effects import NoiseTile, blur, lighting, noise
-from app.tracking.silhouette import centroid_shift
-from app.tracking.thesis_marker import ThesisMarker
+from app.tracking.markers.outline_centroid import OutlineCentroid
+from app.tracking.markers.silhouette import centroid_shift
+from app.tracking.markers.thesis import ThesisMarker
+from app.tracking.simulated.picture_effects import NoiseTile, blur, lighting, noise
 
 # Depths [m], tilts and azimuths [deg] all over the range of the wide rig.
 POSES = [
@@ -58,7 +58,7 @@ def test_without_the_outline_correction_the_centroid_is_biased(wide, wide_render
 
 def test_the_outline_model_agrees_with_the_rendered_band(wide, wide_renderers, scene_at):
     # the rendered band alone: difference of a red and a black one under the same light
-    from app.tracking import simulated
+    from app.tracking.simulated import cameras as simulated
 
     renderer, model = wide_renderers[0], wide.models[0]
     for pose in POSES[::5]:

@@ -5,7 +5,7 @@ import pytest
 
 from app.core.configuration import ConfigurationError
 from app.tracking.errors import RigError
-from app.tracking.rig import load_rig, shipped_rigs
+from app.tracking.optics.rig import load_rig, shipped_rigs
 
 
 def _whole_range(fulcrum, offset, depths, tilts):

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.tracking.confidence import covariance_radius
-from app.tracking.stereo import (
+from app.tracking.stereo.triangulation import (
     StereoStatus,
     Way,
     _reprojection,

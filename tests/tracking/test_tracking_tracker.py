@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from app.core.clock import SystemClock, VirtualClock
-from app.tracking.camera import Camera, Frame
+from app.tracking.cameras.camera import Camera, Frame
 from app.tracking.errors import CameraError, TrackingError
 from app.tracking.fix import FixStatus
-from app.tracking.picture_effects import NoiseTile, noise
-from app.tracking.scene import MarkerScene
-from app.tracking.simulated import SimulatedCamera
+from app.tracking.simulated.cameras import SimulatedCamera
+from app.tracking.simulated.picture_effects import NoiseTile, noise
+from app.tracking.simulated.scene import MarkerScene
 from app.tracking.tracker import Tracker
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])

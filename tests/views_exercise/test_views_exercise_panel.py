@@ -8,8 +8,8 @@ from PySide6.QtTest import QTest
 from views_exercise_fakes import snapshot, statistics
 
 from app.session.machine import State
+from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.fix import FixStatus
-from app.tracking.watch import CameraHealth, CameraState
 from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.hold_key import HOLD_MS
 from app.views.exercise.live import LiveFigures

@@ -8,9 +8,9 @@ from app.core import state_vector as sv
 from app.device.faults import Fault
 from app.device.state import DeviceState
 from app.session.snapshot import Snapshot
+from app.tracking.cameras.watch import CameraState
 from app.tracking.fix import FixStatus
 from app.tracking.statistics import TrackerStatistics
-from app.tracking.watch import CameraState
 from app.views.exercise.camera_view import camera_name
 from app.views.exercise.felt import felt
 from app.views.exercise.hand import HandPose

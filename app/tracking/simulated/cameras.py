@@ -8,14 +8,14 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.clock import Clock
 from app.core.units import MILLISECOND
-from app.tracking.background import LIGHT_WORLD, paint_background
-from app.tracking.camera import Camera, Frame, Image
-from app.tracking.camera_model import CameraModel
+from app.tracking.cameras.camera import Camera, Frame, Image
 from app.tracking.errors import CameraError
-from app.tracking.picture_effects import NoiseTile, PictureEffect, noise
-from app.tracking.rendering import draw_needle, row_spans, sample_pattern
-from app.tracking.rig import NeedleProfile, RigProfile
-from app.tracking.scene import MarkerScene, Scene
+from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.rig import NeedleProfile, RigProfile
+from app.tracking.simulated.background import LIGHT_WORLD, paint_background
+from app.tracking.simulated.kernels import draw_needle, row_spans, sample_pattern
+from app.tracking.simulated.picture_effects import NoiseTile, PictureEffect, noise
+from app.tracking.simulated.scene import MarkerScene, Scene
 
 _COLOURS = np.array([[172.0, 170.0, 168.0], [44.0, 26.0, 205.0]])
 """Shaft and band: blue, green, red."""

@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from app.tracking.camera import Image
+from app.tracking.cameras.camera import Image
 
 PictureEffect = Callable[[Image, Any, np.random.Generator], Image]
 """Signature of an effect on a picture."""

@@ -11,8 +11,8 @@ import numpy as np
 
 from app.core.arrays import FloatArray, unit
 from app.core.rotation import skew
-from app.tracking.camera_model import CameraModel
-from app.tracking.rig import NeedleShape
+from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.rig import NeedleShape
 
 _CORNERS = 24
 _ANGLES = 2.0 * np.pi * np.arange(_CORNERS) / _CORNERS

@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, frozen
 from app.core.transform import RigidTransform
-from app.tracking.distortion import distortion_jacobian, fold_radius, undistort_grid
 from app.tracking.errors import RigError
+from app.tracking.optics.distortion import distortion_jacobian, fold_radius, undistort_grid
 
 _NEAREST = 1e-6
 """Depth [m] in front of the camera below which a point counts as not in front of it."""

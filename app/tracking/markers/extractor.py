@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from app.core.arrays import FloatArray, frozen
-from app.tracking.camera import Image
+from app.tracking.cameras.camera import Image
 
 
 @dataclass(frozen=True, slots=True, eq=False)

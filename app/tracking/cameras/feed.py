@@ -4,8 +4,8 @@ import threading
 from collections.abc import Callable, Sequence
 
 from app.core.clock import Clock
-from app.tracking.camera import Camera, Frame
-from app.tracking.watch import CameraHealth, CameraReader, CameraState
+from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.cameras.watch import CameraHealth, CameraReader, CameraState
 
 _WAIT = 0.1
 """Longest wait [s] for a picture before the cameras' health is looked at."""

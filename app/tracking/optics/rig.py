@@ -12,8 +12,9 @@ from app.core.arrays import unit
 from app.core.configuration import Strict, load
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
-from app.tracking.camera_model import CameraModel
 from app.tracking.errors import RigError
+from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.optics.camera_model import CameraModel
 
 Triple = tuple[float, float, float]
 
@@ -140,6 +141,7 @@ class RigProfile(Strict):
         systematic_px: what calibration and marker centre leave besides noise, standard deviation
             per pixel axis; it enters every covariance.
         line_sd_mm: agreement of the needle line (by the robot) with the camera frame, per axis.
+        calibration: measured intrinsics and poses; they replace those of `cameras`.
     """
 
     name: str
@@ -154,12 +156,36 @@ class RigProfile(Strict):
     skew_ms: float
     systematic_px: float = Field(ge=0.0)
     line_sd_mm: float = Field(gt=0.0)
+    calibration: StereoCalibration | None = None
 
     @cached_property
     def models(self) -> tuple[CameraModel, CameraModel]:
         """Both cameras, in the profile's order."""
+        if self.calibration is not None:
+            return self.calibration.models()
         first, second = (camera.model() for camera in self.cameras)
         return first, second
+
+    def calibrated(self, calibration: StereoCalibration) -> "RigProfile":
+        """Return this rig with measured cameras, for every use and for the record.
+
+        Raises:
+            RigError: if the calibration has no world frame, or is of cameras with other names.
+        """
+        if calibration.world is None:
+            raise RigError(
+                f"calibration {calibration.id} has no world frame; lay the board at its known "
+                "place and run `acus calibrate world`"
+            )
+        names = tuple(camera.name for camera in calibration.cameras)
+        wanted = tuple(camera.name for camera in self.cameras)
+        if names != wanted:
+            raise RigError(
+                f"calibration {calibration.id} is of the cameras {', '.join(names)}; rig "
+                f"{self.name} has {', '.join(wanted)}"
+            )
+        # A copy would take the cached models along.
+        return RigProfile.model_validate(self.model_dump() | {"calibration": calibration})
 
 
 def shipped_rigs() -> list[str]:

@@ -11,8 +11,8 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.tracking.camera import Image
-from app.tracking.marker import Extractor, MarkerFix
+from app.tracking.cameras.camera import Image
+from app.tracking.markers.extractor import Extractor, MarkerFix
 
 _LOW = np.array([70, 82, 100], dtype=np.uint8)
 _HIGH = np.array([92, 255, 255], dtype=np.uint8)

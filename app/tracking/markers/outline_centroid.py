@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
-from app.tracking.camera import Image
-from app.tracking.marker import Extractor, MarkerFix
-from app.tracking.matting import outline_moments
+from app.tracking.cameras.camera import Image
+from app.tracking.markers.extractor import Extractor, MarkerFix
+from app.tracking.markers.matting import outline_moments
 
 _Mask = NDArray[np.uint8]
 

@@ -7,7 +7,7 @@ from enum import StrEnum
 import numpy as np
 
 from app.core.clock import Clock
-from app.tracking.camera import Camera, Frame
+from app.tracking.cameras.camera import Camera, Frame
 from app.tracking.errors import CameraError
 
 STALL = 0.4

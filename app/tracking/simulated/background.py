@@ -6,10 +6,10 @@ import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray, unit
-from app.tracking.background_file import kept_or_traced
-from app.tracking.camera import Image
-from app.tracking.camera_model import CameraModel
-from app.tracking.rendering import sample_pattern, trace_boxes
+from app.tracking.cameras.camera import Image
+from app.tracking.optics.camera_model import CameraModel
+from app.tracking.simulated.background_file import kept_or_traced
+from app.tracking.simulated.kernels import sample_pattern, trace_boxes
 
 
 @dataclass(frozen=True, slots=True)

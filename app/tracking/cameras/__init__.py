@@ -1,0 +1,1 @@
+"""Cameras: what they are, which there are, and whether they are well."""

@@ -1,0 +1,1 @@
+"""Finding the red band in a picture, in several named ways."""

@@ -1,0 +1,184 @@
+"""What a calibration of two cameras says, as its YAML file holds it.
+
+Lengths are millimetres and angles radians in the file; what this module hands out is SI. The
+routines that make one live in `tracking.calibration`.
+"""
+
+from datetime import datetime
+from typing import Annotated, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from app.core.arrays import FloatArray, frozen
+from app.core.configuration import Strict
+from app.core.transform import RigidTransform
+from app.core.units import MILLIMETRE
+from app.tracking.optics.camera_model import CameraModel
+
+PARAMETERS = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
+"""Order of a camera's parameters in its covariance."""
+
+FORMAT = "acus-stereo-calibration"
+
+Row3 = tuple[float, float, float]
+Row6 = tuple[float, float, float, float, float, float]
+
+
+class CameraCalibration(Strict):
+    """Intrinsics of one camera with their uncertainty.
+
+    Attributes:
+        name: of the camera in the rig.
+        image_size: width, height [px]; a picture of another size is refused.
+        focal_px: fx, fy.
+        centre_px: cx, cy; pixel (0, 0) is the centre of the upper left pixel.
+        distortion: k1, k2, p1, p2, k3 in OpenCV's order; those that the data did not support are 0.
+        estimated: which of `PARAMETERS` were estimated; the others are fixed.
+        covariance: of `PARAMETERS`, 9 rows of 9; zero rows for fixed ones.
+        rms_px: root mean square of the reprojection error, 2D.
+        views: number of pictures used.
+    """
+
+    name: Annotated[str, Field(min_length=1)]
+    image_size: tuple[int, int]
+    focal_px: tuple[float, float]
+    centre_px: tuple[float, float]
+    distortion: tuple[float, float, float, float, float]
+    estimated: tuple[str, ...] = PARAMETERS
+    covariance: tuple[tuple[float, ...], ...] = ((0.0,) * 9,) * 9
+    rms_px: Annotated[float, Field(ge=0.0)] = 0.0
+    views: Annotated[int, Field(ge=0)] = 0
+
+    @model_validator(mode="after")
+    def _shapes(self) -> Self:
+        if np.shape(self.covariance) != (9, 9):
+            raise ValueError(
+                "covariance needs 9 rows of 9 numbers, in the order " + str(PARAMETERS)
+            )
+        if unknown := set(self.estimated) - set(PARAMETERS):
+            raise ValueError(f"estimated names {sorted(unknown)}; there are {PARAMETERS}")
+        return self
+
+    @property
+    def intrinsics(self) -> FloatArray:
+        """fx, fy, cx, cy [px], shape (4,)."""
+        return np.array([*self.focal_px, *self.centre_px])
+
+    @property
+    def parameter_covariance(self) -> FloatArray:
+        """Covariance of `PARAMETERS`, shape (9, 9)."""
+        return frozen(self.covariance, (9, 9), "covariance")
+
+    def model(self, T_world_camera: RigidTransform) -> CameraModel:
+        """Return the camera at a pose."""
+        return CameraModel(
+            self.name, self.intrinsics, np.array(self.distortion), self.image_size, T_world_camera
+        )
+
+
+class PoseCalibration(Strict):
+    """A rigid transform with its uncertainty.
+
+    Attributes:
+        rotation: matrix, rows.
+        translation_mm: of the transform.
+        covariance: 6 rows of 6, of the twist (translation [m], rotation vector [rad]) as
+            `RigidTransform.exp` takes it, on the left: T = exp(twist) @ T_estimated.
+    """
+
+    rotation: tuple[Row3, Row3, Row3]
+    translation_mm: Row3
+    covariance: tuple[Row6, Row6, Row6, Row6, Row6, Row6] = ((0.0,) * 6,) * 6
+
+    @classmethod
+    def of(
+        cls, transform: RigidTransform, covariance: FloatArray | None = None
+    ) -> "PoseCalibration":
+        """Take a transform [m] and its covariance."""
+        spread = np.zeros((6, 6)) if covariance is None else covariance
+        return cls.model_validate(
+            {
+                "rotation": transform.rotation.tolist(),
+                "translation_mm": (transform.translation / MILLIMETRE).tolist(),
+                "covariance": np.asarray(spread).tolist(),
+            }
+        )
+
+    @property
+    def transform(self) -> RigidTransform:
+        """The transform [m]."""
+        return RigidTransform(np.array(self.rotation), np.array(self.translation_mm) * MILLIMETRE)
+
+    @property
+    def pose_covariance(self) -> FloatArray:
+        """Covariance of the twist (translation [m], rotation vector [rad]), shape (6, 6)."""
+        return frozen(self.covariance, (6, 6), "pose covariance")
+
+
+class Validation(Strict):
+    """How well views that took no part in the calibration come out.
+
+    Attributes:
+        views: pairs held back.
+        points: corners triangulated in them.
+        rms_mm: root mean square 3D distance to the true board after a rigid fit (no scale).
+        max_mm: the largest.
+        scale: mean measured length over true length of neighbouring corners; 1 is right.
+        scale_sd: standard deviation of `scale`.
+        epipolar_px: root mean square distance from the epipolar line.
+    """
+
+    views: int
+    points: int
+    rms_mm: float
+    max_mm: float
+    scale: float
+    scale_sd: float
+    epipolar_px: float
+
+
+class StereoCalibration(Strict):
+    """Two calibrated cameras.
+
+    Attributes:
+        id: unique, e.g. `20261122-091244-3f2a`; what an attempt stores.
+        created: when, with time zone.
+        board: specification of the board, e.g. `charuco:9x6:20mm:15mm:DICT_5X5_100`.
+        cameras: left, right.
+        pose: T_right_left: takes points of the left camera's frame to the right one's.
+        rms_px: root mean square reprojection error over both pictures.
+        world: T_world_left; None until a board at a known place was seen.
+        validation: on views held back; None if there were none.
+        notes: lines for people: coefficients dropped, views left out, corner orders mended.
+    """
+
+    format: str = FORMAT
+    version: int = 1
+    id: Annotated[str, Field(pattern=r"^[A-Za-z0-9._-]{1,64}$")]
+    created: datetime
+    board: str = ""
+    cameras: tuple[CameraCalibration, CameraCalibration]
+    pose: PoseCalibration
+    rms_px: Annotated[float, Field(ge=0.0)] = 0.0
+    world: PoseCalibration | None = None
+    validation: Validation | None = None
+    notes: tuple[str, ...] = ()
+
+    @model_validator(mode="after")
+    def _known(self) -> Self:
+        if self.format != FORMAT or self.version != 1:
+            raise ValueError(f"format {self.format} {self.version} is not {FORMAT} 1")
+        return self
+
+    @property
+    def baseline(self) -> float:
+        """Distance between the cameras [m]."""
+        return float(np.linalg.norm(self.pose.transform.translation))
+
+    def models(self) -> tuple[CameraModel, CameraModel]:
+        """Both cameras in world; in the left camera's frame where no world is known."""
+        T_world_left = self.world.transform if self.world else RigidTransform.identity()
+        left, right = self.cameras
+        T_world_right = T_world_left @ self.pose.transform.inverse()
+        return left.model(T_world_left), right.model(T_world_right)

@@ -1,0 +1,1 @@
+"""Simulated cameras that look at the needle."""

@@ -1,0 +1,1 @@
+"""From two pixels to one point."""
