@@ -41,6 +41,12 @@ def misread(state: FloatArray, p: FloatArray) -> None:
 
 
 @stage
+def read_gauge(state: FloatArray, p: FloatArray) -> None:
+    """Whether there is a gauge, and what it reads, in each tick as the links do it."""
+    state[sv.GAUGE], state[sv.GAUGE_FORCE] = p[0], p[1]
+
+
+@stage
 def miswire(state: FloatArray, p: FloatArray) -> None:
     """Torques as they reach the motors; `straighten` puts the sent ones back."""
     left, right = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
@@ -69,11 +75,16 @@ class WiredLink(DeviceLink):
     def __init__(self, info: BoardInfo = INFO) -> None:
         self.who = info
         self.encoders = np.array([1.0, 0, 0, 1, 0, 0, 0, 0, 0, 0])
+        self.gauge = np.zeros(2)
         self.motors = np.array([1.0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0])
         plant = plant_stage(PROFILE)
         encoders = SimulatedEncoders(PROFILE.encoder.counts_per_turn, PROFILE.encoder.home_offsets)
         self.link = Link.of(
-            [encoders.stage(), ("misread", misread, self.encoders)],
+            [
+                encoders.stage(),
+                ("misread", misread, self.encoders),
+                ("gauge", read_gauge, self.gauge),
+            ],
             [("miswire", miswire, self.motors), plant, ("straighten", straighten, self.motors)],
         )
         self.opened = 0

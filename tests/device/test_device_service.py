@@ -6,6 +6,7 @@ import pytest
 from app.core import state_vector as sv
 from app.device.control.corrections import Corrections
 from app.device.control.service import LARGEST_FORCE, LARGEST_TORQUE, Service
+from app.device.errors import DeviceError
 
 
 def ticked(state, stage, ticks=1):
@@ -83,6 +84,27 @@ def test_a_reading_is_corrected_once_whether_or_not_the_link_has_news(state):
         ticked(state, stage)
         assert state[sv.Q_LEFT : sv.Q_RIGHT + 1] == pytest.approx([1.1, 1.8])
         assert state[sv.GAUGE_FORCE] == pytest.approx(2.0)
+
+
+def test_a_gauge_reading_equal_to_the_corrected_one_before_is_corrected_too(state):
+    stage = Corrections(gauge=(0.5, 2.0)).stage()
+    state[sv.GAUGE], state[sv.GAUGE_FORCE], state[sv.Q_TIME] = 1.0, 0.5, 1.0
+    ticked(state, stage)
+    assert state[sv.GAUGE_FORCE] == 0.0
+    state[sv.GAUGE_FORCE], state[sv.Q_TIME] = 0.0, 2.0
+    ticked(state, stage)
+    assert state[sv.GAUGE_FORCE] == -1.0
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_corrections_that_are_no_numbers_are_refused_and_those_in_use_stay(bad):
+    corrections = Corrections((0.1, -0.2), (0.5, 2.0))
+    with pytest.raises(DeviceError, match="encoder offsets"):
+        corrections.set_offsets(0.0, bad)
+    with pytest.raises(DeviceError, match="gauge"):
+        corrections.set_gauge(bad, 1.0)
+    assert corrections.offsets == (0.1, -0.2)
+    assert corrections.gauge == (0.5, 2.0)
 
 
 def test_a_reading_equal_to_the_corrected_one_before_is_corrected_too(state):

@@ -4,8 +4,15 @@ import numpy as np
 import pytest
 from device.wire_rig import PROFILES, MemoryRig
 
+from app.core import state_vector as sv
+from app.core.clock import VirtualClock
+from app.device.control import Loop, Table
+from app.device.control.corrections import Corrections
 from app.device.errors import LinkError
+from app.device.links import board_layout as at
 from app.device.links.link import LinkStatus
+from app.device.links.memory_link import MemoryLink
+from app.mechanisms.profile import load_profile
 
 MINUTES = 10
 
@@ -26,6 +33,22 @@ def test_angles_come_in_and_torques_go_out(name):
         wanted = (rig["torque_left"], rig["torque_right"])
         assert rig.link.torque == pytest.approx(wanted, rel=1e-6)
     assert rig.link.torque == (0.0, 0.0)
+
+
+def test_the_corrections_alone_put_angles_and_gauge_of_a_link_right():
+    link = MemoryLink(load_profile("icube"))
+    link._box[at.GAUGE] = 1.0
+    stages, corrections = link.stages(), Corrections((0.1, -0.2), (0.5, 2.0))
+    q = link.profile.encoder.home_offsets
+    initial = {"plant_q_left": q[0], "plant_q_right": q[1], "pull_x": 1.25}
+    table = Table.of([*stages.read, corrections.stage()], stages.write)
+    loop = Loop(table, 1000.0, VirtualClock(1.0), initial=initial, link=link)
+    with loop:
+        loop.step(50)
+        rows = loop.rows()[-30:]
+    assert rows[:, sv.Q_LEFT] == pytest.approx(q[0] + 0.1, abs=4e-4)
+    assert rows[:, sv.Q_RIGHT] == pytest.approx(q[1] - 0.2, abs=4e-4)
+    assert rows[:, sv.GAUGE_FORCE] == pytest.approx((1.25 - 0.5) * 2.0)
 
 
 @pytest.mark.parametrize("name", PROFILES)

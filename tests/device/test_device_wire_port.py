@@ -111,13 +111,6 @@ def test_ports_are_listed_without_opening_them():
     assert all(port.path for port in ports())
 
 
-def test_a_calibration_with_impossible_signs_or_numbers_is_refused():
-    with pytest.raises(LinkError, match="1 or -1"):
-        protocols.Calibration((0.0, 0.0), encoder_signs=(1, 0))
-    with pytest.raises(LinkError, match="finite"):
-        protocols.Calibration((0.0, float("nan")))
-
-
 def test_a_line_that_never_falls_silent_does_not_hold_a_greeting():
     master, slave = pty.openpty()
     tty.setraw(slave)

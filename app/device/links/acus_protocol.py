@@ -171,11 +171,11 @@ def _take_state(state: FloatArray, p: FloatArray, data: Any, length: int) -> Non
     if not flags & GREETED or not fresh:  # restarted: its counters mean nothing yet; or old news
         return
     state[sv.Q_LEFT] = p[host.OFFSET] + wire.get_int32(data, 8) * p[host.STEP]
-    state[sv.Q_RIGHT] = p[host.OFFSET + 1] + wire.get_int32(data, 12) * p[host.STEP + 1]
+    state[sv.Q_RIGHT] = p[host.OFFSET + 1] + wire.get_int32(data, 12) * p[host.STEP]
     state[sv.Q_TIME] = p[wire.NOW] - p[host.ROUND_TRIP]  # read after that, not when it came
     p[host.GAUGE] = 1.0 if flags & FORCE_VALID and length == STATE_WITH_FORCE_BYTES else 0.0
     if p[host.GAUGE] != 0.0:
-        force = (wire.get_float(p, data, 17) - p[host.GAUGE_ZERO]) * p[host.GAUGE_SCALE]
+        force = wire.get_float(p, data, 17)
         if np.isfinite(force):
             p[host.FORCE] = force
         else:
@@ -211,7 +211,7 @@ def acus_write(state: FloatArray, p: FloatArray) -> None:
     data = receiver.view(np.uint8)
     data[0], data[1] = COMMAND, ENABLE if enable else 0
     wire.put_int(data, 2, int(p[wire.SEQUENCE]), 2)
-    wire.put_float(p, data, 4, left * p[host.TORQUE_SIGN] if enable else 0.0)
-    wire.put_float(p, data, 8, right * p[host.TORQUE_SIGN + 1] if enable else 0.0)
+    wire.put_float(p, data, 4, left if enable else 0.0)
+    wire.put_float(p, data, 8, right if enable else 0.0)
     start = int(p[wire.OUT_COUNT])
     p[wire.OUT_COUNT] = framing.encode(data, COMMAND_BYTES, wire.outgoing(p), start)

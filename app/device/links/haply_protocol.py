@@ -110,9 +110,9 @@ def _take_reply(state: FloatArray, p: FloatArray, data: Any, k: int) -> bool:
         p[host.ROUND_TRIP] = p[wire.NOW] - asked
     p[AWAITING] = 0.0
     p[host.HOMED] = 1.0 if p[host.HOME_SENT] > 0.0 else 0.0
-    # Here OFFSET is what the calibration adds and STEP the radians of a degree, with sign.
+    # Here OFFSET is the home pose less the wire's own offset, and STEP the radians of a degree.
     state[sv.Q_LEFT] = p[host.OFFSET] + left * p[host.STEP]
-    state[sv.Q_RIGHT] = p[host.OFFSET + 1] + right * p[host.STEP + 1]
+    state[sv.Q_RIGHT] = p[host.OFFSET + 1] + right * p[host.STEP]
     state[sv.Q_TIME] = min(asked, p[wire.NOW])  # read after the question, not when it came
     return True
 
@@ -138,8 +138,7 @@ def haply_read(state: FloatArray, p: FloatArray) -> None:
 
 @njit
 def _put_torques(state: FloatArray, p: FloatArray) -> None:
-    left = state[sv.TORQUE_LEFT] * p[host.TORQUE_SIGN]
-    right = state[sv.TORQUE_RIGHT] * p[host.TORQUE_SIGN + 1]
+    left, right = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
     if not (state[sv.ENABLED] > 0.5 and np.isfinite(left + right)):
         left = right = 0.0
     p[LAST_TORQUE] = max(abs(left), abs(right))

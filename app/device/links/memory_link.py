@@ -18,7 +18,7 @@ from app.device.links import host_end as host
 from app.device.links.board_layout import new_board
 from app.device.links.fault_box import Faults
 from app.device.links.link import BoardInfo, DeviceLink, Link, LinkStatus, Triple
-from app.device.links.protocols import Calibration, Speech, speech_of
+from app.device.links.protocols import Speech, speech_of
 from app.mechanisms.profile import DeviceProfile
 
 _BOX = host.SIZE
@@ -119,7 +119,7 @@ class MemoryLink(DeviceLink):
             self._box[at.ZERO : at.ZERO + 2] = self.profile.encoder.home_offsets
             self._box[at.HOMED] = 1.0
         self._info = self._speech.greet(self._say)
-        self._speech.fill(self._end, self.profile, Calibration.of(self.profile))
+        self._speech.fill(self._end)
         self._speech.greeted(self._end, self._info)
         if self._homed:
             self._box[at.ZERO : at.ZERO + 2] = self.profile.encoder.home_offsets

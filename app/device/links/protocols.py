@@ -5,7 +5,6 @@ from __future__ import annotations
 import secrets
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -28,38 +27,6 @@ ATTEMPTS = 32
 is opened."""
 
 
-@dataclass(frozen=True, slots=True)
-class Calibration:
-    """What was measured on one robot.
-
-    Attributes:
-        home_offsets: joint angles at zero counts [rad], (left, right).
-        encoder_signs, motor_signs: 1 or -1, (left, right); -1: wired the other way round.
-        gauge_zero: reading of the force gauge without load.
-        gauge_scale: force per unit of the reading [N].
-    """
-
-    home_offsets: tuple[float, float]
-    encoder_signs: tuple[int, int] = (1, 1)
-    motor_signs: tuple[int, int] = (1, 1)
-    gauge_zero: float = 0.0
-    gauge_scale: float = 1.0
-
-    def __post_init__(self) -> None:
-        if {*self.encoder_signs, *self.motor_signs} - {1, -1}:
-            raise LinkError(
-                f"signs {self.encoder_signs} and {self.motor_signs}: each must be 1 or -1"
-            )
-        numbers = [*self.home_offsets, self.gauge_zero, self.gauge_scale]
-        if not np.isfinite(numbers).all():
-            raise LinkError(f"calibration values {numbers} must be finite; calibrate anew")
-
-    @classmethod
-    def of(cls, profile: DeviceProfile) -> Calibration:
-        """Calibration as the profile has it."""
-        return cls(profile.encoder.home_offsets)
-
-
 class Speech(ABC):
     """One protocol. Shared by every link, whatever carries its bytes."""
 
@@ -75,8 +42,11 @@ class Speech(ABC):
         """
 
     @abstractmethod
-    def fill(self, end: FloatArray, profile: DeviceProfile, calibration: Calibration) -> None:
-        """Write constants of profile and calibration into the program's end of a wire."""
+    def fill(self, end: FloatArray) -> None:
+        """Write the profile's constants into the program's end of a wire.
+
+        What was measured on one robot is no part of them: `control.corrections` adds it.
+        """
 
     @abstractmethod
     def greeted(self, end: FloatArray, info: BoardInfo) -> None:
@@ -123,12 +93,11 @@ class AcusSpeech(Speech):
             )
         return info
 
-    def fill(self, end: FloatArray, profile: DeviceProfile, calibration: Calibration) -> None:
+    def fill(self, end: FloatArray) -> None:
         """Angles from counts."""
-        _fill(end, profile, calibration)
-        end[host.OFFSET : host.OFFSET + 2] = calibration.home_offsets
-        step = 2.0 * np.pi / profile.encoder.counts_per_turn
-        end[host.STEP : host.STEP + 2] = step * np.array(calibration.encoder_signs)
+        end[host.SILENT_AFTER] = self._profile.wire.watchdog_ms * 1e-3
+        end[host.OFFSET : host.OFFSET + 2] = self._profile.encoder.home_offsets
+        end[host.STEP] = 2.0 * np.pi / self._profile.encoder.counts_per_turn
 
     def greeted(self, end: FloatArray, info: BoardInfo) -> None:
         """Its homing message carries the number of the power cycle."""
@@ -163,16 +132,15 @@ class HaplySpeech(Speech):
         boot = 1 + secrets.randbelow(2**31 - 1)
         return BoardInfo(profile="", serial="", firmware="", protocol="haply", boot=boot)
 
-    def fill(self, end: FloatArray, profile: DeviceProfile, calibration: Calibration) -> None:
+    def fill(self, end: FloatArray) -> None:
         """Angles come in degrees, the profile's offsets included."""
-        _fill(end, profile, calibration)
-        section = haply.section_of(profile)
+        end[host.SILENT_AFTER] = self._profile.wire.watchdog_ms * 1e-3
+        section = haply.section_of(self._profile)
         end[haply.DEVICE_ID] = section.device_id
         end[haply.LEFT_SECOND] = section.encoder_ports[0] > section.encoder_ports[1]
-        signs = np.array(calibration.encoder_signs)
         own = np.radians(section.encoder_offset_deg)
-        end[host.OFFSET : host.OFFSET + 2] = np.array(calibration.home_offsets) - signs * own
-        end[host.STEP : host.STEP + 2] = signs * np.pi / 180.0
+        end[host.OFFSET : host.OFFSET + 2] = np.array(self._profile.encoder.home_offsets) - own
+        end[host.STEP] = np.pi / 180.0
 
     def greeted(self, end: FloatArray, info: BoardInfo) -> None:
         """Believe the first angles whatever they are."""
@@ -201,13 +169,6 @@ def silence(seen: int, whom: str) -> str:
         f"{whom} answers; check its power and cable, that this is the robot's port (acus device"
         " list), its profile, and the baud rate there (wire.baud)"
     )
-
-
-def _fill(end: FloatArray, profile: DeviceProfile, calibration: Calibration) -> None:
-    end[host.SILENT_AFTER] = profile.wire.watchdog_ms * 1e-3
-    end[host.TORQUE_SIGN : host.TORQUE_SIGN + 2] = calibration.motor_signs
-    end[host.GAUGE_ZERO] = calibration.gauge_zero
-    end[host.GAUGE_SCALE] = calibration.gauge_scale
 
 
 def _begin(end: FloatArray, homing: bytes) -> None:

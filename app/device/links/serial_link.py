@@ -15,7 +15,7 @@ from app.device.links import wire
 from app.device.links.link import BoardInfo, DeviceLink, Link, LinkStatus, Triple
 from app.device.links.plug import Plug
 from app.device.links.port import Port
-from app.device.links.protocols import Calibration, speech_of
+from app.device.links.protocols import speech_of
 from app.device.links.supervisor import Supervisor
 from app.mechanisms.profile import DeviceProfile
 
@@ -30,7 +30,6 @@ class SerialLink(DeviceLink):
     Args:
         port: path, e.g. `/dev/ttyACM0`.
         profile: protocol, speed and numbers of the robot.
-        calibration: what was measured on this robot; by default what the profile says.
         on_connect: called with the board after each greeting, the first included, from the thread
             that greeted it; must be quick.
         clock: monotonic clock, for the times of events.
@@ -40,13 +39,11 @@ class SerialLink(DeviceLink):
         self,
         port: str,
         profile: DeviceProfile,
-        calibration: Calibration | None = None,
         on_connect: Callable[[BoardInfo], None] | None = None,
         clock: Clock | None = None,
     ) -> None:
         self.port = port
         self.profile = profile
-        self.calibration = calibration or Calibration.of(profile)
         self.events = EventQueue()
         self._on_connect = on_connect
         self._clock = clock or SystemClock()
@@ -67,7 +64,7 @@ class SerialLink(DeviceLink):
         if self._supervisor.running:
             return
         _need_linux()
-        self._speech.fill(self._end, self.profile, self.calibration)
+        self._speech.fill(self._end)
         self._plug.open()
         try:
             self._connect(None)
