@@ -330,22 +330,22 @@ def test_closing_the_bench_lets_go_of_the_link_and_can_be_repeated(tmp_path):
 
 
 def test_the_gauge_is_calibrated_by_weights(parts):
-    _link, bench, _person = parts
+    link, bench, _person = parts
     hung = iter((0.0, 0.05, 0.1, 0.2))
     true = {"force": 0.0}
 
     def hang(report):
         true["force"] = next(hung) * 9.80665
-        bench.loop._state[sv.GAUGE_FORCE] = 0.2 + 1.25 * true["force"]
+        link.gauge[1] = 0.2 + 1.25 * true["force"]
         return 0.0
 
-    bench.loop._state[sv.GAUGE] = 1.0
+    link.gauge[0] = 1.0
     report = bench.run(bench.routine(Step.GAUGE), hang)
     assert report.failure == ""
     assert report.result.zero == pytest.approx(0.2, abs=1e-9)
     assert report.result.scale == pytest.approx(0.8, abs=1e-9)
     bench.keep(report.result)
-    bench.loop._state[sv.GAUGE_FORCE] = 0.2 + 1.25 * 0.7
+    link.gauge[1] = 0.2 + 1.25 * 0.7
     bench.advance(0.01)
     assert bench.loop.latest().row[sv.GAUGE_FORCE] == pytest.approx(0.7)
 
@@ -364,7 +364,7 @@ def test_the_held_links_of_these_tests_really_stand(parts):
     assert isinstance(link, WiredLink)
 
 
-def test_a_homing_that_fails_after_it_has_moved_the_boards_zero_takes_the_clearance_away(parts):
+def test_a_homing_that_fails_after_it_has_moved_the_boards_zero_takes_clearance_and_offsets(parts):
     """The offsets of the homing before do not fit the new zero: no force until homed again."""
     link, bench, person = parts
 
@@ -383,7 +383,9 @@ def test_a_homing_that_fails_after_it_has_moved_the_boards_zero_takes_the_cleara
             bench.advance(0.1)
         return value
 
+    assert bench.corrections.offsets != (0.0, 0.0)
     assert "upright" in run(bench, careless, Step.HOMING).failure
+    assert bench.corrections.offsets == (0.0, 0.0)
     assert bench.clearance().homed == 0.0
     commission(bench, person)
     assert bench.clearance().homed == 1.0
@@ -391,4 +393,19 @@ def test_a_homing_that_fails_after_it_has_moved_the_boards_zero_takes_the_cleara
     bench.advance(0.1)
     assert bench.loop.latest().q == pytest.approx(UPRIGHT, abs=4e-4)
     bench.undo(Step.HOMING)
+    assert bench.clearance().homed == 0.0
+
+
+def test_a_homing_whose_zero_cannot_be_set_does_not_bring_back_the_offsets_of_the_one_before(parts):
+    link, bench, person = parts
+    link.encoders[4:6] = 0.3, -0.2
+    commission(bench, person)
+    assert bench.corrections.offsets != (0.0, 0.0)
+
+    def home():
+        raise CommissioningError("the board does not answer")
+
+    link.home = home
+    assert "does not answer" in run(bench, person, Step.HOMING).failure
+    assert bench.corrections.offsets == (0.0, 0.0)
     assert bench.clearance().homed == 0.0

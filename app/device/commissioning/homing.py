@@ -24,7 +24,7 @@ class Homing(Routine):
     """Bring both links to the profile's home pose; the encoders' offsets follow from it.
 
     The new offsets are used at once, so that the check afterwards sees them; if the routine ends
-    without a result, the old ones come back.
+    without a result, those before come back, as far as their zero still stands.
 
     Args:
         loop, profile: as in `Routine`.
@@ -45,6 +45,7 @@ class Homing(Routine):
     ) -> None:
         super().__init__(loop, profile)
         self._corrections, self._zero = corrections, zero
+        self._before = corrections.offsets
 
     def known(self) -> FloatArray:
         """Joint angles (left, right) at the reference pose [rad], shape (2,)."""
@@ -59,25 +60,27 @@ class Homing(Routine):
         )
 
     def _script(self) -> Script:
-        old = self._corrections.offsets
+        self._before = self._corrections.offsets
         try:
-            return (yield from self._find(old))
+            return (yield from self._find())
         except BaseException:
-            self._corrections.set_offsets(*old)
+            self._corrections.set_offsets(*self._before)
             raise
 
-    def _find(self, old: tuple[float, float]) -> Script:
+    def _find(self) -> Script:
         self._disarm()
         known = self.known()
         self._require_pose(known, "the profile's reference pose")
         yield from self._ask(self.instruction())
         self._progress = 0.3
         yield from self._at_rest("keep it there")
-        self._zero()
-        old = self._corrections.offsets  # those of an earlier homing have gone with its zero
+        try:
+            self._zero()
+        finally:  # those of an earlier homing have gone with its zero, and must not come back
+            self._before = self._corrections.offsets
         seen = yield from self._at_rest("measuring; keep it there")
         change = known - seen
-        offsets = float(old[0] + change[0]), float(old[1] + change[1])
+        offsets = float(self._before[0] + change[0]), float(self._before[1] + change[1])
         self._corrections.set_offsets(*offsets)
         self._progress = 0.6
         yield from self._check()
