@@ -78,6 +78,15 @@ def test_the_depth_is_tracked_then_held_then_the_models():
     assert depths[-1] == pytest.approx(state[sv.L_IN])  # L_out = C - L_in
 
 
+def test_a_fix_from_the_future_goes_stale_like_an_old_one():
+    state, stage = state_at(), Kinematics.of(PROFILE).stage()
+    tick(state, stage, tracked_time=5.0 + 3600.0, tracked_depth=0.05)
+    assert state[sv.DEPTH_SOURCE] == MODEL
+    assert state[sv.DEPTH] == pytest.approx(state[sv.L_IN])
+    tick(state, stage, tracked_time=state[sv.TIME] + 2.5 * DT, tracked_depth=0.05)  # mere jitter
+    assert state[sv.DEPTH_SOURCE] == TRACKED
+
+
 def test_losing_and_finding_the_marker_moves_the_lever_without_a_jump():
     state, stage = state_at(), Kinematics.of(PROFILE).stage()
     depths = []

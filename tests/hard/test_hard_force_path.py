@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from device.device_rig import HAND_LIMIT, TORQUE_LIMIT, Rig
+from device.device_rig import HAND_LIMIT, PROFILE, TORQUE_LIMIT, Rig
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core import state_vector as sv
 from app.device.control import Fault
+from app.device.control.governor import SpeedGovernor
 from app.device.control.law_kernels import across_kernel, spring_kernel
 
 
@@ -174,10 +175,51 @@ def test_one_absurd_reading_of_an_encoder_is_forgotten(reading):
 def test_losing_the_marker_does_not_make_the_force_jump():
     rig = Rig(force=(0.0, 0.0, 0.0))
     with rig.loop:
-        rig.arm(tracked_depth=0.03, tracked_time=rig.clock.now() + 1.0)
+        rig.arm()
+        for _ in range(3):
+            rig.write(tracked_depth=0.03, tracked_time=rig.clock.now())
+            rig.step(100)
         rig.step(500)
-        torques = rig.loop.rows()[1100:, [sv.TORQUE_LEFT, sv.TORQUE_RIGHT]]
+        rows = rig.loop.rows()[-800:]
+    assert {0.0, 1.0, 2.0} == set(rows[:, sv.DEPTH_SOURCE])
+    torques = rows[:, [sv.TORQUE_LEFT, sv.TORQUE_RIGHT]]
     assert np.abs(np.diff(torques, axis=0)).max() < 0.02 * TORQUE_LIMIT
+
+
+@pytest.mark.parametrize(
+    ("slot", "value"), [(sv.AXIS_X, np.nan), (sv.J_XL, np.inf), (sv.L_OUT, np.nan)]
+)
+def test_a_torque_whose_acceleration_cannot_be_told_does_not_pass_the_governor(slot, value):
+    rig = Rig()
+    with rig.loop:
+        rig.arm()
+        state = rig.loop._state.copy()
+    _, govern, parameters = SpeedGovernor.of(PROFILE).stage()
+    for tick in range(3):
+        state[sv.TIME] = state[sv.Q_TIME] = 100.0 + tick * 1e-3
+        state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = 0.1, -0.1
+        good, state[slot] = state[slot], value
+        govern(state, parameters)
+        state[slot] = good
+        assert state[sv.TORQUE_LEFT] == state[sv.TORQUE_RIGHT] == state[sv.LET_GO_SCALE] == 0.0
+    for tick in range(3, 40):  # and once it can be told, it passes again
+        state[sv.TIME] = state[sv.Q_TIME] = 100.0 + tick * 1e-3
+        state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = 0.1, -0.1
+        govern(state, parameters)
+    assert state[sv.TORQUE_LEFT] > 0.0
+    assert np.isfinite(parameters).all()
+
+
+def test_a_robot_without_inertia_gets_no_torque():
+    nothing = SpeedGovernor((0.15, 0.2, 0.1), (0.0, 0.0, 0.0, 0.0), 1e-4)
+    rig = Rig()
+    with rig.loop:
+        rig.arm()
+        state = rig.loop._state.copy()
+    state[sv.TORQUE_LEFT] = 0.1
+    _, govern, parameters = nothing.stage()
+    govern(state, parameters)
+    assert not state[[sv.TORQUE_LEFT, sv.TORQUE_RIGHT]].any()
 
 
 def test_a_rig_at_rest_for_ten_minutes_stays_finite():

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from app.core import state_vector as sv
 from app.device.control import Fault
-from app.device.control.governor import speed_bounds
+from app.device.control.speed_bounds import speed_bounds
 from app.mechanisms.profile import DeviceProfile, load_profile
 
 PROFILES = {name: load_profile(name) for name in ("icube", "haply-2diy")}

@@ -32,138 +32,21 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.device.control.vectors import norm_kernel, snapped
-from app.mechanisms.pantograph.dynamics import mass_matrix_kernel
-from app.mechanisms.pantograph.kernels import hub_velocity_kernel
+from app.device.control.speed_bounds import OWN, free_acceleration, speed_bounds, stoppable
+from app.device.control.vectors import snapped
 from app.mechanisms.pantograph.status import OK
 from app.mechanisms.profile import DeviceProfile
 
-_A1, _A2, _BASE, _DRIVEN, _PASSIVE, _COUPLING, _TOOL = range(7)
-_COUNT, _LIMIT, _HAND, _RUN_AWAY, _PATIENCE, _CAUSE = range(7, 13)
+_COUNT, _LIMIT, _HAND, _RUN_AWAY, _PATIENCE, _CAUSE = range(OWN, 13)  # before: free_acceleration
 _GOVERNED, _ACCELERATION, _CAUSED, _RUNNING, _HAND_SEEN, _SAMPLES, _HEAD, _PEAK = range(13, 21)
 _RING = 21  # rows of (q_left, q_right, time, largest acceleration sent after it)
 _WINDOW = 24
 _SIZE = _RING + 4 * _WINDOW
-_SIDEWAYS = 0.1  # cosine to the force below which a motion counts less and less
 _SHORTEST = 1e-4  # [s] of a tick
 _BEYOND = 1.2  # times the speed that the force can have caused: a hand
 _HAND_STAYS = 0.2  # [s] for which a hand that was seen is taken to hold on
 _JUMP = 0.5  # [rad] between two readings: no motion, a fresh start
 _PEAK_LASTS = 0.1  # [s] over which the largest push of late is forgotten
-_SHORT = 6  # every window up to this is looked at, then every fourth
-
-
-@njit
-def free_acceleration(
-    state: FloatArray, p: FloatArray, left: float, right: float
-) -> tuple[float, float, float, float, float, float]:
-    """Hub acceleration of the free mechanism under two torques, and how the hub travels.
-
-    Returns its size [m/s²]; the hub's travel in its direction per angle of each joint [m/rad];
-    the Gram matrix (ll, lr, rr) [m²/rad²] of the travels per joint. Zeros where there is none.
-    Links and tool only: needle and hand make it slower.
-    """
-    m11, m12, m22 = mass_matrix_kernel(
-        state[sv.Q_LEFT],
-        state[sv.Q_RIGHT],
-        state[sv.P3_X],
-        state[sv.P3_Y],
-        p[_A1],
-        p[_A2],
-        p[_BASE],
-        p[_DRIVEN],
-        p[_PASSIVE],
-        p[_COUPLING],
-        p[_TOOL],
-    )
-    determinant = m11 * m22 - m12 * m12
-    q1 = (m22 * left - m12 * right) / determinant
-    q2 = (m11 * right - m12 * left) / determinant
-    dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
-    l_in, l_out = state[sv.L_IN], state[sv.L_OUT]
-    lx, ly, lz = hub_velocity_kernel(state[sv.J_XL], state[sv.J_YL], dx, dy, dz, l_in, l_out)
-    rx, ry, rz = hub_velocity_kernel(state[sv.J_XR], state[sv.J_YR], dx, dy, dz, l_in, l_out)
-    ax, ay, az = lx * q1 + rx * q2, ly * q1 + ry * q2, lz * q1 + rz * q2
-    size = norm_kernel(ax, ay, az)
-    if not (isfinite(size) and size > 1e-9):
-        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    ax, ay, az = ax / size, ay / size, az / size
-    return (
-        size,
-        ax * lx + ay * ly + az * lz,
-        ax * rx + ay * ry + az * rz,
-        lx * lx + ly * ly + lz * lz,
-        lx * rx + ly * ry + lz * rz,
-        rx * rx + ry * ry + rz * rz,
-    )
-
-
-@njit
-def counted(along: float, size: float) -> float:
-    """Travel that counts [m]: its `size` where it goes with the force, `along` where against it.
-
-    `along` is its part in the direction of the force's acceleration; continuous in both.
-    """
-    if along <= 0.0:
-        return along
-    return min(along / _SIDEWAYS, size)
-
-
-@njit
-def speed_bounds(
-    ring: FloatArray,
-    head: int,
-    samples: int,
-    along_left: float,
-    along_right: float,
-    ll: float,
-    lr: float,
-    rr: float,
-    count: float,
-) -> tuple[float, float]:
-    """Bounds of the hub's counted speed now [m/s]: (at least, at most).
-
-    Args:
-        ring: rows (q_left, q_right, time, largest acceleration sent after it), flat.
-        head: row of the newest reading.
-        samples: rows that hold readings.
-        along_left: travel of the hub along the force per angle of the left joint [m/rad].
-        along_right: likewise of the right joint.
-        ll: Gram matrix of its travels per joint angle, left with left [m²/rad²].
-        lr: left with right.
-        rr: right with right.
-        count: one encoder count [rad].
-    """
-    rows = len(ring) // 4
-    newest = 4 * head
-    doubt = count * sqrt(ll + rr + 2.0 * abs(lr))
-    least, most = -np.inf, np.inf
-    gained, moment = 0.0, 0.0  # ∫ a dt, ∫ a (t - t_start) dt over the window
-    end = ring[newest + 2]
-    later = end
-    row = newest
-    for k in range(1, samples):
-        row = row - 4 if row > 0 else 4 * (rows - 1)
-        step = later - ring[row + 2]
-        later = ring[row + 2]
-        moment += step * gained + 0.5 * ring[row + 3] * step * step
-        gained += ring[row + 3] * step
-        width = end - later
-        if (k > _SHORT and k & 3 != 3) or not width > 0.0:
-            continue
-        left, right = ring[newest] - ring[row], ring[newest + 1] - ring[row + 1]
-        size = sqrt(max(ll * left * left + 2.0 * lr * left * right + rr * right * right, 0.0))
-        travel = counted(along_left * left + along_right * right, size)
-        least = max(least, (travel - doubt) / width)
-        most = min(most, (travel + doubt + moment) / width)
-    return least, most
-
-
-@njit
-def stoppable(room: float, doubt: float, step: float) -> float:
-    """Largest acceleration a [m/s²] with 2 √(doubt a) + a step <= room [m/s]."""
-    root = (sqrt(doubt + step * max(room, 0.0)) - sqrt(doubt)) / step
-    return root * root
 
 
 @njit
@@ -213,6 +96,13 @@ def _watch(state: FloatArray, p: FloatArray, speed: float) -> None:
         state[sv.LET_GO] = 1.0
 
 
+@njit
+def _let_nothing_pass(state: FloatArray, p: FloatArray) -> None:
+    """Zero torque; a fresh start of the windows afterwards."""
+    p[_SAMPLES] = p[_GOVERNED] = p[_RUNNING] = 0.0
+    state[sv.LET_GO_SCALE] = state[sv.TORQUE_LEFT] = state[sv.TORQUE_RIGHT] = 0.0
+
+
 @stage
 def governor_stage(state: FloatArray, p: FloatArray) -> None:
     """Scale TORQUE_* so that a needle let go stays slow; write LET_GO_SCALE and LET_GO."""
@@ -226,6 +116,9 @@ def governor_stage(state: FloatArray, p: FloatArray) -> None:
         return
     _remember(state, p)
     size, along_left, along_right, ll, lr, rr = free_acceleration(state, p, left, right)
+    if not isfinite(size):  # what cannot be bounded is not let through
+        _let_nothing_pass(state, p)
+        return
     scale = 1.0
     if size > 0.0:
         step, age = max(state[sv.DT], _SHORTEST), _age(state)

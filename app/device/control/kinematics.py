@@ -52,7 +52,8 @@ def _clear_forces(state: FloatArray) -> None:
 def _length_outside(state: FloatArray, p: FloatArray, l_in: float) -> float:
     # L_out: measured while the cameras' fix is younger than _HOLD, else C - L_in. The weight of the
     # measurement moves over _BLEND seconds, so that losing the marker does not make the lever jump.
-    age = state[sv.TIME] - state[sv.TRACKED_TIME]
+    # A stamp in the future is as wrong as an old one: it must not stay fresh until its time comes.
+    age = abs(state[sv.TIME] - state[sv.TRACKED_TIME])
     depth = state[sv.TRACKED_DEPTH]
     source = MODEL
     if state[sv.TRACKED_TIME] != 0.0 and isfinite(depth) and age < p[_HOLD]:

@@ -30,142 +30,12 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.device.control import energy_account as account
 from app.device.control.law_kernels import STOP_GIVES, longest_lever
 from app.device.control.vectors import snapped
 from app.device.errors import DeviceError
 from app.mechanisms.pantograph.status import OK
 from app.mechanisms.profile import DeviceProfile
-
-_BOUND, _FASTEST, _COUNT, _PERIOD, _CREDIT, _FADE_FROM, _FADE_TO, _FORGET, _DAMPING = range(9)
-_LEFT, _RIGHT, _TIME, _KNOWN = range(9, 13)  # the newest reading, and whether there is one
-_HELD_LEFT, _HELD_RIGHT, _TICKS = range(13, 16)  # largest torques sent since, and for how long
-_STORED, _SHARE = range(16, 18)  # potential then; share of the laws' force that was let through
-_ASKED_LEFT, _ASKED_RIGHT, _BRAKE_LEFT, _BRAKE_RIGHT = range(18, 22)
-_CUT_LEFT, _CUT_RIGHT = range(22, 24)
-_TANK, _ACCOUNT, _OUT, _LOSS = range(24, 28)
-_FRICTION = 28  # let out in the newest tick for the joints' friction to take
-_COULOMB, _VISCOUS = range(29, 31)
-_OLD = 31  # ticks by which the newest reading is older than its tick: about one on a wire
-_BEFORE_LEFT, _BEFORE_RIGHT, _SIZE = range(32, 35)  # torques sent in the tick before the last
-_KEEPS = 0.98  # of the largest torque, per reading that is many ticks old
-_JUMP = 0.5  # [rad] between two readings: no motion
-_A_TICK = 1.5  # ticks: an ordinary age on a wire
-
-
-@njit
-def port_work(
-    p: FloatArray, left: float, right: float, sent_left: float, sent_right: float
-) -> float:
-    """Work that left the port since the newest reading [J], for readings (left, right) now.
-
-    Exact when there was one tick since, and the reading is of now. One that came over a wire was
-    taken about a tick ago, under this torque or the one before: each joint's work is the larger of
-    the two. Over more ticks, with readings missing or late, no more is known than the largest
-    torques: the work is taken as the most it can have been.
-    """
-    turn_left, turn_right = left - p[_LEFT], right - p[_RIGHT]
-    if p[_TICKS] <= 1.0 and p[_OLD] == 0.0:
-        return sent_left * turn_left + sent_right * turn_right
-    if p[_TICKS] <= 1.0 and p[_OLD] <= _A_TICK:
-        before = max(sent_left * turn_left, p[_BEFORE_LEFT] * turn_left)
-        return before + max(sent_right * turn_right, p[_BEFORE_RIGHT] * turn_right)
-    return p[_HELD_LEFT] * abs(turn_left) + p[_HELD_RIGHT] * abs(turn_right)
-
-
-@njit
-def _start(p: FloatArray) -> None:
-    p[_TANK], p[_ACCOUNT], p[_OUT], p[_LOSS] = p[_BOUND], 0.0, 0.0, 0.0
-
-
-@njit
-def friction_takes(p: FloatArray, turn_left: float, turn_right: float, step: float) -> float:
-    """Energy that the joints' own friction takes [J] over turns of `step` s, by the profile."""
-    square = turn_left * turn_left + turn_right * turn_right
-    return p[_COULOMB] * (abs(turn_left) + abs(turn_right)) + p[_VISCOUS] * square / step
-
-
-@njit
-def _charge(state: FloatArray, p: FloatArray, work: float, share: float, taken: float) -> None:
-    """Pay `work` from the tank, and what of it no potential explains from the account.
-
-    Not what was let out for the joints' friction, of which they can have `taken` so much.
-    """
-    p[_OUT] += work
-    work -= min(max(work, 0.0), max(min(share * p[_SHARE] * p[_FRICTION], taken), 0.0))
-    p[_TANK] = min(p[_BOUND], p[_TANK] - work)
-    released = p[_STORED] - (state[sv.POTENTIAL] - state[sv.GAIN_WORK])
-    made = work - share * p[_SHARE] * released
-    if isfinite(made):
-        p[_ACCOUNT] = min(p[_CREDIT], max(p[_ACCOUNT] - made, -p[_FADE_TO]))
-
-
-@njit
-def _hold(state: FloatArray, p: FloatArray) -> None:
-    """Note the torques that were held over the last tick."""
-    p[_TICKS] += 1.0
-    p[_HELD_LEFT] = max(p[_HELD_LEFT], abs(state[sv.SENT_LEFT]))
-    p[_HELD_RIGHT] = max(p[_HELD_RIGHT], abs(state[sv.SENT_RIGHT]))
-
-
-@njit
-def _reach(state: FloatArray, p: FloatArray, ticks: float) -> float:
-    """Furthest that a joint can be seen to turn in some ticks [rad]."""
-    return p[_FASTEST] * max(state[sv.DT], p[_PERIOD]) * ticks + p[_COUNT]
-
-
-@njit
-def _lose_track(state: FloatArray, p: FloatArray) -> None:
-    """Charge the most that the held torques can have done, where no motion is known."""
-    most = (p[_HELD_LEFT] + p[_HELD_RIGHT]) * _reach(state, p, p[_TICKS] + p[_OLD])
-    p[_OUT] += most
-    p[_TANK] -= most
-    p[_HELD_LEFT] = p[_HELD_RIGHT] = p[_TICKS] = p[_KNOWN] = 0.0
-
-
-@njit
-def _hold_on(state: FloatArray, p: FloatArray) -> None:
-    """After a reading: what was sent since it was taken has done work that nobody has seen yet."""
-    p[_TICKS] = 0.0
-    keeps = _KEEPS if p[_OLD] > _A_TICK else 0.0
-    unseen = 1.0 if p[_OLD] > 0.0 else 0.0
-    p[_HELD_LEFT] = max(unseen * abs(state[sv.SENT_LEFT]), keeps * p[_HELD_LEFT])
-    p[_HELD_RIGHT] = max(unseen * abs(state[sv.SENT_RIGHT]), keeps * p[_HELD_RIGHT])
-
-
-@njit
-def _observe(state: FloatArray, p: FloatArray) -> None:
-    """Account for what the torques have done since the newest reading."""
-    left, right = state[sv.Q_LEFT], state[sv.Q_RIGHT]
-    if p[_KNOWN] != 0.0 and state[sv.Q_TIME] == p[_TIME]:
-        return
-    turn_left, turn_right = left - p[_LEFT], right - p[_RIGHT]
-    age = (state[sv.TIME] - state[sv.Q_TIME]) / max(state[sv.DT], p[_PERIOD])
-    p[_OLD] = max(p[_OLD], age) if age > 0.5 else p[_OLD]
-    if p[_KNOWN] != 0.0 and abs(turn_left) < _JUMP and abs(turn_right) < _JUMP:
-        sent_left, sent_right = state[sv.SENT_LEFT], state[sv.SENT_RIGHT]
-        share = _sent_share(p, sent_left, sent_right)
-        taken = friction_takes(p, turn_left, turn_right, max(state[sv.DT], p[_PERIOD]))
-        _charge(state, p, port_work(p, left, right, sent_left, sent_right), share, taken)
-        p[_LOSS] -= share * (p[_BRAKE_LEFT] * turn_left + p[_BRAKE_RIGHT] * turn_right)
-        p[_LOSS] += max(p[_CUT_LEFT] * turn_left + p[_CUT_RIGHT] * turn_right, 0.0)
-    else:
-        _lose_track(state, p)
-    p[_STORED] = state[sv.POTENTIAL]
-    given = state[sv.FRICTION_WORK]
-    p[_FRICTION] = given if given > 0.0 and isfinite(given) else 0.0
-    p[_LEFT], p[_RIGHT], p[_TIME], p[_KNOWN] = left, right, state[sv.Q_TIME], 1.0
-    p[_OLD] = age if age > 0.5 else 0.0
-    _hold_on(state, p)
-
-
-@njit
-def _sent_share(p: FloatArray, sent_left: float, sent_right: float) -> float:
-    """Share of the torques asked of safety that it let through, 0...1."""
-    asked = p[_ASKED_LEFT] * p[_ASKED_LEFT] + p[_ASKED_RIGHT] * p[_ASKED_RIGHT]
-    if not asked > 0.0:
-        return 0.0
-    along = sent_left * p[_ASKED_LEFT] + sent_right * p[_ASKED_RIGHT]
-    return min(max(along / asked, 0.0), 1.0)
 
 
 @njit
@@ -188,29 +58,31 @@ def damping_for(debt: float, speed2: float, step: float, most: float) -> float:
 def _brake(state: FloatArray, p: FloatArray) -> None:
     """Set the controller's damping torques for the debt of the account."""
     v1, v2 = state[sv.QD_LEFT], state[sv.QD_RIGHT]
-    p[_BRAKE_LEFT] = p[_BRAKE_RIGHT] = 0.0
+    p[account.BRAKE_LEFT] = p[account.BRAKE_RIGHT] = 0.0
     state[sv.GUARD_DAMPING] = 0.0
     if isfinite(v1 + v2):
-        step = max(state[sv.DT], p[_PERIOD])
-        b = damping_for(-p[_ACCOUNT], v1 * v1 + v2 * v2, step, p[_DAMPING])
+        step = max(state[sv.DT], p[account.PERIOD])
+        b = damping_for(-p[account.BALANCE], v1 * v1 + v2 * v2, step, p[account.DAMPING])
         state[sv.GUARD_DAMPING] = b
-        p[_BRAKE_LEFT], p[_BRAKE_RIGHT] = snapped(-b * v1), snapped(-b * v2)
+        p[account.BRAKE_LEFT], p[account.BRAKE_RIGHT] = snapped(-b * v1), snapped(-b * v2)
 
 
 @njit
 def _fade(state: FloatArray, p: FloatArray) -> float:
     """Factor on the force for a large debt; a debt is forgotten slowly."""
-    if p[_ACCOUNT] < 0.0:
-        p[_ACCOUNT] = snapped(p[_ACCOUNT] * (1.0 - min(state[sv.DT] / p[_FORGET], 1.0)))
-    debt = -p[_ACCOUNT] - p[_FADE_FROM]
-    return 1.0 - min(max(debt / (p[_FADE_TO] - p[_FADE_FROM]), 0.0), 1.0)
+    if p[account.BALANCE] < 0.0:
+        p[account.BALANCE] = snapped(
+            p[account.BALANCE] * (1.0 - min(state[sv.DT] / p[account.FORGET], 1.0))
+        )
+    debt = -p[account.BALANCE] - p[account.FADE_FROM]
+    return 1.0 - min(max(debt / (p[account.FADE_TO] - p[account.FADE_FROM]), 0.0), 1.0)
 
 
 @njit
 def _affordable(state: FloatArray, p: FloatArray, left: float, right: float) -> float:
     """Factor in [0, 1] with which the next tick cannot overdraw the tank."""
-    reach = _reach(state, p, p[_TICKS] + p[_OLD] + 1.0)
-    room = max(p[_TANK] - (p[_HELD_LEFT] + p[_HELD_RIGHT]) * reach, 0.0)
+    reach = account.reach(state, p, p[account.TICKS] + p[account.OLD] + 1.0)
+    room = max(p[account.TANK] - (p[account.HELD_LEFT] + p[account.HELD_RIGHT]) * reach, 0.0)
     most = (abs(left) + abs(right)) * reach
     return room / most if most > room else 1.0
 
@@ -219,30 +91,36 @@ def _affordable(state: FloatArray, p: FloatArray, left: float, right: float) -> 
 def guard_stage(state: FloatArray, p: FloatArray) -> None:
     """Account for the energy that left, and scale and damp TORQUE_* accordingly."""
     left, right = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
-    _hold(state, p)
+    account.hold(state, p)
     scale = 1.0
     if state[sv.KINEMATICS] == OK:
-        _observe(state, p)
+        account.observe(state, p)
     else:
-        _lose_track(state, p)
-    p[_BEFORE_LEFT], p[_BEFORE_RIGHT] = state[sv.SENT_LEFT], state[sv.SENT_RIGHT]
+        account.lose_track(state, p)
+    p[account.BEFORE_LEFT], p[account.BEFORE_RIGHT] = state[sv.SENT_LEFT], state[sv.SENT_RIGHT]
     if not state[sv.ENABLED] > 0.5:
-        _start(p)
+        account.start(p)
     if state[sv.KINEMATICS] == OK and isfinite(left + right):  # else safety holds it at zero
         _brake(state, p)
         fade = _fade(state, p)
-        braked_left, braked_right = fade * left + p[_BRAKE_LEFT], fade * right + p[_BRAKE_RIGHT]
+        braked_left, braked_right = (
+            fade * left + p[account.BRAKE_LEFT],
+            fade * right + p[account.BRAKE_RIGHT],
+        )
         afford = _affordable(state, p, braked_left, braked_right)
         scale = fade * afford
-        p[_BRAKE_LEFT], p[_BRAKE_RIGHT] = afford * p[_BRAKE_LEFT], afford * p[_BRAKE_RIGHT]
-        p[_CUT_LEFT], p[_CUT_RIGHT] = (1.0 - scale) * left, (1.0 - scale) * right
+        p[account.BRAKE_LEFT], p[account.BRAKE_RIGHT] = (
+            afford * p[account.BRAKE_LEFT],
+            afford * p[account.BRAKE_RIGHT],
+        )
+        p[account.CUT_LEFT], p[account.CUT_RIGHT] = (1.0 - scale) * left, (1.0 - scale) * right
         left, right = afford * braked_left, afford * braked_right
-        p[_ASKED_LEFT], p[_ASKED_RIGHT] = left, right
+        p[account.ASKED_LEFT], p[account.ASKED_RIGHT] = left, right
         state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = left, right
-    p[_SHARE] = state[sv.LIMIT_SCALE] * state[sv.LET_GO_SCALE] * scale
+    p[account.SHARE] = state[sv.LIMIT_SCALE] * state[sv.LET_GO_SCALE] * scale
     state[sv.GUARD_SCALE] = scale
-    state[sv.ENERGY_OUT], state[sv.ENERGY_TANK] = p[_OUT], p[_TANK]
-    state[sv.ENERGY_BOUND], state[sv.GUARD_LOSS] = p[_BOUND], p[_LOSS]
+    state[sv.ENERGY_OUT], state[sv.ENERGY_TANK] = p[account.OUT], p[account.TANK]
+    state[sv.ENERGY_BOUND], state[sv.GUARD_LOSS] = p[account.BOUND], p[account.LOSS]
 
 
 @dataclass(frozen=True, slots=True)
@@ -300,8 +178,8 @@ class PassivityGuard:
             raise DeviceError(
                 f"the declared energy is {self.bound} J; give a finite number of 0 or more"
             )
-        parameters = np.zeros(_SIZE)
-        parameters[:_LEFT] = (
+        parameters = np.zeros(account.SIZE)
+        parameters[: account.LEFT] = (
             self.bound,
             self.fastest,
             self.count,
@@ -312,6 +190,6 @@ class PassivityGuard:
             self.forget,
             self.damping,
         )
-        parameters[_TANK] = self.bound
-        parameters[_COULOMB], parameters[_VISCOUS] = self.friction
+        parameters[account.TANK] = self.bound
+        parameters[account.COULOMB], parameters[account.VISCOUS] = self.friction
         return "guard", guard_stage, parameters
