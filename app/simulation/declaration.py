@@ -6,12 +6,12 @@ defaults are literals; both are read with `ast`.
 """
 
 import ast
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from app.core.declarations import number_within, read_source
 from app.core.state_vector import INDEX
 from app.simulation.errors import SimulationError
 
@@ -72,27 +72,25 @@ class Declaration:
         Raises:
             SimulationError: for an unknown name, or a value that is no number or out of range.
         """
-        for name, value in given.items():
-            if name not in self.parameters:
-                raise SimulationError(
-                    f"effect {self.name!r} has no parameter {name!r}; "
-                    f"it has {', '.join(sorted(self.parameters)) or 'none'}"
-                )
-            self._check(name, value)
-        return {name: float(given.get(name, p.default)) for name, p in self.parameters.items()}
+        if unknown := [name for name in given if name not in self.parameters]:
+            raise SimulationError(
+                f"effect {self.name!r} has no parameter {unknown[0]!r}; "
+                f"it has {', '.join(sorted(self.parameters)) or 'none'}"
+            )
+        return {
+            name: self._checked(name, given.get(name, p.default))
+            for name, p in self.parameters.items()
+        }
 
-    def _check(self, name: str, value: object) -> None:
+    def _checked(self, name: str, value: object) -> float:
         limit = self.parameters[name]
-        number = isinstance(value, int | float) and not isinstance(value, bool)
-        if (
-            not number
-            or not math.isfinite(value)  # type: ignore[arg-type]
-            or not limit.minimum <= value <= limit.maximum  # type: ignore[operator]
-        ):
+        number = number_within(value, limit.minimum, limit.maximum)
+        if number is None:
             raise SimulationError(
                 f"effect {self.name!r}: {name} is {value!r}; "
                 f"give {limit.minimum:g} to {limit.maximum:g} {limit.unit}"
             )
+        return number
 
     def model(self, asked: str) -> str:
         """Return the way to compute it: the one asked for, or the default.
@@ -118,16 +116,7 @@ def read_declaration(path: Path) -> Declaration:
     Raises:
         SimulationError: naming the file and what is missing, unknown or not a literal.
     """
-    try:
-        body = ast.parse(path.read_text(encoding="utf-8"), str(path)).body
-    except (OSError, SyntaxError, UnicodeDecodeError) as error:
-        raise SimulationError(f"effect file {path} cannot be read: {error}") from error
-    document = _literal(body, path)
-    if set(document) != set(_KEYS):
-        wrong = sorted(set(document) ^ set(_KEYS))
-        raise SimulationError(
-            f"{path}: DECLARATION must have exactly the keys {', '.join(_KEYS)}; check {wrong}"
-        )
+    document, body = read_source(path, "an effect", _KEYS, SimulationError)
     _check_slots(document, path)
     return Declaration(
         name=path.stem,
@@ -141,21 +130,6 @@ def read_declaration(path: Path) -> Declaration:
         cost_class=document["cost_class"],
         parameters=_parameters(document["parameters"], _defaults(body, path), path),
     )
-
-
-def _literal(body: list[ast.stmt], path: Path) -> dict[str, Any]:
-    for node in body:
-        target = node.target if isinstance(node, ast.AnnAssign) else None
-        if isinstance(node, ast.Assign):
-            target = node.targets[0]  # type: ignore[assignment]
-        if isinstance(target, ast.Name) and target.id == "DECLARATION":
-            try:
-                document = ast.literal_eval(node.value)  # type: ignore[attr-defined]
-            except ValueError as error:
-                raise SimulationError(f"{path}: DECLARATION is not a literal: {error}") from error
-            if isinstance(document, dict):
-                return document
-    raise SimulationError(f"{path} has no DECLARATION = {{...}}; see 'How to add an effect'")
 
 
 def _defaults(body: list[ast.stmt], path: Path) -> dict[str, float]:

@@ -10,6 +10,7 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any, Final
 
+from app.core.declarations import number_within, read_source
 from app.core.state_vector import INDEX
 from app.device.errors import LawError
 from app.mechanisms.profile import DeviceProfile
@@ -103,13 +104,13 @@ class Law:
         limit = self.parameters[name]
         if value is None:
             raise LawError(f"law {self.name!r} needs {name} [{limit.unit}]: {limit.meaning}")
-        number = isinstance(value, int | float) and not isinstance(value, bool)
-        if not (number and limit.minimum <= value <= limit.maximum):  # type: ignore[operator]
+        number = number_within(value, limit.minimum, limit.maximum)
+        if number is None:
             raise LawError(
                 f"law {self.name!r}: {name} is {value!r}; "
                 f"give {limit.minimum:g} to {limit.maximum:g} {limit.unit}"
             )
-        return float(value)  # type: ignore[arg-type]
+        return number
 
 
 def read_law(path: Path) -> Law:
@@ -118,16 +119,7 @@ def read_law(path: Path) -> Law:
     Raises:
         LawError: naming the file and what is missing, unknown or not a literal.
     """
-    try:
-        body = ast.parse(path.read_text(encoding="utf-8"), str(path)).body
-    except (OSError, SyntaxError, ValueError) as error:
-        raise LawError(f"law file {path} cannot be read: {error}") from error
-    document = _literal(body, path)
-    if set(document) != set(_KEYS):
-        raise LawError(
-            f"{path}: DECLARATION must have exactly the keys {', '.join(_KEYS)}; "
-            f"check {sorted(set(document) ^ set(_KEYS))}"
-        )
+    document, body = read_source(path, "a force law", _KEYS, LawError)
     _check(document, body, path)
     return Law(
         name=path.stem,
@@ -138,20 +130,6 @@ def read_law(path: Path) -> Law:
         energy=tuple(document["energy"]),
         parameters={name: _parameter(name, row, path) for name, row in _rows(document).items()},
     )
-
-
-def _literal(body: list[ast.stmt], path: Path) -> dict[str, Any]:
-    for node in body:
-        if isinstance(node, ast.AnnAssign | ast.Assign) and node.value is not None:
-            target = node.targets[0] if isinstance(node, ast.Assign) else node.target
-            if isinstance(target, ast.Name) and target.id == "DECLARATION":
-                try:
-                    document = ast.literal_eval(node.value)
-                except ValueError as error:
-                    raise LawError(f"{path}: DECLARATION is not a literal: {error}") from error
-                if isinstance(document, dict):
-                    return document
-    raise LawError(f"{path} has no DECLARATION = {{...}}; see 'How to add a force law'")
 
 
 def _check(document: dict[str, Any], body: list[ast.stmt], path: Path) -> None:
