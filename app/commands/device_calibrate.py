@@ -74,8 +74,9 @@ def calibrate(
 
 
 def _run(bench: Bench, step: Step, answers: Answers, yes: bool, as_json: bool) -> AnyResult:
-    """Run one routine to its end and keep what it found."""
+    """Run one routine to its end and keep what it found; a check that fails takes back its own."""
     from app.device.commissioning.errors import CommissioningError
+    from app.device.commissioning.settle import settle
 
     routine = bench.routine(step, by_hand=not yes)
     said: list[str] = []
@@ -87,9 +88,9 @@ def _run(bench: Bench, step: Step, answers: Answers, yes: bool, as_json: bool) -
 
     typer.echo(f"{routine.TITLE}", err=as_json)
     report = bench.run(routine, lambda report: answers.to(routine, report, as_json), tell)
+    failure = settle(bench, step, report)
     if report.result is None:
-        raise CommissioningError(report.failure)
-    bench.keep(report.result)
+        raise CommissioningError(failure)
     return report.result
 
 

@@ -4,11 +4,15 @@ import io
 import time
 
 import pytest
+from device.commissioning_rig import commission, make
 from typer.testing import CliRunner
 
 from app.commands import build
 from app.commands.answers import AnswerError, Answers, numbers
+from app.commands.device_calibrate import _run
+from app.device.commissioning.errors import CommissioningError
 from app.device.commissioning.report import Report
+from app.device.commissioning.results import Step
 from app.device.errors import LinkError
 
 CONFIRM = Report(0.0, "", needs="hold it")
@@ -68,3 +72,18 @@ def test_prepared_readings_come_in_order_and_a_missing_one_is_named():
 def test_a_port_that_is_not_there_is_told(tmp_path):
     result = CliRunner().invoke(build(), ["device", "calibrate", str(tmp_path / "none"), "--yes"])
     assert isinstance(result.exception, LinkError)
+
+
+def test_a_sign_check_that_fails_is_told_with_what_counts_no_more(tmp_path):
+    link, bench, person = make(tmp_path)
+
+    class Scripted:
+        def to(self, routine, report, as_json):
+            return person(report)
+
+    with bench:
+        commission(bench, person)
+        link.motors[:4] = 0.0, 1, 1, 0
+        with pytest.raises(CommissioningError, match=r"swapped.*the earlier sign check counts no"):
+            _run(bench, Step.SIGNS, Scripted(), yes=True, as_json=False)
+        assert bench.clearance().homed == 0.0

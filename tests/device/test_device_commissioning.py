@@ -1,6 +1,8 @@
 """Commissioning of a simulated robot on a virtual clock: what the routines find, and that they end
 at zero torque."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from device.commissioning_rig import (
@@ -19,6 +21,7 @@ from device.commissioning_rig import (
 from app.core import state_vector as sv
 from app.device.commissioning.errors import CommissioningError
 from app.device.commissioning.results import Step
+from app.device.commissioning.settle import settle
 
 
 @pytest.fixture
@@ -409,3 +412,37 @@ def test_a_homing_whose_zero_cannot_be_set_does_not_bring_back_the_offsets_of_th
     assert "does not answer" in run(bench, person, Step.HOMING).failure
     assert bench.corrections.offsets == (0.0, 0.0)
     assert bench.clearance().homed == 0.0
+
+
+def test_a_sign_check_that_fails_takes_the_clearance_of_the_one_before_away(parts):
+    link, bench, person = parts
+    commission(bench, person)
+    bench.keep(bench.record.newest(Step.SIGNS).result)  # passed twice: neither may be left
+    link.motors[:4] = -1.0, 0, 0, 1
+    said = settle(bench, Step.SIGNS, run(bench, person, Step.SIGNS))
+    assert "turns backwards" in said
+    assert "counts no more" in said
+    assert bench.clearance().homed == 0.0
+    link.motors[:4] = 1.0, 0, 0, 1
+    assert settle(bench, Step.SIGNS, run(bench, person, Step.SIGNS)) == ""
+    assert bench.clearance().homed == 1.0
+
+
+def test_a_force_scale_that_fails_puts_the_cap_back_also_after_one_of_another_power_cycle(parts):
+    link, bench, person = parts
+    commission(bench, person)
+    assert settle(bench, Step.FORCE, run(bench, person, Step.FORCE)) == ""
+    link.who = replace(link.who, boot=8)
+    commission(bench, person)
+    assert bench.clearance().full
+    link.motors[:4] = 20.0, 0, 0, 20.0
+    failed = bench.routine(Step.FORCE)
+    report = bench.run(failed, Person(link, bench, [500.0]))
+    assert "counts no more" in settle(bench, Step.FORCE, report)
+    assert bench.clearance().force_cap == 1.0
+
+
+def test_a_homing_that_fails_says_nothing_of_checks(parts):
+    link, bench, person = parts
+    link.encoders[:4] = -1.0, 0, 0, 1
+    assert "counts no more" not in settle(bench, Step.HOMING, run(bench, person, Step.HOMING))

@@ -107,6 +107,32 @@ def test_a_failure_says_why_and_may_be_tried_again(wizard, bench):
     assert bench.record.newest(Step.SIGNS) is None
 
 
+@pytest.mark.parametrize("step", [Step.SIGNS, Step.FORCE])
+def test_a_check_that_fails_takes_its_earlier_success_back_and_says_so(wizard, bench, step):
+    for earlier in (Step.HOMING, Step.SIGNS):
+        carry_out(wizard, earlier)
+    bench.keep(RESULTS[Step.FORCE])
+    assert bench.clearance().full
+    bench.failure = "the scale does not feel the robot"
+    if step is Step.FORCE:
+        page = go(wizard, step)
+        page.reading.setText("51")
+        page.confirm.click()
+        wizard.runner.look()
+    else:
+        page = carry_out(wizard, step)
+    assert "counts no more" in page._state.text()
+    assert bench.record.newest(step) is None
+    assert not bench.clearance().full
+
+
+def test_a_check_that_is_cancelled_leaves_its_earlier_success(wizard, bench):
+    for earlier in (Step.HOMING, Step.SIGNS):
+        carry_out(wizard, earlier)
+    go(wizard, Step.SIGNS).cancel.click()
+    assert bench.done(Step.SIGNS)
+
+
 def test_cancel_ends_the_routine_with_the_forces_off_at_any_time(wizard, bench):
     page = go(wizard, Step.SIGNS)
     page.cancel.click()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from datetime import datetime
 from pathlib import Path
-from types import TracebackType
 from typing import Final
 
 from app.core.clock import Clock, SystemClock, VirtualClock
@@ -24,6 +23,7 @@ from app.device.commissioning.sign_check import SignCheck
 from app.device.commissioning.table import commissioning_table
 from app.device.control.corrections import Corrections
 from app.device.control.loop import Loop
+from app.device.lifetime import Lifetime
 from app.device.links.link import BoardInfo, DeviceLink
 from app.device.readiness import Clearance
 from app.mechanisms.profile import DeviceProfile
@@ -36,7 +36,7 @@ NEEDS_SIGNS: Final = frozenset({Step.FRICTION, Step.LATENCY, Step.FORCE})
 """What must be done in this power cycle before a routine may push."""
 
 
-class Bench:
+class Bench(Lifetime):
     """One device while it is commissioned.
 
     Args:
@@ -94,20 +94,6 @@ class Bench:
         if loop is not None:
             loop.close()
         self._link.close()
-
-    def __enter__(self) -> Bench:
-        """Open the bench."""
-        self.open()
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        """Close the bench, also after an exception."""
-        self.close()
 
     # --- the device -------------------------------------------------------------------------------
     @property

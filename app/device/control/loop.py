@@ -5,7 +5,6 @@ from __future__ import annotations
 import atexit
 import threading
 from collections.abc import Iterable, Mapping
-from types import TracebackType
 from typing import Any
 
 from app.core import state_vector as sv
@@ -21,13 +20,14 @@ from app.device.control.kernel import MISSED, STOP
 from app.device.control.table import Table
 from app.device.control.timing import Timing, measure
 from app.device.errors import LoopError
+from app.device.lifetime import Lifetime
 from app.device.links.link import DeviceLink
 from app.device.state import DeviceState
 
 _STOP_TIMEOUT = 5.0
 
 
-class Loop:
+class Loop(Lifetime):
     """Runs a table of stages at a fixed rate.
 
     No force leaves before `inbox.write(enabled=1, heartbeat=...)`, and leaving for any reason
@@ -125,20 +125,6 @@ class Loop:
                 f"the loop did not stop in {_STOP_TIMEOUT:g} s: a stage does not return"
             )
         self._thread = None
-
-    def __enter__(self) -> Loop:
-        """Open the loop."""
-        self.open()
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        """Close the loop, also after an exception."""
-        self.close()
 
     def latest(self) -> DeviceState:
         """Return the newest tick; zeros with tick 0 before the first.

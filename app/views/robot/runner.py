@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.core.errors import AcusError
+from app.device.commissioning.settle import settle
 from app.views.robot.bench import BenchPort, RoutinePort
 
 if TYPE_CHECKING:
@@ -94,12 +95,14 @@ class Runner(QObject):
     def _end(self, report: Report) -> None:
         self._timer.stop()
         self._routine = None
-        if report.result is None:
-            self.failed.emit(report.failure)
+        if self._step is None:
             return
         try:
-            self._bench.keep(report.result)
+            failure = settle(self._bench, self._step, report)
         except AcusError as error:
             self.failed.emit(str(error))
             return
-        self.kept.emit(self._step)
+        if failure:
+            self.failed.emit(failure)
+        else:
+            self.kept.emit(self._step)
