@@ -8,7 +8,7 @@ from app.core.arrays import FloatArray, frozen, unit
 from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.fix import FixStatus, NeedleFix
-from app.tracking.markers.extractor import MarkerFix
+from app.tracking.markers.extractor import Centre, MarkerFix
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.rig import RigProfile
 from app.tracking.stereo.triangulation import StereoStatus, Triangulation, Way, triangulate
@@ -23,15 +23,16 @@ _RESIDUAL_LIMIT = chi_square_quantile(1.0 - GATE, 1)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sighting:
-    """What one camera shows at the time of the fix: pixel and covariance, or neither."""
+    """What one camera shows at the time of the fix: pixel, covariance, and of what point."""
 
     uv: FloatArray
     covariance: FloatArray
+    centre: Centre = Centre.OUTLINE
 
     @classmethod
     def of(cls, marker: MarkerFix) -> "Sighting":
         """Take them from an extractor's find."""
-        return cls(marker.uv, marker.covariance)
+        return cls(marker.uv, marker.covariance, marker.centre)
 
 
 class FixSolver:
@@ -95,7 +96,12 @@ class FixSolver:
     ) -> Triangulation | None:
         """Triangulate again with the outlines' centroids moved to the band's centre."""
         shape = self._rig.needle.shape
-        first, second = (centroid_shift(model, shape, p_world, axis) for model in self._models)
+        first, second = (
+            np.zeros(2)
+            if sighting.centre is Centre.BAND
+            else centroid_shift(model, shape, p_world, axis)
+            for model, sighting in zip(self._models, sightings, strict=True)
+        )
         if first is None or second is None:
             return None
         return self._triangulate(sightings, (first, second))

@@ -55,9 +55,9 @@ class PixelTrack:
             return None
         (first_time, first), (last_time, last) = self._fixes[0], self._fixes[-1]
         span = last_time - first_time
-        if not 0.0 < span <= _GAP or time >= last_time:
+        if not 0.0 < span <= _GAP or time >= last_time or first.centre is not last.centre:
             return Sighting.of(last)
         share = max(0.0, (time - first_time) / span)
         uv = (1.0 - share) * first.uv + share * last.uv
         covariance = (1.0 - share) ** 2 * first.covariance + share**2 * last.covariance
-        return Sighting(uv, covariance)
+        return Sighting(uv, covariance, last.centre)

@@ -13,8 +13,8 @@ from app.tracking.cameras.feed import CameraFeed, Pair
 from app.tracking.errors import TrackingError
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.follower import MarkerFollower, Markers
-from app.tracking.markers.extractor import Extractor
-from app.tracking.markers.outline_centroid import OutlineCentroid
+from app.tracking.markers.choice import extractors as default_extractors
+from app.tracking.markers.extractor import Extractor, MarkerFix, Miss
 from app.tracking.optics.rig import RigProfile
 from app.tracking.solver import FixSolver
 from app.tracking.statistics import TrackerMeter, TrackerStatistics
@@ -28,12 +28,24 @@ Axis = Callable[[float], FloatArray | None]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TrackedPicture:
-    """Newest picture of a camera and where the marker is in it [px], shape (2,), or None."""
+    """Newest picture of a camera and where the marker is in it.
+
+    Attributes:
+        name: of the camera.
+        image: read-only.
+        time: of its capture [s].
+        found: the marker, or why there is none.
+    """
 
     name: str
     image: Image
     time: float
-    pixel: FloatArray | None
+    found: MarkerFix | Miss | None
+
+    @property
+    def pixel(self) -> FloatArray | None:
+        """Where the marker is [px], shape (2,), or None."""
+        return self.found.uv if isinstance(self.found, MarkerFix) else None
 
 
 class Tracker:
@@ -48,7 +60,7 @@ class Tracker:
         on_fix: called in the tracker's thread with every fix, e.g. to write the depth for the loop.
         events: takes an event of kind `camera` when a camera stops, freezes, fails or recovers,
             and of kind `fault` when the tracker itself fails.
-        extractor: how the marker is found; by default `OutlineCentroid`.
+        extractors: how the marker is found in each picture; by default `markers.choice.DEFAULT`.
     """
 
     def __init__(
@@ -60,7 +72,7 @@ class Tracker:
         fulcrum: FloatArray,
         on_fix: Callable[[NeedleFix], None] | None = None,
         events: EventQueue | None = None,
-        extractor: Extractor | None = None,
+        extractors: tuple[Extractor, Extractor] | None = None,
     ) -> None:
         if len(cameras) != 2:
             raise TrackingError(f"the tracker needs two cameras, got {len(cameras)}")
@@ -71,8 +83,8 @@ class Tracker:
         self._on_fix = on_fix
         self._names = tuple(model.name for model in rig.models)
         self._solver = FixSolver(rig, fulcrum)
-        finder = extractor or OutlineCentroid(noise_grey=rig.noise_grey)
-        self._follower = MarkerFollower(finder, self._solver)
+        self._extractors = extractors or default_extractors(rig)
+        self._follower = MarkerFollower(self._extractors, self._solver)
         self._feed = CameraFeed(cameras, self._names, clock, rig.noise_grey > 0.0, self._put)
         self._meter = TrackerMeter()
         self._pictures: dict[str, TrackedPicture] = {}
@@ -146,8 +158,7 @@ class Tracker:
     def _show(self, frames: Pair, markers: Markers) -> None:
         for name, frame, marker in zip(self._names, frames, markers, strict=True):
             if frame is not None:
-                pixel = marker.uv if marker is not None else None
-                self._pictures[name] = TrackedPicture(name, frame.image, frame.time, pixel)
+                self._pictures[name] = TrackedPicture(name, frame.image, frame.time, marker)
 
     def _run(self) -> None:
         while not self._stop.is_set():

@@ -80,7 +80,8 @@ def run(
     cameras = simulated_cameras(rig, lambda t: None, clock)
 
     def new() -> Tracker:
-        return Tracker(cameras, rig, clock, lambda t: holder["axis"], FULCRUM, extractor=extractor)
+        both = None if extractor is None else (extractor, extractor)
+        return Tracker(cameras, rig, clock, lambda t: holder["axis"], FULCRUM, extractors=both)
 
     tracker, times, fixes = new(), [], []
     tracker.process(shots[0][0], shots[0][1])  # kernels loaded

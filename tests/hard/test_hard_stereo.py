@@ -9,6 +9,7 @@ from app.core.transform import RigidTransform
 from app.tracking.cameras.camera import Frame
 from app.tracking.errors import CameraError
 from app.tracking.fix import FixStatus
+from app.tracking.markers.extractor import Hint, MarkerFix, Miss
 from app.tracking.markers.outline_centroid import OutlineCentroid
 from app.tracking.markers.thesis import ThesisMarker
 from app.tracking.optics.distortion import distort_point, fold_radius, undistort_point
@@ -95,6 +96,12 @@ def test_just_inside_the_fold_the_ray_is_found_and_does_not_jump():
         assert np.hypot(x - 0.8 * r, y - 0.6 * r) < 1e-9
 
 
+def best(extractor, image):
+    """The best find in the whole picture, or None."""
+    found = extractor.search(image)
+    return found[0] if found and isinstance(found[0], MarkerFix) else None
+
+
 def _picture(colour):
     return np.full((480, 640, 3), colour, dtype=np.uint8)
 
@@ -111,39 +118,41 @@ def _with_band(image, u, v, half_width=5, half_height=10):
 @pytest.mark.parametrize("extractor", [OutlineCentroid(), ThesisMarker(area_min=100)])
 @pytest.mark.parametrize("colour", [(0, 0, 0), (255, 255, 255), (0, 0, 255), (30, 20, 180)])
 def test_a_picture_of_one_colour_holds_no_marker(extractor, colour):
-    assert extractor.find(_picture(colour), None) is None
-    assert extractor.search(_picture(colour)) == ()
+    assert best(extractor, _picture(colour)) is None
+    assert not any(isinstance(found, MarkerFix) for found in extractor.search(_picture(colour)))
 
 
 def test_pure_noise_holds_no_marker():
     noise = np.random.default_rng(0).integers(0, 256, (480, 640, 3)).astype(np.uint8)
     for marker in OutlineCentroid().search(noise):
+        if isinstance(marker, Miss):
+            continue
         assert np.isfinite(marker.uv).all()
         assert marker.area >= OutlineCentroid().area_min
 
 
 @pytest.mark.parametrize(("u", "v"), [(3, 200), (320, 6), (637, 200), (320, 474)])
 def test_a_marker_cut_by_the_border_is_refused(u, v):
-    assert OutlineCentroid().find(_with_band(_picture(110), u, v), None) is None
+    assert best(OutlineCentroid(), _with_band(_picture(110), u, v)) is None
 
 
 def test_a_marker_of_the_wrong_size_is_refused():
     image = _with_band(_picture(110), 320, 240, 2, 2)
-    assert OutlineCentroid().find(image, None) is None
+    assert best(OutlineCentroid(), image) is None
     image = _with_band(_picture(110), 320, 240, 60, 60)
-    assert OutlineCentroid(area_max=2000.0).find(image, None) is None
+    assert best(OutlineCentroid(area_max=2000.0), image) is None
 
 
 def test_an_overexposed_marker_is_refused():
     image = _picture(110)
     image[230:250, 310:320] = (160, 150, 255)
-    assert OutlineCentroid().find(image, None) is None
+    assert best(OutlineCentroid(), image) is None
 
 
 def test_of_two_red_things_the_one_where_the_marker_was_is_followed():
     image = _with_band(_with_band(_picture(110), 200, 240), 230, 240)
-    found = OutlineCentroid().find(image, np.array([201.0, 239.0]))
-    assert found is not None
+    found = OutlineCentroid().find(image, Hint(np.array([201.0, 239.0])))
+    assert isinstance(found, MarkerFix)
     assert found.uv == pytest.approx([199.5, 239.5], abs=0.1)
     assert len(OutlineCentroid().search(image)) == 2
 
@@ -151,7 +160,7 @@ def test_of_two_red_things_the_one_where_the_marker_was_is_followed():
 @pytest.mark.parametrize("predicted", [[np.nan, 3.0], [1e9, -1e9], [-500.0, 200.0]])
 def test_a_senseless_prediction_finds_nothing_and_raises_nothing(predicted):
     image = _with_band(_picture(110), 320, 240)
-    assert OutlineCentroid().find(image, np.array(predicted)) is None
+    assert isinstance(OutlineCentroid().find(image, Hint(np.array(predicted))), Miss)
 
 
 @pytest.mark.parametrize("axis", [None, np.zeros(3), np.full(3, np.nan)])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from app.tracking.markers.extractor import Hint, MarkerFix
 from app.tracking.markers.outline_centroid import OutlineCentroid
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.markers.thesis import ThesisMarker
@@ -17,6 +18,12 @@ POSES = [
 ]
 
 
+def best(extractor, image):
+    """The best find in the whole picture, or None."""
+    found = extractor.search(image)
+    return found[0] if found and isinstance(found[0], MarkerFix) else None
+
+
 def _errors(rig, renderers, scene_at, sd_grey=0.0, extractor=None):
     """Corrected pixel minus the true picture of the band's centre, (poses, cameras, 2)."""
     finder = extractor or OutlineCentroid()
@@ -27,7 +34,7 @@ def _errors(rig, renderers, scene_at, sd_grey=0.0, extractor=None):
         scene = scene_at(*pose)
         for k, (renderer, model) in enumerate(zip(renderers, rig.models, strict=True)):
             image = noise(renderer.render(scene), tile, rng)
-            found = finder.find(image, None)
+            found = best(finder, image)
             if found is None and extractor is not None:
                 errors[i, k] = np.nan
                 continue
@@ -52,7 +59,7 @@ def test_without_the_outline_correction_the_centroid_is_biased(wide, wide_render
     ]
     assert min(np.linalg.norm(shift) for shift in shifts) > 0.5
     for renderer, model, shift in zip(wide_renderers, wide.models, shifts, strict=True):
-        raw = OutlineCentroid().find(renderer.render(scene), None).uv - model.pixel(scene.p_world)
+        raw = best(OutlineCentroid(), renderer.render(scene)).uv - model.pixel(scene.p_world)
         assert np.linalg.norm(raw - shift) < 0.4 * np.linalg.norm(raw)
 
 
@@ -87,7 +94,7 @@ def test_the_covariance_of_the_centroid_agrees_with_repeated_noise(wide, wide_re
     for _ in range(120):
         noisy = clean + 4.0 * rng.standard_normal(clean.shape, dtype=np.float32)
         image = np.clip(np.rint(noisy), 0, 255).astype(np.uint8)
-        found.append(finder.find(image, found[0].uv if found else None))
+        found.append(finder.find(image, Hint(found[0].uv)) if found else best(finder, image))
     sample = np.cov(np.array([fix.uv for fix in found]).T)
     predicted = np.mean([fix.covariance for fix in found], axis=0)
     ratio = np.sqrt(np.trace(sample) / np.trace(predicted))
@@ -96,8 +103,8 @@ def test_the_covariance_of_the_centroid_agrees_with_repeated_noise(wide, wide_re
 
 def test_following_finds_the_same_as_searching(wide, wide_renderers, scene_at):
     image = wide_renderers[1].render(scene_at(0.04, 20.0, 70.0))
-    searched = OutlineCentroid().find(image, None)
-    followed = OutlineCentroid().find(image, searched.uv + np.array([11.0, -14.0]))
+    searched = best(OutlineCentroid(), image)
+    followed = OutlineCentroid().find(image, Hint(searched.uv + np.array([11.0, -14.0])))
     assert np.abs(searched.uv - followed.uv).max() < 1e-9
 
 
@@ -106,8 +113,8 @@ def test_dimmer_brighter_or_blurred_pictures_move_the_marker_little(
     wide, wide_renderers, scene_at, effect, value
 ):
     image = wide_renderers[0].render(scene_at(0.05, 20.0, 30.0))
-    plain = OutlineCentroid().find(image, None)
-    changed = OutlineCentroid().find(effect(image, value, np.random.default_rng(0)), None)
+    plain = best(OutlineCentroid(), image)
+    changed = best(OutlineCentroid(), effect(image, value, np.random.default_rng(0)))
     assert np.abs(plain.uv - changed.uv).max() < 0.2
 
 

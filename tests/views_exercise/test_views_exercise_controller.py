@@ -9,6 +9,7 @@ from views_exercise_fakes import FakeTrainer, pose, run, snapshot
 
 from app.core.clock import VirtualClock
 from app.session.machine import State
+from app.tracking.markers.extractor import MarkerFix
 from app.tracking.tracker import TrackedPicture
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseController, ExerciseViews
@@ -142,7 +143,9 @@ def test_camera_pictures_are_refreshed_at_most_fifteen_times_a_second(desk, qt):
     def pictures():
         asked.append(1)
         return (
-            TrackedPicture("left", image, 1.0, np.array([10.0, 5.0])),
+            TrackedPicture(
+                "left", image, 1.0, MarkerFix(np.array([10.0, 5.0]), np.eye(2), 99.0, 1.0)
+            ),
             TrackedPicture("right", image, 1.0, None),
         )
 

@@ -1,10 +1,76 @@
-"""What an extractor finds in a picture, and what it has to be."""
+"""What an extractor finds in a picture, why it finds nothing, and what it has to be."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, frozen
 from app.tracking.cameras.camera import Image
+
+Mask = NDArray[np.uint8]
+"""One where a pixel counts as the marker's colour, zero elsewhere, shape (height, width)."""
+
+
+class Centre(StrEnum):
+    """Which point of the band a pixel is."""
+
+    OUTLINE = "outline"  # centroid of its visible outline; `silhouette` says how far that is off
+    BAND = "band"  # picture of the band's centre itself
+
+
+class MissReason(StrEnum):
+    """Why a picture, or a place in it, gives no marker."""
+
+    NOTHING_RED = "nothing_red"
+    TOO_SMALL = "too_small"
+    TOO_LARGE = "too_large"
+    WRONG_SHAPE = "wrong_shape"
+    SATURATED = "saturated"
+    AT_BORDER = "at_border"
+    PARTLY_HIDDEN = "partly_hidden"
+    OFF_EPIPOLAR = "off_epipolar"
+    NOT_YET_VISIBLE = "not_yet_visible"
+
+    @property
+    def words(self) -> str:
+        """One line for people."""
+        return _WORDS[self]
+
+
+_WORDS = {
+    MissReason.NOTHING_RED: "nothing in the marker's colour",
+    MissReason.TOO_SMALL: "too small for the marker",
+    MissReason.TOO_LARGE: "too large for the marker",
+    MissReason.WRONG_SHAPE: "not of the marker's shape",
+    MissReason.SATURATED: "the marker is overexposed: less light or a shorter exposure",
+    MissReason.AT_BORDER: "the marker is cut by the picture's border",
+    MissReason.PARTLY_HIDDEN: "the marker is partly hidden",
+    MissReason.OFF_EPIPOLAR: "the two pictures do not show the same point",
+    MissReason.NOT_YET_VISIBLE: "the marker is still inside the tube",
+}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Hint:
+    """What is known before looking.
+
+    Attributes:
+        uv: pixel where the marker should be, shape (2,).
+        p_world: the band's centre [m], shape (3,), as far as known.
+        axis_world: unit vector from hub to tip, shape (3,), as far as known.
+    """
+
+    uv: FloatArray
+    p_world: FloatArray | None = None
+    axis_world: FloatArray | None = None
+
+    @property
+    def finite(self) -> bool:
+        """Whether the pixel can be looked at."""
+        return bool(np.isfinite(self.uv).all())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -12,33 +78,48 @@ class MarkerFix:
     """The red band in one picture.
 
     Attributes:
-        uv: centroid of its visible outline [px], shape (2,), sub-pixel; `silhouette` says how far
-            that is from the picture of the band's centre.
-        covariance: of uv from the noise of the picture [px²], shape (2, 2).
+        uv: where it is [px], shape (2,), sub-pixel.
+        covariance: of uv from what the picture itself tells [px²], shape (2, 2).
         area: of the band [px²].
         quality: 0 to 1; share of the outline that is as a band's should be.
+        centre: which point of the band `uv` is.
     """
 
     uv: FloatArray
     covariance: FloatArray
     area: float
     quality: float
+    centre: Centre = Centre.OUTLINE
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "uv", frozen(self.uv, (2,), "marker pixel"))
         object.__setattr__(self, "covariance", frozen(self.covariance, (2, 2), "covariance"))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Miss:
+    """No marker, and why.
+
+    Attributes:
+        reason: the first test that failed.
+        uv: where the thing that was refused lies [px], shape (2,); None if there is no such thing.
+    """
+
+    reason: MissReason
+    uv: FloatArray | None = None
+
+
 class Extractor(ABC):
-    """Finds the marker in pictures; holds no memory of earlier ones."""
+    """Finds the marker in one camera's pictures; holds no memory of earlier ones."""
 
     @abstractmethod
-    def find(self, image: Image, predicted: FloatArray | None) -> MarkerFix | None:
-        """Marker near a predicted pixel, or the best in the whole picture without a prediction.
-
-        None if there is none: too small, too large, cut by the border, or overexposed.
-        """
+    def find(self, image: Image, hint: Hint) -> MarkerFix | Miss:
+        """Marker near a predicted pixel; a senseless hint is a miss, never an exception."""
 
     @abstractmethod
-    def search(self, image: Image) -> tuple[MarkerFix, ...]:
-        """All that may be the marker in the whole picture, the best first."""
+    def search(self, image: Image) -> tuple[MarkerFix | Miss, ...]:
+        """All that may be the marker in the whole picture: finds, the best first, then misses."""
+
+    @abstractmethod
+    def mask(self, image: Image) -> Mask:
+        """Mark what counts as the marker's colour, for people to look at."""

@@ -10,14 +10,11 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
-from app.tracking.markers.extractor import Extractor, MarkerFix
+from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Mask, Miss, MissReason
 from app.tracking.markers.matting import outline_moments
-
-_Mask = NDArray[np.uint8]
 
 _SQUARE3 = np.ones((3, 3), dtype=np.uint8)
 _SQUARE5 = np.ones((5, 5), dtype=np.uint8)
@@ -46,24 +43,25 @@ class OutlineCentroid(Extractor):
     overexposed: float = 0.25
     quality_min: float = 0.6
 
-    def find(self, image: Image, predicted: FloatArray | None) -> MarkerFix | None:
+    def find(self, image: Image, hint: Hint) -> MarkerFix | Miss:
         """See `Extractor.find`."""
-        if predicted is None:
-            found = self.search(image)
-            return found[0] if found else None
-        if not np.isfinite(predicted).all():
-            return None
-        return self._in_region(image, predicted)
+        if not hint.finite:
+            return Miss(MissReason.NOTHING_RED)
+        return self._in_region(image, hint.uv)
 
-    def search(self, image: Image) -> tuple[MarkerFix, ...]:
+    def search(self, image: Image) -> tuple[MarkerFix | Miss, ...]:
         """Look at every second pixel for red patches of the right size, then closely at each."""
-        seeds = self._seeds(image)
-        fixes = [fix for seed in seeds if (fix := self._in_region(image, seed)) is not None]
+        found = [self._in_region(image, seed) for seed in self._seeds(image)]
         distinct: list[MarkerFix] = []
+        fixes = [one for one in found if isinstance(one, MarkerFix)]
         for fix in sorted(fixes, key=lambda fix: -fix.quality):
             if all(np.abs(fix.uv - other.uv).max() > 2.0 for other in distinct):
                 distinct.append(fix)
-        return tuple(distinct)
+        return *distinct, *(one for one in found if isinstance(one, Miss))
+
+    def mask(self, image: Image) -> Mask:
+        """See `Extractor.mask`."""
+        return _threshold(_redness(image), self.redness)
 
     def _seeds(self, image: Image) -> list[FloatArray]:
         mask = _threshold(_redness(image[::2, ::2]), self.redness)
@@ -74,52 +72,57 @@ class OutlineCentroid(Extractor):
         largest = fitting[np.argsort(-areas[fitting])][:_CANDIDATES]
         return [2.0 * centres[1 + i] for i in largest]
 
-    def _in_region(self, image: Image, centre: FloatArray) -> MarkerFix | None:
+    def _in_region(self, image: Image, centre: FloatArray) -> MarkerFix | Miss:
         height, width = image.shape[:2]
         u, v = np.clip(np.rint(centre), -1e6, 1e6).astype(int)
         left, top = max(0, u - self.region), max(0, v - self.region)
         right, bottom = min(width, u + self.region + 1), min(height, v + self.region + 1)
         if right - left < 8 or bottom - top < 8:
-            return None
+            return Miss(MissReason.NOTHING_RED)
         patch = _tight(image, (left, top, right, bottom), centre, self.redness)
-        if patch is None:
-            return None
+        if isinstance(patch, Miss):
+            return patch
         blob, (left, top, right, bottom) = patch
         if left == 0 or top == 0 or right == width or bottom == height:
-            return None  # cut by the border of the picture
+            return Miss(MissReason.AT_BORDER, centre)
         window = image[top:bottom, left:right]
         return self._measure(window, blob, np.array([left, top], dtype=np.float64))
 
-    def _measure(self, window: Image, blob: _Mask, origin: FloatArray) -> MarkerFix | None:
+    def _measure(self, window: Image, blob: Mask, origin: FloatArray) -> MarkerFix | Miss:
+        middle = origin + 0.5 * np.array([blob.shape[1], blob.shape[0]])
         if _overexposed(window, blob) > self.overexposed:
-            return None
+            return Miss(MissReason.SATURATED, middle)
         inside = cv2.erode(blob, _SQUARE3, iterations=2)
         support = cv2.dilate(blob, _SQUARE5)
         area, u, v, uu, uv, vv, quality = outline_moments(window, inside, support, self.noise_grey)
-        if not self.area_min <= area <= self.area_max or quality < self.quality_min:
-            return None
+        if area < self.area_min:
+            return Miss(MissReason.TOO_SMALL, middle)
+        if area > self.area_max:
+            return Miss(MissReason.TOO_LARGE, middle)
+        if quality < self.quality_min:
+            return Miss(MissReason.WRONG_SHAPE, middle)
         covariance = np.array([[uu, uv], [uv, vv]]) + 1e-8 * np.eye(2)
         return MarkerFix(origin + np.array([u, v]), covariance, area, quality)
 
 
-def _redness(image: Image) -> _Mask:
+def _redness(image: Image) -> Mask:
     """R - (G + B)/2, at least 0 [grey levels]."""
     return np.asarray(cv2.transform(np.ascontiguousarray(image), _RED), dtype=np.uint8)
 
 
-def _threshold(redness: _Mask, limit: float) -> _Mask:
+def _threshold(redness: Mask, limit: float) -> Mask:
     return (redness > limit).astype(np.uint8)
 
 
 def _tight(
     image: Image, region: tuple[int, int, int, int], centre: FloatArray, limit: float
-) -> tuple[_Mask, tuple[int, int, int, int]] | None:
+) -> tuple[Mask, tuple[int, int, int, int]] | Miss:
     """Return the red patch nearest to `centre` in the region, and its box with room around it."""
     left, top, right, bottom = region
     mask = _threshold(_redness(image[top:bottom, left:right]), limit)
     count, labels, statistics, centres = cv2.connectedComponentsWithStats(mask)
     if count < 2:
-        return None
+        return Miss(MissReason.NOTHING_RED)
     areas = statistics[1:, cv2.CC_STAT_AREA]
     distance = np.hypot(*(centres[1:] + np.array([left, top]) - centre).T)
     distance[areas < max(6.0, 0.2 * areas.max())] = np.inf  # specks
@@ -138,9 +141,9 @@ def _tight(
     touches = (left + x == 0 or top + y == 0) or (
         left + x + w == image.shape[1] or top + y + h == image.shape[0]
     )
-    return None if touches else (blob, box)
+    return Miss(MissReason.AT_BORDER, centres[which] + [left, top]) if touches else (blob, box)
 
 
-def _overexposed(window: Image, blob: _Mask) -> float:
+def _overexposed(window: Image, blob: Mask) -> float:
     saturated = (window[..., 2] >= 254) & (blob > 0)
     return float(saturated.sum()) / max(1.0, float(blob.sum()))

@@ -10,9 +10,8 @@ from typing import Any
 import cv2
 import numpy as np
 
-from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
-from app.tracking.markers.extractor import Extractor, MarkerFix
+from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Mask, Miss, MissReason
 
 _LOW = np.array([70, 82, 100], dtype=np.uint8)
 _HIGH = np.array([92, 255, 255], dtype=np.uint8)
@@ -30,16 +29,16 @@ class ThesisMarker(Extractor):
     area_min: float = 200.0
     area_max: float = 2000.0
 
-    def find(self, image: Image, predicted: FloatArray | None) -> MarkerFix | None:
-        """Largest blob of the whole picture; a prediction is not used."""
+    def find(self, image: Image, hint: Hint) -> MarkerFix | Miss:
+        """Largest blob of the whole picture; a hint is not used."""
         found = self.search(image)
-        return found[0] if found else None
+        return found[0] if found else Miss(MissReason.NOTHING_RED)
 
     def search(self, image: Image) -> tuple[MarkerFix, ...]:
         """All blobs, the largest first."""
-        hsv = cv2.cvtColor(cv2.bitwise_not(image), cv2.COLOR_BGR2HSV)
-        mask = cv2.dilate(cv2.erode(cv2.inRange(hsv, _LOW, _HIGH), _KERNEL), _KERNEL)
-        keypoints = sorted(self._detector().detect(mask), key=lambda point: -point.size)
+        keypoints = sorted(
+            self._detector().detect(255 * self.mask(image)), key=lambda point: -point.size
+        )
         return tuple(
             MarkerFix(
                 np.array([int(point.pt[0]), int(point.pt[1])]),
@@ -49,6 +48,12 @@ class ThesisMarker(Extractor):
             )
             for point in keypoints
         )
+
+    def mask(self, image: Image) -> Mask:
+        """See `Extractor.mask`."""
+        hsv = cv2.cvtColor(cv2.bitwise_not(image), cv2.COLOR_BGR2HSV)
+        wide = cv2.dilate(cv2.erode(cv2.inRange(hsv, _LOW, _HIGH), _KERNEL), _KERNEL)
+        return np.asarray(wide // 255, dtype=np.uint8)
 
     def _detector(self) -> Any:
         options: Any = cv2.SimpleBlobDetector_Params()  # type: ignore[attr-defined]
