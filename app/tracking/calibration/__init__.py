@@ -1,0 +1,1 @@
+"""Making a calibration: boards, corners, pairing, one camera, two cameras, validation."""

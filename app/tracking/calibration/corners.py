@@ -1,0 +1,214 @@
+"""A board's corners in one picture, to a fraction of a pixel, or why the picture is of no use."""
+
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray
+from app.tracking.calibration import finders
+from app.tracking.calibration.boards import Board, BoardKind
+from app.tracking.calibration.finders import Found, Grey
+from app.tracking.calibration.grid import (
+    extents,
+    first_square_is_dark,
+    is_mirrored,
+    local_axes,
+    mapped,
+    plane_map,
+)
+from app.tracking.calibration.sharpness import edge_width
+from app.tracking.calibration.views import BoardView, Reason, Rejection
+from app.tracking.errors import CalibrationError
+
+WINDOW_SHARE = 1.0 / 3.0
+"""Half the sub-pixel window over the shortest way across a square.
+
+At 0.4 corners of oblique squares are drawn to the next edge, at 0.2 noise is averaged less.
+"""
+
+WINDOW_MAX = 11
+"""Half the largest window [px]."""
+
+SMALLEST_SQUARE = 5.0
+"""Shortest way across a square [px] from which corners can be refined."""
+
+MOST_BLUR = 0.35
+"""Width of the edges over the shortest way across a square beyond which a picture is blurred."""
+
+LEAST_COSINE = 0.15
+"""Foreshortening beyond which a board is seen on edge: 81 degrees."""
+
+LEAST_CORNERS = 6
+_STOP = (cv2.TERM_CRITERIA_EPS | cv2.TERM_CRITERIA_MAX_ITER, 60, 1e-4)
+
+
+def find_corners(
+    image: NDArray[Any], board: Board, thorough: bool = True, window: int | None = None
+) -> BoardView | Rejection:
+    """Find a board in a picture.
+
+    Args:
+        image: 8 or 16 bit, grey (h, w) or BGR (h, w, 3).
+        board: which board.
+        thorough: also try local contrast, an exhaustive search and other scales: for pictures on
+            disk. Without it a picture takes some tens of milliseconds: for live pictures.
+        window: half the sub-pixel window [px]; chosen from the squares' size in the picture if
+            None. A fixed one is for comparison with other programs.
+
+    Returns:
+        The view, or a rejection with its reason.
+
+    Raises:
+        CalibrationError: if `image` is no picture.
+    """
+    grey = to_grey(image)
+    if board.kind is BoardKind.CHARUCO:
+        found: Found | Rejection = _charuco(grey, board, thorough)
+    else:
+        found = _checkerboard(grey, board, thorough)
+    return found if isinstance(found, Rejection) else _measured(grey, board, found, window)
+
+
+def to_grey(image: NDArray[Any]) -> Grey:
+    """Grey levels of a picture, uint8 (h, w).
+
+    Raises:
+        CalibrationError: if it is not 8 or 16 bit, or has another shape.
+    """
+    shape = np.shape(image)
+    usable = image.dtype in (np.uint8, np.uint16) and min(shape[:2], default=0) >= 16
+    if not usable or not (len(shape) == 2 or (len(shape) == 3 and shape[2] == 3)):
+        raise CalibrationError(
+            f"an array of {image.dtype} and shape {shape} is no picture; 8 or 16 bit, grey or "
+            "BGR, at least 16x16 pixels is needed"
+        )
+    if image.dtype == np.uint16:
+        image = cv2.convertScaleAbs(image, alpha=255.0 / max(1, int(image.max())))
+    grey = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+    result: Grey = np.ascontiguousarray(grey, dtype=np.uint8)
+    return result
+
+
+def _checkerboard(grey: Grey, board: Board, thorough: bool) -> Found | Rejection:
+    pixels = finders.checkerboard(grey, board, thorough)
+    if pixels is None:
+        return Rejection(
+            Reason.NO_BOARD,
+            f"no board with {board.columns}x{board.rows} inner corners is seen as a whole; show "
+            "all of it with a white rim, or check the counts",
+        )
+    return np.arange(board.count), _usual_order(grey, board, pixels)
+
+
+def _usual_order(grey: Grey, board: Board, pixels: FloatArray) -> FloatArray:
+    """Order corners as on the print: not mirrored, the first square dark where that tells."""
+    grid = pixels.reshape(board.rows, board.columns, 2)
+    homography = plane_map(board, np.arange(board.count), pixels)
+    if homography is not None and is_mirrored(homography, board):
+        grid = grid[:, ::-1]
+    pixels = grid.reshape(-1, 2)
+    if first_square_is_dark(grey, board, pixels):
+        return pixels
+    if (board.columns + board.rows) % 2:
+        return pixels[::-1]
+    if board.columns == board.rows and board.columns % 2:
+        turned: FloatArray = np.rot90(pixels.reshape(board.rows, board.columns, 2)).reshape(-1, 2)
+        return turned
+    return pixels
+
+
+def _charuco(grey: Grey, board: Board, thorough: bool) -> Found | Rejection:
+    found, markers = finders.charuco(grey, board, thorough)
+    if found is not None and found[0].size >= LEAST_CORNERS:
+        return found
+    mirrored, _ = finders.charuco(np.ascontiguousarray(grey[:, ::-1]), board, False)
+    if mirrored is not None and mirrored[0].size >= LEAST_CORNERS:
+        return Rejection(
+            Reason.MIRRORED, "the picture is mirrored; turn the camera's mirror mode off"
+        )
+    if found is not None:
+        return Rejection(
+            Reason.PARTLY, f"only {found[0].size} corners are seen; {LEAST_CORNERS} are needed"
+        )
+    if markers >= 4:
+        return Rejection(
+            Reason.OTHER_BOARD,
+            f"{markers} markers of {board.dictionary} are seen, but they do not lie as on "
+            f"{board.spec}; check the counts of squares",
+        )
+    return Rejection(
+        Reason.NO_BOARD,
+        f"no ChArUco board with markers of {board.dictionary} is seen; check the dictionary",
+    )
+
+
+def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> BoardView | Rejection:
+    """Refine corners, and refuse what cannot be measured well."""
+    ids, pixels = found
+    homography = plane_map(board, ids, pixels)
+    if homography is None:
+        return Rejection(Reason.PARTLY, "the corners seen lie on one line; show more of the board")
+    seen = board.points[ids, :2] / board.square
+    short, cosine = extents(local_axes(homography, seen))
+    square_px = float(short.min())
+    if cosine.min() < LEAST_COSINE:
+        return Rejection(
+            Reason.EDGE_ON,
+            f"the board is seen on edge ({np.degrees(np.arccos(cosine.min())):.0f}°); turn it to "
+            f"the camera, up to {np.degrees(np.arccos(LEAST_COSINE)):.0f}° are possible",
+        )
+    if square_px < SMALLEST_SQUARE:
+        return Rejection(
+            Reason.TOO_SMALL,
+            f"a square is only {square_px:.1f} px across; {SMALLEST_SQUARE:g} px are needed: "
+            "bring the board nearer",
+        )
+    if not _lies_flat(ids, pixels, homography, board, square_px):
+        return Rejection(
+            Reason.OTHER_BOARD, "the corners found do not lie on a grid; check the board's counts"
+        )
+    sharpness = edge_width(grey, board, homography, seen)
+    if sharpness > MOST_BLUR * square_px:
+        return Rejection(
+            Reason.BLURRED,
+            f"the picture is blurred: edges are {sharpness:.1f} px wide, squares "
+            f"{square_px:.0f} px; hold the board still and focus",
+        )
+    half = window or int(np.clip(np.floor(WINDOW_SHARE * square_px), 2, WINDOW_MAX))
+    return BoardView(
+        board,
+        ids,
+        refined(grey, pixels, half),
+        (grey.shape[1], grey.shape[0]),
+        sharpness=sharpness,
+        square_px=square_px,
+        window=half,
+    )
+
+
+def refined(grey: Grey, pixels: FloatArray, half: int) -> FloatArray:
+    """Corners to a fraction of a pixel: where all gradients of the window point to (cornerSubPix).
+
+    A corner that would leave its window stays where it was.
+    """
+    start = np.ascontiguousarray(pixels, dtype=np.float32).reshape(-1, 1, 2)
+    found = cv2.cornerSubPix(grey, start.copy(), (half, half), (-1, -1), _STOP)
+    result: FloatArray = np.asarray(found, dtype=np.float64).reshape(-1, 2)
+    moved = np.linalg.norm(result - pixels, axis=1)
+    keep = ~np.isfinite(moved) | (moved > half)
+    result[keep] = pixels[keep]
+    return result
+
+
+def _lies_flat(
+    ids: NDArray[np.int64],
+    pixels: FloatArray,
+    homography: FloatArray,
+    board: Board,
+    square_px: float,
+) -> bool:
+    """Whether corners lie on a plane grid within what lens distortion bends (half a square)."""
+    away = np.linalg.norm(mapped(homography, board.points[ids, :2] / board.square) - pixels, axis=1)
+    return bool(np.isfinite(away).all() and away.max() < 0.5 * square_px + 2.0)

@@ -1,0 +1,83 @@
+"""Pictures on disk: listed, read, and searched for a board on all cores."""
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from os import cpu_count
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from app.core.progress import Progress
+from app.tracking.calibration.boards import Board
+from app.tracking.calibration.corners import find_corners
+from app.tracking.calibration.views import BoardView, Reason, Rejection
+from app.tracking.errors import CalibrationError
+
+SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
+
+
+def list_pictures(folder: Path, pattern: str = "*") -> list[Path]:
+    """Pictures of a folder by name; other files are passed over.
+
+    Raises:
+        CalibrationError: if there is no such folder, or no picture in it.
+    """
+    if not folder.is_dir():
+        raise CalibrationError(f"there is no folder {folder}; give the folder of the pictures")
+    found = sorted(
+        path for path in folder.glob(pattern) if path.is_file() and path.suffix.lower() in SUFFIXES
+    )
+    if not found:
+        raise CalibrationError(
+            f"no picture {pattern} in {folder}; files {', '.join(SUFFIXES)} are read"
+        )
+    return found
+
+
+def look(
+    path: Path, board: Board, thorough: bool = True, window: int | None = None
+) -> BoardView | Rejection:
+    """Read a picture and find the board; a file that is no picture is a rejection."""
+    try:
+        data = np.frombuffer(path.read_bytes(), dtype=np.uint8)
+        image = cv2.imdecode(data, cv2.IMREAD_COLOR) if data.size else None
+    except (OSError, cv2.error) as error:
+        return Rejection(Reason.UNREADABLE, f"cannot be read: {_short(error)}", path.name)
+    if image is None:
+        return Rejection(Reason.UNREADABLE, "is no picture, or a damaged one", path.name)
+    try:
+        found = find_corners(image, board, thorough, window)
+    except (CalibrationError, cv2.error) as error:
+        return Rejection(Reason.UNREADABLE, f"cannot be used: {_short(error)}", path.name)
+    if isinstance(found, Rejection):
+        return Rejection(found.reason, found.text, path.name)
+    return found.called(path.name)
+
+
+def look_at_all(
+    paths: Sequence[Path],
+    board: Board,
+    progress: Progress | None = None,
+    window: int | None = None,
+) -> list[BoardView | Rejection]:
+    """Find the board in many pictures, in the order given; OpenCV works outside the lock.
+
+    Raises:
+        Cancelled: if `progress` was cancelled; pictures being searched are finished first.
+    """
+    progress = progress or Progress()
+    progress.report(0.0, "looking for the board")
+    with ThreadPoolExecutor(max_workers=max(1, cpu_count() or 1)) as pool:
+        jobs = {pool.submit(look, path, board, True, window): path for path in paths}
+        try:
+            for count, job in enumerate(as_completed(jobs), 1):
+                progress.report(count / len(jobs), f"looked at {jobs[job].name}")
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+        return [job.result() for job in jobs]
+
+
+def _short(error: Exception) -> str:
+    return " ".join(str(error).split())[:200]

@@ -1,0 +1,99 @@
+"""What one picture shows of a board, or why it is of no use."""
+
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray, read_only
+from app.tracking.calibration.boards import Board
+from app.tracking.errors import CalibrationError
+
+
+class Reason(StrEnum):
+    """Why a picture is not used."""
+
+    NO_BOARD = "no_board"
+    PARTLY = "partly"
+    TOO_SMALL = "too_small"
+    BLURRED = "blurred"
+    EDGE_ON = "edge_on"
+    MIRRORED = "mirrored"
+    OTHER_BOARD = "other_board"
+    UNREADABLE = "unreadable"
+    OTHER_SIZE = "other_size"
+
+
+@dataclass(frozen=True)
+class Rejection:
+    """A picture of no use, and why, in one line for people.
+
+    Attributes:
+        reason: for programs.
+        text: for people; says what to do.
+        name: of the picture.
+    """
+
+    reason: Reason
+    text: str
+    name: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class BoardView:
+    """Corners of a board found in one picture.
+
+    Attributes:
+        board: which board.
+        ids: numbers of the corners found, shape (n,), ascending.
+        pixels: their places, shape (n, 2); pixel (0, 0) is the centre of the upper left pixel.
+        image_size: width, height [px].
+        sharpness: width of the squares' edges, 10 to 90 % of the step, median [px]; about 1 to 2
+            in a sharp picture, more in a blurred one.
+        square_px: shortest distance across a square in the picture [px].
+        window: half width of the window in which the corners were refined [px].
+        name: of the picture.
+
+    Raises:
+        CalibrationError: for pixels that are not finite or do not match the ids.
+    """
+
+    board: Board
+    ids: NDArray[np.int64]
+    pixels: FloatArray
+    image_size: tuple[int, int]
+    sharpness: float = field(default=0.0, kw_only=True)
+    square_px: float = field(default=0.0, kw_only=True)
+    window: int = field(default=0, kw_only=True)
+    name: str = field(default="", kw_only=True)
+
+    def __post_init__(self) -> None:
+        ids = np.array(self.ids, dtype=np.int64)
+        pixels = np.array(self.pixels, dtype=np.float64)
+        if ids.ndim != 1 or pixels.shape != (ids.size, 2) or not np.isfinite(pixels).all():
+            raise CalibrationError(
+                f"view {self.name!r}: {ids.size} corner numbers and pixels of shape "
+                f"{pixels.shape}; one finite pixel is needed for every corner"
+            )
+        if ids.size and (ids.min() < 0 or ids.max() >= self.board.count):
+            raise CalibrationError(
+                f"view {self.name!r}: corner {int(ids.max())} is not on the board "
+                f"{self.board.spec}, which has {self.board.count}"
+            )
+        order = np.argsort(ids, kind="stable")
+        object.__setattr__(self, "ids", read_only(ids[order]))
+        object.__setattr__(self, "pixels", read_only(pixels[order]))
+
+    @property
+    def points(self) -> FloatArray:
+        """The corners in the board's frame [m], shape (n, 3)."""
+        return self.board.points[self.ids]
+
+    def reordered(self, order: NDArray[np.int64]) -> "BoardView":
+        """Return the same picture with corner i called `order[i]`."""
+        return replace(self, ids=order[self.ids], pixels=self.pixels)
+
+    def called(self, name: str) -> "BoardView":
+        """Return the same view under a name."""
+        return replace(self, name=name)
