@@ -35,7 +35,7 @@ class Fixes:
         self._tell_loop(fix, fulcrum)
 
     def usable(self) -> FixPort | None:
-        """Newest fix that is valid, or None."""
+        """Newest fix that is a measurement, or None."""
         with self._lock:
             return self._usable
 

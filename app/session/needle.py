@@ -41,12 +41,13 @@ class DepthSource(StrEnum):
     """Where the depth of a pose comes from."""
 
     TRACKED = "tracked"
+    ONE_CAMERA = "one_camera"  # one camera's ray and the shaft's line: measured, but coarser
     HELD = "held"
     MODEL = "model"
     NONE = "none"
 
 
-FROM_CAMERAS: Final = (DepthSource.TRACKED, DepthSource.HELD)
+FROM_CAMERAS: Final = (DepthSource.TRACKED, DepthSource.ONE_CAMERA, DepthSource.HELD)
 """Depths that the cameras vouch for: of now, or bridged for at most `HOLD_LIMIT`."""
 
 
@@ -92,8 +93,7 @@ def fuse(
 
     Args:
         device: newest state of the loop.
-        fix: newest *valid* fix of the tracker, or None before the first. A fix with another
-            status is not used.
+        fix: newest *usable* fix of the tracker, or None before the first. Another is not used.
         now: present time [s].
         last: pose before this one; its numbers are repeated, marked invalid, where the robot
             gives nothing usable.
@@ -155,7 +155,8 @@ def _depth(
         age = _age(fix.time, now)
         if age <= HOLD_LIMIT:
             depth, variance = fix_depth(fix, fulcrum, axis)
-            source = DepthSource.TRACKED if age <= FRESH_LIMIT else DepthSource.HELD
+            fresh = DepthSource.ONE_CAMERA if _one_eyed(fix) else DepthSource.TRACKED
+            source = fresh if age <= FRESH_LIMIT else DepthSource.HELD
             return depth, variance + (RATE_SIGMA * age) ** 2, age, source
     return float(device.depth), MODEL_SIGMA**2, _age(device.time, now), DepthSource.MODEL
 
@@ -171,13 +172,17 @@ def fix_depth(fix: FixPort, fulcrum: FloatArray, axis: FloatArray) -> tuple[floa
 
 
 def is_usable(fix: FixPort) -> bool:
-    """Whether a fix is valid and all its numbers are finite."""
+    """Whether a fix is a measurement of the tip and all its numbers are finite."""
     return bool(
-        str(fix.status) == "valid"
+        fix.usable
         and np.isfinite(fix.time)
         and np.isfinite(fix.p_tip_world).all()
         and np.isfinite(fix.covariance).all()
     )
+
+
+def _one_eyed(fix: FixPort) -> bool:
+    return str(fix.status) == "one_camera"
 
 
 def _invalid(last: NeedlePose | None, now: float, reason: str, age: float) -> NeedlePose:

@@ -46,7 +46,12 @@ class FixPort(Protocol):
 
     @property
     def status(self) -> str:
-        """`valid`, `out_of_view`, `one_camera`, `inconsistent` or `no_orientation`."""
+        """One of `tracking.fix.FixStatus`."""
+        ...
+
+    @property
+    def usable(self) -> bool:
+        """Whether the tip is a measurement: by both cameras, or by one and the shaft's line."""
         ...
 
     @property

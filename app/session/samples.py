@@ -26,7 +26,7 @@ class Samples:
         time: monotonic time [s], shape (n,).
         state: state of the attempt, shape (n,), text.
         valid: whether the pose is valid, shape (n,).
-        depth_source: `tracked`, `held`, `model` or `none`, shape (n,), text.
+        depth_source: `needle.DepthSource`, shape (n,), text.
         depth: depth of the tip [m], shape (n,).
         tip: tip [m], shape (n, 3).
         axis: needle direction, shape (n, 3).

@@ -67,6 +67,7 @@ class Snapshot:
 _FIX_TEXT = {
     "out_of_view": "marker out of view",
     "no_picture": "a camera's picture is late",
+    "not_yet_visible": "the marker has not come out of the tube yet",
     "one_camera": "marker seen by one camera only",
     "inconsistent": "the cameras disagree about the marker",
     "no_orientation": "the cameras see the marker, but the robot gives no direction",
@@ -104,7 +105,9 @@ def advice(
         found.append(pose.reason)
     if fix_status in _FIX_TEXT:
         found.append(_FIX_TEXT[fix_status])
-    if pose.depth_source is DepthSource.HELD:
+    if pose.depth_source is DepthSource.ONE_CAMERA:
+        found.append("depth from one camera and the needle's line: less exact")
+    elif pose.depth_source is DepthSource.HELD:
         found.append(f"depth held for {pose.depth_age * 1e3:.0f} ms")
     elif pose.depth_source is DepthSource.MODEL:
         found.append("depth not measured: the model's depth is shown")

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+import numpy as np
+
 from app.core.arrays import FloatArray, frozen
 from app.tracking.confidence import covariance_radius
 
@@ -12,7 +14,8 @@ class FixStatus(StrEnum):
 
     VALID = "valid"
     OUT_OF_VIEW = "out_of_view"  # no camera shows the marker
-    ONE_CAMERA = "one_camera"  # one does; `missing` names the other
+    NOT_YET_VISIBLE = "not_yet_visible"  # the marker is inside the tube, where no camera sees it
+    ONE_CAMERA = "one_camera"  # one does; `missing` names the other; often there is a point
     NO_PICTURE = "no_picture"  # a camera has given no picture in time
     INCONSISTENT = "inconsistent"  # the pictures contradict each other or the robot
     NO_ORIENTATION = "no_orientation"  # the robot gives no axis, so the tip cannot be told
@@ -26,13 +29,14 @@ class NeedleFix:
         p_tip_world: the tip [m], shape (3,); zero unless `has_point`.
         covariance: of the tip [m²], shape (3, 3); zero unless `has_point`.
         time: when the pictures were captured [s].
-        status: only `valid` may be used as a measurement.
+        status: see `usable` for whether there is a measurement.
         pixels: where each camera shows the marker's outline [px], None where it does not.
         residual_px: root mean square of the reprojection error [px]; 0 unless `has_point`.
         depth: of the tip beyond the fulcrum along the axis [m]; 0 unless `has_point`.
         depth_variance: of it [m²].
         missing: names of the cameras that do not show the marker.
-        has_point: whether there is a tip at all (`valid` and `inconsistent`).
+        has_point: whether there is a tip at all (`valid`, most of `inconsistent`, and of
+            `one_camera` where one ray and the robot's line meet at a good angle).
         reason: one line for people; empty when valid.
     """
 
@@ -51,6 +55,18 @@ class NeedleFix:
     def __post_init__(self) -> None:
         object.__setattr__(self, "p_tip_world", frozen(self.p_tip_world, (3,), "tip"))
         object.__setattr__(self, "covariance", frozen(self.covariance, (3, 3), "covariance"))
+
+    @property
+    def usable(self) -> bool:
+        """Whether the tip may be used as a measurement, with its covariance, however large."""
+        known = self.status is FixStatus.VALID or (
+            self.status is FixStatus.ONE_CAMERA and self.has_point
+        )
+        return known and bool(
+            np.isfinite(self.time)
+            and np.isfinite(self.p_tip_world).all()
+            and np.isfinite(self.covariance).all()
+        )
 
     def radius(self, probability: float = 0.95) -> float:
         """Radius [m] round the tip that holds the true one with at least `probability`."""

@@ -10,7 +10,9 @@ from app.tracking.confidence import chi_square_quantile
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.markers.extractor import Centre, MarkerFix
 from app.tracking.markers.silhouette import centroid_shift
+from app.tracking.one_camera_fix import OneCameraSolver
 from app.tracking.optics.rig import RigProfile
+from app.tracking.stereo.rays import normalised
 from app.tracking.stereo.triangulation import StereoStatus, Triangulation, Way, triangulate
 
 GATE = 1e-5
@@ -44,6 +46,7 @@ class FixSolver:
         self._poses = (self._models[0].T_camera_world, self._models[1].T_camera_world)
         self._fulcrum = frozen(fulcrum, (3,), "fulcrum")
         self._systematic = rig.systematic_px**2 * np.eye(2)
+        self._single = OneCameraSolver(rig, self._fulcrum, GATE)
         self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
 
     def solve(
@@ -55,8 +58,8 @@ class FixSolver:
         """Fix of one moment; every failure is a status, never an exception."""
         pixels = tuple(None if sighting is None else sighting.uv for sighting in sightings)
         first, second = sightings
-        if first is None or second is None:
-            return self._unseen((pixels[0], pixels[1]), time)
+        if first is None and second is None:
+            return self._unseen(time)
         if axis is None or not np.isfinite(axis).all() or not np.any(axis):
             return _without_point(
                 FixStatus.NO_ORIENTATION,
@@ -64,6 +67,8 @@ class FixSolver:
                 time,
                 reason="the robot gives no needle direction",
             )
+        if first is None or second is None:
+            return self._one_eyed((first, second), unit(axis), time)
         return self._solve((first, second), unit(axis), time)
 
     def _solve(
@@ -117,12 +122,10 @@ class FixSolver:
         for i, (model, sighting, shift) in enumerate(
             zip(self._models, sightings, shifts, strict=True)
         ):
-            ray, found = model.undistort(sighting.uv - shift)
-            if not found[0]:
+            found = normalised(model, sighting.uv - shift, sighting.covariance + self._systematic)
+            if found is None:
                 return None
-            jacobian = model.ray_jacobian(ray[0])
-            rays[i] = ray[0]
-            covariances[i] = jacobian @ (sighting.covariance + self._systematic) @ jacobian.T
+            rays[i], covariances[i] = found
         return triangulate(self._poses, rays, covariances, way)
 
     def _contradiction(self, found: Triangulation, axis: FloatArray) -> str:
@@ -145,17 +148,39 @@ class FixSolver:
         focal = np.concatenate([model.intrinsics[:2] for model in self._models])
         return float(np.sqrt(np.mean((found.residual * focal) ** 2)))
 
-    def _unseen(
-        self, pixels: tuple[FloatArray | None, FloatArray | None], time: float
-    ) -> NeedleFix:
-        missing = tuple(
-            model.name for model, uv in zip(self._models, pixels, strict=True) if uv is None
-        )
-        both = len(missing) == 2
-        status = FixStatus.OUT_OF_VIEW if both else FixStatus.ONE_CAMERA
-        where = "either camera" if both else f"the {missing[0]} camera"
+    def _unseen(self, time: float) -> NeedleFix:
         return _without_point(
-            status, pixels, time, missing, f"the marker is out of view of {where}"
+            FixStatus.OUT_OF_VIEW,
+            (None, None),
+            time,
+            tuple(model.name for model in self._models),
+            "the marker is out of view of either camera",
+        )
+
+    def _one_eyed(
+        self, sightings: tuple[Sighting | None, Sighting | None], axis: FloatArray, time: float
+    ) -> NeedleFix:
+        camera, sighting = next((i, s) for i, s in enumerate(sightings) if s is not None)
+        pixels = (sighting.uv, None) if camera == 0 else (None, sighting.uv)
+        missing = (self._models[1 - camera].name,)
+        outline = sighting.centre is Centre.OUTLINE
+        found = self._single.solve(camera, sighting.uv, sighting.covariance, axis, outline)
+        if found.point is None:
+            return _without_point(FixStatus.ONE_CAMERA, pixels, time, missing, found.reason)
+        tip = found.point.p_world + self._rig.needle.marker_offset * axis
+        residual = found.point.residual * self._models[camera].intrinsics[:2]
+        return NeedleFix(
+            tip,
+            found.point.covariance,
+            time,
+            FixStatus.ONE_CAMERA if found.consistent else FixStatus.INCONSISTENT,
+            pixels,
+            float(np.sqrt(np.mean(residual**2))),
+            float((tip - self._fulcrum) @ axis),
+            float(axis @ found.point.covariance @ axis),
+            missing,
+            has_point=True,
+            reason=found.reason,
         )
 
 

@@ -13,6 +13,7 @@ from app.tracking.cameras.feed import CameraFeed, Pair
 from app.tracking.errors import TrackingError
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.follower import MarkerFollower, Markers
+from app.tracking.hiding import Hiding
 from app.tracking.markers.choice import extractors as default_extractors
 from app.tracking.markers.extractor import Extractor, MarkerFix, Miss
 from app.tracking.optics.rig import RigProfile
@@ -83,6 +84,7 @@ class Tracker:
         self._on_fix = on_fix
         self._names = tuple(model.name for model in rig.models)
         self._solver = FixSolver(rig, fulcrum)
+        self._hiding = Hiding(rig.needle)
         self._extractors = extractors or default_extractors(rig)
         self._follower = MarkerFollower(self._extractors, self._solver)
         self._feed = CameraFeed(cameras, self._names, clock, rig.noise_grey > 0.0, self._put)
@@ -130,7 +132,7 @@ class Tracker:
         axis = self._axis(time)
         markers = self._follower.find(frames, axis, time)
         sightings = self._follower.sightings(frames, markers, time)
-        fix = self._solver.solve(sightings, axis, time)
+        fix = self._hiding.look(self._solver.solve(sightings, axis, time))
         if fix.status is FixStatus.INCONSISTENT:
             self._follower.doubt()
         self._show(frames, markers)
@@ -153,6 +155,8 @@ class Tracker:
         if not absent:
             return fix
         reason = f"no picture from the {absent[0]} camera"
+        if fix.usable:
+            return replace(fix, reason=f"{reason}: depth by the other one and the needle's line")
         return replace(fix, status=FixStatus.NO_PICTURE, reason=reason)
 
     def _show(self, frames: Pair, markers: Markers) -> None:

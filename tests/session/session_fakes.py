@@ -134,6 +134,11 @@ class FakeFix:
     status: str = "valid"
     covariance: FloatArray = field(default_factory=lambda: np.eye(3) * 1e-8)
     residual_px: float = 0.2
+    has_point: bool = False
+
+    @property
+    def usable(self) -> bool:
+        return self.status == "valid" or (self.status == "one_camera" and self.has_point)
 
 
 @dataclass

@@ -87,6 +87,15 @@ def test_a_fix_that_is_not_valid_is_not_used(status: str) -> None:
     assert pose.depth_source is DepthSource.MODEL
 
 
+def test_one_camera_and_the_line_measure_the_depth_and_the_source_says_so() -> None:
+    fix = FakeFix(beside(0.0, 0.0, -0.05), 10.0, "one_camera", has_point=True)
+    pose = fuse(device(), fix, 10.0)
+    assert pose.depth_source is DepthSource.ONE_CAMERA
+    assert pose.measured
+    assert pose.depth == pytest.approx(0.05)
+    assert fuse(device(10.15), fix, 10.15).depth_source is DepthSource.HELD
+
+
 def test_without_any_fix_the_model_is_said_to_be_the_source() -> None:
     pose = fuse(device(), None, 10.0)
     assert pose.depth_source is DepthSource.MODEL

@@ -2,10 +2,10 @@
 
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from app.core import paths
 from app.core.arrays import unit
@@ -77,6 +77,8 @@ class NeedleProfile(Strict):
         length_mm: hub to tip.
         point_length_mm: over which the shaft tapers to the tip.
         marker_offset_mm: centre of the band behind the tip.
+        hidden_mm: from where to where the band's centre stands beyond the fulcrum while the tube
+            hides it; None for a rig that sees it everywhere.
     """
 
     length_mm: float = Field(gt=0.0)
@@ -85,6 +87,16 @@ class NeedleProfile(Strict):
     marker_offset_mm: float = Field(ge=0.0)
     marker_length_mm: float = Field(gt=0.0)
     marker_diameter_mm: float = Field(gt=0.0)
+    hidden_mm: tuple[float, float] | None = None
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if self.hidden_mm is not None and not self.hidden_mm[0] < self.hidden_mm[1]:
+            raise ValueError(
+                f"hidden_mm {list(self.hidden_mm)} must name the smaller depth first, or be left "
+                "out where nothing hides the band"
+            )
+        return self
 
     @property
     def marker_offset(self) -> float:

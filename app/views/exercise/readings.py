@@ -123,7 +123,11 @@ def tracker_figures(snapshot: Snapshot) -> TrackerFigures:
     statistics: TrackerStatistics | None = snapshot.tracker
     if statistics is None:
         return TrackerFigures(0.0, None, tracker_status(snapshot))
-    measured = statistics.status in (FixStatus.VALID, FixStatus.INCONSISTENT)
+    measured = statistics.status in (
+        FixStatus.VALID,
+        FixStatus.INCONSISTENT,
+        FixStatus.ONE_CAMERA,
+    )
     return TrackerFigures(
         rate=statistics.rate,
         residual_px=statistics.residual_px if measured else None,
@@ -141,6 +145,8 @@ def problem(statistics: TrackerStatistics) -> str:
         return statistics.reason
     if statistics.status is FixStatus.OUT_OF_VIEW:
         return tr("marker out of view (both cameras)")
+    if statistics.status is FixStatus.NOT_YET_VISIBLE:
+        return tr("marker still in the tube")
     if statistics.status is FixStatus.NO_PICTURE:
         return tr("a picture is late")
     if statistics.status is FixStatus.ONE_CAMERA:

@@ -112,17 +112,19 @@ def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> S
 
 
 def depth_item(source: str, age: float) -> StatusItem:
-    """Say where the shown depth comes from: `tracked`, `held`, `model` or `none`."""
+    """Say where the shown depth comes from: one of `session.needle.DepthSource`."""
     known = {
         "tracked": (Verdict.GOOD, tr("from the cameras")),
+        "one_camera": (Verdict.WARNING, tr("from one camera")),
         "held": (Verdict.WARNING, tr("held, {age} old", age=age_text(age))),
         "model": (Verdict.BAD, tr("model only, not measured")),
         "none": (Verdict.BAD, tr("unknown")),
     }
     verdict, text = known.get(source, known["none"])
     return StatusItem(verdict, tr("Depth"), text, tr(
-        "The depth is measured by the cameras. Without a fix it is held for 200 ms; after that the "
-        "model's depth is shown, which is a guess: wait until the cameras see the marker again."
+        "The depth is measured by the cameras; by one of them and the needle's line, less exactly, "
+        "while the other does not see the marker. Without a fix it is held for 200 ms; after that "
+        "the model's depth is shown, which is a guess: wait until the cameras see the marker again."
     ))  # fmt: skip
 
 

@@ -1,0 +1,98 @@
+"""The tip from one camera and the robot's line, while the other camera does not show the marker."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
+from app.tracking.confidence import chi_square_quantile
+from app.tracking.markers.silhouette import centroid_shift
+from app.tracking.optics.rig import RigProfile
+from app.tracking.stereo.one_camera import LEAST_ANGLE, LinePoint, RayStatus, point_on_line
+from app.tracking.stereo.rays import normalised
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OneEyed:
+    """What one camera tells of the band.
+
+    Attributes:
+        point: the band's centre; None if there is none.
+        consistent: whether ray and line meet as well as both are known.
+        reason: one line for people about the point, or why there is none.
+    """
+
+    point: LinePoint | None
+    consistent: bool
+    reason: str
+
+
+class OneCameraSolver:
+    """Finds the band on the needle's line in one camera's picture; no memory."""
+
+    def __init__(self, rig: RigProfile, fulcrum: FloatArray, gate: float) -> None:
+        self._models = rig.models
+        self._shape = rig.needle.shape
+        self._fulcrum = fulcrum
+        self._systematic = rig.systematic_px**2 * np.eye(2)
+        self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
+        self._limit = chi_square_quantile(1.0 - gate, 1)
+
+    def solve(
+        self,
+        camera: int,
+        uv: FloatArray,
+        covariance: FloatArray,
+        axis: FloatArray,
+        outline: bool = True,
+    ) -> OneEyed:
+        """Find the band.
+
+        Args:
+            camera: 0 or 1, which one shows the marker.
+            uv: pixel [px], shape (2,).
+            covariance: of it [px²], shape (2, 2).
+            axis: unit direction of the needle, hub to tip.
+            outline: whether the pixel is the centroid of the outline; else the band's centre.
+        """
+        name, other = self._models[camera].name, self._models[1 - camera].name
+        lost = f"the marker is out of view of the {other} camera"
+        point = self._point(camera, uv, covariance, axis, np.zeros(2))
+        if outline and point is not None and point.status is RayStatus.FOUND:
+            shift = centroid_shift(self._models[camera], self._shape, point.p_world, axis)
+            point = shift if shift is None else self._point(camera, uv, covariance, axis, shift)
+        if point is None:
+            return OneEyed(None, True, f"{lost}; the {name} camera's pixel has no ray")
+        if point.status is RayStatus.ALONG_THE_SHAFT:
+            return OneEyed(
+                None,
+                True,
+                f"{lost}, and the {name} camera looks along the needle, within "
+                f"{np.degrees(LEAST_ANGLE):.0f}°: it cannot tell the depth",
+            )
+        if point.status is not RayStatus.FOUND:
+            return OneEyed(None, True, f"{lost}; the {name} camera sees it off the needle's line")
+        if point.chi_square > self._limit:
+            pixels = float(np.linalg.norm(point.residual * self._models[camera].intrinsics[:2]))
+            return OneEyed(
+                point,
+                False,
+                f"{lost}; the {name} camera sees it {pixels:.1f} px beside the needle's line",
+            )
+        return OneEyed(point, True, f"{lost}: depth by the {name} camera and the needle's line")
+
+    def _point(
+        self,
+        camera: int,
+        uv: FloatArray,
+        covariance: FloatArray,
+        axis: FloatArray,
+        shift: FloatArray,
+    ) -> LinePoint | None:
+        model = self._models[camera]
+        found = normalised(model, uv - shift, covariance + self._systematic)
+        if found is None:
+            return None
+        line = (self._fulcrum, axis)
+        return point_on_line(model.T_camera_world, *found, line, self._line_variance)
