@@ -43,13 +43,14 @@ def show(
     as_json: JsonOption = False,
 ) -> None:
     """Show one attempt: score, events, what its record holds."""
+    from app.session.calibration_flag import CalibrationFlags
     from app.session.recording import read_recording
     from app.session.store import find
     from app.session.summary import read_summary
 
     path = find(_folder(folder), session_id)
     recording = read_recording(path)
-    summary = read_summary(path)
+    summary = CalibrationFlags.read().flagged(read_summary(path))
     document = _details(recording, summary.document())
     if as_json:
         _print_json(document)
@@ -206,6 +207,8 @@ def _print_details(document: dict[str, Any]) -> None:
         typer.echo(f"{key:12} {document[key]}")
     typer.echo(f"{'exercise':12} {document['exercise']['title']} ({document['exercise']['id']})")
     typer.echo(f"{'hand':12} {document['metadata'].get('trainee', {}).get('hand', 'not recorded')}")
+    if document["calibration"]:
+        typer.echo(f"{'calibration':12} {document['calibration']}")
     typer.echo(f"{'score':12} {_total(document['score'])}")
     for row in (document["score"] or {}).get("rows", []):
         value = "-" if row["value"] is None else f"{row['value']:.4g} {row['unit']}"

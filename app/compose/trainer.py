@@ -207,7 +207,7 @@ def _context(
         seed=setup.seed,
         metadata={
             "device": device if robot is None else robot.metadata(),
-            "cameras": {"name": rig.name, "simulated": "yes"},
+            "cameras": {"name": rig.name, "simulated": "yes"} | _calibration_record(rig),
             "ct": {"pseudonym": setup.ct},
             TRAINEE: {"scripted": setup.skill or ""} | ({"hand": "robot"} if robot else {}),
             BUILD: build(),
@@ -218,6 +218,11 @@ def _context(
         ),
         plan_files=lambda placed: (_attachment("plan.mrk.json", plan_document(placed.plan)),),
     )
+
+
+def _calibration_record(rig: RigProfile) -> dict[str, str]:
+    """Id of the calibration that the fixes rest on: an attempt made with a bad one is flagged."""
+    return {"calibration": rig.calibration.id} if rig.calibration is not None else {}
 
 
 def _anonymous(exercise: Exercise) -> Exercise:

@@ -115,6 +115,7 @@ class AttemptLog:
             scans=self.scans,
             score=document,
             problems=_problems(status.failure, status.lost_rows),
+            calibration=header.metadata.get("cameras", {}).get("calibration", ""),
         )
         return self._write(summary)
 

@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 from typing import Final
 
+from app.session.calibration_flag import CalibrationFlags
 from app.session.errors import SessionError, SessionNotFoundError
 from app.session.summary import Summary, read_summary, sidecar
 
@@ -17,12 +18,14 @@ _SHOWN: Final = 5
 def list_sessions(folder: Path) -> list[Summary]:
     """All sessions, newest first; unreadable files are in the list, with the reason.
 
-    A folder that does not exist holds none.
+    A folder that does not exist holds none. Those made with a calibration of the cameras that was
+    later found bad say so among their problems.
 
     Raises:
         SessionError: if the folder cannot be read.
     """
-    summaries = [read_summary(path) for path in _records(folder)]
+    flags = CalibrationFlags.read()
+    summaries = [flags.flagged(read_summary(path)) for path in _records(folder)]
     return sorted(summaries, key=lambda summary: (summary.started, summary.id), reverse=True)
 
 

@@ -46,6 +46,7 @@ class Summary:
         score: as `result.score_document` gives it, or None if it was not scored.
         problems: what the record lacks, one line each.
         software: version that recorded it.
+        calibration: id of the cameras' calibration; empty for simulated or uncalibrated ones.
     """
 
     id: str
@@ -60,6 +61,7 @@ class Summary:
     score: Mapping[str, Any] | None = None
     problems: tuple[str, ...] = ()
     software: str = field(default=__version__)
+    calibration: str = ""
 
     def document(self) -> dict[str, Any]:
         """JSON-ready mapping; the keys stand in docs/json.md."""
@@ -76,6 +78,7 @@ class Summary:
             "score": finite(self.score),
             "problems": list(self.problems),
             "software": self.software,
+            "calibration": self.calibration,
             "note": DISCLAIMER,
         }
 
@@ -126,6 +129,7 @@ def derive(recording: Recording) -> Summary:
         score=_score(recording),
         problems=recording.problems,
         software=recording.metadata.get("software", {}).get("version", ""),
+        calibration=recording.metadata.get("cameras", {}).get("calibration", ""),
     )
 
 
@@ -148,6 +152,7 @@ def _parse(document: dict[str, Any], name: str) -> Summary:
         score=_checked_score(score) if score is not None else None,
         problems=tuple(str(problem) for problem in document["problems"]),
         software=str(document["software"]),
+        calibration=str(document.get("calibration", "")),  # older ones have none
     )
 
 

@@ -15,6 +15,7 @@ from app.planning.placement import PlacedPlan
 from app.scoring.errors import ScoreFormatError
 from app.scoring.result import Score
 from app.scoring.trajectory import Phase
+from app.session.calibration_flag import CalibrationFlags
 from app.session.curves import Curves, curves
 from app.session.errors import SessionError
 from app.session.needle import FROM_CAMERAS
@@ -158,7 +159,8 @@ def review(recording: Recording) -> Review:
     Raises:
         BrokenRecordingError: if the record holds no plan.
     """
-    summary, placed = derive(recording), recording.placed_plan()
+    summary = CalibrationFlags.read().flagged(derive(recording))
+    placed = recording.placed_plan()
     samples = recording.samples
     measured = np.isin(samples.depth_source, FROM_CAMERAS)
     figures = only_measured(curves(samples, placed), measured)

@@ -1,0 +1,1 @@
+"""Calibration files: the own YAML, and those of other programs."""

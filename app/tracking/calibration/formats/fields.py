@@ -1,0 +1,141 @@
+"""Fields of other programs' calibration files, each checked and named when it is wrong."""
+
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.configuration import read_yaml
+from app.core.errors import ConfigurationError
+from app.core.transform import RigidTransform
+from app.tracking.errors import CalibrationError
+
+_ROUNDED: Final = 2e-3
+"""How far a rotation matrix may be from orthonormal: files give four or five decimals."""
+
+LARGEST_SIZE: Final = 20_000
+"""Pixels; a larger picture is a mistake in the file."""
+
+
+class Fields:
+    """One YAML file of named fields.
+
+    Args:
+        path: of the file.
+
+    Raises:
+        CalibrationError: if it cannot be read or is no mapping.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            document = read_yaml(path)
+        except ConfigurationError as error:
+            raise CalibrationError(str(error)) from error
+        if not isinstance(document, Mapping):
+            raise CalibrationError(
+                f"{path}: a file of names and values is needed, got {document!r}"
+            )
+        self._document: Mapping[Any, Any] = document
+
+    def __contains__(self, key: str) -> bool:
+        return key in self._document
+
+    def text(self, key: str, valid: Sequence[str] = ()) -> str:
+        """Return a text; one of `valid` if any are given."""
+        value = self._value(key)
+        if not isinstance(value, str) or (valid and value not in valid):
+            wanted = f"one of {', '.join(valid)}" if valid else "a text"
+            raise self.wrong(key, value, wanted)
+        return value
+
+    def size(self) -> tuple[int, int]:
+        """Return image_width, image_height [px]."""
+        return self._pixels("image_width"), self._pixels("image_height")
+
+    def number(self, key: str) -> float | None:
+        """Return `data` of a field that may be absent; negative ones are refused."""
+        if key not in self._document:
+            return None
+        value = self._document[key]
+        data: Any = value.get("data") if isinstance(value, Mapping) else value
+        if not _is_number(data) or data < 0.0:
+            raise self.wrong(key, data, "a number of at least 0")
+        return float(data)
+
+    def matrix(self, key: str, rows: int, columns: int) -> FloatArray:
+        """Return the matrix of a field with rows, cols and data (row by row)."""
+        value = self._value(key)
+        if not isinstance(value, Mapping) or "data" not in value:
+            raise self.wrong(key, value, f"rows: {rows}, cols: {columns} and data")
+        shape = value.get("rows", rows), value.get("cols", columns)
+        if shape != (rows, columns):
+            raise self.wrong(key, f"{shape[0]} x {shape[1]}", f"{rows} rows of {columns}")
+        data = value["data"]
+        if not isinstance(data, Sequence) or len(data) != rows * columns:
+            count = len(data) if isinstance(data, Sequence) else 0
+            raise self.wrong(f"{key}.data", f"{count} values", f"{rows * columns} numbers")
+        for number in data:
+            if not _is_number(number):
+                raise self.wrong(f"{key}.data", number, "a finite number")
+        return np.array(data, dtype=np.float64).reshape(rows, columns)
+
+    def wrong(self, key: str, value: object, wanted: str) -> CalibrationError:
+        """Return the error that names file, field, value and what is valid."""
+        return CalibrationError(f"{self.path}: {key}: {wanted} is needed, got {value!r}")
+
+    def _value(self, key: str) -> Any:
+        if key not in self._document:
+            there = ", ".join(str(name) for name in self._document) or "nothing"
+            raise CalibrationError(f"{self.path}: {key} is missing; the file has {there}")
+        return self._document[key]
+
+    def _pixels(self, key: str) -> int:
+        value = self._value(key)
+        if type(value) is not int or not 16 <= value <= LARGEST_SIZE:
+            raise self.wrong(key, value, f"a whole number of pixels from 16 to {LARGEST_SIZE}")
+        return value
+
+
+def intrinsics(matrix: FloatArray, where: str) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return focal lengths and centre [px] of a camera matrix, shape (3, 3).
+
+    Raises:
+        CalibrationError: if it is none, or has a skew, which is not supported.
+    """
+    (fx, skew, cx), (zero, fy, cy), last = matrix.tolist()
+    if fx <= 0.0 or fy <= 0.0 or zero != 0.0 or last != [0.0, 0.0, 1.0]:
+        raise CalibrationError(
+            f"{where}: fx 0 cx, 0 fy cy, 0 0 1 with positive focal lengths is needed, "
+            f"got {matrix.tolist()}"
+        )
+    if abs(skew) > 1e-9 * fx:
+        raise CalibrationError(f"{where}: a skew of {skew} px is not supported; only 0 is")
+    return (fx, fy), (cx, cy)
+
+
+def pose(matrix: FloatArray, unit: float, where: str) -> RigidTransform:
+    """Return the transform of [R|t], shape (3, 4), with t in `unit` metres.
+
+    The rotation's rounding is taken out: the nearest rotation is used.
+
+    Raises:
+        CalibrationError: if the first three columns are no rotation.
+    """
+    u, _, vt = np.linalg.svd(matrix[:, :3])
+    rotation = u @ vt
+    error = float(np.abs(rotation - matrix[:, :3]).max())
+    if np.linalg.det(rotation) < 0.0 or error > _ROUNDED:
+        raise CalibrationError(
+            f"{where}: the first three columns are no rotation matrix: they differ from one by "
+            f"{error:.3g} (at most {_ROUNDED:g}) or mirror; got {matrix[:, :3].tolist()}"
+        )
+    return RigidTransform(rotation, matrix[:, 3] * unit)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and isfinite(value)

@@ -1,0 +1,54 @@
+"""The own file: one YAML with everything that a calibration says."""
+
+from pathlib import Path
+
+import yaml
+
+from app.core.configuration import load
+from app.core.errors import ConfigurationError
+from app.core.files import write_atomically
+from app.tracking.errors import CalibrationError
+from app.tracking.optics.calibration import StereoCalibration
+
+_HEAD = """\
+# Calibration of two cameras. Lengths in mm, angles in rad, pictures in px (pixel 0, 0 is the
+# centre of the upper left pixel). pose takes points of the left camera to the right one;
+# world takes points of the left camera to the robot's frame.
+"""
+
+
+def save_calibration(path: Path, calibration: StereoCalibration) -> None:
+    """Write a calibration, whole or not at all.
+
+    Raises:
+        CalibrationError: if the file cannot be written.
+    """
+    try:
+        write_atomically(path, text_of(calibration))
+    except OSError as error:
+        raise CalibrationError(
+            f"calibration {calibration.id} cannot be written to {path}: "
+            f"{error.strerror or error}; choose another place"
+        ) from error
+
+
+def text_of(calibration: StereoCalibration) -> str:
+    """Return the file's text; numbers come back from it to the last bit."""
+    document = calibration.model_dump(mode="json")
+    return _HEAD + yaml.safe_dump(document, sort_keys=False, allow_unicode=True, width=100)
+
+
+def load_calibration(path: Path) -> StereoCalibration:
+    """Read a calibration.
+
+    Raises:
+        CalibrationError: naming the file, the field, the value and what would be valid.
+    """
+    try:
+        calibration = load(path, StereoCalibration)
+        calibration.models()  # an impossible camera or pose is refused here, not later
+    except ConfigurationError as error:
+        raise CalibrationError(str(error)) from error
+    except ArithmeticError as error:
+        raise CalibrationError(f"{path}: pose or camera cannot be: {error}") from error
+    return calibration

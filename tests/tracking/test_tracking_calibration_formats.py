@@ -1,0 +1,261 @@
+"""Calibration files: what goes out comes back; what is wrong is named."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from app.tracking.calibration.formats.own import load_calibration, save_calibration
+from app.tracking.calibration.formats.reading import read_calibration
+from app.tracking.calibration.formats.ros import documents, ros_paths, write_ros
+from app.tracking.errors import CalibrationError
+from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.optics.rig import load_rig
+from tests.tracking.calibration_samples import sample
+
+ICUBE_LEFT = """\
+image_width: 640
+image_height: 480
+camera_name: cam_0
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [1088.60442, 0.0, 314.54243, 0.0, 1090.75158, 220.77703, 0.0, 0.0, 1.0]
+distortion_model: plum_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [-0.091006, 2.735876, -0.001135, -0.004749, -20.789586]
+projection_matrix:
+  rows: 3
+  cols: 4
+  data: [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+single camera reprojection error (mean squared):
+  data: 0.29903504166474704
+stereo reprojection error (mean squared):
+  data: 0.3822677852778425
+"""
+
+ICUBE_RIGHT = """\
+image_width: 640
+image_height: 480
+camera_name: cam_1
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [1066.01844, 0.0, 300.32019, 0.0, 1068.37404, 235.42159, 0.0, 0.0, 1.0]
+distortion_model: plum_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [-0.117272, 2.996853, 0.000220, -0.011057, -22.742781]
+projection_matrix:
+  rows: 3
+  cols: 4
+  data: [-0.2089, -0.04576, 0.97687, -14.41294, 0.02555, 0.99831, 0.05223, -1.19696,
+         -0.9776, 0.03587, -0.20738, 17.04343]
+single camera reprojection error (mean squared):
+  data: 0.23064712215628463
+stereo reprojection error (mean squared):
+  data: 0.3822677852778425
+"""
+
+INTRINSICS = """\
+intrinsic:
+903.2545392417838 0.0 638.4867270329387
+0.0 904.8591527878028 358.98011401394757
+0.0 0.0 1.0
+distortion:
+0.07131 -0.03204 -0.00215 -0.00148 -0.33213
+"""
+
+FIRST_POSE = "R:\n1.0 0.0 0.0\n0.0 1.0 0.0\n0.0 0.0 1.0\nT:\n0.0\n0.0\n0.0\n"
+
+SECOND_POSE = """\
+R:
+0.9262679714049468 0.0406054944162962 0.37467164153772436
+0.011960496214397523 0.9905103615701789 -0.1369166540360191
+-0.3766757115605813 0.13130277013575037 0.91699236140494
+T:
+-30.11817812152031
+8.814552136551228
+-1.0275385147439609
+"""
+
+
+@pytest.fixture
+def calibration() -> StereoCalibration:
+    return sample(load_rig("thesis"))
+
+
+@pytest.fixture
+def icube(tmp_path: Path) -> tuple[Path, Path]:
+    left, right = tmp_path / "cam_0_info.yaml", tmp_path / "cam_1_info.yaml"
+    left.write_text(ICUBE_LEFT)
+    right.write_text(ICUBE_RIGHT)
+    return left, right
+
+
+@pytest.fixture
+def temuge(tmp_path: Path) -> Path:
+    for i, pose in enumerate((FIRST_POSE, SECOND_POSE)):
+        (tmp_path / f"camera{i}_intrinsics.dat").write_text(INTRINSICS)
+        (tmp_path / f"camera{i}_rot_trans.dat").write_text(pose)
+    return tmp_path
+
+
+def test_the_own_file_brings_back_every_number(
+    tmp_path: Path, calibration: StereoCalibration
+) -> None:
+    path = tmp_path / "one.yaml"
+    save_calibration(path, calibration)
+    assert load_calibration(path) == calibration
+    assert read_calibration([path]) == calibration
+    assert [p.name for p in tmp_path.iterdir()] == ["one.yaml"]
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "words"),
+    [
+        ("rms_px", -1.0, "rms_px"),
+        ("id", "../x", "id"),
+        ("format", "other", "acus-stereo-calibration"),
+        ("pose", {"rotation": [[1, 0, 0], [0, 1, 0], [0, 0, 2]], "translation_mm": [1, 2, 3]},
+         "not orthonormal"),
+        ("created", "yesterday", "created"),
+    ],
+)  # fmt: skip
+def test_a_wrong_field_of_the_own_file_is_named(
+    tmp_path: Path, calibration: StereoCalibration, field: str, value: object, words: str
+) -> None:
+    path = tmp_path / "bad.yaml"
+    path.write_text(yaml.safe_dump(calibration.model_dump(mode="json") | {field: value}))
+    with pytest.raises(CalibrationError, match=words) as error:
+        load_calibration(path)
+    assert str(path) in str(error.value)
+
+
+def test_the_pair_of_icube_is_read_with_centimetres_and_no_camera_matrix_in_its_projection(
+    icube: tuple[Path, Path],
+) -> None:
+    found = read_calibration(icube)
+    assert found.baseline == pytest.approx(0.2235, abs=1e-4)
+    assert found.cameras[1].focal_px == (1066.01844, 1068.37404)
+    assert found.cameras[0].distortion[4] == -20.789586
+    assert found.cameras[1].rms_px == pytest.approx(0.2306, abs=1e-4)
+    assert found.rms_px == pytest.approx(0.3823, abs=1e-4)
+    angle = np.degrees(np.arccos((np.trace(found.pose.transform.rotation) - 1.0) / 2.0))
+    assert angle == pytest.approx(102.1, abs=0.1)
+    assert found.world is None
+    assert any("uncertainty" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("image_width: 640", "image_width: wide", "image_width.*'wide'"),
+        ("image_height: 480\n", "", "image_height is missing"),
+        ("plum_bob", "equidistant", "distortion_model.*plumb_bob.*'equidistant'"),
+        ("-22.742781]", "-22.742781, 0.1]", "distortion_coefficients.data.*6 values"),
+        ("-22.742781]", ".nan]", "finite"),
+        ("[-0.2089,", "[0.9,", "projection_matrix.*no rotation"),
+        ("[1066.01844,", "[-1066.01844,", "camera_matrix.*positive focal"),
+        ("rows: 1", "rows: 2", "distortion_coefficients"),
+        ("  data: 0.23", "  data: -0.23", "at least 0"),
+    ],
+)
+def test_a_wrong_field_of_icubes_file_is_named(
+    icube: tuple[Path, Path], old: str, new: str, words: str
+) -> None:
+    assert old in ICUBE_RIGHT
+    icube[1].write_text(ICUBE_RIGHT.replace(old, new, 1))
+    with pytest.raises(CalibrationError, match=words) as error:
+        read_calibration(icube)
+    assert "cam_1_info.yaml" in str(error.value)
+
+
+def test_the_same_file_given_twice_is_refused(icube: tuple[Path, Path]) -> None:
+    with pytest.raises(CalibrationError, match="same place"):
+        read_calibration([icube[1], icube[1]])
+
+
+def test_the_text_files_of_temuge_are_read_in_their_unit(temuge: Path) -> None:
+    found = read_calibration([temuge], unit=0.01, image_size=(1280, 720))
+    assert found.baseline == pytest.approx(np.linalg.norm([0.3012, 0.0881, 0.0103]), abs=1e-4)
+    assert found.cameras[0].image_size == (1280, 720)
+    assert found.cameras[0].focal_px[1] == 904.8591527878028
+    inches = read_calibration([temuge], unit=0.0254, image_size=(1280, 720))
+    assert inches.baseline == pytest.approx(2.54 * found.baseline)
+
+
+def test_text_files_without_a_unit_or_a_size_are_refused(temuge: Path) -> None:
+    with pytest.raises(CalibrationError, match="--unit"):
+        read_calibration([temuge])
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("camera1_rot_trans.dat", "R:\n1 0 0\n0 1 0\nT:\n0\n0\n0\n", "camera1_rot_trans.dat: R:"),
+        ("camera1_rot_trans.dat", SECOND_POSE.replace("-30.1", "far"), "T: numbers are needed"),
+        ("camera1_rot_trans.dat", SECOND_POSE.replace("0.92", "1.92"), "no rotation"),
+        ("camera0_intrinsics.dat", INTRINSICS.replace("distortion:", "d:"), "'distortion:'"),
+        ("camera0_intrinsics.dat", INTRINSICS.replace("-0.33213", "1 2 3 4"), "4 or 5 numbers"),
+        ("camera0_intrinsics.dat", INTRINSICS.replace("638.48", "nan 638.48"), "finite"),
+    ],
+)
+def test_a_wrong_section_of_temuges_files_is_named(
+    temuge: Path, name: str, text: str, words: str
+) -> None:
+    (temuge / name).write_text(text)
+    with pytest.raises(CalibrationError, match=words):
+        read_calibration([temuge], unit=0.01, image_size=(1280, 720))
+
+
+def test_a_camera_without_its_pose_is_named(temuge: Path) -> None:
+    (temuge / "camera1_rot_trans.dat").unlink()
+    with pytest.raises(CalibrationError, match=r"camera1_intrinsics.dat: its pose is missing"):
+        read_calibration([temuge], unit=0.01, image_size=(1280, 720))
+
+
+@pytest.mark.parametrize("rig", ["thesis", "wide"])
+def test_ros_camera_info_brings_the_pair_back(tmp_path: Path, rig: str) -> None:
+    calibration = sample(load_rig(rig))
+    left, right = ros_paths(tmp_path, calibration)
+    write_ros(left, right, calibration)
+    found = read_calibration([left, right])
+    np.testing.assert_allclose(
+        found.pose.transform.matrix(), calibration.pose.transform.matrix(), atol=1e-12
+    )
+    for ours, theirs in zip(found.cameras, calibration.cameras, strict=True):
+        assert ours.focal_px == theirs.focal_px
+        assert ours.centre_px == theirs.centre_px
+        assert ours.distortion == theirs.distortion
+        assert ours.image_size == theirs.image_size
+
+
+def test_both_rectified_pictures_of_a_point_lie_on_one_row(calibration: StereoCalibration) -> None:
+    left, right = documents(calibration)
+    point = np.array([0.01, 0.02, 0.25])
+    other = calibration.pose.transform @ point
+    pixels = []
+    for document, p in ((left, point), (right, other)):
+        rotation = np.reshape(document["rectification_matrix"]["data"], (3, 3))
+        projection = np.reshape(document["projection_matrix"]["data"], (3, 4))
+        base = 0.0 if document is left else calibration.baseline
+        rectified = np.append(rotation @ p + [base, 0.0, 0.0], 1.0)
+        u, v, w = projection @ rectified
+        pixels.append((u / w, v / w))
+    assert pixels[0][1] == pytest.approx(pixels[1][1], abs=1e-9)
+
+
+def test_files_of_two_formats_or_too_many_are_refused(
+    tmp_path: Path, icube: tuple[Path, Path], calibration: StereoCalibration
+) -> None:
+    left, right = ros_paths(tmp_path / "ros", calibration)
+    write_ros(left, right, calibration)
+    with pytest.raises(CalibrationError, match="different formats"):
+        read_calibration([icube[0], right])
+    with pytest.raises(CalibrationError, match="3 files were given"):
+        read_calibration([left, right, right])
