@@ -74,6 +74,7 @@ def test_list_as_json_has_the_documented_keys(
             "score",
             "problems",
             "software",
+            "calibration",
             "note",
         }
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from calibration_samples import sample
 
 from app.tracking.calibration.formats.own import load_calibration, save_calibration
 from app.tracking.calibration.formats.reading import read_calibration
@@ -12,7 +13,6 @@ from app.tracking.calibration.formats.ros import documents, ros_paths, write_ros
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
 from app.tracking.optics.rig import load_rig
-from tests.tracking.calibration_samples import sample
 
 ICUBE_LEFT = """\
 image_width: 640

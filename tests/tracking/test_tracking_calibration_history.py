@@ -4,13 +4,13 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import pytest
+from calibration_samples import sample
 
 from app.tracking.calibration.history import CalibrationHistory
 from app.tracking.calibration.history_file import condemned_ids
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
 from app.tracking.optics.rig import load_rig
-from tests.tracking.calibration_samples import sample
 
 
 def made(name: str) -> StereoCalibration:
