@@ -19,7 +19,7 @@ from app.views.debrief.curves import CurvesView, curves_of, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.print_plot import polylines, ticks
 from app.views.debrief.report import report_bytes, write_report
-from app.views.debrief.review import marks, only_measured, spans
+from app.views.debrief.review import Span, marks, only_measured, spans
 from app.views.debrief.review import review as review_of
 from app.views.debrief.score_words import number, row_texts, verdict
 
@@ -96,6 +96,31 @@ def test_the_pointer_reads_every_curve_and_the_state(qt):
     assert "–" in view.read_out(30.4)
     view._hover(QPointF(450.0, 300.0))
     assert all(cursor.isVisible() for cursor in view._cursors)
+    view.deleteLater()
+
+
+@pytest.mark.parametrize("size", [(900, 700), (300, 260)])
+def test_an_attempt_of_a_tenth_of_a_second_fills_a_time_axis_in_plain_seconds(qt, size):
+    full = review().curves
+    names = ("depth", "lateral", "remaining", "angle", "felt")
+    parts = {name: getattr(full, name)[:5] for name in names}
+    short = Curves(time=np.linspace(0.0, 0.1, 5), **parts)
+    view = CurvesView()
+    view.resize(*size)
+    view.show_review(review(curves=short, spans=(Span("aligning", 0.0, 0.1),), marks=()))
+    for _ in range(5):
+        view._draw_next()
+    view.show()
+    qt.processEvents()
+    for plot in view._plots:
+        assert plot.viewRange()[0] == pytest.approx([0.0, 0.1], abs=0.01)
+    view._plots[2].setXRange(0.02, 0.06, padding=0.0)  # the axis is one: all plots go along
+    assert all(plot.viewRange()[0] == pytest.approx([0.02, 0.06]) for plot in view._plots)
+    axis = view._plots[-1].getAxis("bottom")
+    assert axis.labelText == "Time [s]"
+    assert "0.001" not in axis.label.toPlainText()
+    assert axis.autoSIPrefixScale == 1.0
+    assert view.read_out(0.05).startswith("0.050 s")
     view.deleteLater()
 
 

@@ -26,6 +26,12 @@ PHASE_SHADES: Final = {
 }
 """Background of each state, dark enough for any curve on it."""
 
+SHORTEST_S: Final = 0.05
+"""Shortest time axis [s]."""
+
+SHORT_S: Final = 2.0
+"""Times of an attempt up to this are read out in milliseconds."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Curve:
@@ -140,9 +146,17 @@ class CurvesView(QWidget):
         box = pg.ViewBox(enableMenu=False)  # the menus that nobody opens take most of the time
         plot = self.graphics.addPlot(row=row, col=0, viewBox=box, enableMenu=False)
         _prepare(plot, curve, last=row == len(self._curves) - 1)
-        if self._plots:
-            plot.setXLink(self._plots[0])
+        box.sigXRangeChanged.connect(self._follow)
         return plot
+
+    def _follow(self, moved: pg.ViewBox, span: tuple[float, float]) -> None:
+        """Give all plots the time axis of the one that was moved.
+
+        Not `setXLink`: it aligns by pixels, and shifts the axis while the plots are not laid out.
+        """
+        for plot in self._plots:
+            if plot.getViewBox() is not moved:
+                plot.setXRange(*span, padding=0.0)
 
     def read_out(self, time: float) -> str:
         """Say all figures at a time [s]."""
@@ -150,7 +164,8 @@ class CurvesView(QWidget):
         if review is None or len(review.curves.time) == 0:
             return ""
         i = int(np.argmin(np.abs(review.curves.time - time)))
-        parts = [f"{review.curves.time[i]:.1f} s", _state_at(review.spans, time)]
+        digits = 1 if time_end(review.curves.time) > SHORT_S else 3
+        parts = [f"{review.curves.time[i]:.{digits}f} s", _state_at(review.spans, time)]
         for curve in self._curves:
             value = curve.values[i]
             text = f"{value:.1f} {curve.unit}" if np.isfinite(value) else "–"
@@ -177,6 +192,7 @@ def _prepare(plot: pg.PlotItem, curve: Curve, last: bool) -> None:
     for axis in (left, plot.getAxis("bottom")):
         axis.setPen(theme.BORDER)
         axis.setTextPen(theme.TEXT_DIM)
+        axis.enableAutoSIPrefix(False)  # or a short attempt's seconds become thousandths "(x0.001)"
     plot.showGrid(x=True, y=True, alpha=0.15)
     plot.getAxis("bottom").setStyle(showValues=last)
     if last:
@@ -203,7 +219,12 @@ def _draw(plot: pg.PlotItem, review: Review, curve: Curve) -> None:
     low, high = value_range(curve)
     plot.setYRange(low, high, padding=0.0)
     if len(review.curves.time):
-        plot.setXRange(0.0, max(1.0, float(review.curves.time[-1])), padding=0.01)
+        plot.setXRange(0.0, time_end(review.curves.time), padding=0.01)
+
+
+def time_end(time: FloatArray) -> float:
+    """End of the time axis [s]: the last sample, however short the attempt was."""
+    return max(SHORTEST_S, float(time[-1]) if len(time) else 1.0)
 
 
 def value_range(curve: Curve) -> tuple[float, float]:
@@ -228,7 +249,7 @@ def _shade(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None
 
 def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
     """Name the states below and the events above the first curve."""
-    total = float(review.curves.time[-1]) if len(review.curves.time) else 0.0
+    total = time_end(review.curves.time)
     for span in review.spans:
         if span.end - span.start > 0.06 * total:  # a narrower one has no room for its name
             text = pg.TextItem(state_word(span.state), color=theme.TEXT_DIM, anchor=(0.5, 1))

@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
 from app.core.arrays import FloatArray
-from app.views.debrief.curves import Curve, value_range
+from app.views.debrief.curves import Curve, time_end, value_range
 from app.views.debrief.print_style import DIM, INK, LINE, font
 from app.views.debrief.review import Mark, Span
 from app.views.exercise.state_words import state_word
@@ -33,7 +33,7 @@ def paint_plot(
     """Draw one curve into `box` [pt]; `labelled` adds the time axis and the names of the states."""
     area = box.adjusted(_LEFT, _TITLE, 0.0, -24.0 if labelled else -6.0)
     low, high = value_range(curve)
-    end = max(1.0, float(time[-1]) if len(time) else 1.0)
+    end = time_end(time)
     _paint_spans(painter, area, spans, end, labelled)
     _paint_grid(painter, area, (low, high), end, labelled)
     painter.setFont(font(8.5, bold=True))
