@@ -20,7 +20,7 @@ from typing import Any
 
 from app.core.configuration import parse
 from app.exchange.errors import UrdfError
-from app.mechanisms.profile import DeviceProfile, GeometrySection
+from app.mechanisms.profile import DeviceProfile, GeometrySection, Provenance
 
 _LARGEST = 5_000_000
 """Size above which a file is no robot description [bytes]."""
@@ -33,7 +33,7 @@ _DIGITS = 12
 
 
 def read_geometry(path: Path) -> GeometrySection:
-    """Read the lengths; each is marked as published.
+    """Read the lengths; each is marked as imported: the file does not say where it has them.
 
     Raises:
         UrdfError: if the file cannot be read, is no XML, has a document type, lacks a joint, has
@@ -58,12 +58,14 @@ def read_geometry(path: Path) -> GeometrySection:
         "fulcrum": (round(x - middle, _DIGITS), y, z),
         "needle_length": _needle_length(path, root),
     }
-    provenance = dict.fromkeys(values, "published")
+    provenance = dict.fromkeys(values, Provenance.IMPORTED)
     return parse(values | {"provenance": provenance}, GeometrySection, str(path))
 
 
 def profile_like(model: DeviceProfile, geometry: GeometrySection, name: str) -> dict[str, Any]:
     """Return a profile document (for YAML) with the geometry read and all else from `model`.
+
+    What was measured or published of the model is an estimate of another robot, and marked so.
 
     Raises:
         ConfigurationError: if the two do not fit together.
@@ -71,6 +73,9 @@ def profile_like(model: DeviceProfile, geometry: GeometrySection, name: str) -> 
     document = model.model_dump(mode="json", exclude_none=True)
     document["name"] = name
     document["description"] = f"lengths from a URDF, all else from {model.name}"
+    for section in document.values():
+        if isinstance(section, dict):
+            section["provenance"] = dict.fromkeys(section["provenance"], "estimated")
     document["geometry"] = geometry.model_dump(mode="json")
     parse(document, DeviceProfile, f"profile {name}")
     return document

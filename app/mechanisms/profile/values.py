@@ -34,11 +34,16 @@ Acceleration = Annotated[float, Field(ge=-25.0, le=25.0)]
 
 
 class Provenance(StrEnum):
-    """Where a value comes from."""
+    """Where a value comes from.
+
+    `MEASURED`: on this device. `PUBLISHED`: by whoever built it. `ESTIMATED`: by whoever wrote the
+    profile. `IMPORTED`: from a file that does not say, such as a URDF.
+    """
 
     MEASURED = "measured"
     PUBLISHED = "published"
     ESTIMATED = "estimated"
+    IMPORTED = "imported"
 
 
 class Section(Strict):
