@@ -98,3 +98,15 @@ def test_a_link_that_cannot_be_turned_so_far_is_refused(hand):
 def test_a_hand_that_is_not_known_is_refused():
     with pytest.raises(LinkError, match="valid names: none, rest, script"):
         EmulatedHand(PROFILE, DEPTH, Q, "nobody")
+
+
+def test_an_order_that_there_is_not_is_answered_with_all_that_there_are():
+    from app.compose.emulator import Emulator, EmulatorSetup
+    from app.mechanisms.profile import load_profile
+
+    emulator = Emulator(EmulatorSetup(load_profile("icube")), lambda _: None)
+    with pytest.raises(LinkError, match="no fault or order 'smoke'") as told:
+        emulator.switch("smoke 1")
+    for name in ("drop", "error", "reset", "unplug", "park", "hold", "turn", "lean"):
+        assert name in str(told.value)
+    emulator.switch("park on")

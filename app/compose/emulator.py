@@ -26,7 +26,7 @@ from app.device.errors import LinkError
 from app.device.links import board_layout as at
 from app.device.links import fault_box, line, wire
 from app.device.links.board_layout import new_board
-from app.device.links.fault_box import Faults
+from app.device.links.fault_box import FAULTS, Faults
 from app.device.links.transport import fd_await, fd_send
 from app.mechanisms.profile import DeviceProfile
 from app.simulation.plant import initial_plant, plant_stage
@@ -203,8 +203,11 @@ class Emulator:
             self._unplug(value != 0.0)
         elif name == "park":
             self._array[_PARKED] = value != 0.0
-        else:
+        elif name in FAULTS:
             self._faults.set(name, value)
+        else:
+            valid = (*FAULTS, "unplug", "park", *ORDERS)
+            raise LinkError(f"no fault or order {name!r}; valid names: {', '.join(valid)}")
 
     def _unplug(self, out: bool) -> None:
         self._array[_UNPLUGGED] = out

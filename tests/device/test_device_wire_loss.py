@@ -135,8 +135,9 @@ def test_a_frozen_board_is_said_to_be_silent_and_comes_back(robot):
 def test_a_board_of_another_version_is_named_with_both_versions(robot):
     robot.order("version 9")
     link = SerialLink(robot.path, ICUBE)
-    with pytest.raises(LinkError, match=r"version 9 .*version 1.*update the program"):
+    with pytest.raises(LinkError, match=r"version 9 .*version 1.*update the program") as told:
         link.open()
+    assert str(told.value).startswith(f"{robot.path}: ")  # there may be several robots
     link.close()
 
 

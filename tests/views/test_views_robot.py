@@ -10,6 +10,7 @@ from views_exercise_fakes import run, snapshot
 
 from app.core import state_vector as sv
 from app.device.faults import Fault
+from app.device.links.board_error import BoardError
 from app.device.links.link import BoardInfo, LinkStatus
 from app.device.readiness import Clearance, Readiness
 from app.views.exercise.energy_gauge import GaugeMode
@@ -100,6 +101,8 @@ def test_a_governor_and_an_error_of_the_board_are_told():
     items = lines(BOARD, WIRE | {"let_go_scale": 0.3, "arming": 1.0, "board_error": 4.0})
     assert items["Speed governor"].text == "force at 30 %"
     assert items["Board's error"].verdict is Verdict.BAD
+    assert items["Board's error"].text == f"{BoardError.AMPLIFIER.message} (code 4)"
+    assert "does not know" in lines(BOARD, WIRE | {"board_error": 99.0})["Board's error"].text
 
 
 def test_a_robot_that_says_nothing_is_told():

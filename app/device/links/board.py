@@ -18,11 +18,12 @@ from app.device.links import acus_protocol as acus
 from app.device.links import board_layout as at
 from app.device.links import framing, wire
 from app.device.links import haply_protocol as haply
+from app.device.links.board_error import BoardError
 from app.device.links.framing import RECEIVER
 
 # Compiled code takes plain integers as constants.
-_BAD_TORQUE = int(acus.BoardError.TORQUE_NOT_FINITE)
-_HOME_REFUSED = int(acus.BoardError.HOME_REFUSED)
+_BAD_TORQUE = int(BoardError.TORQUE_NOT_FINITE)
+_HOME_REFUSED = int(BoardError.HOME_REFUSED)
 
 
 @njit

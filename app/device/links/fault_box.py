@@ -39,6 +39,21 @@ def exchange(p: FloatArray, now: float, sent: Any, count: int, answer: Any, fill
     return line.pop(up, now, answer, fill, len(answer))
 
 
+_SWITCHES: Final = {  # most, factor, places in the box
+    "drop": (1.0, 1.0, (DOWN + line.DROP, UP + line.DROP)),
+    "garble": (1.0, 1.0, (DOWN + line.GARBLE, UP + line.GARBLE)),
+    "delay": (30.0, 1e-3, (DOWN + line.DELAY, UP + line.DELAY)),
+    "cut": (1.0, 1.0, (DOWN + line.CUT, UP + line.CUT)),
+    "freeze": (1.0, 1.0, (at.FROZEN,)),
+    "reset": (1.0, 1.0, (at.RESET,)),
+    "version": (255.0, 1.0, (at.VERSION,)),
+    "error": (255.0, 1.0, (at.ERROR,)),
+}
+
+FAULTS: Final = tuple(_SWITCHES)
+"""Names of the faults."""
+
+
 @dataclass(frozen=True, slots=True)
 class Faults:
     """Switches of a board and its wire; `array` is the box that they act on.
@@ -56,19 +71,9 @@ class Faults:
         Raises:
             LinkError: if there is no such fault, or the value is out of range; names those valid.
         """
-        valid = {
-            "drop": (1.0, 1.0, (DOWN + line.DROP, UP + line.DROP)),
-            "garble": (1.0, 1.0, (DOWN + line.GARBLE, UP + line.GARBLE)),
-            "delay": (30.0, 1e-3, (DOWN + line.DELAY, UP + line.DELAY)),
-            "cut": (1.0, 1.0, (DOWN + line.CUT, UP + line.CUT)),
-            "freeze": (1.0, 1.0, (at.FROZEN,)),
-            "reset": (1.0, 1.0, (at.RESET,)),
-            "version": (255.0, 1.0, (at.VERSION,)),
-            "error": (255.0, 1.0, (at.ERROR,)),
-        }
-        if name not in valid:
-            raise LinkError(f"no fault {name!r}; valid names: {', '.join(valid)}")
-        most, factor, places = valid[name]
+        if name not in _SWITCHES:
+            raise LinkError(f"no fault {name!r}; valid names: {', '.join(FAULTS)}")
+        most, factor, places = _SWITCHES[name]
         if not 0.0 <= value <= most:
             raise LinkError(f"fault {name} is {value:g}; it must be from 0 to {most:g}")
         for place in places:

@@ -133,7 +133,7 @@ class SerialLink(DeviceLink):
         port = Port(self.port, self.profile.wire.baud)
         port.open()
         try:
-            info = self._speech.greet(port.exchange)
+            info = self._greeted(port)
             if serial is not None and info.serial != serial:
                 raise LinkError(
                     f"another robot answers on {self.port} (serial number {info.serial!r} instead"
@@ -150,6 +150,13 @@ class SerialLink(DeviceLink):
         self._say(f"connected to {info.profile or 'a board'} on {self.port}", boot=info.boot)
         if self._on_connect is not None:
             self._on_connect(info)
+
+    def _greeted(self, port: Port) -> BoardInfo:
+        """Greet; what goes wrong is said with the port: there may be several robots."""
+        try:
+            return self._speech.greet(port.exchange)
+        except LinkError as error:
+            raise type(error)(f"{self.port}: {error}") from error
 
     def _find_again(self) -> None:
         self._say(f"the robot on {self.port} is gone; looking for it")

@@ -7,6 +7,7 @@ from math import degrees, isfinite
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.device.links.board_error import describe_error
 from app.device.links.link import LinkStatus
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
@@ -46,7 +47,8 @@ def wire_items(
     error = int(row[sv.BOARD_ERROR])
     board = StatusItem(
         Verdict.BAD if error else Verdict.GOOD, tr("Board's error"),
-        tr("code {code}", code=error) if error else tr("none"),
+        tr("{words} (code {code})", words=describe_error(error), code=error) if error else
+        tr("none"),
         tr("Error that the board reports; docs/protocol.md lists the codes."),
     )  # fmt: skip
     if wire is None or (not run.is_real and wire.replies == 0.0):
