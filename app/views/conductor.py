@@ -75,7 +75,6 @@ class Conductor(QObject):
         self._runs.ready.connect(self._attach)
         self._runs.moved.connect(self._moved)
         self._runs.gone.connect(self._detach)
-        self._runs.failed.connect(self.failed)
         self._surfaces.failed.connect(self.failed)
         self.controller.snapshot_taken.connect(self.show_snapshot)
 

@@ -85,6 +85,7 @@ class Demonstration(QObject):
         for failure in (
             window.open_ct.failed,
             window.conductor.failed,
+            window.runs.failed,
             window.conductor.controller.failed,
         ):
             failure.connect(self._stop)

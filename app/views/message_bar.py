@@ -1,6 +1,7 @@
 """Errors and notes at the top of the window: they stop nothing and go when closed.
 
-Notes go by themselves after a while, and what was refused goes with the next change that works.
+Notes go by themselves after a while; what was refused goes with the next change that works, and
+what kept the robot away goes when a robot is there.
 """
 
 from __future__ import annotations
@@ -17,6 +18,9 @@ from app.views.text import tr
 NOTE_MS = 6000
 """A note that something worked is shown this long."""
 
+REFUSAL, ROBOT = "refusal", "robot"
+"""Topics: the user's last change was refused; no robot can be had."""
+
 LONGEST = 260
 """Characters shown in the bar; the rest stands in the details."""
 
@@ -28,7 +32,7 @@ class MessageBar(QWidget):
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self._details = ""
-        self._refusal = False
+        self._topic = ""
         self._note = QTimer(self, interval=NOTE_MS, singleShot=True)
         self._note.timeout.connect(self.hide)
         self._symbol, self._text = QLabel(self), QLabel(self)
@@ -68,14 +72,19 @@ class MessageBar(QWidget):
         self._show("good", text, "")
         self._note.start()
 
-    def show_refusal(self, error: Exception | str) -> None:
-        """Tell why something was not done, until something is."""
-        self.show_error(error)
-        self._refusal = True
+    def show_until(self, topic: str, error: Exception | str) -> None:
+        """Tell what happened, until `forget` says that it is true no more.
 
-    def forget_refusal(self) -> None:
-        """Hide a refusal: what the user did next was done."""
-        if self._refusal:
+        Args:
+            topic: what it is about, e.g. `REFUSAL`.
+            error: what happened.
+        """
+        self.show_error(error)
+        self._topic = topic
+
+    def forget(self, topic: str) -> None:
+        """Hide the message if it is about a topic: it is true no more."""
+        if self._topic == topic:
             self.hide()
 
     def show_details(self) -> None:
@@ -87,7 +96,7 @@ class MessageBar(QWidget):
 
     def _show(self, verdict: str, text: str, details: str) -> None:
         self._note.stop()
-        self._refusal = False
+        self._topic = ""
         colour, symbol = theme.VERDICTS[verdict]
         self._symbol.setText(symbol)
         self._symbol.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX}px;")

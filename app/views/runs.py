@@ -24,12 +24,14 @@ class Runs(QObject):
         moved(ExerciseRun): the same trainer took another plan.
         gone(): there is no trainer now.
         failed(object): the error that kept one from running.
+        starting(bool): one is being built, or no more.
     """
 
     ready = Signal(object)
     moved = Signal(object)
     gone = Signal()
     failed = Signal(object)
+    starting = Signal(bool)
 
     def __init__(self, services: Services, indicator: Indicator, parent: QObject) -> None:
         super().__init__(parent)
@@ -92,6 +94,7 @@ class Runs(QObject):
 
     def _build(self, setup: RunSetup) -> None:
         self._setup = setup
+        self.starting.emit(True)
         closed, services = self.closed(), self._services
 
         def operation(progress: Progress) -> OpenRun:
@@ -110,6 +113,7 @@ class Runs(QObject):
 
     def _built(self, setup: RunSetup, opened: OpenRun) -> None:
         self._task, self._open = None, opened
+        self.starting.emit(False)
         if self._wanted is None or not self._wanted.same_run(setup):
             self.want(self._wanted)
             return
@@ -118,6 +122,7 @@ class Runs(QObject):
 
     def _not_built(self, error: Exception | None) -> None:
         self._task, self._setup = None, None
+        self.starting.emit(False)
         if error is not None:
             self.failed.emit(error)
 

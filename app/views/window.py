@@ -18,7 +18,7 @@ from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.sessions import SessionsPage
 from app.views.menus import Menus
-from app.views.message_bar import MessageBar
+from app.views.message_bar import REFUSAL, ROBOT, MessageBar
 from app.views.notices import Notices
 from app.views.open_ct import OpenCt
 from app.views.patient import Patient
@@ -195,14 +195,21 @@ class MainWindow(QMainWindow):
 
     def _connect(self) -> None:
         bar, conductor = self.message_bar, self.conductor
-        for failure in (self.open_ct.failed, conductor.failed, self.plan_files.failed,
-                        self.debrief.failed, conductor.controller.failed,
-                        self.robot.failed):  # fmt: skip
+        for failure in (
+            self.open_ct.failed,
+            conductor.failed,
+            self.plan_files.failed,
+            self.debrief.failed,
+            conductor.controller.failed,
+        ):
             failure.connect(bar.show_error)
         self.plan_files.noted.connect(bar.show_note)
         self.debrief.saved.connect(lambda path: bar.show_note(tr("Saved {name}", name=path)))
-        self.editor.refused.connect(bar.show_refusal)
-        self.editor.changed.connect(bar.forget_refusal)
+        self.editor.refused.connect(lambda error: bar.show_until(REFUSAL, error))
+        self.editor.changed.connect(lambda: bar.forget(REFUSAL))
+        for failure in (self.runs.failed, self.robot.failed):
+            failure.connect(lambda error: bar.show_until(ROBOT, error))
+        self.runs.ready.connect(lambda _: bar.forget(ROBOT))
         self.open_ct.opened.connect(
             lambda patient: self.plan_files.after_question(lambda: self.show_patient(patient))
         )

@@ -6,7 +6,7 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QMainWindow, QWidget
 
 from app.imaging.orthogonal import View
-from app.views.message_bar import MessageBar
+from app.views.message_bar import REFUSAL, ROBOT, MessageBar
 from app.views.notices import Notices
 from app.views.slices.pane import SlicePane
 from app.views.slices.presets import default_window
@@ -67,11 +67,23 @@ def test_a_note_goes_by_itself_and_an_error_stays(window):
 
 
 def test_a_refusal_goes_with_the_next_change_and_an_error_does_not(window):
-    window.bar.show_refusal("too far from the skin")
-    window.bar.forget_refusal()
+    window.bar.show_until(REFUSAL, "too far from the skin")
+    window.bar.forget(REFUSAL)
     assert window.bar.isHidden()
     window.bar.show_error("cannot write")
-    window.bar.forget_refusal()
+    window.bar.forget(REFUSAL)
+    assert not window.bar.isHidden()
+
+
+def test_what_kept_the_robot_away_goes_when_it_is_there_and_nothing_else_does(window):
+    window.bar.show_until(ROBOT, "/dev/ttyACM0: no board answers")
+    window.bar.forget(REFUSAL)
+    assert not window.bar.isHidden()
+    window.bar.forget(ROBOT)
+    assert window.bar.isHidden()
+    window.bar.show_until(ROBOT, "/dev/ttyACM0: no board answers")
+    window.bar.show_error("cannot write")
+    window.bar.forget(ROBOT)
     assert not window.bar.isHidden()
 
 

@@ -377,9 +377,14 @@ def test_choosing_a_robot_again_tries_again(window, patient, services, settle):
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: "no port" in window.message_bar.text, 10.0)
+    empty = window.workspace.health_panel._empty
+    assert "No robot is running" in empty.text()
     services.refuses = ""
     window.robot.choose("/dev/ttyACM0")
+    assert "starting" in empty.text()
     assert settle(lambda: window.runs.run is not None, 10.0)
+    assert window.message_bar.isHidden()
+    assert "starting" not in empty.text()
     window.robot.choose("")
 
 

@@ -178,6 +178,7 @@ class RobotDesk(QObject):
         controller, health = self._conductor.controller, self._workspace.health_panel
         controller.snapshot_taken.connect(self._show_health)
         self._runs.gone.connect(health.clear)
+        self._runs.starting.connect(health.set_starting)
         health.commissioning_wanted.connect(self.commission)
         self._workspace.bullseye.source.chosen.connect(self._remember_hand)
         self._workspace.exercise_panel.enable.key.watch(self._window)

@@ -54,11 +54,12 @@ class HealthPanel(QWidget):
         self.copy = QPushButton(tr("Copy report"), self)
         self.copy.setToolTip(tr("Copies everything on this page as plain text"))
         self.commission = QPushButton(tr("Commissioning…"), self)
-        self._empty = QLabel(tr("No robot is running: open a patient with a plan."), self)
+        self._empty = QLabel(self)
         self._empty.setWordWrap(True)
         self._lay_out()
         self.copy.clicked.connect(self.copy_report)
         self.commission.clicked.connect(self.commissioning_wanted)
+        self.set_starting(False)
         self.clear()
 
     def show_snapshot(
@@ -87,6 +88,11 @@ class HealthPanel(QWidget):
         """Say that there is no robot."""
         self._watch, self._shown = WireWatch(), -1e9
         self._fill(())
+
+    def set_starting(self, starting: bool) -> None:
+        """Say, while there is no robot, whether one is on its way."""
+        none = tr("No robot is running: open a patient with a plan.")
+        self._empty.setText(tr("The robot is starting…") if starting else none)
 
     def report(self, when: datetime) -> str:
         """Everything on the page as plain text."""
