@@ -1,0 +1,221 @@
+"""A registration check: touched and picked fiducials of a plate, and what they say of a target."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from app.core.arrays import FloatArray, frozen
+from app.core.confidence import chi_square_quantile, covariance_radius
+from app.core.transform import RigidTransform
+from app.core.units import MILLIMETRE
+from app.planning.registration.correspondence import Outlier, Reordering, better_order, outlier
+from app.planning.registration.errors import RegistrationError
+from app.planning.registration.plate import FiducialPlate
+from app.planning.registration.points import NamedPoints
+from app.planning.registration.rigid import RigidFit, rigid_fit
+from app.planning.registration.uncertainty import (
+    FiducialError,
+    TargetError,
+    fiducial_error,
+    stated_target_error,
+    target_error,
+)
+
+LARGEST_SCATTER = 0.99
+"""Residuals that a careful touch exceeds this rarely are called too large."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PointCheck:
+    """The plate's fiducials against the same ones found in another frame.
+
+    Attributes:
+        names: of the fiducials used.
+        fit: plate to that frame.
+        fiducial: localisation error from the residuals.
+        target: expected error by the residuals.
+        stated: expected error by the covariances that came with the points; None without.
+        reordering: an order that fits far better; None if the given one is right.
+        outlier: one point that does not belong; None.
+        tolerance: of a single residual [m].
+        scattered: whether the residuals are larger than careful work explains.
+    """
+
+    names: tuple[str, ...]
+    fit: RigidFit
+    fiducial: FiducialError
+    target: TargetError
+    stated: TargetError | None
+    reordering: Reordering | None
+    outlier: Outlier | None
+    tolerance: float
+    scattered: bool
+
+    @property
+    def trusted(self) -> bool:
+        """Whether the points are what they are named after and no residual is a mistake."""
+        within = bool((np.linalg.norm(self.fit.residuals, axis=1) <= self.tolerance).all())
+        return within and self.reordering is None and self.outlier is None
+
+    def bounded(self, point: ArrayLike) -> FloatArray:
+        """Covariance [m²] at a point whose 95 % ellipsoid, by chi-square, holds the error.
+
+        The larger of what the residuals and what the stated covariances say: three lucky touches
+        must not promise more than the cameras can.
+        """
+        by_residuals = self.target.bounded(point)
+        if self.stated is None:
+            return by_residuals
+        by_statement = self.stated.at(point)
+        return max(by_residuals, by_statement, key=lambda spread: float(np.trace(spread)))
+
+
+def check_points(plate: FiducialPlate, reference: FloatArray, found: NamedPoints) -> PointCheck:
+    """Check points that were found against the plate's.
+
+    Args:
+        plate: gives names, tolerance and the error to expect.
+        reference: `plate.touch` or `plate.beads`.
+        found: the same fiducials in another frame; some may be left out.
+
+    Raises:
+        RegistrationError: if a name is not on the plate, or the points fix no rotation.
+    """
+    fit = rigid_fit(reference[plate.rows(found.names)], found.points)
+    tolerance = plate.tolerance_mm * MILLIMETRE
+    variance = (plate.localisation_mm * MILLIMETRE) ** 2 / 3.0
+    limit = chi_square_quantile(LARGEST_SCATTER, fit.freedom) * variance
+    return PointCheck(
+        found.names,
+        fit,
+        fiducial_error(fit),
+        target_error(fit),
+        stated_target_error(fit, found.covariances) if found.stated else None,
+        better_order(fit, tolerance),
+        outlier(fit, tolerance),
+        tolerance,
+        fit.sum_of_squares > limit,
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Agreement:
+    """How far what the screen shows may be from where the needle is, at one point.
+
+    Attributes:
+        offset: displacement that was found and is not corrected [m], shape (3,), world.
+        covariance: of all that is not known [m²], shape (3, 3), world; by chi-square.
+    """
+
+    offset: FloatArray
+    covariance: FloatArray
+
+    @property
+    def radius(self) -> float:
+        """Distance that holds with 95 % [m]: the offset found and the radius round it."""
+        return float(np.linalg.norm(self.offset)) + covariance_radius(self.covariance)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RegistrationCheck:
+    """One check with a plate.
+
+    Attributes:
+        plate: that was used.
+        world: touches, T_world_plate.
+        patient: picks in a CT, T_patient_plate; None where no CT was used.
+    """
+
+    plate: FiducialPlate
+    world: PointCheck
+    patient: PointCheck | None = None
+
+    @classmethod
+    def of(
+        cls, plate: FiducialPlate, touched: NamedPoints, picked: NamedPoints | None = None
+    ) -> "RegistrationCheck":
+        """Check touches, and picks where there are any.
+
+        Raises:
+            RegistrationError: if a name is not on the plate, or points fix no rotation.
+        """
+        world = check_points(plate, plate.touch, touched)
+        patient = check_points(plate, plate.beads, picked) if picked is not None else None
+        return cls(plate, world, patient)
+
+    @property
+    def trusted(self) -> bool:
+        """Whether both parts are."""
+        return self.world.trusted and (self.patient is None or self.patient.trusted)
+
+    @property
+    def T_world_patient(self) -> RigidTransform | None:
+        """Measured registration of the scanned phantom (LPS metres); None without picks."""
+        if self.patient is None:
+            return None
+        T_patient_plate = self.patient.fit.T_measured_reference
+        return self.world.fit.T_measured_reference @ T_patient_plate.inverse()
+
+    def spread(self, p_world: ArrayLike) -> FloatArray:
+        """Covariance [m²] at a point whose 95 % ellipsoid holds the error, shape (3, 3), world.
+
+        With picks that of the measured T_world_patient: the touches' and the picks' errors add.
+        """
+        return self._summed(p_world, PointCheck.bounded)
+
+    def expected(self, p_world: ArrayLike) -> FloatArray:
+        """Covariance of the error that the residuals let expect at a point [m²], shape (3, 3)."""
+        return self._summed(p_world, lambda part, point: part.target.at(point))
+
+    def _summed(
+        self, p_world: ArrayLike, of: Callable[[PointCheck, FloatArray], FloatArray]
+    ) -> FloatArray:
+        point = frozen(p_world, (3,), "target")
+        covariance = of(self.world, point)
+        T_world_patient = self.T_world_patient
+        if self.patient is None or T_world_patient is None:
+            return covariance
+        rotation = T_world_patient.rotation
+        inside = of(self.patient, T_world_patient.inverse() @ point)
+        result: FloatArray = covariance + rotation @ inside @ rotation.T
+        return result
+
+    def agreement(
+        self,
+        p_world: ArrayLike,
+        tip_covariance: ArrayLike | None = None,
+        T_world_patient: RigidTransform | None = None,
+    ) -> Agreement:
+        """How well screen and needle agree at a point.
+
+        Args:
+            p_world: the target, where the program believes it [m], shape (3,).
+            tip_covariance: of the tracked tip [m²], shape (3, 3), calibration included.
+            T_world_patient: that the screen uses. With it, and picks, the offset is that from the
+                measured one; else from the plate's known place.
+
+        Raises:
+            RegistrationError: if the points cannot be trusted, or there is nothing to compare
+                with: a plate without a known place, and no picks.
+        """
+        if not self.trusted:
+            raise RegistrationError(
+                "the points do not fit the plate, so nothing can be said of the target; see the "
+                "residuals, touch the named fiducials again"
+            )
+        point = frozen(p_world, (3,), "target")
+        tip = np.zeros((3, 3)) if tip_covariance is None else frozen(tip_covariance, (3, 3), "tip")
+        measured, used, own = self.T_world_patient, T_world_patient, 0.0
+        if measured is None or used is None:
+            if self.plate.place is None:
+                raise RegistrationError(
+                    f"plate {self.plate.name} has no known place in the robot's frame and no "
+                    "beads were picked: the touches have nothing to agree with; give `place`, or "
+                    "pick the beads in the CT"
+                )
+            measured, used = self.world.fit.T_measured_reference, self.plate.place.transform
+            own = (self.plate.place_sd_mm * MILLIMETRE) ** 2
+        offset = measured @ (used.inverse() @ point) - point
+        return Agreement(frozen(offset), frozen(self.spread(point) + tip + own * np.eye(3)))
