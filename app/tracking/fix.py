@@ -27,7 +27,8 @@ class NeedleFix:
 
     Attributes:
         p_tip_world: the tip [m], shape (3,); zero unless `has_point`.
-        covariance: of the tip [m²], shape (3, 3); zero unless `has_point`.
+        covariance: of the tip [m²], shape (3, 3), with everything that is known to be uncertain:
+            pictures and calibration; zero unless `has_point`.
         time: when the pictures were captured [s].
         status: see `usable` for whether there is a measurement.
         pixels: where each camera shows the marker's outline [px], None where it does not.
@@ -38,6 +39,9 @@ class NeedleFix:
         has_point: whether there is a tip at all (`valid`, most of `inconsistent`, and of
             `one_camera` where one ray and the robot's line meet at a good angle).
         reason: one line for people; empty when valid.
+        noise_covariance: the share of `covariance` that differs from picture to picture [m²]; the
+            rest, by the calibration, is the same in all and does not average out. Without it
+            everything counts as noise.
     """
 
     p_tip_world: FloatArray
@@ -51,10 +55,13 @@ class NeedleFix:
     missing: tuple[str, ...] = ()
     has_point: bool = False
     reason: str = ""
+    noise_covariance: FloatArray | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "p_tip_world", frozen(self.p_tip_world, (3,), "tip"))
         object.__setattr__(self, "covariance", frozen(self.covariance, (3, 3), "covariance"))
+        noise = self.covariance if self.noise_covariance is None else self.noise_covariance
+        object.__setattr__(self, "noise_covariance", frozen(noise, (3, 3), "noise covariance"))
 
     @property
     def usable(self) -> bool:

@@ -9,6 +9,7 @@ from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.rig import RigProfile
+from app.tracking.stereo.calibration_error import CalibrationError
 from app.tracking.stereo.one_camera import LEAST_ANGLE, LinePoint, RayStatus, point_on_line
 from app.tracking.stereo.rays import normalised
 
@@ -21,11 +22,13 @@ class OneEyed:
         point: the band's centre; None if there is none.
         consistent: whether ray and line meet as well as both are known.
         reason: one line for people about the point, or why there is none.
+        covariance: of the point with the calibration's error [m²]; None without a point.
     """
 
     point: LinePoint | None
     consistent: bool
     reason: str
+    covariance: FloatArray | None = None
 
 
 class OneCameraSolver:
@@ -37,6 +40,7 @@ class OneCameraSolver:
         self._fulcrum = fulcrum
         self._systematic = rig.systematic_px**2 * np.eye(2)
         self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
+        self._error = CalibrationError(rig.calibration) if rig.calibration is not None else None
         self._limit = chi_square_quantile(1.0 - gate, 1)
 
     def solve(
@@ -79,8 +83,28 @@ class OneCameraSolver:
                 point,
                 False,
                 f"{lost}; the {name} camera sees it {pixels:.1f} px beside the needle's line",
+                point.covariance,
             )
-        return OneEyed(point, True, f"{lost}: depth by the {name} camera and the needle's line")
+        return OneEyed(
+            point,
+            True,
+            f"{lost}: depth by the {name} camera and the needle's line",
+            self._with_calibration(camera, point, covariance, axis),
+        )
+
+    def _with_calibration(
+        self, camera: int, point: LinePoint, covariance: FloatArray, axis: FloatArray
+    ) -> FloatArray:
+        if self._error is None:
+            return point.covariance
+        model = self._models[camera]
+        p_camera = model.T_camera_world @ point.p_world
+        jacobian = model.ray_jacobian(p_camera[:2] / p_camera[2])
+        seen = jacobian @ (covariance + self._systematic) @ jacobian.T
+        prior = (np.eye(3) - np.outer(axis, axis)) / self._line_variance
+        return point.covariance + self._error.covariance(
+            point.p_world, seen[None], (camera,), prior
+        )
 
     def _point(
         self,

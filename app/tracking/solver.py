@@ -12,6 +12,7 @@ from app.tracking.markers.extractor import Centre, MarkerFix
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.one_camera_fix import OneCameraSolver
 from app.tracking.optics.rig import RigProfile
+from app.tracking.stereo.calibration_error import CalibrationError
 from app.tracking.stereo.rays import normalised
 from app.tracking.stereo.triangulation import StereoStatus, Triangulation, Way, triangulate
 
@@ -47,6 +48,7 @@ class FixSolver:
         self._fulcrum = frozen(fulcrum, (3,), "fulcrum")
         self._systematic = rig.systematic_px**2 * np.eye(2)
         self._single = OneCameraSolver(rig, self._fulcrum, GATE)
+        self._error = CalibrationError(rig.calibration) if rig.calibration is not None else None
         self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
 
     def solve(
@@ -81,19 +83,21 @@ class FixSolver:
         if found is None or found.status is not StereoStatus.FOUND:
             why = "a pixel has no ray" if found is None else f"the rays are {found.status.value}"
             return _without_point(FixStatus.INCONSISTENT, pixels, time, reason=why)
-        reason = self._contradiction(found, axis)
+        covariance = self._with_calibration(found)
+        reason = self._contradiction(found, covariance, axis)
         tip = found.p_world + self._rig.needle.marker_offset * axis
         return NeedleFix(
             tip,
-            found.covariance,
+            covariance,
             time,
             FixStatus.INCONSISTENT if reason else FixStatus.VALID,
             pixels,
             self._residual_px(found),
             float((tip - self._fulcrum) @ axis),
-            float(axis @ found.covariance @ axis),
+            float(axis @ covariance @ axis),
             has_point=True,
             reason=reason,
+            noise_covariance=found.covariance,
         )
 
     def _corrected(
@@ -128,13 +132,18 @@ class FixSolver:
             rays[i], covariances[i] = found
         return triangulate(self._poses, rays, covariances, way)
 
-    def _contradiction(self, found: Triangulation, axis: FloatArray) -> str:
+    def _with_calibration(self, found: Triangulation) -> FloatArray:
+        if self._error is None:
+            return found.covariance
+        return found.covariance + self._error.covariance(found.p_world, found.covariances)
+
+    def _contradiction(self, found: Triangulation, covariance: FloatArray, axis: FloatArray) -> str:
         """Why the point cannot be the marker; empty if it can."""
         residual = self._residual_px(found)
         offset = found.p_world - self._fulcrum
         across = np.eye(3) - np.outer(axis, axis)
         beside = across @ offset
-        spread = across @ found.covariance @ across + self._line_variance * np.eye(3)
+        spread = across @ covariance @ across + self._line_variance * np.eye(3)
         off_line = float(beside @ np.linalg.solve(spread, beside)) > _LINE_LIMIT
         apart = found.chi_square > _RESIDUAL_LIMIT
         if apart and (residual > _GROSS_PX or not off_line):
@@ -167,20 +176,22 @@ class FixSolver:
         found = self._single.solve(camera, sighting.uv, sighting.covariance, axis, outline)
         if found.point is None:
             return _without_point(FixStatus.ONE_CAMERA, pixels, time, missing, found.reason)
+        covariance = found.point.covariance if found.covariance is None else found.covariance
         tip = found.point.p_world + self._rig.needle.marker_offset * axis
         residual = found.point.residual * self._models[camera].intrinsics[:2]
         return NeedleFix(
             tip,
-            found.point.covariance,
+            covariance,
             time,
             FixStatus.ONE_CAMERA if found.consistent else FixStatus.INCONSISTENT,
             pixels,
             float(np.sqrt(np.mean(residual**2))),
             float((tip - self._fulcrum) @ axis),
-            float(axis @ found.point.covariance @ axis),
+            float(axis @ covariance @ axis),
             missing,
             has_point=True,
             reason=found.reason,
+            noise_covariance=found.point.covariance,
         )
 
 

@@ -56,6 +56,7 @@ class Triangulation:
         covariance: of the point [m²], shape (3, 3).
         chi_square: squared, noise-weighted reprojection error, one degree of freedom.
         residual: observed minus predicted normalised coordinates, both cameras, shape (4,).
+        covariances: of the observations, as given, shape (2, 2, 2).
     """
 
     status: StereoStatus
@@ -63,6 +64,7 @@ class Triangulation:
     covariance: FloatArray
     chi_square: float
     residual: FloatArray
+    covariances: FloatArray
 
 
 def triangulate(
@@ -101,6 +103,7 @@ def triangulate(
         read_only(covariance),
         float(residual @ weights @ residual),
         read_only(residual),
+        read_only(np.array(covariances, dtype=np.float64)),
     )
 
 
@@ -124,5 +127,6 @@ def _ray_status(
 
 
 def _nothing(status: StereoStatus) -> Triangulation:
-    zero = read_only(np.zeros(3))
-    return Triangulation(status, zero, read_only(np.zeros((3, 3))), 0.0, read_only(np.zeros(4)))
+    zero, spread = read_only(np.zeros(3)), read_only(np.zeros((3, 3)))
+    residual, covariances = read_only(np.zeros(4)), read_only(np.zeros((2, 2, 2)))
+    return Triangulation(status, zero, spread, 0.0, residual, covariances)

@@ -1,0 +1,124 @@
+"""What an uncertain calibration does to a triangulated point.
+
+The point is where the gradient of the weighted reprojection error vanishes, g(p, θ) = Jᵀ W r = 0,
+so by the implicit function theorem (residuals are small: Gauss–Newton's Hessian)
+
+    ∂p/∂θ = H⁻¹ Jᵀ W ∂r/∂θ,   H = Jᵀ W J (+ the prior's information),   Σ = ∂p/∂θ Σ_θ ∂p/∂θᵀ
+
+with r = observed minus predicted normalised coordinates, and 30 parameters θ: 9 intrinsics of
+either camera, the pose of the right camera in the left one's frame, and that of the left one in
+world, each with its own covariance. The blocks are taken as independent of each other, as a
+calibration file keeps no covariance between them.
+
+This error is the same in every picture of a place: a bias, not noise. It must not be averaged away.
+"""
+
+import numpy as np
+
+from app.core.arrays import FloatArray, read_only
+from app.core.rotation import skew
+from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.stereo.reprojection import inverse, reprojection
+
+PARAMETER_COUNT = 30
+_LEFT, _RIGHT, _POSE, _WORLD = slice(0, 9), slice(9, 18), slice(18, 24), slice(24, 30)
+
+_REUSED = 2e-3
+"""How far [m] a point may move before its sensitivities are computed anew: they change by 1 %."""
+
+
+class CalibrationError:
+    """Covariance of triangulated points from that of a calibration; remembers the last place."""
+
+    def __init__(self, calibration: StereoCalibration) -> None:
+        self._models = calibration.models()
+        self._spread = np.zeros((PARAMETER_COUNT, PARAMETER_COUNT))
+        self._spread[_LEFT, _LEFT] = calibration.cameras[0].parameter_covariance
+        self._spread[_RIGHT, _RIGHT] = calibration.cameras[1].parameter_covariance
+        self._spread[_POSE, _POSE] = calibration.pose.pose_covariance
+        if calibration.world is not None:
+            self._spread[_WORLD, _WORLD] = calibration.world.pose_covariance
+        self._last: dict[tuple[int, ...], tuple[FloatArray, FloatArray]] = {}
+
+    def covariance(
+        self,
+        p_world: FloatArray,
+        covariances: FloatArray,
+        cameras: tuple[int, ...] = (0, 1),
+        prior: FloatArray | None = None,
+    ) -> FloatArray:
+        """Covariance of a point by the calibration alone [m²], shape (3, 3).
+
+        Args:
+            p_world: the point [m], shape (3,).
+            covariances: of the normalised coordinates that it was found from, shape (n, 2, 2).
+            cameras: which of the two saw it.
+            prior: information that the shaft's line added [1/m²], shape (3, 3), or None.
+        """
+        known = self._last.get(cameras)
+        if known is not None and float(np.abs(known[0] - p_world).max()) < _REUSED:
+            return known[1]
+        gain = self._gain(p_world, covariances, cameras, prior)
+        spread = read_only(gain @ self._spread @ gain.T)
+        self._last[cameras] = (np.array(p_world), spread)
+        return spread
+
+    def _gain(
+        self,
+        p_world: FloatArray,
+        covariances: FloatArray,
+        cameras: tuple[int, ...],
+        prior: FloatArray | None,
+    ) -> FloatArray:
+        """∂p/∂θ, shape (3, 30); zero where the point is not determined at all."""
+        models = [self._models[i] for i in cameras]
+        poses = tuple(model.T_camera_world for model in models)
+        n = len(cameras)
+        jacobian = reprojection(poses, np.zeros((n, 2)), p_world)[1]
+        weights = np.zeros((2 * n, 2 * n))
+        for i in range(n):
+            weights[2 * i : 2 * i + 2, 2 * i : 2 * i + 2] = np.linalg.inv(covariances[i])
+        information = jacobian.T @ weights @ jacobian
+        spread = inverse(information if prior is None else information + prior)
+        if spread is None:
+            return np.zeros((3, PARAMETER_COUNT))
+        change = np.vstack([self._change(i, p_world) for i in cameras])
+        return np.asarray(spread @ jacobian.T @ weights @ change)
+
+    def _change(self, camera: int, p_world: FloatArray) -> FloatArray:
+        """∂r/∂θ of one camera, shape (2, 30)."""
+        model = self._models[camera]
+        p_camera = model.T_camera_world @ p_world
+        x, y, z = p_camera
+        projection = np.array([[1.0, 0.0, -x / z], [0.0, 1.0, -y / z]]) / z
+        ray = p_camera[:2] / z
+        change = np.zeros((2, PARAMETER_COUNT))
+        intrinsics = _RIGHT if camera else _LEFT
+        by_parameters = pixel_by_parameters(model.intrinsics, model.distortion, ray)
+        change[:, intrinsics] = -model.ray_jacobian(ray) @ by_parameters
+        if camera:
+            change[:, _POSE] = -projection @ _moved(p_camera)
+        # World: p_left = T̂⁻¹ exp(-ξ) p_world, carried on into this camera.
+        change[:, _WORLD] = projection @ model.T_camera_world.rotation @ _moved(p_world)
+        return change
+
+
+def pixel_by_parameters(
+    intrinsics: FloatArray, distortion: FloatArray, ray: FloatArray
+) -> FloatArray:
+    """Change of a pixel with `optics.calibration.PARAMETERS` at a fixed ray, shape (2, 9)."""
+    fx, fy = intrinsics[:2]
+    k1, k2, p1, p2, k3 = distortion
+    x, y = ray
+    r2 = float(x * x + y * y)
+    g = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3))
+    x_d = x * g + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x)
+    y_d = y * g + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y
+    along = fx * np.array([r2 * x, r2**2 * x, 2.0 * x * y, r2 + 2.0 * x * x, r2**3 * x])
+    down = fy * np.array([r2 * y, r2**2 * y, r2 + 2.0 * y * y, 2.0 * x * y, r2**3 * y])
+    return np.array([[x_d, 0.0, 1.0, 0.0, *along], [0.0, y_d, 0.0, 1.0, *down]])
+
+
+def _moved(point: FloatArray) -> FloatArray:
+    """Change of exp(twist) @ point with the twist (translation, rotation vector), shape (3, 6)."""
+    return np.hstack([np.eye(3), -skew(point)])
