@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from app.tracking.cameras.feed import Skew
 from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.fix import FixStatus, NeedleFix
 
@@ -29,6 +30,7 @@ class TrackerStatistics:
         counts: fixes of each status since the start.
         cameras: health of each camera.
         fault: message of an error inside the tracker; empty without.
+        skew: how far apart the two cameras capture; None before a pair came.
     """
 
     rate: float
@@ -42,6 +44,7 @@ class TrackerStatistics:
     counts: dict[str, int] = field(default_factory=dict)
     cameras: tuple[CameraHealth, ...] = ()
     fault: str = ""
+    skew: Skew | None = None
 
 
 class TrackerMeter:
@@ -59,7 +62,12 @@ class TrackerMeter:
             self._recent.append((now, now - fix.time, fix.status is FixStatus.VALID))
 
     def statistics(
-        self, now: float, newest: NeedleFix | None, cameras: tuple[CameraHealth, ...], fault: str
+        self,
+        now: float,
+        newest: NeedleFix | None,
+        cameras: tuple[CameraHealth, ...],
+        fault: str,
+        skew: Skew | None = None,
     ) -> TrackerStatistics:
         """Figures at `now` [s]."""
         with self._lock:
@@ -82,6 +90,7 @@ class TrackerMeter:
             counts=counts,
             cameras=cameras,
             fault=fault,
+            skew=skew,
         )
 
 

@@ -143,7 +143,9 @@ class Tracker:
         now = self._clock.now()
         stamped = self.latest.read()
         newest = stamped.value if stamped else None
-        return self._meter.statistics(now, newest, self._feed.health(now), self._fault)
+        return self._meter.statistics(
+            now, newest, self._feed.health(now), self._fault, self._feed.skew()
+        )
 
     def pictures(self) -> tuple[TrackedPicture, ...]:
         """Newest picture of each camera with the found marker, read-only; empty before one came."""

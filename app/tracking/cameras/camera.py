@@ -37,7 +37,14 @@ class Frame:
 
 
 class Camera(ABC):
-    """A camera that hands out pictures one after the other."""
+    """A camera that hands out pictures one after the other.
+
+    Attributes:
+        may_repeat: whether a picture that is the same to the last bit is nothing unusual; of a
+            real sensor it never is, and means a driver that hangs.
+    """
+
+    may_repeat: bool = False
 
     @abstractmethod
     def open(self) -> None:

@@ -1,7 +1,11 @@
 """Pictures of both cameras, paired as they come, and the news about their health."""
 
 import threading
+from collections import deque
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
 
 from app.core.clock import Clock
 from app.tracking.cameras.camera import Camera, Frame
@@ -16,8 +20,22 @@ late beside a busy window is not a marker out of view, and 0.2 s are bridged any
 
 _TROUBLE = frozenset({CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED})
 
+_SKEWS = 60
+"""Pairs over which the skew is taken: two seconds at 30 Hz."""
+
 Pair = tuple[Frame | None, Frame | None]
 """New pictures of both cameras; None where a camera has none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Skew:
+    """How far apart two cameras capture: median and standard deviation of (right - left) [s].
+
+    It is that of pictures which arrived together; free running cameras drift through it.
+    """
+
+    median: float
+    sd: float
 
 
 class CameraFeed:
@@ -49,6 +67,7 @@ class CameraFeed:
         self._states = [CameraState.WAITING, CameraState.WAITING]
         self._seen: list[Frame | None] = [None, None]
         self._stopped = False
+        self._apart: deque[float] = deque(maxlen=_SKEWS)
 
     def open(self) -> None:
         """Open both cameras.
@@ -87,11 +106,18 @@ class CameraFeed:
             if fresh[i]:
                 self._seen[i] = frames[i]
                 usable[i] = None if self._states[i] is CameraState.FROZEN else frames[i]
+        if usable[0] is not None and usable[1] is not None:
+            self._apart.append(usable[1].time - usable[0].time)
         return usable[0], usable[1]
 
     def health(self, now: float) -> tuple[CameraHealth, ...]:
         """Health of both cameras at `now` [s], also of one that hangs."""
         return tuple(reader.health(now) for reader in self._readers)
+
+    def skew(self) -> Skew | None:
+        """How far apart the last pairs were captured; None before there was one."""
+        apart = np.array(self._apart.copy())
+        return Skew(float(np.median(apart)), float(apart.std())) if apart.size else None
 
     def _fresh(self) -> list[bool]:
         newest = [reader.newest() for reader in self._readers]

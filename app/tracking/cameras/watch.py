@@ -1,20 +1,19 @@
 """Noticing that a camera has stopped, repeats itself or has failed."""
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
-
-import numpy as np
 
 from app.core.clock import Clock
 from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.cameras.intake import Intake, StreamFigures, Verdict, plain
 from app.tracking.errors import CameraError
 
 STALL = 0.4
 """Time [s] without a new picture after which a camera counts as stopped."""
 
 _PAUSE = 0.2
-_STRIDE = 16
+"""Time [s] between two tries of a camera that fails."""
 
 
 class CameraState(StrEnum):
@@ -29,29 +28,46 @@ class CameraState(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class CameraHealth:
-    """State of one camera, its newest picture's age [s], and the message of its last error."""
+    """How one camera does.
+
+    Attributes:
+        name: in the rig.
+        state: now.
+        age: of its newest picture [s].
+        message: of its last error; empty without.
+        figures: rate, jitter and refused pictures.
+        reopened: how often it was opened again.
+        plain: `black` or `white` if the newest picture is nothing else.
+    """
 
     name: str
     state: CameraState
     age: float
     message: str = ""
+    figures: StreamFigures = field(default_factory=StreamFigures)
+    reopened: int = 0
+    plain: str = ""
 
     @property
     def text(self) -> str:
         """One line for people about what is wrong."""
         if self.message:
             return self.message
+        if self.plain:
+            return f"the picture is {self.plain}; look at the lens cap, the light, the exposure"
         if self.state is CameraState.FROZEN:
             return "the picture does not change any more; plug the camera in again"
-        return f"no picture for {self.age:.1f} s; check its cable"
+        refused = f" ({self.figures.text})" if self.figures.backwards + self.figures.future else ""
+        return f"no picture for {self.age:.1f} s{refused}; check its cable"
 
 
 class CameraReader:
     """Reads one camera in its own thread and keeps the newest picture.
 
-    A camera that hangs or fails so neither stops the other one nor the tracker; it is read again
-    after a pause. `noise_expected` says that two pictures are never the same to the last bit, so
-    that a repetition means a frozen driver.
+    A camera that hangs or fails so neither stops the other one nor the tracker. After a failure it
+    is read again after a pause, after a second one it is closed and opened anew: so it comes back
+    when it is plugged in again. `noise_expected` says that two pictures are never the same to the
+    last bit, so that a repetition means a frozen driver.
     """
 
     def __init__(
@@ -63,16 +79,18 @@ class CameraReader:
         noise_expected: bool,
     ) -> None:
         self.name = name
-        self.lost = 0
+        self.lost = self.reopened = 0
         self._camera = camera
         self._clock = clock
         self._arrived = arrived
-        self._noise_expected = noise_expected
+        self._intake = Intake(noise_expected and not camera.may_repeat)
+        self._failures = 0  # in a row
         self._thread: threading.Thread | None = None
         self._stop = threading.Event()
+        self._late: threading.Event | None = None
         self._frame: Frame | None = None
-        self._changed = 0.0  # when a picture differed last
-        self._received = 0.0
+        self._changed = 0.0  # when a picture counted last
+        self._received = 0.0  # when one came last, be it the same
         self._error = ""
 
     def open(self) -> None:
@@ -82,17 +100,22 @@ class CameraReader:
             CameraError: if the camera cannot be opened.
         """
         self._camera.open()
-        self._stop.clear()
+        self._stop = stop = threading.Event()  # of this thread: one left behind stays stopped
+        self._intake.restart()
+        self._failures, self._error = 0, ""
         self._received = self._changed = self._clock.now()
-        self._thread = threading.Thread(target=self._run, name=f"camera {self.name}", daemon=True)
+        self._thread = threading.Thread(
+            target=self._run, args=(stop,), name=f"camera {self.name}", daemon=True
+        )
         self._thread.start()
 
     def close(self) -> None:
-        """Stop reading and close the camera; closing twice is fine."""
+        """Stop reading and close the camera; closing twice is fine; never waits long."""
         self._stop.set()
         thread, self._thread = self._thread, None
         if thread is not None:
             thread.join(timeout=1.0)
+            self._late = self._stop if thread.is_alive() else None
         self._camera.close()
 
     def newest(self) -> Frame | None:
@@ -102,7 +125,16 @@ class CameraReader:
     def health(self, now: float) -> CameraHealth:
         """State at `now` [s]; needs no cooperation of the camera, so a hanging one is noticed."""
         age = now - (self._frame.time if self._frame is not None else self._received)
-        return CameraHealth(self.name, self._state(now), max(0.0, age), self._error)
+        state, frame = self._state(now), self._frame
+        return CameraHealth(
+            self.name,
+            state,
+            max(0.0, age),
+            self._error,
+            self._intake.figures(),
+            self.reopened,
+            plain(frame) if frame is not None and state is CameraState.FROZEN else "",
+        )
 
     def _state(self, now: float) -> CameraState:
         if self._error:
@@ -111,24 +143,41 @@ class CameraReader:
             return CameraState.STALLED
         if self._frame is None:
             return CameraState.WAITING
-        frozen = self._noise_expected and now - self._changed > STALL
-        return CameraState.FROZEN if frozen else CameraState.LIVE
+        return CameraState.FROZEN if now - self._changed > STALL else CameraState.LIVE
 
-    def _run(self) -> None:
-        while not self._stop.is_set():
+    def _run(self, stop: threading.Event) -> None:
+        while not stop.is_set():
             try:
+                if self._failures > 1:
+                    self._reopen()
                 self._take(self._camera.read())
-                self._error = ""
             except CameraError as error:
                 self._fail(str(error))
             except Exception as error:  # a driver may raise anything
                 self._fail(f"{type(error).__name__}: {error}")
+        if self._late is stop:  # it was opening the camera anew when `close` went on
+            self._camera.close()
+
+    def _reopen(self) -> None:
+        self._camera.close()
+        self._camera.open()
+        self._intake.restart()
+        self.reopened += 1
+        self._received = self._changed = self._clock.now()
 
     def _take(self, frame: Frame) -> None:
         now = self._clock.now()
-        self._received = now
-        if self._frame is None or not _same(frame, self._frame):
-            self._changed = now
+        verdict = self._intake.judge(frame, now)
+        if verdict is Verdict.REPEATED:
+            self._received = now  # it lives, but shows nothing new
+        elif verdict is Verdict.NEW:
+            self._received = self._changed = now
+            self._publish(frame)
+        elif now - self._received > STALL:
+            raise CameraError(f"its capture times cannot be used: {self._intake.figures().text}")
+        self._failures, self._error = 0, ""
+
+    def _publish(self, frame: Frame) -> None:
         with self._arrived:
             self._frame = frame
             self._arrived.notify_all()
@@ -136,11 +185,7 @@ class CameraReader:
     def _fail(self, message: str) -> None:
         self._error = message
         self.lost += 1
+        self._failures += 1
         with self._arrived:
             self._arrived.notify_all()
         self._stop.wait(_PAUSE)
-
-
-def _same(frame: Frame, other: Frame) -> bool:
-    """Whether two pictures agree to the last bit on a grid of their pixels."""
-    return np.array_equal(frame.image[::_STRIDE, ::_STRIDE], other.image[::_STRIDE, ::_STRIDE])

@@ -1,0 +1,184 @@
+"""Pictures from a folder or a video file, as a camera would deliver them."""
+
+from __future__ import annotations
+
+from math import floor, isfinite
+from pathlib import Path
+from typing import Final
+
+import cv2
+import numpy as np
+
+from app.core.clock import Clock, SystemClock
+from app.core.units import MILLISECOND
+from app.tracking.cameras.camera import Camera, Frame, Image
+from app.tracking.errors import CameraError
+
+ENDINGS: Final = frozenset({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp"})
+
+
+class FolderCamera(Camera):
+    """The pictures of a folder in the order of their names.
+
+    Picture k is due at k / rate_hz of the clock itself, so that two folders stay in step. Who reads
+    too slowly misses pictures. A file that is no picture is an error, and the next one follows.
+
+    Args:
+        folder: of the pictures.
+        rate_hz: pictures per second.
+        clock: for the pace.
+        loops: whether it begins anew; else the end is an error, and the first picture the first.
+    """
+
+    may_repeat = True
+
+    def __init__(
+        self, folder: Path, rate_hz: float = 30.0, clock: Clock | None = None, loops: bool = True
+    ) -> None:
+        self.folder, self._rate, self._loops = folder, rate_hz, loops
+        self._clock = clock or SystemClock()
+        self._files: list[Path] = []
+        self._first = self._last = 0
+
+    def open(self) -> None:
+        """List the folder.
+
+        Raises:
+            CameraError: if there is no picture in it.
+        """
+        if not self.folder.is_dir():
+            raise CameraError(f"there is no folder {self.folder}; folder:PATH names one")
+        self._files = sorted(
+            path for path in self.folder.iterdir() if path.suffix.lower() in ENDINGS
+        )
+        if not self._files:
+            raise CameraError(
+                f"no picture in {self.folder}; files that end in {', '.join(sorted(ENDINGS))} count"
+            )
+        self._last = self._due()
+        self._first = 0 if self._loops else self._last + 1
+
+    def read(self) -> Frame:
+        """Wait until the next picture is due.
+
+        Raises:
+            CameraError: if it cannot be read, or all have been.
+        """
+        if not self._files:
+            raise CameraError(f"folder {self.folder} is not open; call open() first")
+        number = max(self._last + 1, self._due()) if self._loops else self._last + 1
+        if not self._loops and number - self._first >= len(self._files):
+            raise CameraError(f"the {len(self._files)} pictures of {self.folder} are over")
+        time = number / self._rate
+        self._clock.sleep(time - self._clock.now())
+        self._last = number
+        return Frame(read_picture(self._files[(number - self._first) % len(self._files)]), time)
+
+    def close(self) -> None:
+        """Forget the folder."""
+        self._files = []
+
+    def _due(self) -> int:
+        return floor(self._clock.now() * self._rate + 1e-6)
+
+
+def read_picture(path: Path) -> Image:
+    """Read a picture in colour.
+
+    Raises:
+        CameraError: if the file is none, or is cut off; names it.
+    """
+    try:
+        raw = np.frombuffer(path.read_bytes(), np.uint8)
+    except OSError as error:
+        raise CameraError(f"cannot read {path}: {error.strerror or error}") from error
+    try:
+        image = cv2.imdecode(raw, cv2.IMREAD_COLOR) if raw.size else None
+    except cv2.error as error:
+        raise CameraError(f"{path} is no picture: {error.err}") from error
+    if image is None:
+        raise CameraError(f"{path} is no picture or is damaged; take it out of the folder")
+    return np.asarray(image, dtype=np.uint8)
+
+
+class VideoCamera(Camera):
+    """A video file at its own pace, with the times of its own pictures.
+
+    Args:
+        path: of the file.
+        clock: for the pace.
+        loops: whether it begins anew; else its end is an error.
+    """
+
+    may_repeat = True
+
+    def __init__(self, path: Path, clock: Clock | None = None, loops: bool = True) -> None:
+        self.path, self._loops = path, loops
+        self._clock = clock or SystemClock()
+        self._capture: cv2.VideoCapture | None = None
+        self._start = 0.0
+        self._newest = 0.0  # of the file's times [s]
+        self._period = 1.0 / 30.0
+
+    def open(self) -> None:
+        """Open the file; its first picture is due now.
+
+        Raises:
+            CameraError: if it is not there or is no video.
+        """
+        self.close()
+        if not self.path.is_file():
+            raise CameraError(f"there is no video {self.path}; video:PATH names a file")
+        capture = cv2.VideoCapture(str(self.path))
+        if not capture.isOpened():
+            raise CameraError(f"{self.path} is no video that can be read")
+        rate = capture.get(cv2.CAP_PROP_FPS)
+        self._period = 1.0 / rate if isfinite(rate) and rate > 0.0 else 1.0 / 30.0
+        self._capture, self._start = capture, self._clock.now()
+        self._newest = -self._period
+
+    def read(self) -> Frame:
+        """Wait until the next picture is due; pictures that are long due are left out.
+
+        Raises:
+            CameraError: at the end, if it does not loop.
+        """
+        capture = self._capture
+        if capture is None:
+            raise CameraError(f"video {self.path} is not open; call open() first")
+        time = self._grab(capture)
+        while time is not None and time + self._period < self._clock.now() - self._start:
+            time = self._grab(capture)
+        if time is None:
+            return self._again()
+        good, image = capture.retrieve()
+        if not good or image is None:
+            raise CameraError(f"a picture of {self.path} is damaged")
+        due = self._start + time
+        self._clock.sleep(due - self._clock.now())
+        return Frame(np.array(image), due)
+
+    def close(self) -> None:
+        """Close the file."""
+        capture, self._capture = self._capture, None
+        if capture is not None:
+            capture.release()
+
+    def _grab(self, capture: cv2.VideoCapture) -> float | None:
+        """Time [s] of the next picture in the file, or None at its end."""
+        if not capture.grab():
+            return None
+        stamp = capture.get(cv2.CAP_PROP_POS_MSEC) * MILLISECOND
+        if not isfinite(stamp) or stamp <= self._newest:
+            stamp = self._newest + self._period  # a file without times
+        self._newest = stamp
+        return stamp
+
+    def _again(self) -> Frame:
+        if not self._loops or self._newest < 0.0:
+            self.close()
+            raise CameraError(f"the video {self.path} is over")
+        due = self._start + self._newest + self._period
+        self.open()
+        self._start = max(self._start, due)
+        return self.read()

@@ -1,0 +1,128 @@
+"""Which pictures of a stream count: a repeated one and one from the past are refused, and counted.
+
+Filters and interpolation over time divide by the time between two pictures; neither zero nor a
+negative one may reach them.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from enum import StrEnum
+from math import isfinite
+from typing import Final
+
+import numpy as np
+
+from app.tracking.cameras.camera import Frame
+
+AHEAD: Final = 0.1
+"""A picture may be stamped so far after its arrival [s]; more is another clock's time."""
+
+_STRIDE: Final = 16
+_KEPT: Final = 90
+_UNIFORM: Final = 2
+
+
+class Verdict(StrEnum):
+    """What became of a picture."""
+
+    NEW = "new"
+    REPEATED = "repeated"  # the same capture time, or the same to the last bit
+    BACKWARDS = "backwards"  # captured before the one before
+    FUTURE = "from the future"  # captured after it was delivered, or at no time at all
+
+
+@dataclass(frozen=True, slots=True)
+class StreamFigures:
+    """A stream over its last pictures.
+
+    Attributes:
+        rate: pictures per second by their capture times; 0 before there are two.
+        jitter: standard deviation of the time between two [s].
+        taken: pictures that counted.
+        repeated, backwards, future: pictures that were refused, by the reason.
+    """
+
+    rate: float = 0.0
+    jitter: float = 0.0
+    taken: int = 0
+    repeated: int = 0
+    backwards: int = 0
+    future: int = 0
+
+    @property
+    def repeated_share(self) -> float:
+        """Share of repeated ones among all pictures, 0 to 1."""
+        return self.repeated / max(1, self.taken + self.repeated)
+
+    @property
+    def text(self) -> str:
+        """Counts of refused pictures for people; empty if there were none."""
+        counts = ((self.repeated, "repeated"), (self.backwards, "with times that go back"),
+                  (self.future, "with impossible times"))  # fmt: skip
+        return ", ".join(f"{count} {what}" for count, what in counts if count)
+
+
+class Intake:
+    """Judges the pictures of one stream.
+
+    Args:
+        noise_expected: whether two pictures are never the same to the last bit.
+    """
+
+    def __init__(self, noise_expected: bool) -> None:
+        self._noise_expected = noise_expected
+        self._counts = dict.fromkeys(Verdict, 0)
+        self._times: deque[float] = deque(maxlen=_KEPT)
+        self._before: Frame | None = None
+
+    def restart(self) -> None:
+        """Take the next picture whatever its time: the stream was opened anew."""
+        self._before = None
+        self._times.clear()
+
+    def judge(self, frame: Frame, now: float) -> Verdict:
+        """Judge a picture that was delivered at `now` [s], and count it."""
+        verdict = self._judge(frame, now)
+        self._counts[verdict] += 1
+        if verdict is Verdict.NEW:
+            self._before = frame
+            self._times.append(frame.time)
+        return verdict
+
+    def figures(self) -> StreamFigures:
+        """Figures of the last pictures; for any thread."""
+        steps = np.diff(np.array(self._times.copy()))
+        counts = self._counts
+        return StreamFigures(
+            rate=float(1.0 / steps.mean()) if steps.size else 0.0,
+            jitter=float(steps.std()) if steps.size else 0.0,
+            taken=counts[Verdict.NEW],
+            repeated=counts[Verdict.REPEATED],
+            backwards=counts[Verdict.BACKWARDS],
+            future=counts[Verdict.FUTURE],
+        )
+
+    def _judge(self, frame: Frame, now: float) -> Verdict:
+        if not isfinite(frame.time) or frame.time > now + AHEAD:
+            return Verdict.FUTURE
+        if self._before is None:
+            return Verdict.NEW
+        if frame.time < self._before.time:
+            return Verdict.BACKWARDS
+        same = self._noise_expected and _same(frame, self._before)
+        return Verdict.REPEATED if same or frame.time == self._before.time else Verdict.NEW
+
+
+def plain(frame: Frame) -> str:
+    """Say that a picture shows nothing: `black`, `white`, or empty if it shows something."""
+    grid = frame.image[::_STRIDE, ::_STRIDE]
+    if int(grid.max()) <= _UNIFORM:
+        return "black"
+    return "white" if int(grid.min()) >= 255 - _UNIFORM else ""
+
+
+def _same(frame: Frame, other: Frame) -> bool:
+    """Whether two pictures agree to the last bit on a grid of their pixels."""
+    return np.array_equal(frame.image[::_STRIDE, ::_STRIDE], other.image[::_STRIDE, ::_STRIDE])

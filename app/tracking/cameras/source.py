@@ -1,0 +1,55 @@
+"""Where pictures come from, as people write it: `usb:1-1.2`, `folder:pictures/left`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final
+
+from app.tracking.errors import CameraError
+
+FORMS: Final = "usb:PORT (`acus camera list` shows them), usb:0, folder:PATH, video:PATH, simulated"
+
+
+class Kind(StrEnum):
+    """What delivers the pictures."""
+
+    USB = "usb"
+    FOLDER = "folder"
+    VIDEO = "video"
+    SIMULATED = "simulated"
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A source of pictures.
+
+    Attributes:
+        kind: what it is.
+        place: USB port or number, or path; empty for simulated pictures.
+    """
+
+    kind: Kind
+    place: str = ""
+
+    def __str__(self) -> str:
+        """As `parse_source` takes it."""
+        return f"{self.kind.value}:{self.place}" if self.place else self.kind.value
+
+
+def parse_source(text: str) -> Source:
+    """Read a source.
+
+    Raises:
+        CameraError: if it has another form; names the valid ones.
+    """
+    head, _, place = text.strip().partition(":")
+    place = place.strip()
+    try:
+        kind = Kind(head.strip().lower())
+    except ValueError as error:
+        raise CameraError(f"{text!r} is no source of pictures; valid are: {FORMS}") from error
+    if (kind is Kind.SIMULATED) == bool(place):
+        lack = "takes nothing after it" if place else "does not say where"
+        raise CameraError(f"the source {text!r} {lack}; valid are: {FORMS}")
+    return Source(kind, place)

@@ -1,0 +1,92 @@
+"""Streams as bad drivers make them: pictures repeat, times go back, stop, or are no numbers."""
+
+import threading
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from app.core.clock import VirtualClock
+from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.cameras.intake import Intake, Verdict
+from app.tracking.cameras.timing import CaptureTime
+from app.tracking.cameras.watch import CameraReader
+
+
+def _frame(time, grey=0):
+    return Frame(np.full((32, 32, 3), grey, np.uint8), time)
+
+
+_TIMES = st.floats(allow_nan=True, allow_infinity=True) | st.floats(0.0, 20.0)
+
+
+@given(st.lists(st.tuples(_TIMES, st.integers(0, 3)), max_size=40))
+def test_whatever_a_driver_says_the_times_that_pass_only_grow_and_each_picture_is_counted(stream):
+    intake, passed = Intake(noise_expected=True), []
+    for time, grey in stream:
+        if intake.judge(_frame(time, grey), 10.0) is Verdict.NEW:
+            passed.append(time)
+    assert all(np.isfinite(t) for t in passed)
+    assert all(late > early for early, late in pairwise(passed))
+    figures = intake.figures()
+    counted = figures.taken + figures.repeated + figures.backwards + figures.future
+    assert counted == len(stream)
+
+
+@given(st.lists(_TIMES, min_size=1, max_size=30))
+def test_capture_times_are_finite_and_never_in_the_future(stamps):
+    capture = CaptureTime(latency=0.03)
+    for number, stamp in enumerate(stamps):
+        delivered = 5.0 + number / 30.0
+        time = capture.of(1e3 * stamp, delivered)
+        assert delivered - 1.0 <= time <= delivered + 0.002
+
+
+@pytest.mark.parametrize(
+    ("time", "grey", "verdict"),
+    [(5.0, 1, Verdict.REPEATED), (5.1, 0, Verdict.REPEATED), (4.9, 1, Verdict.BACKWARDS),
+     (9.0, 1, Verdict.FUTURE), (np.nan, 1, Verdict.FUTURE), (-np.inf, 1, Verdict.FUTURE),
+     (5.1, 1, Verdict.NEW)],
+)  # fmt: skip
+def test_a_picture_is_refused_by_name(time, grey, verdict):
+    intake = Intake(noise_expected=True)
+    assert intake.judge(_frame(5.0, 0), 5.1) is Verdict.NEW
+    assert intake.judge(_frame(time, grey), 5.1) is verdict
+
+
+class _Scripted(Camera):
+    """Hands out a list, then stops the reader."""
+
+    def __init__(self, frames):
+        self.frames, self.stop = list(frames), threading.Event()
+
+    def open(self):
+        pass
+
+    def read(self):
+        if not self.frames:
+            self.stop.wait(2.0)
+            raise OSError("over")
+        return self.frames.pop(0)
+
+    def close(self):
+        self.stop.set()
+
+
+def test_refused_pictures_never_replace_the_newest_one():
+    clock = VirtualClock(10.0)
+    frames = [_frame(9.0, 1), _frame(9.1, 2), _frame(9.05, 3), _frame(9.1, 4), _frame(11.0, 5)]
+    camera = _Scripted(frames)
+    reader = CameraReader(camera, "left", clock, threading.Condition(), True)
+    reader.open()
+    while camera.frames:
+        threading.Event().wait(0.005)
+    threading.Event().wait(0.02)
+    newest = reader.newest()
+    figures = reader.health(10.0).figures
+    reader.close()
+    assert newest is not None
+    assert newest.time == 9.1
+    assert (figures.taken, figures.repeated, figures.backwards, figures.future) == (2, 1, 1, 1)
