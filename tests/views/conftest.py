@@ -16,10 +16,14 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "views_exercise"))
 
 from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication, QWidget
+from window_rig import FakeServices
 
+from app.imaging.body import find_body
 from app.imaging.series import Series
 from app.imaging.volume import Volume
+from app.views.patient import Patient
 from app.views.theme import apply_theme
+from app.views.window import MainWindow
 
 Settle = Callable[..., bool]
 
@@ -93,3 +97,22 @@ def box_volume(shape: tuple[int, int, int] = (40, 60, 64)) -> Volume:
 @pytest.fixture
 def volume() -> Volume:
     return box_volume()
+
+
+@pytest.fixture
+def services(tmp_path):
+    return FakeServices(tmp_path)
+
+
+@pytest.fixture
+def window(application, services, destroy):
+    window = MainWindow(services)
+    destroy(window)
+    window.show()
+    yield window
+    window.editor.saved(Path("kept"))
+
+
+@pytest.fixture
+def patient(volume):
+    return Patient(volume, find_body(volume), "CT-TEST")

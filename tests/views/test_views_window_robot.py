@@ -1,0 +1,146 @@
+"""The robot in the window: chosen, changed, commissioned, told of."""
+
+from pathlib import Path
+
+from window_rig import plan
+
+from app.views.robot.wizard_pages import ConnectionPage
+from app.views.window import MainWindow
+
+
+def test_another_robot_ends_the_run_and_begins_one_on_it(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.menus.robot.robots.aboutToShow.emit()
+    texts = [action.text() for action in window.menus.robot.robots.actions()]
+    assert texts == ["Simulated robot", "icube A17 on /dev/ttyACM0", "", "Other port…"]
+    window.menus.robot.robots.actions()[1].trigger()
+    assert services.opened[0].closed.wait(5.0)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert len(services.opened) == 2
+    assert services.opened[1].setup.robot.port == "/dev/ttyACM0"
+    assert services.opened[1].setup.robot.held_arming
+    assert not window.workspace.exercise_panel.enable.isHidden()
+    assert window.robot.settings.port == "/dev/ttyACM0"
+
+
+def test_a_robot_that_was_chosen_is_offered_though_it_is_gone(window, services):
+    window.robot.choose("/dev/ttyACM0")
+    services.ports = ()
+    assert [robot.title for robot in window.robot.ports()] == ["/dev/ttyACM0 – not plugged in"]
+    window.robot.choose("")
+
+
+def test_choosing_a_robot_again_tries_again(window, patient, services, settle):
+    services.refuses = "there is no port"
+    window.robot.choose("/dev/ttyACM0")
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: "no port" in window.message_bar.text, 10.0)
+    empty = window.workspace.health_panel._empty
+    assert "No robot is running" in empty.text()
+    services.refuses = ""
+    window.robot.choose("/dev/ttyACM0")
+    assert "starting" in empty.text()
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert window.message_bar.isHidden()
+    assert "starting" not in empty.text()
+    window.robot.choose("")
+
+
+def test_a_robot_is_taken_for_once_without_being_remembered(window, patient, services, settle):
+    window.robot.choose("/dev/ttyACM0")
+    window.robot.take("/tmp/robot")
+    assert window.robot.settings.port == "/dev/ttyACM0"
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert services.opened[-1].setup.robot.port == "/tmp/robot"
+    window.robot.choose("")
+    assert window.robot.port == ""
+
+
+def test_holding_can_be_practised_on_the_simulated_robot(window, patient, services, settle):
+    window.robot.set_practise_holding(True)
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert services.opened[0].setup.robot.held_arming
+    assert window.menus.robot.holding.isChecked()
+    window.robot.set_practise_holding(False)
+    assert settle(lambda: len(services.opened) == 2, 10.0)
+
+
+def test_the_robot_stays_while_an_attempt_runs(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.workspace.exercise_panel.buttons.start.click()
+    assert settle(lambda: window.editor.locked, 5.0)
+    window.robot.choose("/dev/ttyACM0")
+    window.robot.commission()
+    assert "end it first" in window.message_bar.text
+    assert window.robot.settings.port == ""
+    assert services.benches == []
+
+
+def test_the_wizard_has_the_robot_for_itself_and_gives_it_back(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.robot.choose("/dev/ttyACM0")
+    assert settle(lambda: len(services.opened) == 2 and window.runs.run is not None, 10.0)
+    window.robot.commission()
+    assert settle(lambda: window.robot.wizard is not None, 10.0)
+    assert services.opened[1].closed.is_set()
+    assert window.runs.run is None
+    assert isinstance(window.robot.wizard.page, ConnectionPage)
+    window.robot.wizard.reject()
+    assert services.benches[0].closed == 1
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert len(services.opened) == 3
+
+
+def test_the_simulated_robot_needs_no_commissioning(window, patient, services):
+    window.show_patient(patient)
+    window.robot.commission()
+    assert "needs no commissioning" in window.message_bar.text
+    assert services.benches == []
+
+
+def test_a_robot_that_does_not_open_is_told_and_the_run_comes_back(
+    window, patient, services, settle
+):
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    window.robot.choose("/dev/ttyACM0")
+    assert settle(lambda: len(services.opened) == 2 and window.runs.run is not None, 10.0)
+    services.refuses = "nobody answers on /dev/ttyACM0: check cable and power"
+    window.robot.commission()
+    assert settle(lambda: "nobody answers" in window.message_bar.text, 10.0)
+    services.refuses = ""
+    assert window.robot.wizard is None
+
+
+def test_the_robots_health_stands_beside_the_panes(window, patient, services, settle):
+    window.show_patient(patient)
+    plan(window)
+    window.menus._show_health()
+    panel = window.workspace.health_panel
+    assert settle(lambda: panel.groups != (), 10.0)
+    assert window.workspace.side.currentWidget() is panel
+    window.editor.saved(Path("kept"))
+    window.show_patient(patient)
+    assert settle(lambda: panel.groups == (), 10.0)
+
+
+def test_the_hand_is_remembered(services, window, destroy):
+    box = window.workspace.bullseye.source.box
+    box.setCurrentIndex(1)
+    box.activated.emit(1)
+    window.settings.sync()
+    again = MainWindow(services)
+    destroy(again)
+    assert again.workspace.bullseye.source.name == "tablet"

@@ -1,0 +1,104 @@
+"""Services, trainers and plans for tests of the whole window."""
+
+import threading
+from types import MappingProxyType, SimpleNamespace
+
+import numpy as np
+from views_robot_fakes import FakeBench
+
+from app.core.errors import AcusError
+from app.core.events import EventQueue
+from app.core.state_vector import empty_state
+from app.exercises.library import library
+from app.exercises.scene import device_of
+from app.session.curves import Offset
+from app.session.machine import State
+from app.session.needle import DepthSource, NeedlePose
+from app.session.snapshot import Snapshot
+from app.views.exercise.run import ExerciseRun
+from app.views.services import RobotPort
+from app.views.slices.viewing import Tool
+
+
+class FakeTrainer:
+    def __init__(self, placed):
+        self.placed, self.events, self.result, self.state = placed, EventQueue(), None, State.READY
+
+    def snapshot(self):
+        placed = self.placed
+        axis, tip = placed.axis, placed.p_entry + 0.01 * placed.axis
+        pose = NeedlePose(tip, axis, 0.01, 1.0, 0.0, 0.0, DepthSource.TRACKED, True,
+                          1e-9 * np.eye(3))  # fmt: skip
+        device = SimpleNamespace(tick=9, q=np.array([3.0, 0.1]), hub=tip - 0.2 * axis,
+                                 felt=np.zeros(3), fault=0, row=empty_state(),
+                                 qd=np.zeros(2), torque=np.zeros(2))  # fmt: skip
+        timing = SimpleNamespace(median=8e-5, p99=2e-4, missed=0, ticks=9)
+        offset = Offset(*[0.0] * len(Offset.__dataclass_fields__))
+        return Snapshot(1.0, self.state, "", 0.0, MappingProxyType({}), pose, offset,
+                        placed.p_target, device, timing, None, "valid", 0, 1.0, False, None,
+                        ())  # fmt: skip
+
+    def begin(self, student="", hand=""):
+        self.state = State.ALIGNING
+        return "session-1"
+
+    def heartbeat(self): ...
+    def assistance(self, value): ...
+    def hand(self, *_): ...
+    def arm(self): ...
+    def disarm(self): ...
+
+
+class FakeOpen:
+    def __init__(self, setup):
+        self.closed, self.setup = threading.Event(), setup
+        self.run = ExerciseRun(
+            FakeTrainer(setup.placed), setup.placed, device_of(setup.exercise), interactive=True,
+            held_arming=setup.robot.held_arming, port=setup.robot.port,
+        )  # fmt: skip
+
+    def place(self, placed):
+        self.run.trainer.placed = placed
+        self.run = ExerciseRun(self.run.trainer, placed, self.run.profile)
+        return self.run
+
+    def close(self):
+        self.closed.set()
+
+
+class FakeServices:
+    def __init__(self, folder):
+        self.folder, self.opened, self.refuses = folder, [], ""
+        self.prepared, self.missing = threading.Event(), ""
+        self.ports, self.benches = (RobotPort("/dev/ttyACM0", "icube A17 on /dev/ttyACM0"),), []
+
+    def robots(self):
+        return self.ports
+
+    def open_robot(self, port, profile, progress):
+        if self.refuses:
+            raise AcusError(self.refuses)
+        self.benches.append(FakeBench())
+        return self.benches[-1]
+
+    def exercises(self):
+        return tuple(library().exercises)
+
+    def sessions(self):
+        return self.folder
+
+    def prepare(self, progress):
+        self.prepared.set()
+        if self.missing:
+            raise ImportError(self.missing)
+
+    def open_run(self, setup, progress):
+        if self.refuses:
+            raise AcusError(self.refuses)
+        self.opened.append(FakeOpen(setup))
+        return self.opened[-1]
+
+
+def plan(window):
+    window.editor.place(Tool.ENTRY, (5.0, -18.0, 140.0), True)
+    window.editor.place(Tool.TARGET, (5.0, 5.0, 140.0), True)
