@@ -201,14 +201,14 @@ class MainWindow(QMainWindow):
             self.plan_files.failed,
             self.debrief.failed,
             conductor.controller.failed,
+            self.robot.failed,
         ):
             failure.connect(bar.show_error)
         self.plan_files.noted.connect(bar.show_note)
         self.debrief.saved.connect(lambda path: bar.show_note(tr("Saved {name}", name=path)))
         self.editor.refused.connect(lambda error: bar.show_until(REFUSAL, error))
         self.editor.changed.connect(lambda: bar.forget(REFUSAL))
-        for failure in (self.runs.failed, self.robot.failed):
-            failure.connect(lambda error: bar.show_until(ROBOT, error))
+        self.runs.failed.connect(lambda error: bar.show_until(ROBOT, error))
         self.runs.ready.connect(lambda _: bar.forget(ROBOT))
         self.open_ct.opened.connect(
             lambda patient: self.plan_files.after_question(lambda: self.show_patient(patient))
