@@ -54,3 +54,7 @@ class InvalidEntryError(ImagingError, ValueError):
     def __init__(self, message: str, distance_mm: float) -> None:
         super().__init__(message)
         self.distance_mm = distance_mm
+
+
+class BeadError(ImagingError, ValueError):
+    """No bead where one was clicked: nothing bright, too large, or cut off by the CT's edge."""

@@ -6,6 +6,7 @@ from app.core.arrays import FloatArray
 from app.core.confidence import covariance_radius
 from app.core.units import MILLIMETRE
 from app.planning.registration.check import Agreement, PointCheck, RegistrationCheck
+from app.planning.registration.errors import RegistrationError
 
 NOT_CHECKED = "screen and needle: not checked"
 
@@ -24,6 +25,14 @@ def student_line(agreement: Agreement | None) -> str:
     if agreement is None:
         return NOT_CHECKED
     return f"screen and needle agree within ± {_mm(agreement.radius, 1)} mm (95 %)"
+
+
+def agreement_or_reason(check: RegistrationCheck, p_world: FloatArray) -> Agreement | str:
+    """Return the agreement at a point of the world [m], shape (3,), or why there is none."""
+    try:
+        return check.agreement(p_world)
+    except RegistrationError as error:
+        return str(error)
 
 
 def troubles(check: RegistrationCheck) -> tuple[str, ...]:

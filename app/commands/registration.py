@@ -1,0 +1,187 @@
+"""`acus registration`: fiducials touched on a plate, and what they say of a target."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from app.core.arrays import FloatArray
+    from app.planning.registration.check import PointCheck, RegistrationCheck
+    from app.planning.registration.uncertainty import FiducialError
+
+app = typer.Typer(help="Check the cameras' frame, or a scanned phantom, with a fiducial plate.")
+
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
+Touched = Annotated[Path, typer.Option(help="Touched points in world, CSV or YAML, mm.")]
+Plate = Annotated[str, typer.Option(help="Name of a plate, or a .yaml file.")]
+Picked = Annotated[Path | None, typer.Option(help="Beads in the CT (LPS), CSV or YAML, mm.")]
+Target = Annotated[
+    str | None, typer.Option(metavar="X,Y,Z", help="Target in world [mm]; by default below P_I.")
+]
+
+DEFAULT_TARGET_MM = (0.0, 160.56, 30.0)
+"""60 mm below the fulcrum: the middle of the needle's range."""
+
+
+def register(root: typer.Typer) -> None:
+    """Add `registration` to the command line."""
+    root.add_typer(app, name="registration", no_args_is_help=True)
+
+
+@app.command()
+def check(
+    touched: Touched,
+    plate: Plate = "stepped-plate",
+    picked: Picked = None,
+    target: Target = None,
+    as_json: AsJson = False,
+) -> None:
+    """Register touched fiducials to a plate; say what is wrong, and the error at a target.
+
+    Ends with code 1 if the points do not fit the plate.
+    """
+    from app.planning.registration.check import RegistrationCheck
+    from app.planning.registration.plate import load_plate
+    from app.planning.registration.points import read_points
+
+    found = RegistrationCheck.of(
+        load_plate(plate), read_points(touched), read_points(picked) if picked else None
+    )
+    point = _target(target)
+    if as_json:
+        typer.echo(json.dumps(_document(found, point), indent=2))
+    else:
+        _print(found, point)
+    if not found.trusted:
+        raise typer.Exit(1)
+
+
+@app.command()
+def plates(as_json: AsJson = False) -> None:
+    """List the plates that come with the program."""
+    from app.planning.registration.plate import load_plate, plate_names
+
+    found = [load_plate(name) for name in plate_names()]
+    if as_json:
+        typer.echo(json.dumps([plate.model_dump(mode="json") for plate in found], indent=2))
+        return
+    for plate in found:
+        typer.echo(f"{plate.name}  {len(plate.fiducials)} fiducials  {plate.description}")
+
+
+@app.command("list")
+def list_checks(as_json: AsJson = False) -> None:
+    """List the saved checks, newest first."""
+    from app.planning.registration.record import Registrations
+
+    rows = [
+        {
+            "id": record.id,
+            "created": record.created.isoformat(),
+            "plate": record.plate.name,
+            "touched": len(record.touched),
+            "picked": len(record.picked),
+            "rig": record.rig,
+            "calibration": record.calibration,
+            "simulated": record.simulated,
+            "trusted": record.check().trusted,
+        }
+        for record in Registrations.own().records()
+    ]
+    if as_json:
+        typer.echo(json.dumps(rows, indent=2))
+    elif not rows:
+        typer.echo(f"no registration checks in {Registrations.own().folder}")
+    for row in rows if not as_json else ():
+        verdict = "good" if row["trusted"] else "does not fit"
+        typer.echo(
+            f"{row['id']}  {row['plate']}  {row['touched']} touched, {row['picked']} picked  "
+            f"{row['rig']}  {verdict}"
+        )
+
+
+def _target(text: str | None) -> "FloatArray":
+    import numpy as np
+
+    from app.core.errors import ConfigurationError
+    from app.core.units import MILLIMETRE
+
+    if text is None:
+        return np.array(DEFAULT_TARGET_MM) * MILLIMETRE
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) != 3 or not np.isfinite(values).all():
+        raise ConfigurationError(f"--target {text}: three numbers X,Y,Z in mm are needed")
+    return np.array(values) * MILLIMETRE
+
+
+def _print(found: "RegistrationCheck", point: "FloatArray") -> None:
+    from app.planning.registration import words
+
+    for line in (*words.troubles(found), *words.technician_lines(found)):
+        typer.echo(line)
+    for part in (found.world, found.patient):
+        for name, residual in zip(part.names, _lengths_mm(part), strict=True) if part else ():
+            typer.echo(f"  {name}  residual {residual:.2f} mm")
+    typer.echo(words.target_line(found, point))
+    agreement = words.agreement_or_reason(found, point)
+    typer.echo(agreement if isinstance(agreement, str) else words.student_line(agreement))
+    for line in words.MEANING:
+        typer.echo(line)
+
+
+def _document(found: "RegistrationCheck", point: "FloatArray") -> dict[str, Any]:
+    import numpy as np
+
+    from app.core.confidence import covariance_radius
+    from app.core.units import MILLIMETRE
+    from app.planning.registration import words
+
+    agreement = words.agreement_or_reason(found, point)
+    said = isinstance(agreement, str)
+    spread = found.spread(point)
+    return {
+        "plate": found.plate.name,
+        "trusted": found.trusted,
+        "troubles": list(words.troubles(found)),
+        "touched": _part(found.world),
+        "picked": _part(found.patient) if found.patient else None,
+        "target_world_mm": (point / MILLIMETRE).tolist(),
+        "tre_rms_mm": float(np.sqrt(np.trace(found.expected(point)))) / MILLIMETRE,
+        "tre_95_mm": covariance_radius(spread) / MILLIMETRE,
+        "tre_covariance_mm2": (spread / MILLIMETRE**2).tolist(),
+        "agreement_95_mm": None if isinstance(agreement, str) else agreement.radius / MILLIMETRE,
+        "agreement_reason": agreement if said else "",
+    }
+
+
+def _part(part: "PointCheck") -> dict[str, Any]:
+    from app.core.units import MILLIMETRE
+
+    transform = part.fit.T_measured_reference
+    return {
+        "names": list(part.names),
+        "residuals_mm": _lengths_mm(part),
+        "fre_mm": part.fit.fre / MILLIMETRE,
+        "fle_mm": _fle(part.fiducial),
+        "rotation": transform.rotation.tolist(),
+        "translation_mm": (transform.translation / MILLIMETRE).tolist(),
+    }
+
+
+def _fle(error: "FiducialError") -> dict[str, float]:
+    from app.core.units import MILLIMETRE
+
+    values = {"rms": error.rms, "lower_95": error.lower, "upper_95": error.upper}
+    return {name: value / MILLIMETRE for name, value in values.items()}
+
+
+def _lengths_mm(part: "PointCheck") -> list[float]:
+    from app.core.units import MILLIMETRE
+
+    lengths: list[float] = ((part.fit.residuals**2).sum(axis=1) ** 0.5 / MILLIMETRE).tolist()
+    return lengths
