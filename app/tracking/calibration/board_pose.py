@@ -1,0 +1,214 @@
+"""Where a board that lies still is, from pictures of one or both calibrated cameras.
+
+Least squares of the reprojection error by Gauss-Newton over the pose T_left_board = exp(ξ)·T and,
+where both cameras see the board, over the factor s by which it is larger than it should be:
+
+    p = R·(s·X) + t,   ∂p/∂ξ = [I, -[p]×],   ∂p/∂s = R·X,   x = p_xy / p_z.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import cv2
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.rotation import skew
+from app.core.transform import RigidTransform
+from app.tracking.calibration.applies import require_size
+from app.tracking.calibration.views import BoardView
+from app.tracking.errors import CalibrationError
+from app.tracking.optics.calibration import StereoCalibration
+
+Pair = tuple[BoardView | None, BoardView | None]
+"""What the left and the right camera see of the board at one time."""
+
+_STEPS: Final = 20
+_NEAREST: Final = 1e-3
+"""Depth [m] in front of a camera below which a board cannot be."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sight:
+    """Corners in one camera.
+
+    Attributes:
+        camera: 0 left, 1 right.
+        points: in the board's frame [m], (n, 3).
+        rays: undistorted normalised coordinates, (n, 2).
+        focal: fx, fy [px].
+        name: of the picture.
+    """
+
+    camera: int
+    points: FloatArray
+    rays: FloatArray
+    focal: FloatArray
+    name: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BoardPose:
+    """Result of a fit.
+
+    Attributes:
+        T_left_board: pose of the board in the left camera.
+        covariance: of its twist on the left, (6, 6), from the scatter of the corners.
+        rms_px: root mean square distance of the corners to their prediction (2D).
+        by_picture: the same, picture by picture: (name, rms).
+        scale: size of the board over its true size; None if only one camera saw it.
+        scale_sd: standard deviation of `scale`.
+    """
+
+    T_left_board: RigidTransform
+    covariance: FloatArray
+    rms_px: float
+    by_picture: tuple[tuple[str, float], ...]
+    scale: float | None
+    scale_sd: float
+
+
+def sights(calibration: StereoCalibration, pairs: Sequence[Pair]) -> list[Sight]:
+    """Corners of all pictures as rays; those beyond the distortion's fold are left out.
+
+    Raises:
+        CalibrationError: if a picture has another size than its camera was calibrated at, or no
+            picture shows the board.
+    """
+    models = calibration.models()
+    found = []
+    for pair in pairs:
+        for i, view in enumerate(pair):
+            if view is None:
+                continue
+            require_size(calibration.cameras[i], view.image_size, view.name or "the picture")
+            rays, exists = models[i].undistort(view.pixels)
+            if int(exists.sum()) >= 4:
+                name = view.name or calibration.cameras[i].name
+                focal = models[i].intrinsics[:2]
+                found.append(Sight(i, view.points[exists], rays[exists], focal, name))
+    if not found:
+        raise CalibrationError("no picture shows the board: take one with all of it in view")
+    return found
+
+
+def fit_pose(calibration: StereoCalibration, seen: Sequence[Sight]) -> BoardPose:
+    """Fit the pose of a board that lay still in all these pictures.
+
+    Raises:
+        CalibrationError: if no pose in front of the cameras explains them.
+    """
+    T_right_left = calibration.pose.transform
+    fits = []
+    for start in _starts(seen, T_right_left):
+        fit = _descend(seen, T_right_left, start, 1.0, scaled=False)
+        if fit is not None:
+            fits.append(fit)
+    if not fits:
+        raise CalibrationError(
+            "no place in front of the cameras explains the corners; are the pictures of these "
+            "cameras, left and right not exchanged?"
+        )
+    pose, _, residual, jacobian = min(fits, key=lambda fit: float(fit[2] @ fit[2]))
+    freedom = max(1, residual.size - 6)
+    covariance = np.linalg.inv(jacobian.T @ jacobian) * float(residual @ residual) / freedom
+    scale, scale_sd = _scale(seen, T_right_left, pose)
+    return BoardPose(pose, covariance, _rms(residual), _by_picture(seen, residual), scale, scale_sd)
+
+
+def _starts(seen: Sequence[Sight], T_right_left: RigidTransform) -> list[RigidTransform]:
+    """Both poses that a single picture of a plane allows."""
+    first = max(seen, key=lambda sight: len(sight.points))
+    result = cv2.solvePnPGeneric(
+        first.points, first.rays[:, None, :], np.eye(3), None, flags=cv2.SOLVEPNP_IPPE
+    )
+    to_left = RigidTransform.identity() if first.camera == 0 else T_right_left.inverse()
+    poses = []
+    for turn, shift in zip(result[1], result[2], strict=True):
+        rotation, _ = cv2.Rodrigues(turn)
+        u, _, vt = np.linalg.svd(rotation)
+        poses.append(to_left @ RigidTransform(u @ vt, np.ravel(shift)))
+    return poses
+
+
+_Fit = tuple[RigidTransform, float, FloatArray, FloatArray]
+
+
+def _descend(
+    seen: Sequence[Sight],
+    T_right_left: RigidTransform,
+    pose: RigidTransform,
+    scale: float,
+    scaled: bool,
+) -> _Fit | None:
+    """Gauss-Newton; a step that does not lower the error is halved, then the end is reached."""
+    system = _system(seen, T_right_left, pose, scale)
+    if system is None:
+        return None
+    residual, jacobian = system
+    columns = 7 if scaled else 6
+    for _ in range(_STEPS):
+        step = np.linalg.lstsq(jacobian[:, :columns], residual, rcond=None)[0]
+        for factor in (1.0, 0.5, 0.25, 0.0625):
+            new_pose = RigidTransform.exp(factor * step[:6]) @ pose
+            new_scale = scale + (factor * float(step[6]) if scaled else 0.0)
+            system = _system(seen, T_right_left, new_pose, new_scale)
+            if system is not None and system[0] @ system[0] < residual @ residual:
+                break
+        else:
+            break
+        better = residual @ residual - system[0] @ system[0] > 1e-12 * (residual @ residual)
+        pose, scale, (residual, jacobian) = new_pose, new_scale, system
+        if not better:
+            break
+    return pose, scale, residual, jacobian[:, :columns]
+
+
+def _system(
+    seen: Sequence[Sight], T_right_left: RigidTransform, pose: RigidTransform, scale: float
+) -> tuple[FloatArray, FloatArray] | None:
+    """Residual observed minus predicted [px], (2n,), and Jacobian by (ξ, s), (2n, 7)."""
+    residuals, jacobians = [], []
+    for sight in seen:
+        turned = pose.rotate(sight.points)
+        p_left = scale * turned + pose.translation
+        by_left = np.zeros((len(p_left), 3, 7))
+        by_left[:, :, :3] = np.eye(3)
+        by_left[:, :, 3:6] = -np.array([skew(p) for p in p_left])
+        by_left[:, :, 6] = turned
+        p, by = p_left, by_left
+        if sight.camera == 1:
+            p, by = T_right_left @ p_left, T_right_left.rotation @ by_left
+        z = p[:, 2]
+        if z.min() < _NEAREST or not np.isfinite(p).all():
+            return None
+        xy = p[:, :2] / z[:, None]
+        slope = (by[:, :2] - xy[:, :, None] * by[:, 2:]) / z[:, None, None]
+        residuals.append(((sight.rays - xy) * sight.focal).ravel())
+        jacobians.append((slope * sight.focal[:, None]).reshape(-1, 7))
+    return np.concatenate(residuals), np.concatenate(jacobians)
+
+
+def _scale(
+    seen: Sequence[Sight], T_right_left: RigidTransform, pose: RigidTransform
+) -> tuple[float | None, float]:
+    if {sight.camera for sight in seen} != {0, 1}:
+        return None, 0.0
+    fit = _descend(seen, T_right_left, pose, 1.0, scaled=True)
+    if fit is None:
+        return None, 0.0
+    _, scale, residual, jacobian = fit
+    covariance = np.linalg.inv(jacobian.T @ jacobian)
+    variance = float(residual @ residual) / max(1, residual.size - 7)
+    return scale, float(np.sqrt(covariance[6, 6] * variance))
+
+
+def _rms(residual: FloatArray) -> float:
+    return float(np.sqrt(2.0 * np.mean(residual**2)))
+
+
+def _by_picture(seen: Sequence[Sight], residual: FloatArray) -> tuple[tuple[str, float], ...]:
+    ends = np.cumsum([2 * len(sight.points) for sight in seen])[:-1]
+    parts = np.split(residual, ends)
+    return tuple((sight.name, _rms(part)) for sight, part in zip(seen, parts, strict=True))
