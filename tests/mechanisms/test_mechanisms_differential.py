@@ -93,10 +93,10 @@ def test_the_jacobians_rate_times_the_rates_is_the_acceleration_of_the_dynamics(
     for p3 in tool_points(20):
         q = inverse(GEOMETRY, p3)
         turns = np.cos(q[0]), np.sin(q[0]), np.cos(q[1]), np.sin(q[1])
-        u = links.distal_kernel(*turns, *p3, *GEOMETRY.links)
+        u = links.distal_kernel(turns, *p3, *GEOMETRY.links)
         lengths = GEOMETRY.proximal, GEOMETRY.distal
-        s = np.reshape(links.passive_rates_kernel(*turns, *u, *lengths), (2, 2)) @ rates
-        moved = links.passive_acceleration_kernel(*turns, *rates, *u, *s, *lengths)
+        speeds = links.speeds_kernel(links.passive_rates_kernel(turns, u, *lengths), *rates)
+        moved = links.passive_acceleration_kernel(turns, u, speeds, *lengths)
         assert jacobian_rate(GEOMETRY, q, rates) @ rates == pytest.approx(moved[2:], abs=1e-13)
 
 

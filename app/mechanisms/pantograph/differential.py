@@ -13,7 +13,12 @@ the thesis mixes them with relative ones). All take a pose with its tool point a
 from math import atan2, cos, hypot, isfinite, pi, sin
 
 from app.core.compiled import njit
-from app.mechanisms.pantograph.links import distal_kernel, passive_rates_kernel
+from app.mechanisms.pantograph.links import (
+    distal_kernel,
+    passive_rates_kernel,
+    speeds_kernel,
+    turns_kernel,
+)
 from app.mechanisms.pantograph.status import NOT_FINITE, OK, SINGULAR
 
 _RELATIVE = 1e-12
@@ -28,8 +33,10 @@ def singularity_kernel(
     The first two vanish where an arm is stretched or folded (type 1: the tool loses a direction),
     the third where the distal links are in line (type 2: the tool moves with the motors held).
     """
-    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
-    c2, s2, c2r, s2r = distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, base)
+    turns = turns_kernel(q1, q2)
+    c1, s1, c1r, s1r = turns
+    u = distal_kernel(turns, x, y, a1, a2, base)
+    c2, s2, c2r, s2r = u
     return (
         s2 * c1 - c2 * s1,
         s2r * c1r - c2r * s1r,
@@ -54,15 +61,16 @@ def jacobian_rate_kernel(
     The columns of J are a1 sin(θ2-θ1)/sin(θ2'-θ2) (s2', -c2') and a1 sin(θ2'-θ1')/sin(θ2'-θ2)
     (-s2, c2); the product rule with θ̇2 and θ̇2' from q̇. `SINGULAR` as `jacobian_kernel`.
     """
-    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
-    c2, s2, c2r, s2r = distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, base)
+    turns = turns_kernel(q1, q2)
+    c1, s1, c1r, s1r = turns
+    u = distal_kernel(turns, x, y, a1, a2, base)
+    c2, s2, c2r, s2r = u
     closing = s2r * c2 - c2r * s2
     if not isfinite(closing + v1 + v2):
         return NOT_FINITE, 0.0, 0.0, 0.0, 0.0
     if abs(closing) <= _RELATIVE:
         return SINGULAR, 0.0, 0.0, 0.0, 0.0
-    ll, lr, rl, rr = passive_rates_kernel(c1, s1, c1r, s1r, c2, s2, c2r, s2r, a1, a2)
-    w, wr = ll * v1 + lr * v2, rl * v1 + rr * v2
+    _, _, w, wr = speeds_kernel(passive_rates_kernel(turns, u, a1, a2), v1, v2)
     closing_rate = (c2r * c2 + s2r * s2) * (wr - w)
     left = a1 * (s2 * c1 - c2 * s1) / closing
     right = a1 * (s2r * c1r - c2r * s1r) / closing
@@ -93,8 +101,7 @@ def passive_kernel(
     Absolute from +x; relative to the driven link, what an encoder on the elbow would read. Both in
     (-π, π].
     """
-    turns = cos(q1), sin(q1), cos(q2), sin(q2)
-    c2, s2, c2r, s2r = distal_kernel(*turns, x, y, a1, a2, base)
+    c2, s2, c2r, s2r = distal_kernel(turns_kernel(q1, q2), x, y, a1, a2, base)
     left, right = atan2(s2, c2), atan2(s2r, c2r)
     return left, right, _wrapped(left - q1), _wrapped(right - q2)
 

@@ -17,7 +17,7 @@ compiled code (call them only where `jacobian_kernel` says `OK`, with (x, y) the
 """
 
 from dataclasses import dataclass
-from math import cos, sin, tanh
+from math import tanh
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -48,13 +48,11 @@ def mass_matrix_kernel(
     tool: float,
 ) -> tuple[float, float, float]:
     """Mass matrix of links and tool [kg·m²]: (m_left, m_cross, m_right), positive definite."""
-    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
-    ux, uy, rx, ry = links.distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, base)
-    ll, lr, rl, rr = links.passive_rates_kernel(c1, s1, c1r, s1r, ux, uy, rx, ry, a1, a2)
-    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(c1, s1, ux, uy, ll, lr, a1, a2)
-    left, cross, right = links.link_mass_kernel(
-        c1, s1, c1r, s1r, ux, uy, rx, ry, ll, lr, rl, rr, driven, passive, coupling
-    )
+    turns = links.turns_kernel(q1, q2)
+    u = links.distal_kernel(turns, x, y, a1, a2, base)
+    rates = links.passive_rates_kernel(turns, u, a1, a2)
+    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(turns, u, rates, a1, a2)
+    left, cross, right = links.link_mass_kernel(turns, u, rates, driven, passive, coupling)
     return (
         left + tool * (jxl * jxl + jyl * jyl),
         cross + tool * (jxl * jxr + jyl * jyr),
@@ -79,17 +77,15 @@ def velocity_terms_kernel(
     tool: float,
 ) -> tuple[float, float]:
     """Centrifugal and Coriolis torques of links and tool [N·m]: (h_left, h_right)."""
-    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
-    ux, uy, rx, ry = links.distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, base)
-    ll, lr, rl, rr = links.passive_rates_kernel(c1, s1, c1r, s1r, ux, uy, rx, ry, a1, a2)
-    w, wr = ll * v1 + lr * v2, rl * v1 + rr * v2
-    alpha, alpha_r, ax, ay = links.passive_acceleration_kernel(
-        c1, s1, c1r, s1r, v1, v2, ux, uy, rx, ry, w, wr, a1, a2
-    )
+    turns = links.turns_kernel(q1, q2)
+    u = links.distal_kernel(turns, x, y, a1, a2, base)
+    rates = links.passive_rates_kernel(turns, u, a1, a2)
+    speeds = links.speeds_kernel(rates, v1, v2)
+    alpha, alpha_r, ax, ay = links.passive_acceleration_kernel(turns, u, speeds, a1, a2)
     left, right = links.link_velocity_kernel(
-        c1, s1, c1r, s1r, v1, v2, ux, uy, rx, ry, ll, lr, rl, rr, alpha, alpha_r, passive, coupling
+        turns, u, rates, speeds, alpha, alpha_r, passive, coupling
     )
-    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(c1, s1, ux, uy, ll, lr, a1, a2)
+    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(turns, u, rates, a1, a2)
     t_left, t_right = kernels.torque_kernel(tool * ax, tool * ay, jxl, jxr, jyl, jyr)
     return left + t_left, right + t_right
 
@@ -116,27 +112,21 @@ def dynamics_kernel(
         p[first + dm.NEEDLE_INERTIA],
         depth + p[first + dm.NEEDLE_OFFSET],
     )
-    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
-    ux, uy, rx, ry = links.distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, p[first + dm.BASE])
-    ll, lr, rl, rr = links.passive_rates_kernel(c1, s1, c1r, s1r, ux, uy, rx, ry, a1, a2)
-    w, wr = ll * v1 + lr * v2, rl * v1 + rr * v2
-    alpha, alpha_r, ax, ay = links.passive_acceleration_kernel(
-        c1, s1, c1r, s1r, v1, v2, ux, uy, rx, ry, w, wr, a1, a2
-    )
-    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(c1, s1, ux, uy, ll, lr, a1, a2)
+    turns = links.turns_kernel(q1, q2)
+    u = links.distal_kernel(turns, x, y, a1, a2, p[first + dm.BASE])
+    rates = links.passive_rates_kernel(turns, u, a1, a2)
+    speeds = links.speeds_kernel(rates, v1, v2)
+    alpha, alpha_r, ax, ay = links.passive_acceleration_kernel(turns, u, speeds, a1, a2)
+    jxl, jxr, jyl, jyr = links.tool_jacobian_kernel(turns, u, rates, a1, a2)
     dx, dy, dz, l_in = kernels.axis_kernel(
         x, y, p[first + dm.FX], p[first + dm.FY], p[first + dm.FZ]
     )
 
-    m11, m12, m22 = links.link_mass_kernel(
-        c1, s1, c1r, s1r, ux, uy, rx, ry, ll, lr, rl, rr, p[first + dm.DRIVEN], passive, coupling
-    )
+    m11, m12, m22 = links.link_mass_kernel(turns, u, rates, p[first + dm.DRIVEN], passive, coupling)
     xx, xy, yy = needle_dynamics.needle_mass_kernel(dx, dy, l_in, s, mass, inertia)
     n11, n12, n22 = links.at_joints_kernel(tool + xx, xy, tool + yy, jxl, jxr, jyl, jyr)
 
-    h1, h2 = links.link_velocity_kernel(
-        c1, s1, c1r, s1r, v1, v2, ux, uy, rx, ry, ll, lr, rl, rr, alpha, alpha_r, passive, coupling
-    )
+    h1, h2 = links.link_velocity_kernel(turns, u, rates, speeds, alpha, alpha_r, passive, coupling)
     vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
     fx, fy = needle_dynamics.needle_velocity_kernel(
         vx, vy, ax, ay, dx, dy, l_in, s, depth_rate, mass, inertia
@@ -144,9 +134,7 @@ def dynamics_kernel(
     i1, i2 = kernels.torque_kernel(tool * ax + fx, tool * ay + fy, jxl, jxr, jyl, jyr)
 
     moment, moment_2 = p[first + dm.DRIVEN_MOMENT], p[first + dm.PASSIVE_MOMENT]
-    g1, g2 = links.link_gravity_kernel(
-        c1, s1, c1r, s1r, ux, uy, rx, ry, ll, lr, rl, rr, moment, moment_2, gx, gy
-    )
+    g1, g2 = links.link_gravity_kernel(turns, u, rates, moment, moment_2, gx, gy)
     wx, wy = needle_dynamics.needle_gravity_kernel(gx, gy, gz, dx, dy, dz, l_in, s, mass)
     k1, k2 = kernels.torque_kernel(wx - tool * gx, wy - tool * gy, jxl, jxr, jyl, jyr)
     return m11 + n11, m12 + n12, m22 + n22, h1 + i1, h2 + i2, g1 + k1, g2 + k2

@@ -10,7 +10,7 @@ gives; what it gives is counted in FRICTION_WORK.
 """
 
 from collections.abc import Mapping
-from math import cos, isfinite, sin, sqrt
+from math import isfinite, sqrt
 from typing import Any, Final
 
 import numpy as np
@@ -21,7 +21,7 @@ from app.core.compiled import njit, stage
 from app.device.control.law_kernels import no_pose, store
 from app.mechanisms import dynamic_model as dm
 from app.mechanisms.pantograph.dynamics import dynamics_kernel
-from app.mechanisms.pantograph.links import distal_kernel
+from app.mechanisms.pantograph.links import distal_kernel, turns_kernel
 from app.mechanisms.pantograph.status import OK
 from app.mechanisms.profile import DeviceProfile
 
@@ -98,8 +98,8 @@ def gravity_potential(
     """Potential of gravity [J] of links, mass at P3 and needle, up to a constant."""
     gx, gy, gz = p[first + dm.GX], p[first + dm.GY], p[first + dm.GZ]
     a1, a2, base = p[first + dm.A1], p[first + dm.A2], p[first + dm.BASE]
-    c1, s1, c1r, s1r = cos(q1), sin(q1), cos(q2), sin(q2)
-    ux, uy, rx, ry = distal_kernel(c1, s1, c1r, s1r, x, y, a1, a2, base)
+    c1, s1, c1r, s1r = turns = turns_kernel(q1, q2)
+    ux, uy, rx, ry = distal_kernel(turns, x, y, a1, a2, base)
     driven, passive = p[first + dm.DRIVEN_MOMENT], p[first + dm.PASSIVE_MOMENT]
     mx = driven * (c1 + c1r) + passive * (ux + rx) + p[first + dm.TOOL] * x
     my = driven * (s1 + s1r) + passive * (uy + ry) + p[first + dm.TOOL] * y
