@@ -1,0 +1,1 @@
+"""Cameras in the window: sources, calibration, boards to print."""
