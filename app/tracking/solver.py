@@ -63,7 +63,7 @@ class FixSolver:
         if first is None and second is None:
             return self._unseen(time)
         if axis is None or not np.isfinite(axis).all() or not np.any(axis):
-            return _without_point(
+            return without_point(
                 FixStatus.NO_ORIENTATION,
                 (pixels[0], pixels[1]),
                 time,
@@ -82,7 +82,7 @@ class FixSolver:
             found = self._corrected(sightings, found.p_world, axis)
         if found is None or found.status is not StereoStatus.FOUND:
             why = "a pixel has no ray" if found is None else f"the rays are {found.status.value}"
-            return _without_point(FixStatus.INCONSISTENT, pixels, time, reason=why)
+            return without_point(FixStatus.INCONSISTENT, pixels, time, reason=why)
         covariance = self._with_calibration(found)
         reason = self._contradiction(found, covariance, axis)
         tip = found.p_world + self._rig.needle.marker_offset * axis
@@ -158,7 +158,7 @@ class FixSolver:
         return float(np.sqrt(np.mean((found.residual * focal) ** 2)))
 
     def _unseen(self, time: float) -> NeedleFix:
-        return _without_point(
+        return without_point(
             FixStatus.OUT_OF_VIEW,
             (None, None),
             time,
@@ -175,7 +175,7 @@ class FixSolver:
         outline = sighting.centre is Centre.OUTLINE
         found = self._single.solve(camera, sighting.uv, sighting.covariance, axis, outline)
         if found.point is None:
-            return _without_point(FixStatus.ONE_CAMERA, pixels, time, missing, found.reason)
+            return without_point(FixStatus.ONE_CAMERA, pixels, time, missing, found.reason)
         covariance = found.point.covariance if found.covariance is None else found.covariance
         tip = found.point.p_world + self._rig.needle.marker_offset * axis
         residual = found.point.residual * self._models[camera].intrinsics[:2]
@@ -195,13 +195,14 @@ class FixSolver:
         )
 
 
-def _without_point(
+def without_point(
     status: FixStatus,
     pixels: tuple[FloatArray | None, FloatArray | None],
     time: float,
     missing: tuple[str, ...] = (),
     reason: str = "",
 ) -> NeedleFix:
+    """Return a fix that says why there is none."""
     return NeedleFix(
         np.zeros(3), np.zeros((3, 3)), time, status, pixels, 0.0, missing=missing, reason=reason
     )

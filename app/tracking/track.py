@@ -9,6 +9,10 @@ from app.tracking.solver import Sighting
 _GAP = 0.1
 """Longest time [s] between two pictures over which positions are interpolated or predicted."""
 
+_UNKNOWN_SPEED = 150.0
+"""Standard deviation of the marker's speed in the picture [px/s] where it is not known: 50 mm/s of
+a needle at 40 cm."""
+
 _FARTHEST = 60.0
 """Longest predicted way [px] between two pictures."""
 
@@ -21,8 +25,9 @@ class PixelTrack:
         self._doubted = False
 
     def add(self, time: float, marker: MarkerFix | None) -> None:
-        """Remember a find; a picture without the marker ends the track."""
-        self._fixes = [] if marker is None else [*self._fixes[-1:], (time, marker)]
+        """Remember a find; a picture without the marker, or not newer, begins a new track."""
+        earlier = [entry for entry in self._fixes[-1:] if entry[0] < time]
+        self._fixes = [] if marker is None else [*earlier, (time, marker)]
         self._doubted = False
 
     def doubt(self) -> None:
@@ -49,15 +54,24 @@ class PixelTrack:
     def at(self, time: float) -> Sighting | None:
         """Sighting at `time` [s], on the line between the last two finds; None if lost.
 
-        Only interpolates: later than the newest find, or with too wide a gap, the newest counts.
+        Only interpolates. Later than the newest find, before both, or with too wide a gap, the
+        nearest find counts, less exactly the further its capture is away: the marker may move.
         """
         if not self._fixes:
             return None
         (first_time, first), (last_time, last) = self._fixes[0], self._fixes[-1]
         span = last_time - first_time
         if not 0.0 < span <= _GAP or time >= last_time or first.centre is not last.centre:
-            return Sighting.of(last)
-        share = max(0.0, (time - first_time) / span)
+            return _moved(last, time - last_time)
+        if time < first_time:
+            return _moved(first, time - first_time)
+        share = (time - first_time) / span
         uv = (1.0 - share) * first.uv + share * last.uv
         covariance = (1.0 - share) ** 2 * first.covariance + share**2 * last.covariance
         return Sighting(uv, covariance, last.centre)
+
+
+def _moved(marker: MarkerFix, dt: float) -> Sighting:
+    """Return what a find says `dt` [s] away from its capture, at an unknown speed."""
+    spread = (_UNKNOWN_SPEED * dt) ** 2 * np.eye(2)
+    return Sighting(marker.uv, marker.covariance + spread, marker.centre)

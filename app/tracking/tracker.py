@@ -10,6 +10,7 @@ from app.core.events import Event, EventQueue
 from app.core.latest import Latest
 from app.tracking.cameras.camera import Camera, Frame, Image
 from app.tracking.cameras.feed import CameraFeed, Pair
+from app.tracking.capture_times import CaptureTimes
 from app.tracking.errors import TrackingError
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.follower import MarkerFollower, Markers
@@ -17,7 +18,7 @@ from app.tracking.hiding import Hiding
 from app.tracking.markers.choice import extractors as default_extractors
 from app.tracking.markers.extractor import Extractor, MarkerFix, Miss
 from app.tracking.optics.rig import RigProfile
-from app.tracking.solver import FixSolver
+from app.tracking.solver import FixSolver, without_point
 from app.tracking.statistics import TrackerMeter, TrackerStatistics
 
 _PAUSE = 0.1
@@ -85,6 +86,7 @@ class Tracker:
         self._names = tuple(model.name for model in rig.models)
         self._solver = FixSolver(rig, fulcrum)
         self._hiding = Hiding(rig.needle)
+        self._times = CaptureTimes(self._names, self._put)
         self._extractors = extractors or default_extractors(rig)
         self._follower = MarkerFollower(self._extractors, self._solver)
         self._feed = CameraFeed(cameras, self._names, clock, rig.noise_grey > 0.0, self._put)
@@ -124,10 +126,15 @@ class Tracker:
         Raises:
             TrackingError: if there is no picture at all.
         """
-        frames = (left, right)
+        if left is None and right is None:
+            raise TrackingError("a step of the tracker needs at least one picture")
+        frames = self._times.sound((left, right))
         times = [frame.time for frame in frames if frame is not None]
         if not times:
-            raise TrackingError("a step of the tracker needs at least one picture")
+            reason = "the pictures' capture times run backwards"
+            return without_point(
+                FixStatus.NO_PICTURE, (None, None), self._times.newest, self._names, reason
+            )
         time = min(times)
         axis = self._axis(time)
         markers = self._follower.find(frames, axis, time)

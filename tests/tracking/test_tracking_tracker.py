@@ -117,6 +117,7 @@ def test_a_needle_out_of_view_is_reported_with_the_camera_that_misses_it(
     fix = tracker.process(gone_left, gone_right)
     assert fix.status is FixStatus.OUT_OF_VIEW
     assert fix.missing == ("left", "right")
+    left, right = (Frame(f.image, gone_right.time) for f in (left, right))
     fix = tracker.process(left, gone_right)
     assert fix.status is FixStatus.ONE_CAMERA
     assert fix.missing == ("right",)

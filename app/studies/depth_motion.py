@@ -1,0 +1,138 @@
+"""Study: which filter shows the tip where it is when the picture is seen.
+
+A hand pushes the needle by minimum-jerk strokes, by steady pushes that stop suddenly, or holds it
+with tremor; the cameras measure the depth at 30 Hz with noise. Shown is the depth expected at the
+moment that the screen shows it. Reference: the motion itself, exact.
+"""
+
+from collections.abc import Callable
+from typing import Any, Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
+from app.studies.findings import Findings, Sheet
+from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
+from app.tracking.motion.constant_velocity import ConstantVelocity
+from app.tracking.motion.depth_filter import DepthFilter
+from app.tracking.motion.hold import Hold
+from app.tracking.motion.one_euro import OneEuro
+
+_PERIOD: Final = 1.0 / 30.0
+_NOISE: Final = 0.06 * MILLIMETRE
+_LATENCY: Final = 0.045  # [s] from capture to the fix
+_DISPLAY: Final = 0.030  # [s] from the pose to the light of the screen
+_SECONDS: Final = 20.0
+_LOOKS: Final = 60.0  # poses shown per second
+_NOTICED: Final = 1.0  # [mm] of a moving needle on the screen
+
+Path = Callable[[FloatArray], FloatArray]
+
+
+def _strokes(t: FloatArray) -> FloatArray:
+    """Minimum jerk, 20 mm in 0.8 s (peak 47 mm/s), a pause, and back again."""
+    phase = np.mod(t, 3.0)
+    there = np.clip((phase - 0.3) / 0.8, 0.0, 1.0) - np.clip((phase - 1.7) / 0.8, 0.0, 1.0)
+    s = np.abs(there)
+    return 20.0 * MILLIMETRE * s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+
+
+def _pushes(t: FloatArray) -> FloatArray:
+    """50 mm/s that begin and end at once."""
+    phase = np.mod(t, 2.0)
+    return 50.0 * MILLIMETRE * (np.clip(phase - 0.3, 0.0, 0.4) - np.clip(phase - 1.2, 0.0, 0.4))
+
+
+def _rest(t: FloatArray) -> FloatArray:
+    """Tremor of 0.05 mm at 9 Hz."""
+    return 0.05 * MILLIMETRE * np.sin(2.0 * np.pi * 9.0 * t)
+
+
+def _steady(t: FloatArray) -> FloatArray:
+    """50 mm/s throughout."""
+    return 50.0 * MILLIMETRE * t
+
+
+PATHS: Final[dict[str, Path]] = {
+    "strokes": _strokes,
+    "pushes": _pushes,
+    "rest": _rest,
+    "steady": _steady,
+}
+
+
+def shown_error(filter_: DepthFilter, path: Path, seed: int = 3) -> float:
+    """RMS error [mm] of the depth on the screen, after the first second."""
+    random = np.random.default_rng(seed)
+    captures = np.arange(0.0, _SECONDS, _PERIOD)
+    depths = path(captures) + random.normal(0.0, _NOISE, captures.size)
+    errors, taken = [], 0
+    for now in np.arange(1.0, _SECONDS, 1.0 / _LOOKS):
+        while taken < captures.size and captures[taken] + _LATENCY <= now:
+            filter_.take(float(captures[taken]), float(depths[taken]), _NOISE**2)
+            taken += 1
+        seen = now + _DISPLAY
+        motion = filter_.at(float(seen))
+        if motion is not None:
+            errors.append(motion.depth - float(path(np.array(seen))))
+    return float(np.sqrt(np.mean(np.square(errors)))) / MILLIMETRE
+
+
+_FILTERS: Final[dict[str, tuple[str, Callable[[], DepthFilter]]]] = {
+    "newest fix": ("hold", Hold),
+    "Kalman, 2e-5 m²/s³": ("constant_velocity", lambda: ConstantVelocity(2e-5)),
+    "Kalman, 2e-4 m²/s³": ("constant_velocity", lambda: ConstantVelocity(2e-4)),
+    "Kalman, 2e-3 m²/s³": ("constant_velocity", lambda: ConstantVelocity(2e-3)),
+    "one euro, 1 Hz": ("one_euro", lambda: OneEuro(1.0, 300.0, 1.0)),
+    "one euro, 2 Hz": ("one_euro", lambda: OneEuro(2.0, 3000.0, 3.0)),
+    "one euro, 5 Hz": ("one_euro", lambda: OneEuro(5.0, 1000.0, 5.0)),
+}
+
+
+def _case(setting: Setting) -> Case:
+    path = PATHS[setting.name]
+    return Case(path, lambda error: float(error), _NOTICED)
+
+
+def _way(make: Callable[[], DepthFilter]) -> Callable[[Case], Prepared]:
+    def prepare(case: Case) -> Prepared:
+        path: Any = case.data
+        return Prepared(lambda: shown_error(make(), path), round(_SECONDS / _PERIOD))
+
+    return prepare
+
+
+def _lags() -> Findings:
+    rows = []
+    for name, (_, make) in _FILTERS.items():
+        filter_ = make()
+        for k in range(60):
+            filter_.take(k * _PERIOD, 50.0 * MILLIMETRE * k * _PERIOD, _NOISE**2)
+        now = 59 * _PERIOD
+        motion = filter_.at(now)
+        behind = 50.0 * MILLIMETRE * now - (motion.depth if motion is not None else 0.0)
+        measured = behind / (50.0 * MILLIMETRE)
+        rows.append((name, round(1e3 * filter_.lag, 1), round(1e3 * measured, 1)))
+    columns = ("filter", "stated lag [ms]", "measured lag at 50 mm/s [ms]")
+    return Findings((Sheet("lag", "Lag at the newest fix", columns, tuple(rows)),))
+
+
+STUDY: Final = Study(
+    name="depth_motion",
+    title="The tip on the screen: newest fix, Kalman, one euro",
+    question="Which filter shows the tip where it is when the picture is seen?",
+    reference="the motion itself, exact",
+    error_label="RMS error of the shown depth [mm]",
+    ways=tuple(
+        Way(name, family, _way(make), "75 ms from capture to screen")
+        for name, (family, make) in _FILTERS.items()
+    ),
+    settings=tuple(Setting(name, {}) for name in PATHS),
+    case=_case,
+    deadline=Limit(1e-3, "1 ms of a frame"),
+    perception=Limit(_NOTICED, "1 mm of a moving needle"),
+    default="Kalman, 2e-4 m²/s³: best of those that keep a resting needle calmer than 0.2 mm",
+    findings=_lags,
+)
+"""Filters of the depth against the motion that they follow."""

@@ -1,0 +1,1 @@
+"""How the needle moves along itself between the cameras' fixes, in several named ways."""

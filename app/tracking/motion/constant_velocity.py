@@ -1,0 +1,57 @@
+"""Kalman filter of a needle that keeps its speed but for white noise in its acceleration."""
+
+from typing import Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.tracking.motion.depth_filter import FASTEST, DepthFilter
+
+_FIRST_RATE: Final = 0.05
+"""Standard deviation of the speed at the first fix [m/s]."""
+
+_LEAST_VARIANCE: Final = (1e-6) ** 2
+
+
+class ConstantVelocity(DepthFilter):
+    """State depth and rate; process noise white in the acceleration (Bar-Shalom 2001, 6.2.2).
+
+    A steady motion is followed without lag. After a change of speed it needs a few fixes, the
+    fewer the larger `agility`.
+
+    Args:
+        agility: spectral density of the acceleration [m²/s³]; `acus study depth_motion` compares
+            three of them.
+    """
+
+    def __init__(self, agility: float = 2e-4) -> None:
+        super().__init__()
+        self._agility = agility
+        self._state = np.zeros(2)
+        self._spread = np.zeros((2, 2))
+
+    @property
+    def lag(self) -> float:
+        """None behind a steady motion."""
+        return 0.0
+
+    def _begin(self, depth: float, variance: float) -> None:
+        self._state = np.array([depth, 0.0])
+        self._spread = np.diag([variance, _FIRST_RATE**2])
+
+    def _step(self, dt: float, depth: float, variance: float) -> None:
+        state, spread = self._predict(dt)
+        gain = spread[:, 0] / (spread[0, 0] + max(variance, _LEAST_VARIANCE))
+        self._state = state + gain * (depth - state[0])
+        self._state[1] = np.clip(self._state[1], -FASTEST, FASTEST)
+        spread = spread - np.outer(gain, spread[0])
+        self._spread = 0.5 * (spread + spread.T)
+
+    def _ahead(self, dt: float) -> tuple[float, float, float]:
+        state, spread = self._predict(dt)
+        return float(state[0]), float(state[1]), float(max(spread[0, 0], 0.0))
+
+    def _predict(self, dt: float) -> tuple[FloatArray, FloatArray]:
+        step = np.array([[1.0, dt], [0.0, 1.0]])
+        noise = self._agility * np.array([[dt**3 / 3.0, dt**2 / 2.0], [dt**2 / 2.0, dt]])
+        return step @ self._state, step @ self._spread @ step.T + noise
