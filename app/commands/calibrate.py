@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
+from app.commands.calibrate_cameras import mono, stereo
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -15,6 +17,8 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 app = typer.Typer(help="Calibrate cameras from pictures of a board (docs/calibration.md).")
+app.command("mono")(mono)
+app.command("stereo")(stereo)
 
 Images = Annotated[Path, typer.Option("--images", metavar="DIR", help="Folder of the pictures.")]
 BoardSpec = Annotated[

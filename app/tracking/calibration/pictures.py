@@ -35,6 +35,21 @@ def list_pictures(folder: Path, pattern: str = "*") -> list[Path]:
     return found
 
 
+def list_matching(text: str) -> list[Path]:
+    """Pictures of a folder, or those that a pattern such as `frames/camera0_*.png` names.
+
+    Raises:
+        CalibrationError: as `list_pictures`.
+    """
+    path = Path(text)
+    return list_pictures(path) if path.is_dir() else list_pictures(path.parent, path.name)
+
+
+def has_pictures(folder: Path) -> bool:
+    """Whether pictures lie in a folder itself."""
+    return any(path.suffix.lower() in SUFFIXES for path in folder.glob("*") if path.is_file())
+
+
 def look(
     path: Path, board: Board, thorough: bool = True, window: int | None = None
 ) -> BoardView | Rejection:

@@ -1,0 +1,208 @@
+"""`acus calibrate mono` and `stereo`: pictures in, calibration out."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from app.core.progress import Progress
+    from app.tracking.calibration.boards import Board
+    from app.tracking.calibration.checks import Check
+    from app.tracking.calibration.pairing import Pair
+    from app.tracking.calibration.sets import MonoSet, StereoSet
+
+DEFAULT = "charuco:9x6:20mm:15mm:DICT_5X5_100"
+Images = Annotated[
+    Path | None, typer.Option("--images", metavar="DIR", help="Folder of the pictures.")
+]
+BoardSpec = Annotated[
+    str,
+    typer.Option(
+        "--board",
+        metavar="SPEC",
+        help="checkerboard:COLSxROWS:SQUARE (inner corners, e.g. checkerboard:9x6:25mm) or "
+        "charuco:COLSxROWS:SQUARE:MARKER:DICTIONARY (squares).",
+    ),
+]
+HoldBack = Annotated[
+    int | None,
+    typer.Option("--hold-back", min=0, help="Views held back for validation; 0: none."),
+]
+Window = Annotated[
+    int | None,
+    typer.Option(min=1, max=50, help="Half the sub-pixel window [px], to compare; else chosen."),
+]
+Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the YAML here.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
+
+
+def register(app: typer.Typer) -> None:
+    """Add nothing: `commands.calibrate` takes the commands into its group."""
+
+
+def mono(
+    images: Images = None,
+    board: BoardSpec = DEFAULT,
+    hold_back: HoldBack = None,
+    window: Window = None,
+    as_json: AsJson = False,
+) -> None:
+    """Calibrate one camera, or each of two whose names stand in the pictures' names."""
+    from app.commands.calibrate import with_progress
+    from app.commands.calibrate_report import mono_document, mono_lines
+    from app.tracking.calibration.boards import parse_board
+    from app.tracking.calibration.pairing import cameras_of
+    from app.tracking.calibration.pictures import list_pictures
+    from app.tracking.calibration.sets import mono_set
+
+    known = parse_board(board)
+    groups = cameras_of(list_pictures(_folder(images)))
+
+    def work(progress: "Progress") -> "list[MonoSet]":
+        share = 1.0 / len(groups)
+        return [
+            mono_set(
+                name, paths, known, hold_back, window, progress.part(i * share, (i + 1) * share)
+            )
+            for i, (name, paths) in enumerate(groups.items())
+        ]
+
+    found = with_progress(work, as_json)
+    if as_json:
+        document = {"board": known.spec, "cameras": [mono_document(one) for one in found]}
+        typer.echo(json.dumps(document, indent=2))
+        return
+    for one in found:
+        _print(mono_lines(one))
+
+
+def stereo(
+    images: Images = None,
+    board: BoardSpec = DEFAULT,
+    left: Annotated[
+        str | None, typer.Option(metavar="DIR|GLOB", help="Left pictures, in place of --images.")
+    ] = None,
+    right: Annotated[str | None, typer.Option(metavar="DIR|GLOB", help="Right pictures.")] = None,
+    hold_back: HoldBack = None,
+    names: Annotated[str, typer.Option(help="The cameras' names in the rig.")] = "left,right",
+    baseline_mm: Annotated[
+        float | None,
+        typer.Option(min=0.1, help="Distance of the cameras by ruler [mm]: checks the board."),
+    ] = None,
+    check_images: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Pairs of a second board: checks the first.")
+    ] = None,
+    check_board: Annotated[
+        str | None, typer.Option(metavar="SPEC", help="The second board.")
+    ] = None,
+    window: Window = None,
+    out: Out = None,
+    keep: Annotated[
+        bool, typer.Option("--keep", help="Keep it in the history and use it from now on.")
+    ] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Calibrate two cameras from pairs of pictures; validate on pairs held back.
+
+    Pictures are paired by name (docs/calibration.md): left01.png with right01.png, camera0_3.png
+    with camera1_3.png. A known baseline or a second board contradicts a wrong board size.
+    """
+    from app.commands.calibrate import with_progress
+    from app.commands.calibrate_report import stereo_document, stereo_lines
+    from app.tracking.calibration.boards import parse_board
+    from app.tracking.calibration.sets import stereo_set
+
+    known = parse_board(board)
+    second = _second(check_images, check_board)
+    pairs = _pairs(images, left, right)
+    both = _names(names)
+    found = with_progress(
+        lambda progress: stereo_set(pairs, known, both, hold_back, window, progress), as_json
+    )
+    checks = _checks(found, baseline_mm, second)
+    if as_json:
+        typer.echo(json.dumps(stereo_document(found, checks), indent=2))
+    else:
+        _print(stereo_lines(found, checks))
+    _require_passed(checks)
+    _write(found, out, keep)
+
+
+def _folder(images: Path | None) -> Path:
+    from app.core.errors import ConfigurationError
+
+    if images is None:
+        raise ConfigurationError("name the folder of the pictures: --images DIR")
+    return images
+
+
+def _pairs(images: Path | None, left: str | None, right: str | None) -> "list[Pair]":
+    from app.core.errors import ConfigurationError
+    from app.tracking.calibration.pairing import pair_folder, pair_folders
+    from app.tracking.calibration.pictures import list_matching
+
+    if (left is None) != (right is None) or (images is None) == (left is None):
+        raise ConfigurationError("name the pictures: either --images DIR, or --left and --right")
+    if left is not None and right is not None:
+        return pair_folders(list_matching(left), list_matching(right))
+    return pair_folder(_folder(images))
+
+
+def _second(images: Path | None, spec: str | None) -> "tuple[list[Pair], Board] | None":
+    from app.core.errors import ConfigurationError
+    from app.tracking.calibration.boards import parse_board
+    from app.tracking.calibration.pairing import pair_folder
+
+    if (images is None) != (spec is None):
+        raise ConfigurationError("--check-images DIR and --check-board SPEC go together; give both")
+    return None if images is None or spec is None else (pair_folder(images), parse_board(spec))
+
+
+def _names(text: str) -> tuple[str, str]:
+    from app.core.errors import ConfigurationError
+
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != 2 or not all(parts) or parts[0] == parts[1]:
+        raise ConfigurationError(f"--names {text!r} is not two names, e.g. left,right")
+    return parts[0], parts[1]
+
+
+def _checks(
+    found: "StereoSet", baseline_mm: float | None, second: "tuple[list[Pair], Board] | None"
+) -> "list[Check]":
+    from app.tracking.calibration.checks import check_baseline, check_second_board
+    from app.tracking.calibration.sets import seen_by_both
+
+    checks = []
+    if baseline_mm is not None:
+        checks.append(check_baseline(found.calibration, baseline_mm))
+    if second is not None:
+        pairs = seen_by_both(*second, found.result.estimate)
+        checks.append(check_second_board(found.calibration, pairs))
+    return checks
+
+
+def _require_passed(checks: "list[Check]") -> None:
+    from app.tracking.errors import CalibrationError
+
+    for check in checks:
+        if not check.passed:
+            raise CalibrationError(f"the calibration contradicts what is known: {check.text}")
+
+
+def _write(found: "StereoSet", out: Path | None, keep: bool) -> None:
+    from app.tracking.calibration.formats.own import save_calibration
+    from app.tracking.calibration.history import CalibrationHistory
+
+    if out is not None:
+        save_calibration(out, found.calibration)
+        typer.echo(f"wrote {out}", err=True)
+    if keep:
+        typer.echo(f"kept {CalibrationHistory().keep(found.calibration)}", err=True)
+
+
+def _print(lines: list[str]) -> None:
+    for line in lines:
+        typer.echo(line)

@@ -1,0 +1,292 @@
+"""Bundle adjustment of one or two cameras and the boards they saw: least squares on the pixels.
+
+Unknown are the free ones of each camera's nine parameters, the pose of the second camera
+(T_right_left) and one pose per board (T_left_board). Poses change by twists (translation, rotation
+vector) on the left: T = exp(twist) @ T_estimated. Gauss-Newton damped by Levenberg and Marquardt;
+the boards' poses are eliminated first (Schur complement), so that the system that is solved is no
+larger than 9, or 24 for two cameras. Its inverse, times the residual's variance, is the covariance:
+that of the estimate with the boards' poses unknown as well.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray
+from app.core.progress import Progress
+from app.core.transform import RigidTransform
+from app.tracking.calibration.lens import project_with_derivatives
+from app.tracking.errors import CalibrationError
+from app.tracking.optics.calibration import PARAMETERS
+
+_ROUNDS = 60
+_GAIN = 1e-12
+"""Relative fall of the cost below which the adjustment has ended."""
+
+Flags = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Sighting:
+    """A board seen by a camera.
+
+    Attributes:
+        pose: number of the board's pose.
+        camera: 0 left, 1 right.
+        points: in the board's frame [m], shape (n, 3).
+        pixels: shape (n, 2).
+    """
+
+    pose: int
+    camera: int
+    points: FloatArray
+    pixels: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """What is estimated.
+
+    Attributes:
+        parameters: of each camera, shape (cameras, 9), in the order of `PARAMETERS`.
+        T_right_left: identity for one camera.
+        poses: T_left_board of every board.
+    """
+
+    parameters: FloatArray
+    T_right_left: RigidTransform
+    poses: tuple[RigidTransform, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Adjusted:
+    """Result of an adjustment.
+
+    Attributes:
+        state: the estimate.
+        covariance: of the cameras' parameters in a row and, for two, the twist of T_right_left,
+            shape (9, 9) or (24, 24); zero rows for what was fixed.
+        residuals: measured minus predicted pixels of each sighting, (n, 2) each.
+        sigma_px: standard deviation of one pixel coordinate, from the residuals.
+        condition: smallest eigenvalue of the eliminated system, scaled to a unit diagonal; near 0
+            the views do not determine what was asked.
+    """
+
+    state: State
+    covariance: FloatArray
+    residuals: tuple[FloatArray, ...]
+    sigma_px: float
+    condition: float
+
+    @property
+    def rms_px(self) -> float:
+        """Root mean square of the distance between measured and predicted pixels, 2D."""
+        return rms(np.concatenate(self.residuals))
+
+    def sd(self, camera: int = 0) -> FloatArray:
+        """Return the standard deviations of a camera's parameters, shape (9,)."""
+        block = slice(9 * camera, 9 * camera + 9)
+        result: FloatArray = np.sqrt(np.maximum(np.diag(self.covariance)[block], 0.0))
+        return result
+
+
+def rms(residuals: FloatArray) -> float:
+    """Root mean square length of vectors (n, 2), as OpenCV reports it."""
+    return float(np.sqrt((residuals**2).sum() / max(1, len(residuals))))
+
+
+def adjust(
+    sightings: Sequence[Sighting],
+    start: State,
+    free: Flags,
+    progress: Progress | None = None,
+    rounds: int = _ROUNDS,
+    pose_free: bool = True,
+) -> Adjusted:
+    """Adjust cameras and boards to what was seen.
+
+    Args:
+        sightings: at least one for every pose.
+        start: first estimate.
+        free: which parameters are estimated, shape (cameras, 9).
+        progress: asked every round; may cancel.
+        rounds: at most so many steps.
+        pose_free: whether T_right_left is estimated, too.
+
+    Raises:
+        CalibrationError: if there are fewer measurements than unknowns, or no finite estimate.
+    """
+    problem = _Problem(tuple(sightings), free, len(start.poses), pose_free)
+    progress = progress or Progress()
+    state, damping = start, 1e-4
+    system = problem.system(state)
+    if system is None:
+        raise CalibrationError("the first estimate puts a board behind a camera")
+    for _ in range(rounds):
+        progress.report(0.0, "adjusting")
+        moved = problem.moved(state, system, damping)
+        trial = problem.system(moved) if moved is not None else None
+        if trial is not None and moved is not None and trial.cost <= system.cost:
+            gain = system.cost - trial.cost
+            state, system, damping = moved, trial, max(damping * 0.1, 1e-12)
+            if gain <= _GAIN * system.cost:
+                break
+        elif damping > 1e8:
+            break
+        else:
+            damping *= 10.0
+    return problem.result(state, system)
+
+
+@dataclass(frozen=True, eq=False)
+class _System:
+    """Normal equations at one state: global block, per board block and coupling."""
+
+    cost: float
+    gg: FloatArray
+    g: FloatArray
+    bb: FloatArray
+    b: FloatArray
+    gb: FloatArray
+    residuals: tuple[FloatArray, ...]
+
+
+class _Problem:
+    def __init__(
+        self, sightings: tuple[Sighting, ...], free: Flags, poses: int, relative: bool
+    ) -> None:
+        self.sightings, self.poses = sightings, poses
+        cameras = len(free)
+        pose_free = np.full(6 if cameras == 2 else 0, relative)
+        self.free = np.concatenate([free.ravel(), pose_free])
+        self.cameras = cameras
+        self.measured = 2 * sum(len(s.points) for s in sightings)
+        unknown = int(self.free.sum()) + 6 * poses
+        if self.measured <= unknown:
+            raise CalibrationError(
+                f"{self.measured} pixel coordinates cannot determine {unknown} unknowns; add views"
+            )
+        self.dof = self.measured - unknown
+
+    def system(self, state: State) -> _System | None:
+        """Linearise; None where a point lies behind its camera or a value is not finite."""
+        size = self.free.size
+        gg, g = np.zeros((size, size)), np.zeros(size)
+        bb, b = np.zeros((self.poses, 6, 6)), np.zeros((self.poses, 6))
+        gb = np.zeros((self.poses, size, 6))
+        residuals = []
+        for seen in self.sightings:
+            row = _rows(seen, state, size)
+            if row is None:
+                return None
+            r, by_global, by_board = row
+            gg += by_global.T @ by_global
+            g += by_global.T @ r
+            bb[seen.pose] += by_board.T @ by_board
+            b[seen.pose] += by_board.T @ r
+            gb[seen.pose] += by_global.T @ by_board
+            residuals.append(r.reshape(-1, 2))
+        cost = float(sum((r**2).sum() for r in residuals))
+        keep = self.free
+        return _System(cost, gg[np.ix_(keep, keep)], g[keep], bb, b, gb[:, keep], tuple(residuals))
+
+    def moved(self, state: State, system: _System, damping: float) -> State | None:
+        """Take one damped step, or None if the system cannot be solved."""
+        bb = system.bb.copy()
+        diagonal = np.einsum("kii->ki", bb)
+        diagonal *= 1.0 + damping
+        gg = system.gg + damping * np.diag(np.diag(system.gg))
+        try:
+            weights = np.linalg.solve(bb, np.swapaxes(system.gb, 1, 2))  # (poses, 6, free)
+            reduced = gg - np.einsum("kgi,kih->gh", system.gb, weights)
+            right = system.g - np.einsum("kig,ki->g", weights, system.b)
+            step = np.linalg.solve(reduced, right) if right.size else right
+            boards = np.linalg.solve(
+                bb, (system.b - np.einsum("kgi,g->ki", system.gb, step))[..., None]
+            )
+        except np.linalg.LinAlgError:
+            return None
+        if not (np.isfinite(step).all() and np.isfinite(boards).all()):
+            return None
+        return self._stepped(state, step, boards[..., 0])
+
+    def _stepped(self, state: State, step: FloatArray, boards: FloatArray) -> State | None:
+        full = np.zeros(self.free.size)
+        full[self.free] = step
+        if (
+            max(
+                np.abs(boards[:, 3:]).max(initial=0.0),
+                np.abs(full[9 * self.cameras :]).max(initial=0.0),
+            )
+            > 3.0
+        ):
+            return None  # beyond half a turn a twist means something else
+        parameters = state.parameters + full[: 9 * self.cameras].reshape(-1, 9)
+        if parameters[:, :2].min() <= 0.0:
+            return None
+        pose = state.T_right_left
+        if self.cameras == 2:
+            pose = RigidTransform.exp(full[18:]) @ pose
+        poses = tuple(
+            RigidTransform.exp(twist) @ T for twist, T in zip(boards, state.poses, strict=True)
+        )
+        return State(parameters, pose, poses)
+
+    def result(self, state: State, system: _System) -> Adjusted:
+        weights = np.linalg.solve(system.bb, np.swapaxes(system.gb, 1, 2))
+        reduced = system.gg - np.einsum("kgi,kih->gh", system.gb, weights)
+        variance = system.cost / self.dof
+        inverse, condition = _inverse(reduced)
+        covariance = np.zeros((self.free.size, self.free.size))
+        covariance[np.ix_(self.free, self.free)] = variance * inverse
+        return Adjusted(state, covariance, system.residuals, float(np.sqrt(variance)), condition)
+
+
+def _rows(
+    seen: Sighting, state: State, size: int
+) -> tuple[FloatArray, FloatArray, FloatArray] | None:
+    """Residuals (2n,), and derivatives of the prediction by cameras (2n, size), board (2n, 6)."""
+    p_left = state.poses[seen.pose] @ seen.points
+    points = p_left if seen.camera == 0 else state.T_right_left @ p_left
+    if not (np.isfinite(points).all() and points[:, 2].min() > 1e-6):
+        return None
+    uv, by_point, by_parameter = project_with_derivatives(points, state.parameters[seen.camera])
+    if not np.isfinite(uv).all():
+        return None
+    by_left = by_point if seen.camera == 0 else by_point @ state.T_right_left.rotation
+    by_global = np.zeros((len(points), 2, size))
+    by_global[:, :, 9 * seen.camera : 9 * seen.camera + 9] = by_parameter
+    if seen.camera == 1:
+        by_global[:, :, 18:] = _by_twist(by_point, points)
+    residual = (seen.pixels - uv).ravel()
+    by_board = _by_twist(by_left, p_left)
+    return residual, by_global.reshape(-1, size), by_board.reshape(-1, 6)
+
+
+def _by_twist(by_point: FloatArray, points: FloatArray) -> FloatArray:
+    """Differentiate by a twist on the left of the pose that made the points: [I | -[p]x]."""
+    turn = np.cross(points[:, None, :], by_point)  # row·(ω x p) = ω·(p x row)
+    return np.concatenate([by_point, turn], axis=2)
+
+
+def _inverse(matrix: FloatArray) -> tuple[FloatArray, float]:
+    """Inverse of a symmetric matrix, scaled to a unit diagonal first, and its least eigenvalue.
+
+    Directions that the data do not determine at all get the variance of the least that double
+    precision can tell from none, so that it shows as a huge standard deviation, never as NaN.
+    """
+    if not matrix.size:
+        return matrix, 1.0
+    scale = 1.0 / np.sqrt(np.maximum(np.diag(matrix), 1e-300))
+    values, vectors = np.linalg.eigh(matrix * np.outer(scale, scale))
+    safe = np.maximum(values, 1e-14)
+    inverse = (vectors / safe) @ vectors.T * np.outer(scale, scale)
+    return inverse, float(values.min())
+
+
+def with_free(names: Sequence[str], cameras: int = 1) -> Flags:
+    """Mark the parameters named as free, for every camera alike, shape (cameras, 9)."""
+    row = np.array([name in names for name in PARAMETERS])
+    return np.tile(row, (cameras, 1))

@@ -1,0 +1,253 @@
+"""One camera from the views it had of a board."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.core.progress import Progress
+from app.tracking.calibration import held_back
+from app.tracking.calibration.bundle import Adjusted, Sighting, State, adjust, rms, with_free
+from app.tracking.calibration.outliers import limit_px
+from app.tracking.calibration.poses import board_pose
+from app.tracking.calibration.selection import Dropped, smallest_model
+from app.tracking.calibration.start import first_estimate, usual_rms
+from app.tracking.calibration.views import BoardView
+from app.tracking.errors import CalibrationError
+from app.tracking.optics.calibration import PARAMETERS, CameraCalibration
+
+LEAST_VIEWS = 3
+MOST_FOCAL_SPREAD = 0.05
+"""Standard deviation of the focal length over itself beyond which views are refused."""
+
+
+@dataclass(frozen=True)
+class ViewResidual:
+    """A view and how well it fits.
+
+    Attributes:
+        name: of the picture.
+        rms_px: root mean square distance of its corners, 2D [px].
+        role: `used`, `outlier` or `held_back`.
+    """
+
+    name: str
+    rms_px: float
+    role: str
+
+
+@dataclass(frozen=True, eq=False)
+class MonoResult:
+    """A calibrated camera and how it came about.
+
+    Attributes:
+        calibration: the camera.
+        adjusted: the estimate.
+        views: those used, in the order of the estimate's poses.
+        residuals: of every view given, in that order.
+        dropped: coefficients that the data do not support.
+        usual_rms_px: what OpenCV's plain recipe leaves on the same corners: all views, all five
+            coefficients; None if it finds nothing.
+        held_back_rms_px: of views that took no part; None if there were none.
+        notes: lines for people.
+    """
+
+    calibration: CameraCalibration
+    adjusted: Adjusted
+    views: tuple[BoardView, ...]
+    residuals: tuple[ViewResidual, ...]
+    dropped: tuple[Dropped, ...]
+    usual_rms_px: float | None
+    held_back_rms_px: float | None
+    notes: tuple[str, ...]
+
+
+def calibrate_mono(
+    views: Sequence[BoardView],
+    name: str = "camera",
+    hold_back: int | None = None,
+    progress: Progress | None = None,
+) -> MonoResult:
+    """Calibrate one camera.
+
+    Args:
+        views: of one board by one camera, at least three.
+        name: of the camera.
+        hold_back: how many views take no part and are fitted afterwards; one in five if None.
+        progress: reports, and may cancel.
+
+    Raises:
+        CalibrationError: if the views are too few, of different sizes, or do not determine the
+            camera (all in one plane, say).
+    """
+    progress = progress or Progress()
+    _require(views, name)
+    count = held_back.default_count(len(views)) if hold_back is None else hold_back
+    held = set(held_back.choose(views, min(count, len(views) - LEAST_VIEWS)))
+    kept = [view for i, view in enumerate(views) if i not in held]
+    progress.report(0.1, f"{name}: first estimate")
+    used, out = _without_outliers(kept, progress.part(0.2, 0.6))
+    progress.report(0.6, f"{name}: which coefficients the views support")
+    start = first_estimate(used)
+    adjusted, names, dropped = smallest_model(
+        lambda free, earlier: _fit(used, earlier.state if earlier else start, free, progress)
+    )
+    _require_determined(adjusted, name)
+    progress.report(0.9, f"{name}: views held back")
+    residuals = _residuals(views, used, out, adjusted)
+    apart = [r.rms_px for r in residuals if r.role == "held_back"]
+    return MonoResult(
+        _calibration(name, views[0].image_size, adjusted, names),
+        adjusted,
+        tuple(used),
+        residuals,
+        dropped,
+        usual_rms(views),
+        float(np.sqrt(np.mean(np.square(apart)))) if apart else None,
+        (*_notes(name, used, adjusted, dropped, residuals),),
+    )
+
+
+def _require(views: Sequence[BoardView], name: str) -> None:
+    if len(views) < LEAST_VIEWS:
+        raise CalibrationError(
+            f"camera {name}: {len(views)} usable views of the board; at least {LEAST_VIEWS} are "
+            "needed, 15 to 30 are good"
+        )
+    sizes = sorted({view.image_size for view in views})
+    if len(sizes) > 1:
+        raise CalibrationError(
+            f"camera {name}: pictures of different sizes, "
+            + " and ".join(f"{w}x{h}" for w, h in sizes)
+            + "; one camera at one resolution is needed"
+        )
+    boards = sorted({view.board.spec for view in views})
+    if len(boards) > 1:
+        raise CalibrationError(f"camera {name}: views of different boards, {', '.join(boards)}")
+
+
+def _fit(
+    views: Sequence[BoardView], start: State, names: tuple[str, ...], progress: Progress
+) -> Adjusted:
+    """Estimate the parameters named; the coefficients that are not are zero."""
+    free = with_free(names)
+    parameters = np.where(free | (np.arange(9) < 4), start.parameters, 0.0)
+    seen = [Sighting(i, 0, view.points, view.pixels) for i, view in enumerate(views)]
+    progress.report(0.0, "adjusting")
+    return adjust(seen, State(parameters, start.T_right_left, start.poses), free)
+
+
+def _without_outliers(
+    views: list[BoardView], progress: Progress
+) -> tuple[list[BoardView], list[BoardView]]:
+    """Leave out views that do not belong, worst first, until all that are left do."""
+    used, out = list(views), list[BoardView]()
+    while True:
+        adjusted = _fit(used, first_estimate(used), PARAMETERS, progress)
+        each = [rms(r) for r in adjusted.residuals]
+        worst = int(np.argmax(each))
+        if each[worst] <= limit_px(each) or len(used) <= LEAST_VIEWS:
+            return used, out
+        out.append(used.pop(worst))
+
+
+def _require_determined(adjusted: Adjusted, name: str) -> None:
+    focal, spread = adjusted.state.parameters[0, :2], adjusted.sd()[:2]
+    worst = float((spread / focal).max())
+    if not np.isfinite(worst) or worst > MOST_FOCAL_SPREAD:
+        raise CalibrationError(
+            f"camera {name}: the views do not determine the focal length ({focal[0]:.0f} ± "
+            f"{spread[0]:.0f} px; at most {MOST_FOCAL_SPREAD:.0%} is taken); boards that are all "
+            "parallel cannot: tilt the board to different sides by 20 to 45 degrees"
+        )
+
+
+def _residuals(
+    views: Sequence[BoardView], used: list[BoardView], out: list[BoardView], adjusted: Adjusted
+) -> tuple[ViewResidual, ...]:
+    fitted = {id(v): rms(r) for v, r in zip(used, adjusted.residuals, strict=True)}
+    rows = []
+    for view in views:
+        if id(view) in fitted:
+            rows.append(ViewResidual(view.name, fitted[id(view)], "used"))
+            continue
+        left_out = any(view is other for other in out)
+        error = board_pose(view, adjusted.state.parameters[0])[1]
+        rows.append(ViewResidual(view.name, error, "outlier" if left_out else "held_back"))
+    return tuple(rows)
+
+
+def _calibration(
+    name: str, size: tuple[int, int], adjusted: Adjusted, names: tuple[str, ...]
+) -> CameraCalibration:
+    return camera_of(
+        name,
+        size,
+        adjusted.state.parameters[0],
+        names,
+        adjusted.covariance[:9, :9],
+        adjusted.rms_px,
+        len(adjusted.residuals),
+    )
+
+
+def camera_of(
+    name: str,
+    size: tuple[int, int],
+    parameters: np.ndarray,
+    names: tuple[str, ...],
+    covariance: np.ndarray,
+    rms_px: float,
+    views: int,
+) -> CameraCalibration:
+    """Return a camera as the value that files hold."""
+    p = [float(value) for value in parameters]
+    return CameraCalibration(
+        name=name,
+        image_size=size,
+        focal_px=(p[0], p[1]),
+        centre_px=(p[2], p[3]),
+        distortion=(p[4], p[5], p[6], p[7], p[8]),
+        estimated=names,
+        covariance=tuple(tuple(float(value) for value in row) for row in covariance),
+        rms_px=rms_px,
+        views=views,
+    )
+
+
+def _notes(
+    name: str,
+    used: list[BoardView],
+    adjusted: Adjusted,
+    dropped: tuple[Dropped, ...],
+    residuals: tuple[ViewResidual, ...],
+) -> list[str]:
+    notes = [f"{name}: {one.text}" for one in dropped]
+    notes += [
+        f"{name}: {r.name} does not fit ({r.rms_px:.2f} px against {adjusted.rms_px:.2f} px): "
+        "left out"
+        for r in residuals
+        if r.role == "outlier"
+    ]
+    notes += coverage_notes(name, used)
+    focal, spread = adjusted.state.parameters[0, :2], adjusted.sd()[:2]
+    ratio, ratio_sd = float(focal[1] / focal[0]), float(np.hypot(*(spread / focal)))
+    if abs(ratio - 1.0) > max(0.01, 4.0 * ratio_sd):
+        notes.append(
+            f"{name}: fy/fx = {ratio:.4f}: the pixels or the squares are not square; measure the "
+            "print in both directions"
+        )
+    return notes
+
+
+def coverage_notes(name: str, views: Sequence[BoardView]) -> list[str]:
+    """Say where the distortion is not measured but continued."""
+    pixels = np.concatenate([view.pixels for view in views])
+    centre = np.array(views[0].image_size) / 2.0
+    reach = float(np.linalg.norm(pixels - centre, axis=1).max() / np.linalg.norm(centre))
+    if reach >= 0.75:
+        return []
+    return [
+        f"{name}: corners reach {reach:.0%} of the way to the picture's corners; distortion beyond "
+        "is not measured: show the board at the edges too"
+    ]

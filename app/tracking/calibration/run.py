@@ -1,0 +1,140 @@
+"""From views to a calibration that can be kept: estimate, hold back, validate, name."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+
+from app.core.progress import Progress
+from app.tracking.calibration import held_back
+from app.tracking.calibration.bundle import rms
+from app.tracking.calibration.identity import new_id
+from app.tracking.calibration.mono import ViewResidual, camera_of
+from app.tracking.calibration.stereo import (
+    LEAST_PAIRS,
+    StereoEstimate,
+    estimate_stereo,
+    matched,
+    matched_residual,
+)
+from app.tracking.calibration.validation import ViewPair, validate
+from app.tracking.calibration.views import BoardView
+from app.tracking.errors import CalibrationError
+from app.tracking.optics.calibration import PoseCalibration, StereoCalibration
+
+MaybeView = BoardView | None
+
+
+@dataclass(frozen=True, eq=False)
+class StereoResult:
+    """A calibration and how it came about.
+
+    Attributes:
+        calibration: what is kept.
+        estimate: the adjustment behind it.
+        residuals: of every pair given: used, outlier or held back.
+    """
+
+    calibration: StereoCalibration
+    estimate: StereoEstimate
+    residuals: tuple[ViewResidual, ...]
+
+
+def calibrate_stereo(
+    views_left: Sequence[MaybeView],
+    views_right: Sequence[MaybeView],
+    names: tuple[str, str] = ("left", "right"),
+    hold_back: int | None = None,
+    progress: Progress | None = None,
+    now: datetime | None = None,
+) -> StereoCalibration:
+    """Calibrate two cameras; see `calibrate_pairs`, of which this is the calibration alone."""
+    return calibrate_pairs(views_left, views_right, names, hold_back, progress, now).calibration
+
+
+def calibrate_pairs(
+    views_left: Sequence[MaybeView],
+    views_right: Sequence[MaybeView],
+    names: tuple[str, str] = ("left", "right"),
+    hold_back: int | None = None,
+    progress: Progress | None = None,
+    now: datetime | None = None,
+) -> StereoResult:
+    """Calibrate two cameras from views taken together, and validate on some held back.
+
+    May run in any thread; `progress` reports and cancels.
+
+    Args:
+        views_left: of the left camera; None where it did not see the board (the other's view then
+            helps its own parameters alone).
+        views_right: of the right camera; view i of both was taken at the same moment.
+        names: of the cameras in the rig.
+        hold_back: pairs that take no part; one in five from eight pairs on if None.
+        progress: reports, and may cancel.
+        now: when the calibration was made; the present if None.
+
+    Raises:
+        CalibrationError: see `stereo.estimate_stereo`.
+        Cancelled: through `progress`.
+    """
+    progress = progress or Progress()
+    if len(views_left) != len(views_right):
+        raise CalibrationError(
+            f"{len(views_left)} left and {len(views_right)} right views; they are taken in pairs: "
+            "give None where a camera did not see the board"
+        )
+    both = list(zip(views_left, views_right, strict=True))
+    pairs = [(a, b) for a, b in both if a is not None and b is not None]
+    alone = (
+        [a for a, b in both if a is not None and b is None],
+        [b for a, b in both if b is not None and a is None],
+    )
+    held = set(_held(pairs, hold_back))
+    kept = [pair for i, pair in enumerate(pairs) if i not in held]
+    estimate = estimate_stereo(kept, alone, names, progress.part(0.0, 0.9))
+    progress.report(0.9, "pairs held back")
+    apart = [matched(pairs[i], estimate.adjusted) for i in sorted(held)]
+    calibration = _value(estimate, names, now or datetime.now(UTC))
+    if apart:
+        update = {"validation": validate(calibration, apart)}
+        calibration = calibration.model_copy(update=update)
+    rows = (*estimate.residuals, *(_held_row(pair, estimate) for pair in apart))
+    progress.report(1.0, "calibrated")
+    return StereoResult(calibration, estimate, tuple(sorted(rows, key=lambda row: row.name)))
+
+
+def _held(pairs: Sequence[ViewPair], hold_back: int | None) -> list[int]:
+    count = held_back.default_count(len(pairs)) if hold_back is None else hold_back
+    return held_back.choose([left for left, _ in pairs], min(count, len(pairs) - LEAST_PAIRS))
+
+
+def _held_row(pair: ViewPair, estimate: StereoEstimate) -> ViewResidual:
+    name = f"{pair[0].name} + {pair[1].name}"
+    return ViewResidual(name, matched_residual(pair, estimate.adjusted), "held_back")
+
+
+def _value(estimate: StereoEstimate, names: tuple[str, str], now: datetime) -> StereoCalibration:
+    adjusted, board = estimate.adjusted, estimate.pairs[0][0].board
+    covariance = adjusted.covariance
+    cameras = []
+    for side, mono in enumerate((estimate.left, estimate.right)):
+        block = slice(9 * side, 9 * side + 9)
+        cameras.append(
+            camera_of(
+                names[side],
+                mono.calibration.image_size,
+                adjusted.state.parameters[side],
+                mono.calibration.estimated,
+                covariance[block, block],
+                rms(estimate.residuals_of(side)),
+                len(estimate.pairs),
+            )
+        )
+    return StereoCalibration(
+        id=new_id(now),
+        created=now,
+        board=board.spec,
+        cameras=(cameras[0], cameras[1]),
+        pose=PoseCalibration.of(adjusted.state.T_right_left, covariance[18:, 18:]),
+        rms_px=estimate.rms_px,
+        notes=estimate.notes,
+    )

@@ -1,0 +1,123 @@
+"""Pictures of one or two cameras on disk: looked at, then calibrated."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from app.core.progress import Progress
+from app.tracking.calibration.boards import Board
+from app.tracking.calibration.mono import MonoResult, calibrate_mono
+from app.tracking.calibration.pairing import Pair
+from app.tracking.calibration.pictures import look_at_all
+from app.tracking.calibration.run import StereoResult, calibrate_pairs
+from app.tracking.calibration.stereo import StereoEstimate, matched
+from app.tracking.calibration.validation import ViewPair
+from app.tracking.calibration.views import BoardView, Rejection
+from app.tracking.errors import CalibrationError
+from app.tracking.optics.calibration import StereoCalibration
+
+Seen = BoardView | Rejection
+
+
+@dataclass(frozen=True, eq=False)
+class MonoSet:
+    """One camera's pictures.
+
+    Attributes:
+        looked: every picture, as it was seen.
+        result: the calibration.
+    """
+
+    looked: tuple[Seen, ...]
+    result: MonoResult
+
+
+@dataclass(frozen=True, eq=False)
+class StereoSet:
+    """Two cameras' pictures.
+
+    Attributes:
+        looked: every picture, left and right in turn.
+        result: the calibration.
+    """
+
+    looked: tuple[Seen, ...]
+    result: StereoResult
+
+    @property
+    def calibration(self) -> StereoCalibration:
+        """What is kept."""
+        return self.result.calibration
+
+
+def mono_set(
+    name: str,
+    paths: Sequence[Path],
+    board: Board,
+    hold_back: int | None = None,
+    window: int | None = None,
+    progress: Progress | None = None,
+) -> MonoSet:
+    """Calibrate one camera from its pictures.
+
+    Raises:
+        CalibrationError: if too few pictures show the board, with the commonest reason; see
+            `calibrate_mono`.
+        Cancelled: through `progress`.
+    """
+    progress = progress or Progress()
+    looked = look_at_all(paths, board, progress.part(0.0, 0.6), window)
+    views = [view for view in looked if isinstance(view, BoardView)]
+    if not views:
+        raise CalibrationError(none_seen(looked))
+    result = calibrate_mono(views, name, hold_back, progress.part(0.6, 1.0))
+    return MonoSet(tuple(looked), result)
+
+
+def stereo_set(
+    pairs: Sequence[Pair],
+    board: Board,
+    names: tuple[str, str] = ("left", "right"),
+    hold_back: int | None = None,
+    window: int | None = None,
+    progress: Progress | None = None,
+) -> StereoSet:
+    """Calibrate two cameras from pairs of pictures.
+
+    Raises:
+        CalibrationError: see `mono_set` and `calibrate_pairs`.
+        Cancelled: through `progress`.
+    """
+    progress = progress or Progress()
+    paths = [path for pair in pairs for path in (pair.left, pair.right)]
+    looked = look_at_all(paths, board, progress.part(0.0, 0.6), window)
+    views = [view if isinstance(view, BoardView) else None for view in looked]
+    if not any(views):
+        raise CalibrationError(none_seen(looked))
+    result = calibrate_pairs(views[0::2], views[1::2], names, hold_back, progress.part(0.6, 1.0))
+    return StereoSet(tuple(looked), result)
+
+
+def seen_by_both(pairs: Sequence[Pair], board: Board, estimate: StereoEstimate) -> list[ViewPair]:
+    """Find a board in pairs of pictures; match corner orders by cameras that are known.
+
+    Raises:
+        CalibrationError: if no pair shows it to both.
+    """
+    looked = look_at_all([path for pair in pairs for path in (pair.left, pair.right)], board)
+    found = [
+        matched((left, right), estimate.adjusted)
+        for left, right in zip(looked[0::2], looked[1::2], strict=True)
+        if isinstance(left, BoardView) and isinstance(right, BoardView)
+    ]
+    if not found:
+        raise CalibrationError(none_seen(looked))
+    return found
+
+
+def none_seen(looked: Sequence[Seen]) -> str:
+    """Say that no picture shows the board, and the commonest reason."""
+    texts = [view.text for view in looked if isinstance(view, Rejection)]
+    common = max(set(texts), key=texts.count, default="")
+    name = next((v.name for v in looked if isinstance(v, Rejection) and v.text == common), "")
+    return f"the board is usable in none of {len(looked)} pictures (or pairs); {name}: {common}"

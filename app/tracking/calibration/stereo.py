@@ -1,0 +1,279 @@
+"""Two cameras from pairs of views of one board."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.progress import Progress
+from app.core.transform import RigidTransform
+from app.tracking.calibration.bundle import Adjusted, Sighting, State, adjust, rms, with_free
+from app.tracking.calibration.corner_order import Agreement, PosedPair, agree, turns
+from app.tracking.calibration.mirrored import one_side_is_mirrored
+from app.tracking.calibration.mono import MonoResult, ViewResidual, calibrate_mono
+from app.tracking.calibration.outliers import limit_px
+from app.tracking.calibration.poses import board_pose
+from app.tracking.calibration.validation import ViewPair
+from app.tracking.calibration.views import BoardView
+from app.tracking.errors import CalibrationError
+
+LEAST_PAIRS = 3
+
+
+@dataclass(frozen=True, eq=False)
+class StereoEstimate:
+    """Two cameras estimated together, and what was done to the pairs.
+
+    Attributes:
+        left, right: each camera by itself, from which the estimate started.
+        adjusted: the estimate; poses and residuals are those of the pairs used, left and right in
+            turn, then of the views that only one camera had.
+        pairs: used, corner orders matching.
+        residuals: of every pair given, in that order.
+        mended: names of the pairs whose right picture was numbered the other way round.
+        notes: lines for people.
+    """
+
+    left: MonoResult
+    right: MonoResult
+    adjusted: Adjusted
+    pairs: tuple[ViewPair, ...]
+    residuals: tuple[ViewResidual, ...]
+    mended: tuple[str, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def rms_px(self) -> float:
+        """Root mean square residual of the pairs used, both pictures [px]."""
+        return rms(np.concatenate([self.residuals_of(0), self.residuals_of(1)]))
+
+    def residuals_of(self, side: int) -> FloatArray:
+        """Residuals of the left (0) or right (1) camera in the pairs used [px], shape (n, 2)."""
+        return np.concatenate(self.adjusted.residuals[side : 2 * len(self.pairs) : 2])
+
+
+def estimate_stereo(
+    pairs: Sequence[ViewPair],
+    alone: tuple[Sequence[BoardView], Sequence[BoardView]] = ((), ()),
+    names: tuple[str, str] = ("left", "right"),
+    progress: Progress | None = None,
+) -> StereoEstimate:
+    """Estimate both cameras and their relative pose.
+
+    Args:
+        pairs: views taken together, left and right.
+        alone: views that only one of the cameras had; they help its own parameters.
+        names: of the cameras.
+        progress: reports, and may cancel.
+
+    Raises:
+        CalibrationError: see `calibrate_mono`; or the pairs do not agree on where the cameras
+            stand, cannot tell which way round the board lies, come from one camera, or are
+            mirrored on one side.
+    """
+    progress = progress or Progress()
+    if len(pairs) < LEAST_PAIRS:
+        raise CalibrationError(
+            f"{len(pairs)} pairs show the board to both cameras; at least {LEAST_PAIRS} are "
+            "needed, 15 to 30 are good"
+        )
+    _require_two_cameras(pairs)
+    left, right = (
+        calibrate_mono(
+            [*(pair[side] for pair in pairs), *alone[side]],
+            names[side],
+            0,
+            progress.part(0.3 * side, 0.3 * side + 0.3),
+        )
+        for side in (0, 1)
+    )
+    progress.report(0.6, "which corner is which")
+    posed = [_posed(pair, left, right) for pair in pairs]
+    agreement = agree(posed, right.adjusted.state.parameters[0])
+    _require_agreement(agreement, posed, right)
+    mended = _mended(pairs, agreement)
+    adjusted, used = _adjusted(mended, posed, left, right, agreement, progress.part(0.7, 1.0))
+    residuals = _residuals(mended, used, adjusted)
+    changed = tuple(pairs[i][1].name for i in used if agreement.ways[i] and pairs[i][1].name)
+    return StereoEstimate(
+        left,
+        right,
+        adjusted,
+        tuple(mended[i] for i in used),
+        residuals,
+        changed,
+        (*left.notes, *right.notes, *_notes(names, pairs, changed, residuals, adjusted)),
+    )
+
+
+def matched(pair: ViewPair, adjusted: Adjusted) -> ViewPair:
+    """Return a pair with its right picture numbered as the left one, by cameras that are known."""
+    left, right = pair
+    T_left_board, _ = board_pose(left, adjusted.state.parameters[0])
+    best = min(
+        turns(left.board),
+        key=lambda order: _pair_error(left, right.reordered(order), T_left_board, adjusted),
+    )
+    return left, right.reordered(best)
+
+
+def matched_residual(pair: ViewPair, adjusted: Adjusted) -> float:
+    """Root mean square residual of a pair that took no part, its board's pose fitted [px]."""
+    T_left_board, _ = board_pose(pair[0], adjusted.state.parameters[0])
+    return _pair_error(*pair, T_left_board, adjusted)
+
+
+def _require_two_cameras(pairs: Sequence[ViewPair]) -> None:
+    same = [
+        left.ids.shape == right.ids.shape and np.allclose(left.pixels, right.pixels, atol=0.02)
+        for left, right in pairs
+    ]
+    if np.mean(same) > 0.5:
+        raise CalibrationError(
+            "left and right show the same pictures: both come from one camera; choose another "
+            "source for one of them"
+        )
+
+
+def _posed(pair: ViewPair, left: MonoResult, right: MonoResult) -> PosedPair:
+    T_left, _ = board_pose(pair[0], left.adjusted.state.parameters[0])
+    T_right, _ = board_pose(pair[1], right.adjusted.state.parameters[0])
+    return PosedPair(pair[0], pair[1], T_left, T_right)
+
+
+def _require_agreement(agreement: Agreement, posed: list[PosedPair], right: MonoResult) -> None:
+    if agreement.agreeing.mean() > 0.5 and agreement.agreeing.sum() >= LEAST_PAIRS:
+        return
+    if one_side_is_mirrored(posed, right.adjusted.state.parameters[0]):
+        raise CalibrationError(
+            "the pictures of one of the two cameras are mirrored: the pairs fit once one side is "
+            "mirrored back; turn mirror mode off in that camera's settings and take them again"
+        )
+    raise CalibrationError(
+        f"the pairs do not agree on where the cameras stand: {int(agreement.agreeing.sum())} of "
+        f"{len(posed)} fit together within {agreement.near:.0f} px; pictures that were not taken "
+        "together, cameras moved in between, or names paired wrongly do that"
+    )
+
+
+def _mended(pairs: Sequence[ViewPair], agreement: Agreement) -> list[ViewPair]:
+    orders = turns(pairs[0][0].board)
+    return [
+        (left, right.reordered(orders[way]) if way else right)
+        for (left, right), way in zip(pairs, agreement.ways, strict=True)
+    ]
+
+
+def _adjusted(
+    pairs: list[ViewPair],
+    posed: list[PosedPair],
+    left: MonoResult,
+    right: MonoResult,
+    agreement: Agreement,
+    progress: Progress,
+) -> tuple[Adjusted, list[int]]:
+    """Adjust everything together; pairs that do not belong are left out, worst first."""
+    free = np.vstack(
+        [with_free(left.calibration.estimated), with_free(right.calibration.estimated)]
+    )
+    cameras = np.vstack([left.adjusted.state.parameters, right.adjusted.state.parameters])
+    lone = _lone(posed, left, right, agreement.T_right_left)
+    used = [i for i in range(len(pairs)) if agreement.agreeing[i]]
+    while True:
+        poses = [posed[i].T_left_board for i in used] + [T for _, _, T in lone]
+        seen = _sightings([pairs[i] for i in used])
+        seen += [
+            Sighting(len(used) + i, side, view.points, view.pixels)
+            for i, (side, view, _) in enumerate(lone)
+        ]
+        start = State(cameras, agreement.T_right_left, tuple(poses))
+        adjusted = adjust(seen, start, free, progress)
+        each = pair_residuals(adjusted, len(used))
+        worst = int(np.argmax(each))
+        if each[worst] <= limit_px(each) or len(used) <= LEAST_PAIRS:
+            return adjusted, used
+        used = [i for place, i in enumerate(used) if place != worst]
+
+
+def _lone(
+    posed: list[PosedPair], left: MonoResult, right: MonoResult, T_right_left: RigidTransform
+) -> list[tuple[int, BoardView, RigidTransform]]:
+    """List views that only one camera had: side, view, and the board in the left frame."""
+    paired = {id(view) for pair in posed for view in (pair.left, pair.right)}
+    back = (RigidTransform.identity(), T_right_left.inverse())
+    return [
+        (side, view, back[side] @ T)
+        for side, mono in enumerate((left, right))
+        for view, T in zip(mono.views, mono.adjusted.state.poses, strict=True)
+        if id(view) not in paired
+    ]
+
+
+def _sightings(pairs: Sequence[ViewPair]) -> list[Sighting]:
+    return [
+        Sighting(i, side, view.points, view.pixels)
+        for i, pair in enumerate(pairs)
+        for side, view in enumerate(pair)
+    ]
+
+
+def pair_residuals(adjusted: Adjusted, pairs: int) -> list[float]:
+    """Root mean square residual of each pair, both pictures together [px]."""
+    both = adjusted.residuals[: 2 * pairs]
+    return [rms(np.concatenate(both[i : i + 2])) for i in range(0, len(both), 2)]
+
+
+def _residuals(
+    pairs: list[ViewPair], used: list[int], adjusted: Adjusted
+) -> tuple[ViewResidual, ...]:
+    fitted = dict(zip(used, pair_residuals(adjusted, len(used)), strict=True))
+    rows = []
+    for i, pair in enumerate(pairs):
+        name = f"{pair[0].name} + {pair[1].name}"
+        if i in fitted:
+            rows.append(ViewResidual(name, fitted[i], "used"))
+            continue
+        rows.append(ViewResidual(name, matched_residual(pair, adjusted), "outlier"))
+    return tuple(rows)
+
+
+def _pair_error(
+    left: BoardView, right: BoardView, T_left_board: RigidTransform, adjusted: Adjusted
+) -> float:
+    """Root mean square residual of a pair whose board pose alone is fitted [px]."""
+    start = replace(adjusted.state, poses=(T_left_board,))
+    none = np.zeros((2, 9), dtype=bool)
+    try:
+        found = adjust(_sightings([(left, right)]), start, none, rounds=20, pose_free=False)
+    except CalibrationError:
+        return float("inf")
+    return found.rms_px
+
+
+def _notes(
+    names: tuple[str, str],
+    pairs: Sequence[ViewPair],
+    changed: tuple[str, ...],
+    residuals: tuple[ViewResidual, ...],
+    adjusted: Adjusted,
+) -> list[str]:
+    notes = []
+    if changed:
+        notes.append(
+            f"{len(changed)} of {len(pairs)} pairs had their corners numbered from opposite ends; "
+            f"mended: {', '.join(changed)}"
+        )
+    notes += [
+        f"{r.name} does not fit the other pairs ({r.rms_px:.2f} px against "
+        f"{adjusted.rms_px:.2f} px): left out"
+        for r in residuals
+        if r.role == "outlier"
+    ]
+    p_right = adjusted.state.T_right_left.inverse().translation
+    if p_right[0] < 0.0:
+        notes.append(
+            f"camera {names[1]} stands {-p_right[0] * 1e3:.0f} mm to the left of camera "
+            f"{names[0]}: the two may be swapped"
+        )
+    return notes

@@ -1,0 +1,101 @@
+"""Thirteen real pairs of a 9x6 board with published left intrinsics."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.tracking.calibration.boards import parse_board
+from app.tracking.calibration.pairing import Pair, pair_folder
+from app.tracking.calibration.pictures import look_at_all
+from app.tracking.calibration.run import StereoResult, calibrate_pairs
+from app.tracking.calibration.start import usual_rms
+from app.tracking.calibration.views import BoardView
+
+BOARD = parse_board("checkerboard:9x6:25mm")
+PUBLISHED_FX, PUBLISHED_CENTRE = 535.916, (342.283, 235.571)  # left_intrinsics.yml
+Views = list[BoardView]
+
+
+@pytest.fixture(scope="module")
+def pairs(shared_data: Path) -> list[Pair]:
+    folder = shared_data / "stereo_opencv"
+    if not folder.is_dir():
+        pytest.skip(f"no real pairs in {folder}: set ACUS_TEST_DATA")
+    return pair_folder(folder)
+
+
+def seen(pairs: list[Pair], window: int | None = None) -> tuple[Views, Views]:
+    looked = look_at_all(
+        [p for pair in pairs for p in (pair.left, pair.right)], BOARD, None, window
+    )
+    assert all(isinstance(view, BoardView) for view in looked)
+    return looked[0::2], looked[1::2]  # type: ignore[return-value]
+
+
+@pytest.fixture(scope="module")
+def views(pairs: list[Pair]) -> tuple[Views, Views]:
+    return seen(pairs)
+
+
+@pytest.fixture(scope="module")
+def result(views: tuple[Views, Views]) -> StereoResult:
+    return calibrate_pairs(*views)
+
+
+def test_the_published_residuals_come_out_with_the_published_recipe(pairs: list[Pair]) -> None:
+    left, right = seen(pairs, window=11)  # for all pictures, as the published recipe has it
+    assert usual_rms(left) == pytest.approx(0.409, abs=0.003)
+    assert usual_rms(right) == pytest.approx(0.459, abs=0.003)
+
+
+def test_a_window_that_fits_the_squares_halves_the_residual(views: tuple[Views, Views]) -> None:
+    for side in views:
+        rms = usual_rms(side)
+        assert rms is not None
+        assert rms < 0.2
+
+
+def test_the_left_camera_is_the_published_one(result: StereoResult) -> None:
+    camera = result.calibration.cameras[0]
+    assert camera.focal_px == pytest.approx((PUBLISHED_FX,) * 2, rel=0.005)
+    assert camera.centre_px == pytest.approx(PUBLISHED_CENTRE, abs=2.0)
+    assert camera.distortion[0] == pytest.approx(-0.28, abs=0.02)
+
+
+def test_coefficients_that_the_pictures_do_not_support_are_dropped_and_said(
+    result: StereoResult,
+) -> None:
+    camera = result.calibration.cameras[0]
+    assert "k3" not in camera.estimated
+    assert camera.distortion[4] == 0.0
+    assert any("k3" in note and "dropped" in note for note in result.calibration.notes)
+    sd = np.sqrt(np.diag(camera.parameter_covariance))
+    estimated = [name in camera.estimated for name in ("k1", "k2", "p1", "p2", "k3")]
+    assert ((sd[4:] > 0.0) == estimated).all()
+
+
+def test_boards_held_back_come_out_true(result: StereoResult) -> None:
+    calibration = result.calibration
+    assert calibration.baseline == pytest.approx(0.0834, abs=0.0005)
+    assert calibration.rms_px < 0.25
+    value = calibration.validation
+    assert value is not None
+    assert value.views == 2
+    assert value.rms_mm < 0.4  # at 0.3 to 0.5 m with a baseline of 83 mm
+    assert value.scale == pytest.approx(1.0, abs=0.002)
+    assert value.epipolar_px < 0.3
+
+
+def test_corner_orders_that_differ_between_the_cameras_are_mended(
+    views: tuple[Views, Views], result: StereoResult
+) -> None:
+    left, right = views
+    other_end = np.arange(BOARD.count)[::-1]
+    flipped = [v.reordered(other_end) if i in (0, 3, 6, 7) else v for i, v in enumerate(right)]
+    mended = calibrate_pairs(left, flipped)
+    assert set(mended.estimate.mended) == {right[i].name for i in (0, 3, 6, 7)}
+    assert mended.calibration.rms_px == pytest.approx(result.calibration.rms_px, abs=1e-6)
+    np.testing.assert_allclose(
+        mended.calibration.pose.translation_mm, result.calibration.pose.translation_mm, atol=1e-4
+    )
