@@ -1,0 +1,157 @@
+"""`acus calibrate export|import|board`: files for and from other programs, boards to print."""
+
+import json
+import re
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from app.commands.calibrate import AsJson, app
+from app.commands.calibrate_history import Id
+from app.core.errors import AcusError
+
+BoardOption = Annotated[
+    str, typer.Option("--board", metavar="SPEC", help="Board to print; see `calibrate views`.")
+]
+
+
+class ExchangeError(AcusError):
+    """An option of the exchange commands that cannot be understood."""
+
+
+def register(_root: typer.Typer) -> None:
+    """Add nothing: the commands here belong to `calibrate`, which its own file adds."""
+
+
+@app.command("export")
+def export(
+    calibration_id: Id,
+    out: Annotated[Path, typer.Option("--out", help="File (yaml) or folder (ros) to write.")],
+    kind: Annotated[
+        str, typer.Option("--format", help="yaml (one file, everything) or ros (camera_info pair).")
+    ] = "yaml",
+    as_json: AsJson = False,
+) -> None:
+    """Write a calibration to other files."""
+    from app.tracking.calibration.formats.own import save_calibration
+    from app.tracking.calibration.formats.ros import ros_paths, write_ros
+    from app.tracking.calibration.history import CalibrationHistory
+
+    history = CalibrationHistory()
+    calibration = history.load(history.find(calibration_id).id)
+    if kind == "yaml":
+        files = [out]
+        save_calibration(out, calibration)
+    elif kind == "ros":
+        files = list(ros_paths(out, calibration))
+        write_ros(files[0], files[1], calibration)
+    else:
+        raise ExchangeError(f"--format {kind}: only yaml and ros can be written")
+    if as_json:
+        typer.echo(json.dumps({"id": calibration.id, "files": [str(path) for path in files]}))
+    else:
+        typer.echo(f"{calibration.id} written to {', '.join(str(path) for path in files)}")
+
+
+@app.command("import")
+def import_(
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="FILES",
+            help="One YAML of Acus; or left and right YAML of ICube or ROS; or the folder of "
+            "TemugeB's text files.",
+        ),
+    ],
+    unit: Annotated[
+        str | None,
+        typer.Option("--unit", help="Unit of TemugeB's files, the board's: e.g. 1cm, 25.4mm."),
+    ] = None,
+    size: Annotated[
+        str | None, typer.Option("--size", help="Picture size of TemugeB's files: e.g. 1280x720.")
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Read a calibration of another program and use it from now on."""
+    from app.commands.calibrate_history import calibration_lines
+    from app.tracking.calibration.formats.reading import read_calibration
+    from app.tracking.calibration.history import CalibrationHistory
+
+    calibration = read_calibration(
+        files,
+        unit=length(unit) if unit is not None else None,
+        image_size=picture_size(size) if size is not None else None,
+    )
+    path = CalibrationHistory().keep(calibration)
+    if as_json:
+        document = {"file": str(path), "calibration": calibration.model_dump(mode="json")}
+        typer.echo(json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False))
+        return
+    for line in calibration_lines(calibration):
+        typer.echo(line)
+    typer.echo(f"in use from now on; kept as {path}")
+
+
+@app.command("board")
+def board_(
+    out: Annotated[Path, typer.Option("--out", help="PDF file to write.")],
+    board: BoardOption = "charuco:9x6:20mm:15mm:DICT_5X5_100",
+    paper: Annotated[str, typer.Option("--paper", help="A4, A3 or Letter.")] = "A4",
+    as_json: AsJson = False,
+) -> None:
+    """Write a board as PDF at true size; print it at 100 %."""
+    from app.tracking.calibration.boards import parse_board
+    from app.views.cameras.board_layout import paper_named
+    from app.views.cameras.board_page import write_board
+
+    if out.suffix.lower() != ".pdf":
+        raise ExchangeError(f"--out {out}: only .pdf can be written")
+    known = parse_board(board)
+    sheet = write_board(out, known, paper_named(paper))
+    width, height = sheet.pattern_mm
+    if as_json:
+        document = {
+            "file": str(out),
+            "board": known.spec,
+            "paper": sheet.paper.name,
+            "landscape": sheet.landscape,
+            "pattern_mm": [width, height],
+            "ambiguous": known.ambiguous,
+        }
+        typer.echo(json.dumps(document, indent=1))
+        return
+    typer.echo(f"{known.spec}, {width:g} x {height:g} mm on {sheet.paper.name}: {out}")
+    if known.ambiguous:
+        typer.echo(
+            "note: this board looks the same after half a turn; a ChArUco board, or one with an "
+            "odd and an even count of corners, does not"
+        )
+    typer.echo("print at 100 %, not fitted to the page, and measure the line of 100 mm")
+
+
+def length(text: str) -> float:
+    """Metres of a length with its unit, such as `1cm`.
+
+    Raises:
+        ExchangeError: if it is none.
+    """
+    from app.tracking.calibration.boards import UNITS
+
+    units = UNITS | {"in": 0.0254}
+    found = re.fullmatch(r"(\d+(?:\.\d*)?|\.\d+)\s*(mm|cm|m|in)", text.strip())
+    if found is None:
+        raise ExchangeError(f"--unit {text}: a length with its unit is needed, e.g. 1cm or 25.4mm")
+    return float(found[1]) * units[found[2]]
+
+
+def picture_size(text: str) -> tuple[int, int]:
+    """Width and height [px] of `1280x720`.
+
+    Raises:
+        ExchangeError: if it is none.
+    """
+    found = re.fullmatch(r"(\d{2,5})[xX×](\d{2,5})", text.strip())
+    if found is None:
+        raise ExchangeError(f"--size {text}: WIDTHxHEIGHT in pixels is needed, e.g. 1280x720")
+    return int(found[1]), int(found[2])

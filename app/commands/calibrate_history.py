@@ -1,0 +1,177 @@
+"""`acus calibrate list|show|use|undo|redo|condemn`: the calibrations that were kept."""
+
+import json
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from app.commands.calibrate import AsJson, app
+
+if TYPE_CHECKING:
+    from app.tracking.calibration.history import CalibrationHistory, Entry
+    from app.tracking.optics.calibration import StereoCalibration
+
+Id = Annotated[str, typer.Argument(metavar="ID", help="Id of the calibration, or its beginning.")]
+
+
+def register(_root: typer.Typer) -> None:
+    """Add nothing: the commands here belong to `calibrate`, which its own file adds."""
+
+
+@app.command("list")
+def list_(as_json: AsJson = False) -> None:
+    """List all calibrations, newest first, and which one is in use."""
+    history = _history()
+    documents = [entry_document(history, entry) for entry in reversed(history.entries())]
+    if as_json:
+        _print({"folder": str(history.folder), "calibrations": documents})
+    elif not documents:
+        typer.echo(f"no calibrations in {history.folder}")
+    for document in [] if as_json else documents:
+        mark = "*" if document["in_use"] else " "
+        typer.echo(f"{mark} {document['id']:28} {_line(document)}")
+
+
+@app.command("show")
+def show(calibration_id: Id, as_json: AsJson = False) -> None:
+    """Show one calibration: cameras, residuals, validation, notes."""
+    history = _history()
+    entry = history.find(calibration_id)
+    calibration = history.load(entry.id)
+    if as_json:
+        content = calibration.model_dump(mode="json")
+        _print(entry_document(history, entry) | {"calibration": content})
+        return
+    for line in calibration_lines(calibration):
+        typer.echo(line)
+    if entry.condemned is not None:
+        typer.echo(f"found bad     {entry.condemned.date:%Y-%m-%d}: {entry.condemned.reason}")
+    typer.echo(f"file          {entry.path}{'  (in use)' if entry.active else ''}")
+
+
+@app.command("use")
+def use(calibration_id: Id, as_json: AsJson = False) -> None:
+    """Use a kept calibration from now on."""
+    history = _history()
+    history.use(calibration_id)
+    _tell(history, as_json)
+
+
+@app.command("undo")
+def undo(as_json: AsJson = False) -> None:
+    """Go back to the calibration that was used before; nothing is deleted."""
+    history = _history()
+    history.undo()
+    _tell(history, as_json)
+
+
+@app.command("redo")
+def redo(as_json: AsJson = False) -> None:
+    """Take back an undo."""
+    history = _history()
+    history.redo()
+    _tell(history, as_json)
+
+
+@app.command("condemn")
+def condemn(
+    calibration_id: Id,
+    why: Annotated[str, typer.Option("--why", help="What is wrong with it; attempts say it.")],
+    as_json: AsJson = False,
+) -> None:
+    """Say that a calibration was found bad: it is not used, its attempts are flagged."""
+    history = _history()
+    history.condemn(calibration_id, why)
+    _tell(history, as_json)
+
+
+def entry_document(history: "CalibrationHistory", entry: "Entry") -> dict[str, Any]:
+    """One calibration as JSON; a file that cannot be read says why in `problem`."""
+    from app.core.errors import AcusError
+
+    document: dict[str, Any] = {
+        "id": entry.id,
+        "file": str(entry.path),
+        "kept": entry.kept.isoformat() if entry.kept is not None else None,
+        "in_use": entry.active,
+        "found_bad": entry.condemned.reason if entry.condemned is not None else "",
+        "problem": "",
+    }
+    try:
+        calibration = history.load(entry.id)
+    except AcusError as error:
+        return document | {"problem": str(error)}
+    validation = calibration.validation
+    return document | {
+        "created": calibration.created.isoformat(),
+        "board": calibration.board,
+        "cameras": [
+            {"name": c.name, "image_size": list(c.image_size), "rms_px": c.rms_px}
+            for c in calibration.cameras
+        ],
+        "baseline_mm": calibration.baseline * 1e3,
+        "rms_px": calibration.rms_px,
+        "validation_rms_mm": validation.rms_mm if validation is not None else None,
+        "world": calibration.world is not None,
+    }
+
+
+def calibration_lines(calibration: "StereoCalibration") -> list[str]:
+    """Return what a calibration says, for people, one line each."""
+    lines = [
+        f"id            {calibration.id}",
+        f"created       {calibration.created:%Y-%m-%d %H:%M %Z}",
+        f"board         {calibration.board or 'not known'}",
+    ]
+    for camera in calibration.cameras:
+        width, height = camera.image_size
+        (fx, fy), (cx, cy) = camera.focal_px, camera.centre_px
+        bends = " ".join(f"{value:.4g}" for value in camera.distortion)
+        lines.append(
+            f"{camera.name:13} {width}x{height}  f {fx:.2f} {fy:.2f}  c {cx:.2f} {cy:.2f}  "
+            f"k1 k2 p1 p2 k3 {bends}  {camera.rms_px:.3f} px, {camera.views} views"
+        )
+    lines.append(
+        f"pair          {calibration.rms_px:.3f} px, baseline {calibration.baseline * 1e3:.2f} mm"
+    )
+    if (checked := calibration.validation) is not None:
+        lines.append(
+            f"held back     {checked.views} pairs: {checked.rms_mm:.3f} mm RMS, largest "
+            f"{checked.max_mm:.3f} mm, scale {checked.scale:.5f} ± {checked.scale_sd:.5f}"
+        )
+    lines.append(f"world         {'known' if calibration.world else 'not known'}")
+    return lines + [f"note          {note}" for note in calibration.notes]
+
+
+def _line(document: dict[str, Any]) -> str:
+    if document["problem"]:
+        return document["problem"]
+    sizes = ", ".join("{}x{}".format(*camera["image_size"]) for camera in document["cameras"])
+    checked = document["validation_rms_mm"]
+    parts = [
+        sizes,
+        f"{document['rms_px']:.2f} px",
+        f"{checked:.3f} mm held back" if checked is not None else "not checked on views held back",
+        "world" if document["world"] else "no world",
+    ]
+    if document["found_bad"]:
+        parts.append(f"FOUND BAD: {document['found_bad']}")
+    return "  ".join(parts)
+
+
+def _history() -> "CalibrationHistory":
+    from app.tracking.calibration.history import CalibrationHistory
+
+    return CalibrationHistory()
+
+
+def _tell(history: "CalibrationHistory", as_json: bool) -> None:
+    active = history.active()
+    if as_json:
+        _print({"in_use": active.id if active is not None else None})
+    else:
+        typer.echo(f"in use: {active.id}" if active is not None else "no calibration is in use")
+
+
+def _print(document: dict[str, Any]) -> None:
+    typer.echo(json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False))
