@@ -15,6 +15,7 @@ from mcap.writer import Writer
 from typer.testing import CliRunner
 
 from app.commands import build as command_line
+from app.compose.cameras import AttachedCameras
 from app.compose.replay import replay_recording
 from app.compose.trainer import TrainerSetup, _context, build_loop, device_of
 from app.core import state_vector as sv
@@ -49,7 +50,7 @@ def attempt(
         pixels = (np.zeros(2), np.zeros(2))
         trainer.on_fix(NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0))
 
-    context = _context(setup, profile, load_rig(chosen.rig))
+    context = _context(setup, profile, AttachedCameras((), load_rig(chosen.rig), {}), None)
     trainer = Trainer(loop, None, placed, chosen, context, clock, measure)
     virtual = isinstance(clock, VirtualClock)
     loop.open() if virtual else trainer.open()

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Final
 
+from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
 from app.compose.needle import UPRIGHT, measured_axis, needle_scene
 from app.compose.robot import Robot, connect
 from app.core import paths
@@ -26,8 +27,8 @@ from app.session.header import Attachment
 from app.session.trainer import Trainer
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.trainee import trainee_stage
-from app.tracking.optics.rig import RigProfile, load_rig
-from app.tracking.simulated.cameras import simulated_cameras
+from app.tracking.cameras.settings import CameraSettings
+from app.tracking.optics.rig import load_rig
 from app.tracking.tracker import Tracker
 
 START_DEPTH: Final = -0.015
@@ -50,6 +51,7 @@ class TrainerSetup:
         held_arming: whether the forces are on only while a key or pedal is held; on a real robot
             they always are.
         port: serial port of a real robot; None simulates one.
+        cameras: real ones; None simulates those of the exercise's rig.
     """
 
     exercise: Exercise
@@ -61,6 +63,7 @@ class TrainerSetup:
     clock: Clock = field(default_factory=SystemClock)
     held_arming: bool = False
     port: str | None = None
+    cameras: CameraSettings | None = None
 
 
 def build_trainer(setup: TrainerSetup) -> Trainer:
@@ -109,7 +112,7 @@ class Rig:
 
 
 def build_rig(setup: TrainerSetup, robot: Robot | None = None) -> Rig:
-    """Build a trainer on the simulated cameras and on the simulated robot, or a real one.
+    """Build a trainer on simulated or real cameras and on a simulated or real robot.
 
     Nothing is opened yet but the robot at `setup.port`: who answers there decides about the
     corrections of its readings and its clearance. A real robot's forces are armed by a held key.
@@ -121,10 +124,13 @@ def build_rig(setup: TrainerSetup, robot: Robot | None = None) -> Rig:
     Raises:
         AcusError: if a profile, an effect or the path cannot be used, or the robot does not answer.
     """
-    profile, cameras = device_of(setup.exercise), load_rig(setup.exercise.rig)
+    profile = device_of(setup.exercise)
+    real = None
+    if setup.cameras is not None and not setup.cameras.simulated:
+        real = real_cameras(setup.cameras, setup.clock)
     robot = robot or connect(setup.port, profile)
     try:
-        return _build_rig(setup, profile, cameras, robot)
+        return _build_rig(setup, profile, robot, real)
     except BaseException:
         if robot is not None:
             robot.close()
@@ -132,13 +138,18 @@ def build_rig(setup: TrainerSetup, robot: Robot | None = None) -> Rig:
 
 
 def _build_rig(
-    setup: TrainerSetup, profile: DeviceProfile, cameras: RigProfile, robot: Robot | None
+    setup: TrainerSetup, profile: DeviceProfile, robot: Robot | None, real: AttachedCameras | None
 ) -> Rig:
     loop = build_loop(setup, profile, robot)
-    scene = needle_scene(loop, profile, cameras.needle.marker_offset, real=robot is not None)
+    cameras = real or simulated_on(
+        load_rig(setup.exercise.rig),
+        lambda offset: needle_scene(loop, profile, offset, real=robot is not None),
+        setup.clock,
+        setup.seed,
+    )
     tracker = Tracker(
-        simulated_cameras(cameras, scene, setup.clock, setup.seed),
-        cameras,
+        cameras.cameras,
+        cameras.rig,
         setup.clock,
         axis=measured_axis(loop),
         fulcrum=profile.pantograph.fulcrum,
@@ -198,16 +209,16 @@ def loop_table(
 
 
 def _context(
-    setup: TrainerSetup, profile: DeviceProfile, rig: RigProfile, robot: Robot | None = None
+    setup: TrainerSetup, profile: DeviceProfile, cameras: AttachedCameras, robot: Robot | None
 ) -> RunContext:
     device = {"name": profile.name, "simulated": "yes"}
-    documents = {"exercise": _anonymous(setup.exercise), "device": profile, "cameras": rig}
+    documents = {"exercise": _anonymous(setup.exercise), "device": profile, "cameras": cameras.rig}
     return RunContext(
         folder=setup.sessions,
         seed=setup.seed,
         metadata={
             "device": device if robot is None else robot.metadata(),
-            "cameras": {"name": rig.name, "simulated": "yes"} | _calibration_record(rig),
+            "cameras": cameras.metadata,
             "ct": {"pseudonym": setup.ct},
             TRAINEE: {"scripted": setup.skill or ""} | ({"hand": "robot"} if robot else {}),
             BUILD: build(),
@@ -218,11 +229,6 @@ def _context(
         ),
         plan_files=lambda placed: (_attachment("plan.mrk.json", plan_document(placed.plan)),),
     )
-
-
-def _calibration_record(rig: RigProfile) -> dict[str, str]:
-    """Id of the calibration that the fixes rest on: an attempt made with a bad one is flagged."""
-    return {"calibration": rig.calibration.id} if rig.calibration is not None else {}
 
 
 def _anonymous(exercise: Exercise) -> Exercise:

@@ -1,0 +1,115 @@
+"""The cameras of a trainer: simulated ones, or two sources on the rig with its calibration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from app.core.clock import Clock, SystemClock
+from app.tracking.calibration.applies import require_cameras
+from app.tracking.calibration.formats.own import load_calibration
+from app.tracking.calibration.history import CalibrationHistory
+from app.tracking.cameras.camera import Camera
+from app.tracking.cameras.checked import CheckedCamera
+from app.tracking.cameras.factory import make_camera
+from app.tracking.cameras.settings import CameraSettings
+from app.tracking.errors import RigError
+from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.optics.rig import RigProfile, load_rig
+from app.tracking.simulated.cameras import simulated_cameras
+from app.tracking.simulated.scene import Scene
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AttachedCameras:
+    """Two cameras, not open yet, and the rig they belong to.
+
+    Attributes:
+        cameras: left, right.
+        rig: with its calibration, if there is one.
+        metadata: for the record of an attempt.
+    """
+
+    cameras: tuple[Camera, Camera]
+    rig: RigProfile
+    metadata: dict[str, str]
+
+
+def real_cameras(settings: CameraSettings, clock: Clock | None = None) -> AttachedCameras:
+    """Return the cameras of the settings on the calibrated rig; opens none.
+
+    Raises:
+        CameraError: if the sources do not go together.
+        CalibrationError: if the calibration is of other cameras or another size.
+        RigError: if there is no calibration, or it has no world frame.
+    """
+    settings.check()
+    calibration = calibration_of(settings)
+    if calibration is None:
+        raise RigError(
+            "the cameras are not calibrated: run `acus calibrate stereo` and `acus calibrate "
+            "world`, or choose the calibration in the window's menu Cameras"
+        )
+    rig = load_rig(settings.rig)
+    names = [camera.name for camera in rig.cameras]
+    require_cameras(calibration, names, [settings.size] * 2)
+    rig = at_rate(rig, settings.rate_hz).calibrated(calibration)
+    left, right = checked_cameras(settings, clock or SystemClock(), f"calibration {calibration.id}")
+    metadata = {
+        "name": rig.name,
+        "simulated": "no",
+        "left": settings.left.origin.kind.value,
+        "right": settings.right.origin.kind.value,
+    }
+    return AttachedCameras((left, right), rig, metadata | calibration_record(rig))
+
+
+def simulated_on(
+    rig: RigProfile, scene_of: Callable[[float], Scene], clock: Clock, seed: int
+) -> AttachedCameras:
+    """Return the simulated cameras of a rig.
+
+    Args:
+        rig: whose pictures are drawn.
+        scene_of: gives the scene for the band's distance from the tip [m].
+        clock: of the pictures.
+        seed: of their noise.
+    """
+    pair = simulated_cameras(rig, scene_of(rig.needle.marker_offset), clock, seed)
+    metadata = {"name": rig.name, "simulated": "yes"}
+    return AttachedCameras(pair, rig, metadata | calibration_record(rig))
+
+
+def calibration_record(rig: RigProfile) -> dict[str, str]:
+    """Id of the calibration that the fixes rest on: an attempt made with a bad one is flagged."""
+    return {"calibration": rig.calibration.id} if rig.calibration is not None else {}
+
+
+def checked_cameras(
+    settings: CameraSettings, clock: Clock, reason: str
+) -> tuple[CheckedCamera, CheckedCamera]:
+    """Both cameras, their pictures held to the settings' size; `reason` says why that one."""
+    names = [camera.name for camera in load_rig(settings.rig).cameras]
+    left, right = (
+        CheckedCamera(
+            make_camera(settings, camera, clock), name, camera.source, settings.size, reason
+        )
+        for name, camera in zip(names, settings.cameras, strict=True)
+    )
+    return left, right
+
+
+def calibration_of(settings: CameraSettings) -> StereoCalibration | None:
+    """Return the calibration that the settings name, else the active one; None without one.
+
+    Raises:
+        CalibrationError: if its file cannot be read.
+    """
+    if settings.calibration is not None:
+        return load_calibration(settings.calibration)
+    return CalibrationHistory().active()
+
+
+def at_rate(rig: RigProfile, rate_hz: float) -> RigProfile:
+    """Return a rig whose cameras free-run at this rate."""
+    return RigProfile.model_validate(rig.model_dump() | {"rate_hz": rate_hz, "skew_ms": 0.0})

@@ -1,0 +1,156 @@
+"""Looking at cameras for a moment: what they deliver, how evenly, how bright."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from app.core.clock import Clock
+from app.tracking.cameras.camera import Camera, Frame, Image
+from app.tracking.cameras.checked import CheckedCamera
+from app.tracking.cameras.intake import StreamFigures
+from app.tracking.cameras.usb import UsbCamera
+from app.tracking.cameras.watch import CameraHealth, CameraReader
+from app.tracking.errors import CameraError
+
+SATURATED: Final = 250
+"""Grey value from which a pixel counts as overexposed."""
+
+_LOOK: Final = 0.05
+_TOO_BRIGHT: Final = 0.05
+_TOO_DARK: Final = 30.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CameraReport:
+    """What one camera delivered.
+
+    Attributes:
+        name: of it.
+        size: width, height [px]; (0, 0) without a picture.
+        figures: rate, jitter, refused pictures.
+        health: at the end.
+        age: median time from capture to delivery [s], by the capture times it gives.
+        driver_time: whether those are the driver's; None where that is no question.
+        brightness: mean grey value of the newest picture.
+        saturated: share of its pixels that are overexposed, 0 to 1.
+        settings: what became of what was asked of the driver, a line each.
+        image: newest picture, or None.
+    """
+
+    name: str
+    size: tuple[int, int]
+    figures: StreamFigures
+    health: CameraHealth
+    age: float
+    driver_time: bool | None
+    brightness: float
+    saturated: float
+    settings: tuple[str, ...]
+    image: Image | None
+
+    def advice(self) -> tuple[str, ...]:
+        """Say what to do; empty if nothing is wrong."""
+        lines = []
+        if self.image is None or self.health.message:
+            lines.append(self.health.text)
+        elif self.saturated > _TOO_BRIGHT:
+            lines.append(f"{self.saturated:.0%} of the picture is overexposed: lower the exposure")
+        elif self.brightness < _TOO_DARK:
+            lines.append(f"the picture is dark (mean {self.brightness:.0f} of 255): more light")
+        if self.figures.repeated_share > 0.02:
+            lines.append(
+                f"{self.figures.repeated_share:.0%} of the pictures repeat: lower the rate, or "
+                "plug the cameras into ports of different USB controllers"
+            )
+        return tuple(lines)
+
+
+def survey(
+    cameras: Sequence[Camera],
+    names: Sequence[str],
+    clock: Clock,
+    seconds: float,
+    on_pictures: Callable[[tuple[Frame, ...]], None] | None = None,
+) -> tuple[CameraReport, ...]:
+    """Open the cameras together, look at them for a while and close them.
+
+    Args:
+        cameras: to look at.
+        names: of them.
+        clock: for ages.
+        seconds: how long.
+        on_pictures: gets the newest pictures of all, whenever there are new ones of all.
+
+    Raises:
+        CameraError: if one cannot be opened; all are closed then.
+    """
+    if len(cameras) != len(names):
+        raise CameraError(f"{len(cameras)} cameras have {len(names)} names")
+    arrived = threading.Condition()
+    readers = [
+        CameraReader(camera, name, clock, arrived, noise_expected=True)
+        for camera, name in zip(cameras, names, strict=True)
+    ]
+    ages: list[list[float]] = [[] for _ in readers]
+    try:
+        for reader in readers:
+            reader.open()
+        _watch(readers, arrived, clock, seconds, ages, on_pictures)
+        return tuple(
+            _report(reader, camera, clock.now(), age)
+            for reader, camera, age in zip(readers, cameras, ages, strict=True)
+        )
+    finally:
+        for reader in readers:
+            reader.close()
+
+
+def _watch(
+    readers: Sequence[CameraReader],
+    arrived: threading.Condition,
+    clock: Clock,
+    seconds: float,
+    ages: list[list[float]],
+    on_pictures: Callable[[tuple[Frame, ...]], None] | None,
+) -> None:
+    seen: list[Frame | None] = [None] * len(readers)
+    told: list[Frame | None] = list(seen)
+    end = clock.now() + seconds
+    while clock.now() < end:
+        with arrived:
+            arrived.wait(_LOOK)
+        now = clock.now()
+        for i, reader in enumerate(readers):
+            frame = reader.newest()
+            if frame is not None and frame is not seen[i]:
+                ages[i].append(now - frame.time)
+            seen[i] = frame
+        whole = tuple(frame for frame in seen if frame is not None)
+        new = all(a is not b for a, b in zip(seen, told, strict=True))
+        if on_pictures is not None and new and len(whole) == len(readers):
+            on_pictures(whole)
+            told = list(seen)
+
+
+def _report(reader: CameraReader, camera: Camera, now: float, ages: list[float]) -> CameraReport:
+    frame, health = reader.newest(), reader.health(now)
+    inner = camera.camera if isinstance(camera, CheckedCamera) else camera
+    usb = inner if isinstance(inner, UsbCamera) else None
+    image = None if frame is None else frame.image
+    return CameraReport(
+        reader.name,
+        (0, 0) if image is None else (image.shape[1], image.shape[0]),
+        health.figures,
+        health,
+        float(np.median(ages)) if ages else 0.0,
+        None if usb is None else usb.driver_time,
+        0.0 if image is None else float(image.mean()),
+        0.0 if image is None else float((image.max(axis=2) >= SATURATED).mean()),
+        () if usb is None else tuple(setting.text for setting in usb.settings),
+        image,
+    )

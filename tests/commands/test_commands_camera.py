@@ -1,0 +1,95 @@
+"""`acus camera` on folders of pictures: no camera is needed."""
+
+import json
+
+import cv2
+import numpy as np
+import pytest
+
+from app.__main__ import main
+from app.tracking.cameras.settings import load_settings
+
+
+@pytest.fixture
+def folders(tmp_path):
+    rng = np.random.default_rng(1)
+    for side in ("left", "right"):
+        (tmp_path / side).mkdir()
+        for number in range(3):
+            image = rng.integers(80, 160, (48, 64, 3)).astype(np.uint8)
+            assert cv2.imwrite(str(tmp_path / side / f"{number}.png"), image)
+    return tmp_path
+
+
+def run(monkeypatch, capsys, *words):
+    monkeypatch.setattr("sys.argv", ["acus", *map(str, words)])
+    with pytest.raises(SystemExit) as end:
+        main()
+    said = capsys.readouterr()
+    return end.value.code, said.out, said.err
+
+
+def test_sources_are_chosen_remembered_and_listed(monkeypatch, capsys, folders):
+    words = ("camera", "use", "--left", f"folder:{folders}/left", "--right", "usb:1-1.2",
+             "--size", "64x48", "--exposure-ms", "5")  # fmt: skip
+    assert run(monkeypatch, capsys, *words)[0] == 0
+    settings = load_settings()
+    assert settings.right.source == "usb:1-1.2"
+    assert settings.size == (64, 48)
+    assert settings.left.exposure_ms == 5.0
+    code, out, _ = run(monkeypatch, capsys, "camera", "list", "--json")
+    assert code == 0
+    assert json.loads(out)["chosen"]["right"]["source"] == "usb:1-1.2"
+    assert run(monkeypatch, capsys, "camera", "latency")[1].count("not measured") == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [(("use", "--left", "usb:1-1"), "one camera is real and one simulated"),
+     (("use", "--left", "usb:1", "--right", "usb:1"), "left and right are the same source"),
+     (("use", "--left", "webcam"), "valid are: usb:PORT"),
+     (("use", "--size", "big"), "give for example 640x480"),
+     (("use", "--rate", "0"), "rate_hz"),
+     (("show",), "the cameras are simulated"),
+     (("show", "--source", "usb:9-9"), "no camera at usb:9-9"),
+     (("show", "--cameras", "left=a"), "names no cameras|valid are"),
+     (("show", "--cameras", "sideways"), "left=SOURCE,right=SOURCE"),
+     (("aim", "--rig", "narrow"), "no camera rig is called 'narrow'")],
+)  # fmt: skip
+def test_a_bad_choice_is_one_line_that_says_what_to_do(monkeypatch, capsys, words, message):
+    code, _, err = run(monkeypatch, capsys, "camera", *words)
+    assert code == 2
+    assert err.count("\n") == 1
+    assert any(part in err for part in message.split("|"))
+
+
+def test_show_says_what_two_folders_deliver(monkeypatch, capsys, folders):
+    cameras = f"left=folder:{folders}/left,right=folder:{folders}/right"
+    run(monkeypatch, capsys, "camera", "use", "--size", "64x48")
+    words = ("camera", "show", "--cameras", cameras, "--seconds", "0.4", "--json")
+    code, out, err = run(monkeypatch, capsys, *words, "--out", folders / "out")
+    assert code == 0, err
+    shown = json.loads(out)
+    assert [camera["size"] for camera in shown["cameras"]] == [[64, 48]] * 2
+    assert abs(shown["skew_ms"]) < 40.0
+    assert "no calibration yet" in shown["order"]
+    assert (folders / "out" / "right.png").is_file()
+
+
+def test_pictures_of_another_size_are_refused_by_name(monkeypatch, capsys, folders):
+    cameras = f"left=folder:{folders}/left,right=folder:{folders}/right"
+    code, _, err = run(monkeypatch, capsys, "camera", "show", "--cameras", cameras)
+    assert code == 2
+    assert "camera left" in err
+    assert "64x48" in err
+
+
+def test_the_aim_of_a_rig_is_said_without_a_camera(monkeypatch, capsys, tmp_path):
+    code, out, _ = run(monkeypatch, capsys, "camera", "aim", "--rig", "wide", "--json")
+    assert code == 0
+    assert json.loads(out)["share"] == 1.0
+    words = ("camera", "aim", "--rig", "thesis", "--out", tmp_path / "aim")
+    code, out, _ = run(monkeypatch, capsys, *words)
+    assert code == 0
+    assert "both cameras see 100 %" in out
+    assert (tmp_path / "aim" / "left.png").is_file()
