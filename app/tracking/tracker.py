@@ -63,6 +63,9 @@ class Tracker:
         events: takes an event of kind `camera` when a camera stops, freezes, fails or recovers,
             and of kind `fault` when the tracker itself fails.
         extractors: how the marker is found in each picture; by default `markers.choice.DEFAULT`.
+
+    Attributes:
+        rig, extractors: as given; for whoever looks at the pictures (`inspection`).
     """
 
     def __init__(
@@ -87,8 +90,9 @@ class Tracker:
         self._solver = FixSolver(rig, fulcrum)
         self._hiding = Hiding(rig.needle)
         self._times = CaptureTimes(self._names, self._put)
-        self._extractors = extractors or default_extractors(rig)
-        self._follower = MarkerFollower(self._extractors, self._solver)
+        self.rig = rig
+        self.extractors = extractors or default_extractors(rig)
+        self._follower = MarkerFollower(self.extractors, self._solver)
         self._feed = CameraFeed(cameras, self._names, clock, rig.noise_grey > 0.0, self._put)
         self._meter = TrackerMeter()
         self._pictures: dict[str, TrackedPicture] = {}

@@ -110,7 +110,13 @@ class Miss:
 
 
 class Extractor(ABC):
-    """Finds the marker in one camera's pictures; holds no memory of earlier ones."""
+    """Finds the marker in one camera's pictures; holds no memory of earlier ones.
+
+    Attributes:
+        region: half width of the region that `find` looks at [px]; 0 for the whole picture.
+    """
+
+    region: int = 0
 
     @abstractmethod
     def find(self, image: Image, hint: Hint) -> MarkerFix | Miss:

@@ -1,0 +1,106 @@
+"""What people look at: the newest pictures with everything the tracker makes of them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.tracking.fix import FixStatus, NeedleFix
+from app.tracking.markers.extractor import Mask, Miss
+from app.tracking.stereo.epipolar import epipolar_curve
+from app.tracking.tracker import TrackedPicture, Tracker
+
+Region = tuple[float, float, float, float]
+"""Left, top, right, bottom [px]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class InspectedPicture:
+    """A camera's newest picture and what belongs to it.
+
+    Attributes:
+        picture: as the tracker has it.
+        why: why there is no marker in it, one line; empty with one.
+        epipolar: where the other camera's marker may lie in this picture [px], shape (n, 2);
+            empty without a marker there.
+        mask: what counts as the marker's colour, shape (height, width); None if not asked for.
+        region: where the marker is looked for in the next picture; None for the whole picture.
+    """
+
+    picture: TrackedPicture
+    why: str
+    epipolar: FloatArray
+    mask: Mask | None
+    region: Region | None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Inspection:
+    """Both pictures and the newest fix.
+
+    Attributes:
+        pictures: in the order of the rig; a camera without a picture is left out.
+        fix: newest; None before the first.
+        radius: round the tip, holds the true one with 95 % [m]; None without a usable tip.
+    """
+
+    pictures: tuple[InspectedPicture, ...]
+    fix: NeedleFix | None
+
+    @property
+    def radius(self) -> float | None:
+        """Radius that holds the true tip with 95 % [m]."""
+        return self.fix.radius() if self.fix is not None and self.fix.usable else None
+
+    @property
+    def status(self) -> FixStatus | None:
+        """Of the newest fix."""
+        return self.fix.status if self.fix is not None else None
+
+
+class Inspector:
+    """Looks at a tracker; costs nothing while nobody asks.
+
+    Args:
+        tracker: that runs; only read.
+    """
+
+    def __init__(self, tracker: Tracker) -> None:
+        self._tracker = tracker
+
+    def look(self, masks: bool = False, lines: bool = True) -> Inspection:
+        """Return the newest pictures.
+
+        Args:
+            masks: whether to compute what counts as the marker's colour (1 ms a picture).
+            lines: whether to compute the epipolar curves (0.1 ms a picture).
+        """
+        stamped = self._tracker.latest.read()
+        pictures = self._tracker.pictures()
+        inspected = tuple(self._inspect(one, pictures, masks, lines) for one in pictures)
+        return Inspection(inspected, stamped.value if stamped else None)
+
+    def _inspect(
+        self,
+        picture: TrackedPicture,
+        pictures: tuple[TrackedPicture, ...],
+        masks: bool,
+        lines: bool,
+    ) -> InspectedPicture:
+        models, extractors = self._tracker.rig.models, self._tracker.extractors
+        own = [model.name for model in models].index(picture.name)
+        other = next((one for one in pictures if one.name != picture.name), None)
+        epipolar = np.empty((0, 2))
+        if lines and other is not None and other.pixel is not None:
+            epipolar = epipolar_curve(models[1 - own], other.pixel, models[own])
+        mask = extractors[own].mask(picture.image) if masks else None
+        why = picture.found.reason.words if isinstance(picture.found, Miss) else ""
+        region = _region(picture, extractors[own].region)
+        return InspectedPicture(picture, why, epipolar, mask, region)
+
+
+def _region(picture: TrackedPicture, half: int) -> Region | None:
+    if picture.pixel is None or not half:
+        return None
+    (u, v), (height, width) = picture.pixel.tolist(), picture.image.shape[:2]
+    return max(0.0, u - half), max(0.0, v - half), min(width, u + half), min(height, v + half)

@@ -1,0 +1,70 @@
+"""Epipolar curves: where a point that one camera shows can lie in the other camera's picture.
+
+With lens distortion that is a curve, not a line. It is the picture of the ray of the pixel: points
+C₁ + d / s, s from 0 (infinity) to 1 / near, which in the second camera's frame are, up to scale,
+R d + s R (C₁ - C₂). No fundamental matrix is used, so that the curve holds for any lens model.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from app.core.arrays import FloatArray
+from app.tracking.optics.camera_model import CameraModel
+
+NEAR = 0.02
+"""Nearest point of a ray [m] that is drawn; nothing that is tracked comes closer to a lens."""
+_COARSE, _FINE = 97, 65
+
+
+def epipolar_curve(
+    seen_by: CameraModel, pixel: ArrayLike, shown_in: CameraModel, near: float = NEAR
+) -> FloatArray:
+    """Pixels of `shown_in` where what `seen_by` shows at `pixel` may lie, as a line of points.
+
+    Args:
+        seen_by: camera that shows the point.
+        pixel: of the point there [px], shape (2,).
+        shown_in: the other camera.
+        near: distance from the first camera [m] where the ray begins to be looked at.
+
+    Returns:
+        Points inside the picture of `shown_in` in order from far to near, shape (n, 2). Empty if
+        the pixel has no ray, the cameras stand in one place, or the curve misses the picture.
+    """
+    rays, found = seen_by.undistort(pixel)
+    baseline = shown_in.T_camera_world.rotate(seen_by.centre - shown_in.centre)
+    length = float(np.linalg.norm(baseline))
+    if not found[0] or length < 1e-9:
+        return np.empty((0, 2))
+    direction = shown_in.T_camera_world.rotate(seen_by.T_world_camera.rotate([*rays[0], 1.0]))
+    # s = tan(t) / |baseline| spreads the points evenly over the picture.
+    last = float(np.arctan(length / near))
+    times = np.linspace(0.0, last, _COARSE)
+    inside = np.flatnonzero(_picture(direction, baseline / length, times, shown_in)[1])
+    if not len(inside):
+        return np.empty((0, 2))
+    # Once more, closely, over the part that the picture shows and one step to either side.
+    first, final = times[max(0, inside[0] - 1)], times[min(_COARSE - 1, inside[-1] + 1)]
+    pixels, ok = _picture(direction, baseline / length, np.linspace(first, final, _FINE), shown_in)
+    return pixels[ok]
+
+
+def distance_to_curve(pixel: ArrayLike, curve: FloatArray) -> float | None:
+    """Distance [px] of a pixel from a curve of points, shape (n, 2); None for fewer than two."""
+    if len(curve) < 2:
+        return None
+    point, steps = np.asarray(pixel, dtype=np.float64), np.diff(curve, axis=0)
+    lengths = np.maximum(np.sum(steps**2, axis=1), 1e-12)
+    share = np.clip(np.sum((point - curve[:-1]) * steps, axis=1) / lengths, 0.0, 1.0)
+    nearest = curve[:-1] + share[:, None] * steps
+    return float(np.min(np.linalg.norm(point - nearest, axis=1)))
+
+
+def _picture(
+    direction: FloatArray, baseline: FloatArray, times: FloatArray, model: CameraModel
+) -> tuple[FloatArray, np.ndarray[tuple[int, ...], np.dtype[np.bool_]]]:
+    """Pixels of the ray's points and whether each lies in the picture, with its edge."""
+    points = np.cos(times)[:, None] * direction + np.sin(times)[:, None] * baseline
+    pixels, ok = model.project_camera(points)
+    limit = np.array(model.image_size) - 0.5
+    return pixels, ok & (pixels >= -0.5).all(axis=1) & (pixels <= limit).all(axis=1)
