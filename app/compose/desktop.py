@@ -135,6 +135,7 @@ class DesktopRun:
     def run(self) -> ExerciseRun:
         """What its views need, as the robot's board says it now: it may have come back anew."""
         from app.device.control.velocity import DEFAULT_VELOCITY
+        from app.tracking.inspection import Inspector
         from app.views.exercise.pad_view import rings  # Qt only for who has a window
         from app.views.exercise.run import ExerciseRun
 
@@ -145,7 +146,7 @@ class DesktopRun:
             self._rig.profile,
             interactive=setup.skill is None,
             rings=rings(setup.exercise.tolerances),
-            pictures=self._rig.tracker.pictures,
+            inspect=Inspector(self._rig.tracker).look,
             board=None if robot is None else robot.link.info(),
             port=setup.port or "",
             clearance=None if robot is None else robot.clearance(),

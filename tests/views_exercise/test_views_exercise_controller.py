@@ -3,15 +3,18 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from views_exercise_attempts import placed_plan
 from views_exercise_fakes import FakeTrainer, pose, run, snapshot
 
 from app.core.clock import VirtualClock
 from app.session.machine import State
+from app.tracking.inspection import InspectedPicture, Inspection
 from app.tracking.markers.extractor import MarkerFix
 from app.tracking.tracker import TrackedPicture
 from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.camera_view import CameraView
 from app.views.exercise.controller import ExerciseController, ExerciseViews
 from app.views.exercise.messages import LONGEST, MessageList
 from app.views.exercise.panel import ExercisePanel
@@ -140,16 +143,23 @@ def test_camera_pictures_are_refreshed_at_most_fifteen_times_a_second(desk, qt):
     asked = []
     image = np.zeros((48, 64, 3), np.uint8)
 
-    def pictures():
-        asked.append(1)
-        return (
-            TrackedPicture(
-                "left", image, 1.0, MarkerFix(np.array([10.0, 5.0]), np.eye(2), 99.0, 1.0)
+    def inspect(masks, lines):
+        asked.append((masks, lines))
+        marker = MarkerFix(np.array([10.0, 5.0]), np.eye(2), 99.0, 1.0)
+        curve, mask = np.array([[0.0, 5.0], [60.0, 8.0]]), np.ones((48, 64), np.uint8)
+        return Inspection(
+            (
+                InspectedPicture(
+                    TrackedPicture("left", image, 1.0, marker), "", curve, mask, (0, 0, 20, 20)
+                ),
+                InspectedPicture(
+                    TrackedPicture("right", image, 1.0, None), "", np.empty((0, 2)), None, None
+                ),
             ),
-            TrackedPicture("right", image, 1.0, None),
+            None,
         )
 
-    desk.controller.attach(run(desk.trainer, pictures=pictures))
+    desk.controller.attach(run(desk.trainer, inspect=inspect))
     desk.controller._timer.stop()
     desk.views.tracker.show()
     clock = desk.controller._clock
@@ -157,7 +167,28 @@ def test_camera_pictures_are_refreshed_at_most_fifteen_times_a_second(desk, qt):
         clock.sleep(0.025)
         desk.controller.look()
     assert 5 <= len(asked) <= 16
+    assert set(asked) == {(False, True)}, "a mask that nobody looks at is not computed"
+    for name in ("mask", "region"):
+        desk.views.tracker.set_overlay(name, True)
+    clock.sleep(0.1)
+    desk.controller.look()
+    assert asked[-1] == (True, True)
     assert not desk.views.tracker.grab().isNull()
+
+
+def test_a_click_into_a_camera_picture_names_its_pixel(qt):
+    image = np.zeros((48, 64, 3), np.uint8)
+    view, told = CameraView(), []
+    view.clicked.connect(lambda name, pixel: told.append((name, pixel)))
+    view.resize(640, 520)
+    empty = np.empty((0, 2))
+    view.show_picture(
+        InspectedPicture(TrackedPicture("left", image, 1.0, None), "", empty, None, None)
+    )
+    QTest.mouseClick(view, Qt.MouseButton.LeftButton, pos=QPoint(105, 20 + 55))
+    QTest.mouseClick(view, Qt.MouseButton.LeftButton, pos=QPoint(100, 5))  # above the picture
+    assert [name for name, _ in told] == ["left"]
+    np.testing.assert_allclose(told[0][1], [10.0, 5.0], atol=0.06)
 
 
 def test_the_rate_is_the_counter_over_the_time():

@@ -152,8 +152,9 @@ class ExerciseController(QObject):
             views.bullseye.show_view(view)
         rate, missing = self.rates = self._rates.read(snapshot, now)
         if views.tracker.due(now):
-            pictures = tuple(run.pictures()) if run.pictures is not None else ()
-            views.tracker.show_tracker(pictures, tracker_figures(snapshot), now)
+            wanted = views.tracker.overlays
+            seen = run.inspect(wanted.mask, wanted.epipolar) if run.inspect is not None else None
+            views.tracker.show_tracker(seen, tracker_figures(snapshot), now)
         if now - self._status_time >= STATUS_PERIOD:
             self._status_time = now
             views.status.show_items(status_items(snapshot, rate, missing, late))

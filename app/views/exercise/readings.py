@@ -132,6 +132,9 @@ def tracker_figures(snapshot: Snapshot) -> TrackerFigures:
         rate=statistics.rate,
         residual_px=statistics.residual_px if measured else None,
         item=tracker_status(snapshot),
+        valid_share=statistics.valid_share,
+        latency=statistics.latency,
+        skew=statistics.skew.median if statistics.skew is not None else None,
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
@@ -18,7 +18,7 @@ from app.views.exercise.pad_view import PadScene, rings
 if TYPE_CHECKING:
     from app.device.links.link import BoardInfo
     from app.device.readiness import Clearance, Readiness
-    from app.tracking.tracker import TrackedPicture
+    from app.tracking.inspection import Inspection
 
 
 class TrainerPort(Protocol):
@@ -79,7 +79,8 @@ class ExerciseRun:
         interactive: whether the mouse moves a simulated hand, with a real robot its depth alone;
             False for a scripted trainee.
         rings: tolerance rings of the pad [m], from the inside.
-        pictures: newest pictures of the cameras; None without cameras.
+        inspect: newest pictures of the cameras with what was found in them; asked with (masks,
+            epipolar curves), each computed only if wanted; None without cameras.
         board: who is at the other end of the wire; None where nobody tells.
         port: where the robot is plugged in; empty in memory.
         clearance: how much force the robot is cleared for and why it is not more; None where
@@ -94,7 +95,7 @@ class ExerciseRun:
     profile: DeviceProfile
     interactive: bool = True
     rings: tuple[float, ...] = field(default_factory=rings)
-    pictures: Callable[[], Sequence[TrackedPicture]] | None = None
+    inspect: Callable[[bool, bool], Inspection] | None = None
     board: BoardInfo | None = None
     port: str = ""
     clearance: Clearance | None = None

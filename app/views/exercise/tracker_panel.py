@@ -1,20 +1,20 @@
-"""Both camera pictures with the found marker, and how well they agree."""
+"""Both camera pictures with what was found in them, and how well they agree."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
 from app.views import theme
-from app.views.exercise.camera_view import CameraView
+from app.views.exercise.camera_view import CameraView, Overlays
 from app.views.exercise.status_items import StatusItem
 from app.views.text import tr
 
 if TYPE_CHECKING:
-    from app.tracking.tracker import TrackedPicture
+    from app.tracking.inspection import Inspection
 
 REFRESH: Final = 1.0 / 15.0
 """Shortest time between two refreshes [s]."""
@@ -28,50 +28,149 @@ class TrackerFigures:
         rate: stereo pairs per second.
         residual_px: distance from the epipolar geometry [px]; None without a fix.
         item: its line in the status strip.
+        valid_share: share of valid fixes, 0…1.
+        latency: from capture to fix [s].
+        skew: capture of the second camera after the first [s]; None where nobody knows.
     """
 
     rate: float
     residual_px: float | None
     item: StatusItem
+    valid_share: float = 0.0
+    latency: float = 0.0
+    skew: float | None = None
 
 
 class TrackerPanel(QWidget):
-    """Two pictures, one above the other, and two lines of figures."""
+    """Two pictures, one above the other, what is drawn over them, and the figures.
+
+    Signals:
+        marker_clicked(str, object): camera and pixel of a click into a picture.
+    """
+
+    marker_clicked = Signal(str, object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.cameras = (CameraView(self), CameraView(self))
-        self._verdict, self._figures = QLabel(self), QLabel(self)
+        self._verdict = QLabel(self)
+        self._verdict.setWordWrap(True)
+        self._figures = _Figures(self)
+        self._buttons: dict[str, QToolButton] = {}
         self._shown = -1e9
         column = QVBoxLayout(self)
         column.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
+        column.setSpacing(4)
         for camera in self.cameras:
+            camera.clicked.connect(self.marker_clicked)
             column.addWidget(camera, 1)
-        for line in (self._verdict, self._figures):
-            line.setWordWrap(True)
-            column.addWidget(line)
+        column.addLayout(self._switches())
+        column.addWidget(self._verdict)
+        column.addWidget(self._figures)
+
+    @property
+    def overlays(self) -> Overlays:
+        """What is drawn over the pictures."""
+        return self.cameras[0].overlays
 
     def due(self, now: float) -> bool:
         """Whether the pictures may be refreshed at `now` [s] and anybody would see it."""
         return self.isVisible() and now - self._shown >= REFRESH
 
     def show_tracker(
-        self, pictures: Sequence[TrackedPicture], figures: TrackerFigures, now: float
+        self, inspection: Inspection | None, figures: TrackerFigures, now: float
     ) -> None:
         """Show the newest pictures and figures."""
         self._shown = now
+        pictures = inspection.pictures if inspection is not None else ()
         for i, camera in enumerate(self.cameras):
             camera.show_picture(pictures[i] if i < len(pictures) else None)
         colour, symbol = figures.item.verdict.look
         self._verdict.setStyleSheet(f"color: {colour};")
         self._verdict.setText(f"{symbol} {figures.item.text}")
         self._verdict.setToolTip(figures.item.help)
-        residual = (
-            tr("epipolar residual –")
-            if figures.residual_px is None
-            else tr("epipolar residual {px:.2f} px", px=figures.residual_px)
-        )
-        self._figures.setText(tr("{rate:.0f} pairs/s", rate=figures.rate) + "  ·  " + residual)
-        self._figures.setToolTip(
-            tr("How far the two pictures disagree; above 1 px the calibration should be checked")
-        )
+        self._figures.show_figures(figures, inspection.radius if inspection is not None else None)
+
+    def set_overlay(self, name: str, shown: bool) -> None:
+        """Switch one of `Overlays` by its name, in both pictures."""
+        self._buttons[name].setChecked(shown)
+        for camera in self.cameras:
+            camera.overlays = replace(camera.overlays, **{name: shown})
+            camera.update()
+
+    def _switches(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        row.setSpacing(4)
+        for name, title, help_ in (
+            ("mask", tr("Mask"), tr("Pixels that count as the marker's colour")),
+            ("epipolar", tr("Epipolar"), tr(
+                "Where the marker may lie by what the other camera shows; it should pass through "
+                "the marker")),
+            ("region", tr("Region"), tr("Where the marker is looked for in the next picture")),
+            ("magnifier", tr("Zoom"), tr("The marker's surroundings, enlarged")),
+        ):  # fmt: skip
+            button = QToolButton(self)
+            button.setText(title)
+            button.setToolTip(help_)
+            button.setCheckable(True)
+            button.setChecked(getattr(self.overlays, name))
+            button.toggled.connect(lambda on, name=name: self.set_overlay(name, on))
+            self._buttons[name] = button
+            row.addWidget(button)
+        row.addStretch(1)
+        return row
+
+
+class _Figures(QWidget):
+    """Named figures in two columns."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(theme.SPACING)
+        grid.setVerticalSpacing(0)
+        self._values: dict[str, QLabel] = {}
+        for number, (name, title, help_) in enumerate(_TITLES):
+            label, value = QLabel(title, self), QLabel("–", self)
+            label.setProperty("role", "dim")
+            label.setToolTip(help_)
+            value.setToolTip(help_)
+            row, column = divmod(number, 2)
+            grid.addWidget(label, row, 2 * column)
+            grid.addWidget(value, row, 2 * column + 1)
+            self._values[name] = value
+        grid.setColumnStretch(1, 1)
+        grid.setColumnStretch(3, 1)
+
+    def show_figures(self, figures: TrackerFigures, radius: float | None) -> None:
+        """Show them; what is not known is a dash."""
+        residual, skew = figures.residual_px, figures.skew
+        texts = {
+            "residual": "–" if residual is None else tr("{px:.2f} px", px=residual),
+            "radius": "–" if radius is None else tr("± {mm:.2f} mm", mm=1e3 * radius),
+            "rate": tr("{rate:.0f} pairs/s", rate=figures.rate),
+            "valid": tr("{share:.0f} %", share=100.0 * figures.valid_share),
+            "latency": tr("{ms:.0f} ms", ms=1e3 * figures.latency),
+            "skew": "–" if skew is None else tr("{ms:.1f} ms", ms=1e3 * skew),
+        }
+        for name, text in texts.items():
+            self._values[name].setText(text)
+
+    def text(self, name: str) -> str:
+        """Shown value."""
+        return self._values[name].text()
+
+
+_TITLES: Final = (
+    ("residual", tr("Residual"), tr(
+        "How far the two pictures disagree; above 1 px the calibration should be checked. It is "
+        "no accuracy: a wrong scale leaves it small")),
+    ("radius", tr("Tip, 95 %"), tr(
+        "Radius round the tip that holds the true one with 95 %, by pictures and calibration")),
+    ("rate", tr("Rate"), tr("Pairs of pictures a second")),
+    ("valid", tr("Valid"), tr("Share of pairs in which both cameras saw the marker")),
+    ("latency", tr("Latency"), tr("From capture to the needle's place, median")),
+    ("skew", tr("Skew"), tr(
+        "Capture of the right picture after the left one; it is made up for")),
+)  # fmt: skip

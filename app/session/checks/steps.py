@@ -1,0 +1,191 @@
+"""The steps of the morning check, each a verdict, what was found, and what to do. Pure."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final
+
+from app.core.units import MILLIMETRE
+from app.session.checks.facts import CameraFacts, MorningFacts
+
+STALE: Final = 0.02
+"""Joint angles older than this fade the force [s]."""
+RATE_SHARE: Final = 0.8
+DARKEST: Final = 20.0
+MOST_DARK: Final = 0.9
+MOST_BRIGHT: Final = 0.1
+WIDEST_EDGE: Final = 5.0
+"""An outline wider than this [px] costs accuracy: the lens is out of focus or the marker moves."""
+GOOD_RESIDUAL: Final = 1.0
+LARGEST_RESIDUAL: Final = 2.0
+
+
+class Verdict(StrEnum):
+    """How a step came out."""
+
+    GOOD = "good"
+    WARNING = "warning"
+    BAD = "bad"
+    WAITING = "waiting"
+
+
+@dataclass(frozen=True, slots=True)
+class StepResult:
+    """One step.
+
+    Attributes:
+        name: for files and `--json`.
+        title: for people.
+        verdict: how it came out.
+        found: what was found, one line.
+        todo: what to do, one line; empty for a good one.
+    """
+
+    name: str
+    title: str
+    verdict: Verdict
+    found: str
+    todo: str = ""
+
+
+def morning_check(facts: MorningFacts) -> tuple[StepResult, ...]:
+    """All steps in the order in which they are looked at."""
+    return tuple(step(facts) for step in _STEPS)
+
+
+def overall(results: tuple[StepResult, ...]) -> Verdict:
+    """Return the worst of all; waiting while a step waits and none is bad."""
+    found = {result.verdict for result in results}
+    for verdict in (Verdict.BAD, Verdict.WAITING, Verdict.WARNING):
+        if verdict in found:
+            return verdict
+    return Verdict.GOOD
+
+
+def _homing(facts: MorningFacts) -> StepResult:
+    robot, title = facts.robot, "Homing"
+    if not robot.ticking:
+        return StepResult("homing", title, Verdict.BAD, "the robot's loop does not run",
+                          "wait a moment; if it stays so, check cable and power, start the "
+                          "exercise again")  # fmt: skip
+    if robot.simulated:
+        return StepResult("homing", title, Verdict.GOOD, "simulated robot: its zero is known")
+    if robot.homed:
+        return StepResult("homing", title, Verdict.GOOD, "homed since it was switched on")
+    return StepResult("homing", title, Verdict.BAD, "not homed since it was switched on",
+                      "menu Robot, Commissioning, step Homing")  # fmt: skip
+
+
+def _signs(facts: MorningFacts) -> StepResult:
+    robot, title = facts.robot, "Signs"
+    if robot.simulated:
+        return StepResult("signs", title, Verdict.GOOD, "simulated robot: its signs are known")
+    if robot.signs:
+        return StepResult("signs", title, Verdict.GOOD, "motors and encoders agree")
+    return StepResult("signs", title, Verdict.BAD, "not checked since it was switched on",
+                      "menu Robot, Commissioning, step Signs")  # fmt: skip
+
+
+def _force(facts: MorningFacts) -> StepResult:
+    robot, title = facts.robot, "Force"
+    if robot.fault:
+        return StepResult("force", title, Verdict.BAD, robot.fault,
+                          "do what the message says; see the page Robot")  # fmt: skip
+    if not robot.encoder_age <= STALE:
+        return StepResult("force", title, Verdict.BAD,
+                          "joint angles come late, so the force is held back",
+                          "check the robot's cable; close other programs")  # fmt: skip
+    clearance = robot.clearance
+    if robot.simulated or (clearance is not None and clearance.full):
+        return StepResult("force", title, Verdict.GOOD, "cleared for its full force")
+    if clearance is None:
+        return StepResult("force", title, Verdict.WAITING, "the robot has not said yet")
+    verdict = Verdict.WARNING if clearance.force_cap > 0.0 else Verdict.BAD
+    return StepResult("force", title, verdict, f"at most {clearance.force_cap:g} N",
+                      clearance.reason)  # fmt: skip
+
+
+def _pictures(facts: MorningFacts) -> StepResult:
+    title = "Pictures"
+    if len(facts.cameras) < 2:
+        return StepResult("pictures", title, Verdict.BAD, f"{len(facts.cameras)} of 2 cameras",
+                          "plug both cameras in; menu Cameras")  # fmt: skip
+    worst = [(_picture(camera), camera.name) for camera in facts.cameras]
+    for verdict in (Verdict.BAD, Verdict.WAITING, Verdict.WARNING):
+        for (found, text, todo), name in worst:
+            if found is verdict:
+                return StepResult("pictures", title, verdict, f"{name}: {text}", todo)
+    rates = " and ".join(f"{camera.rate:.0f}" for camera in facts.cameras)
+    return StepResult("pictures", title, Verdict.GOOD, f"both bright and sharp, {rates} a second")
+
+
+def _picture(camera: CameraFacts) -> tuple[Verdict, str, str]:
+    quality = camera.quality
+    if camera.trouble:
+        return Verdict.BAD, camera.trouble, "check the camera's cable; menu Cameras"
+    if quality is None:
+        return Verdict.WAITING, "no picture yet", "wait a moment"
+    if quality.level < DARKEST or quality.dark > MOST_DARK:
+        return Verdict.BAD, "the picture is dark", "lens cap, light, exposure"
+    if quality.bright > MOST_BRIGHT:
+        return (Verdict.WARNING, f"{100 * quality.bright:.0f} % of the picture is overexposed",
+                "less light, or a shorter exposure")  # fmt: skip
+    if camera.rate and camera.rate < RATE_SHARE * camera.wanted_rate:
+        return (Verdict.WARNING,
+                f"{camera.rate:.0f} pictures a second instead of {camera.wanted_rate:.0f}",
+                "own USB port for each camera; lock the exposure")  # fmt: skip
+    if quality.edge_width is not None and quality.edge_width > WIDEST_EDGE:
+        return (Verdict.WARNING, f"the marker's edge is {quality.edge_width:.1f} px wide",
+                "focus the lens on the needle and lock it")  # fmt: skip
+    return Verdict.GOOD, "", ""
+
+
+def _marker(facts: MorningFacts) -> StepResult:
+    title = "Marker"
+    missed = [(camera.name, camera.miss) for camera in facts.cameras if camera.miss]
+    if len(facts.cameras) == 2 and not missed:
+        return StepResult("marker", title, Verdict.GOOD, "found in both pictures")
+    if not facts.cameras:
+        return StepResult("marker", title, Verdict.WAITING, "no pictures yet", "pictures first")
+    text = "; ".join(f"{name}: {why}" for name, why in missed) or "only one camera"
+    return StepResult("marker", title, Verdict.BAD, text,
+                      "push the needle on until both cameras see the red band; look for other "
+                      "red things")  # fmt: skip
+
+
+def _agreement(facts: MorningFacts) -> StepResult:
+    title = "Cameras agree"
+    if facts.residual_px is None:
+        return StepResult("residual", title, Verdict.WAITING, facts.status or "no point yet",
+                          "the marker must be seen by both cameras")  # fmt: skip
+    text = f"residual {facts.residual_px:.2f} px"
+    if facts.status:
+        return StepResult("residual", title, Verdict.BAD, f"{text}: {facts.status}",
+                          "a camera was moved, or robot and cameras differ: "
+                          "`acus calibrate world`")  # fmt: skip
+    if facts.residual_px <= GOOD_RESIDUAL:
+        return StepResult("residual", title, Verdict.GOOD, text)
+    verdict = Verdict.WARNING if facts.residual_px <= LARGEST_RESIDUAL else Verdict.BAD
+    return StepResult("residual", title, verdict, text,
+                      "a camera was bumped? calibrate again: menu Cameras")  # fmt: skip
+
+
+def _touch(facts: MorningFacts) -> StepResult:
+    title, touch = "Touch one point", facts.touch
+    if touch is None:
+        found = facts.touch_failure or "not touched yet"
+        return StepResult("touch", title, Verdict.WAITING, found,
+                          "rest the tip in a known mark and hold still for a second")  # fmt: skip
+    distance, radius = touch.distance / MILLIMETRE, touch.radius / MILLIMETRE
+    text = f"{touch.name}: {distance:.1f} mm from where it is, measured to ± {radius:.1f} mm (95 %)"
+    if touch.distance <= touch.tolerance:
+        return StepResult("touch", title, Verdict.GOOD, text)
+    limit = f"the limit is {touch.tolerance / MILLIMETRE:.1f} mm"
+    return StepResult("touch", title, Verdict.BAD, text,
+                      f"{limit}: touch again; is it {touch.name}, is the plate in its place? then "
+                      "check with all fiducials: menu Cameras, Registration check")  # fmt: skip
+
+
+_STEPS: Final[tuple[Callable[[MorningFacts], StepResult], ...]] = (
+    _homing, _signs, _force, _pictures, _marker, _agreement, _touch,
+)  # fmt: skip

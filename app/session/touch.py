@@ -1,0 +1,105 @@
+"""Touching a point with the needle's tip: the cameras' fixes averaged over a second."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from app.core.arrays import FloatArray, frozen
+from app.core.errors import AcusError
+from app.core.units import MILLIMETRE
+from app.tracking.fix import NeedleFix
+
+DURATION = 1.0
+"""A touch lasts this long [s]."""
+FEWEST = 8
+"""Fewer usable fixes than this in that time are no touch."""
+STILL = 0.5 * MILLIMETRE
+"""The tip counts as still while its fixes spread less than this (root mean square [m]), or less
+than three times what the fixes themselves say."""
+
+
+class TouchError(AcusError, ValueError):
+    """A touch that cannot be used: the tip moved, or the cameras lost it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Touch:
+    """A point that the tip touched.
+
+    Attributes:
+        p_world: mean of the fixes [m], shape (3,).
+        covariance: of the mean [m²], shape (3, 3): noise divided by the number of fixes, and what
+            calibration leaves, which does not average out.
+        count: number of fixes.
+        spread: of the single fixes, root mean square [m].
+    """
+
+    p_world: FloatArray
+    covariance: FloatArray
+    count: int
+    spread: float
+
+
+@dataclass
+class TouchCollector:
+    """Takes fixes until a second is full.
+
+    Attributes:
+        duration: how long [s].
+    """
+
+    duration: float = DURATION
+    _fixes: list[NeedleFix] = field(default_factory=list)
+    _refused: int = 0
+    _newest: float = -np.inf
+    _first: float | None = None
+
+    def add(self, fix: NeedleFix) -> None:
+        """Take a fix; one that was seen already is passed over, an unusable one is counted."""
+        if not fix.time > self._newest:
+            return
+        self._newest = fix.time
+        if self._first is None:
+            self._first = fix.time
+        if fix.usable:
+            self._fixes.append(fix)
+        else:
+            self._refused += 1
+
+    @property
+    def share(self) -> float:
+        """How much of the time is over, 0...1."""
+        if self._first is None:
+            return 0.0
+        return float(np.clip((self._newest - self._first) / self.duration, 0.0, 1.0))
+
+    def touch(self) -> Touch:
+        """Return the mean.
+
+        Raises:
+            TouchError: if there are too few usable fixes, or the tip moved meanwhile.
+        """
+        count = len(self._fixes)
+        if count < FEWEST:
+            raise TouchError(
+                f"only {count} of {count + self._refused} fixes could be used, {FEWEST} are "
+                "needed: keep the marker in both pictures and hold still"
+            )
+        points = np.array([fix.p_tip_world for fix in self._fixes])
+        mean = points.mean(axis=0)
+        noise = np.mean([_noise(fix) for fix in self._fixes], axis=0)
+        spread = float(np.sqrt(np.mean(np.sum((points - mean) ** 2, axis=1))))
+        if spread > max(STILL, 3.0 * float(np.sqrt(np.trace(noise)))):
+            raise TouchError(
+                f"the tip moved by {spread / MILLIMETRE:.1f} mm while it was measured: rest it in "
+                "the mark and hold still for a second"
+            )
+        systematic = np.mean([fix.covariance for fix in self._fixes], axis=0) - noise
+        # What the hand's tremor adds shows in the scatter, and counts where it is the larger.
+        scatter = np.cov(points.T)
+        random = noise if np.trace(noise) > np.trace(scatter) else scatter
+        return Touch(frozen(mean), frozen(systematic + random / count), count, spread)
+
+
+def _noise(fix: NeedleFix) -> FloatArray:
+    return fix.covariance if fix.noise_covariance is None else fix.noise_covariance
