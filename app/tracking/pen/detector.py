@@ -1,0 +1,94 @@
+"""Finds printed markers in a picture and measures their corners."""
+
+from collections import Counter
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.tracking.cameras.camera import Image
+from app.tracking.pen.board import aruco_dictionary
+from app.tracking.pen.edges import Grey, measure_squares
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MarkerSighting:
+    """A marker in a picture.
+
+    Attributes:
+        id: its number.
+        corners: outer corners of the black square [px], shape (4, 2), in the print's order.
+        covariance: of them [px²], shape (8, 8); noise only.
+    """
+
+    id: int
+    corners: FloatArray
+    covariance: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sightings:
+    """All markers of one picture.
+
+    Attributes:
+        markers: measured ones, each id once.
+        doubles: ids that the picture shows more than once; none of these is among `markers`.
+        unmeasured: ids that were read but whose edges could not be measured: at the border, too
+            small, covered.
+        mirrored: whether the picture shows markers only after mirroring it.
+    """
+
+    markers: tuple[MarkerSighting, ...]
+    doubles: tuple[int, ...] = ()
+    unmeasured: tuple[int, ...] = ()
+    mirrored: bool = False
+
+
+class MarkerDetector:
+    """Finds the markers of one dictionary; not for two threads at once.
+
+    Args:
+        dictionary: name of an ArUco dictionary.
+
+    Raises:
+        PenError: if OpenCV has no such dictionary.
+    """
+
+    def __init__(self, dictionary: str) -> None:
+        parameters = cv2.aruco.DetectorParameters()
+        parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_NONE
+        parameters.adaptiveThreshWinSizeMin = 7
+        parameters.adaptiveThreshWinSizeMax = 31
+        parameters.adaptiveThreshWinSizeStep = 12
+        parameters.minMarkerPerimeterRate = 0.04
+        self._detector = cv2.aruco.ArucoDetector(aruco_dictionary(dictionary), parameters)
+
+    def find(self, image: Image, wanted: set[int]) -> Sightings:
+        """Return the markers of the wanted ids; an empty result also says if mirroring helps."""
+        grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+        squares = self._squares(grey, wanted)
+        if not squares:
+            flipped = self._squares(np.ascontiguousarray(grey[:, ::-1]), wanted)
+            return Sightings((), mirrored=len(flipped) >= 2)
+        counts = Counter(number for number, _ in squares)
+        doubles = tuple(sorted(number for number, count in counts.items() if count > 1))
+        single = [(number, found) for number, found in squares if counts[number] == 1]
+        corners = np.array([found for _, found in single]).reshape(-1, 4, 2)
+        markers, unmeasured = [], []
+        for (number, _), square in zip(single, measure_squares(grey, corners), strict=True):
+            if square is None:
+                unmeasured.append(number)
+            else:
+                markers.append(MarkerSighting(number, square.corners, square.covariance))
+        return Sightings(tuple(markers), doubles, tuple(sorted(unmeasured)))
+
+    def _squares(self, grey: Grey, wanted: set[int]) -> list[tuple[int, FloatArray]]:
+        corners, ids, _ = self._detector.detectMarkers(grey)
+        if ids is None:
+            return []
+        return [
+            (int(number), np.asarray(found, dtype=np.float64).reshape(4, 2))
+            for number, found in zip(np.ravel(ids), corners, strict=True)
+            if int(number) in wanted
+        ]

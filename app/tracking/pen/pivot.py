@@ -1,0 +1,274 @@
+"""Where the tip is in the body's frame: the pen is rocked with its tip in a dimple, and rolled.
+
+Tip t (body) and dimple c (world) fulfil R_i t + p_i = c for every pose i: linear in both. Each
+equation is weighted by what the pose's covariance makes of the tip. A direction that the motion
+says nothing about is named, not guessed.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.core.arrays import FloatArray, read_only, unit
+from app.core.rotation import skew
+from app.core.transform import RigidTransform
+from app.core.units import DEGREE, MILLIMETRE
+from app.tracking.confidence import chi_square_quantile
+from app.tracking.errors import PenError
+
+FEWEST = 20
+"""Poses below which nothing is computed."""
+
+LARGEST_SD = 2.0e-3
+"""Standard deviation of the tip [m], in its worst direction, above which a motion is refused."""
+
+LEAST_ROCKING = 12.0 * DEGREE
+"""Spread of the shaft's direction [rad] that pivoting needs, both ways."""
+
+LEAST_ROLL = 60.0 * DEGREE
+_GATE = 1e-6
+_ROUNDS = 4
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MeasuredPose:
+    """Pose of the body at one moment and its covariance (twist on the left), shape (6, 6)."""
+
+    T: RigidTransform
+    covariance: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TipCalibration:
+    """What pivoting found.
+
+    Attributes:
+        p_tip: tip in the body's frame [m], shape (3,).
+        covariance: of it [m²], shape (3, 3); inflated if the residual is larger than expected.
+        p_dimple: where the tip stood, in the poses' frame [m], shape (3,).
+        rms: root mean square distance of the tips from the dimple [m].
+        poses: how many were used.
+        left_out: how many did not fit (a tip that jumped out) and were left out.
+    """
+
+    p_tip: FloatArray
+    covariance: FloatArray
+    p_dimple: FloatArray
+    rms: float
+    poses: int
+    left_out: int
+
+    @property
+    def sd_mm(self) -> float:
+        """Standard deviation in the worst direction [mm]."""
+        return float(np.sqrt(np.linalg.eigvalsh(self.covariance)[-1])) / MILLIMETRE
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AxisCalibration:
+    """Direction of the shaft in the body's frame.
+
+    Attributes:
+        axis: unit direction towards the tip, shape (3,).
+        covariance: of it, shape (3, 3); nothing along it.
+        source: `mount` or `rolling`.
+    """
+
+    axis: FloatArray
+    covariance: FloatArray
+    source: str
+
+    @property
+    def sd_deg(self) -> float:
+        """Standard deviation in the worse direction [deg]."""
+        return float(np.sqrt(np.linalg.eigvalsh(self.covariance)[-1])) / DEGREE
+
+
+def pivot(poses: Sequence[MeasuredPose]) -> TipCalibration:
+    """Find the tip from poses of a pen whose tip stood still.
+
+    Raises:
+        PenError: with fewer than `FEWEST` poses; if the pen was not rocked, or in one plane only,
+            or only rolled; or if most poses contradict each other.
+    """
+    if len(poses) < FEWEST:
+        raise PenError(
+            f"{len(poses)} poses are too few to find the tip; rock the pen until there are {FEWEST}"
+        )
+    rotations = np.array([pose.T.rotation for pose in poses])
+    shifts = np.array([pose.T.translation for pose in poses])
+    _require_motion(rotations)
+    keep = np.ones(len(poses), dtype=np.bool_)
+    solution: FloatArray = np.zeros(6)
+    for number in range(_ROUNDS):
+        weights = _weights(poses, solution[:3] if number else None)
+        normal, right = _normal_equations(rotations, shifts, weights, keep)
+        solution = np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
+        rest = rotations @ solution[:3] + shifts - solution[3:]
+        misfit = np.einsum("ni,nij,nj->n", rest, weights, rest)
+        if number:
+            # Against their own median: a print that is worse than declared is not an outlier.
+            scale = max(1.0, float(np.median(misfit[keep])) / chi_square_quantile(0.5, 3))
+            keep = misfit < scale * chi_square_quantile(1.0 - 1e-4, 3)
+            _require_agreement(keep)
+    freedom = 3 * int(keep.sum()) - 6
+    factor = max(1.0, float(misfit[keep].sum()) / freedom)
+    covariance = factor * np.linalg.inv(normal)[:3, :3]
+    found = TipCalibration(
+        read_only(solution[:3]),
+        read_only(covariance),
+        read_only(solution[3:]),
+        float(np.sqrt(np.mean((rest[keep] ** 2).sum(axis=1)))),
+        int(keep.sum()),
+        int((~keep).sum()),
+    )
+    _require_certainty(found)
+    return found
+
+
+def _weights(poses: Sequence[MeasuredPose], p_tip: FloatArray | None) -> FloatArray:
+    """Inverse covariance of each pose's tip in the poses' frame, (n, 3, 3)."""
+    weights = np.empty((len(poses), 3, 3))
+    for i, pose in enumerate(poses):
+        if p_tip is None:
+            weights[i] = np.eye(3) / MILLIMETRE**2
+            continue
+        jacobian = np.hstack([np.eye(3), -skew(pose.T @ p_tip)])
+        spread = jacobian @ pose.covariance @ jacobian.T + (1e-6) ** 2 * np.eye(3)
+        weights[i] = np.linalg.inv(spread)
+    return weights
+
+
+def _normal_equations(
+    rotations: FloatArray, shifts: FloatArray, weights: FloatArray, keep: np.ndarray
+) -> tuple[FloatArray, FloatArray]:
+    rows = np.concatenate(
+        [rotations[keep], np.broadcast_to(-np.eye(3), rotations[keep].shape)], axis=2
+    )
+    weighted = np.einsum("nij,njk->nik", weights[keep], rows)
+    normal = np.einsum("nji,njk->ik", rows, weighted)
+    return normal, -np.einsum("nji,nj->i", weighted, shifts[keep])
+
+
+def _require_motion(rotations: FloatArray) -> None:
+    """Refuse motions that leave a direction of the tip open.
+
+    (R_i - mean R) t says everything that is known of t: its null direction is the common axis.
+    """
+    about = rotations - rotations.mean(axis=0)
+    values, directions = np.linalg.eigh(np.einsum("nji,njk->ik", about, about) / len(rotations))
+    spread = np.sqrt(np.maximum(values, 0.0))  # about the sine of the angles swept, each direction
+    if spread[1] < np.sin(LEAST_ROCKING) / 2.0:
+        raise PenError(
+            "the pen was held still: rock it by 30° to every side with its tip in the dimple"
+        )
+    if spread[0] < np.sin(LEAST_ROCKING) / 2.0:
+        named = np.abs(directions[:, 0])
+        how = "only rolled about its own axis" if named[2] > 0.9 else "rocked in one plane only"
+        raise PenError(
+            f"the pen was {how}: the tip's place along that axis stays open; rock it by 30° to "
+            "every side with its tip in the dimple"
+        )
+
+
+def _require_agreement(keep: np.ndarray) -> None:
+    if keep.mean() < 0.7:
+        raise PenError(
+            f"{int((~keep).sum())} of {len(keep)} poses contradict the others: the tip slipped; "
+            "press it into the dimple and rock again"
+        )
+
+
+def _require_certainty(found: TipCalibration) -> None:
+    if found.sd_mm * MILLIMETRE > LARGEST_SD:
+        raise PenError(
+            f"the tip is known to {found.sd_mm:.1f} mm only (standard deviation), the limit is "
+            f"{LARGEST_SD / MILLIMETRE:.0f} mm: rock it further, nearer to the webcam"
+        )
+
+
+def axis_by_mount(tip: TipCalibration, mount_sd: float = 1.0e-3) -> AxisCalibration:
+    """Direction from the middle of the cube to the tip: the shaft runs through both holes' centres.
+
+    Args:
+        tip: as pivoting found it.
+        mount_sd: how far the shaft may pass beside the cube's middle, per axis [m].
+
+    Raises:
+        PenError: if the tip lies in the cube.
+    """
+    length = float(np.linalg.norm(tip.p_tip))
+    if length < 0.02:
+        raise PenError(
+            f"the tip lies {length / MILLIMETRE:.0f} mm from the middle of the cube; 20 mm are "
+            "the least from which its direction can be told"
+        )
+    axis = tip.p_tip / length
+    across = np.eye(3) - np.outer(axis, axis)
+    spread = across @ (tip.covariance + mount_sd**2 * np.eye(3)) @ across / length**2
+    return AxisCalibration(read_only(axis), read_only(spread), "mount")
+
+
+def axis_by_rolling(poses: Sequence[MeasuredPose], towards: FloatArray) -> AxisCalibration:
+    """Direction of the shaft from poses of a pen that was rolled about it, its line held still.
+
+    The direction a in the body that stays at one b in the poses' frame: the largest singular value
+    of the mean rotation belongs to it.
+
+    Args:
+        poses: at least `FEWEST`, over at least `LEAST_ROLL` of roll.
+        towards: roughly towards the tip, in the body's frame, shape (3,).
+
+    Raises:
+        PenError: with too few poses, too little roll, or if no direction stood still.
+    """
+    if len(poses) < FEWEST:
+        raise PenError(
+            f"{len(poses)} poses are too few to find the shaft; roll on until there are {FEWEST}"
+        )
+    rotations = np.array([pose.T.rotation for pose in poses])
+    left, values, right = np.linalg.svd(rotations.mean(axis=0))
+    axis, fixed = right[0], left[:, 0]
+    if axis @ towards < 0.0:
+        axis, fixed = -axis, -fixed
+    if values[1] > 0.5 * (1.0 + np.sinc(LEAST_ROLL / (2.0 * np.pi))):
+        raise PenError(
+            "the pen was rolled too little: roll it by a quarter turn or more about its own axis, "
+            "lying in a groove"
+        )
+    covariance, misfit, freedom = _axis_covariance(poses, axis, fixed)
+    if misfit > 25.0 * freedom:
+        raise PenError(
+            "the shaft did not keep its direction while it was rolled: lay it into a groove, for "
+            "instance between two books, and roll it there"
+        )
+    covariance = max(1.0, misfit / freedom) * covariance
+    return AxisCalibration(read_only(axis), read_only(covariance), "rolling")
+
+
+def _axis_covariance(
+    poses: Sequence[MeasuredPose], axis: FloatArray, fixed: FloatArray
+) -> tuple[FloatArray, float, int]:
+    """Covariance (3, 3) of the direction, chi-square of the fit and its degrees of freedom.
+
+    In the plane across `fixed`: R_i (a + A α) = b + B β + noise of the pose's rotation.
+    """
+    across_axis, across_fixed = _plane(axis), _plane(fixed)
+    normal, rows = np.zeros((4, 4)), []
+    for pose in poses:
+        by = np.hstack([across_fixed.T @ pose.T.rotation @ across_axis, -np.eye(2)])
+        turn = -across_fixed.T @ skew(pose.T.rotation @ axis)
+        spread = turn @ pose.covariance[3:, 3:] @ turn.T + 1e-12 * np.eye(2)
+        weight = np.linalg.inv(spread)
+        normal += by.T @ weight @ by
+        rest = across_fixed.T @ (pose.T.rotation @ axis - fixed)
+        rows.append(rest @ weight @ rest)
+    covariance = across_axis @ np.linalg.inv(normal)[:2, :2] @ across_axis.T
+    return covariance, float(np.sum(rows)), 2 * len(poses) - 4
+
+
+def _plane(direction: FloatArray) -> FloatArray:
+    """Two unit vectors across a direction, shape (3, 2)."""
+    first = unit(np.cross(direction, np.eye(3)[int(np.argmin(np.abs(direction)))]))
+    return np.column_stack([first, np.cross(direction, first)])
