@@ -28,6 +28,13 @@ WINDOW_SHARE = 1.0 / 3.0
 At 0.4 corners of oblique squares are drawn to the next edge, at 0.2 noise is averaged less.
 """
 
+MARKER_SHARE = 1.15
+"""The same over the white between a square's edge and its marker.
+
+Wider windows hold the marker's corner, which draws: on rendered boards with noise of 2 levels the
+root mean square error rises from 0.03 px to 0.14 px at a third of the square.
+"""
+
 WINDOW_MAX = 11
 """Half the largest window [px]."""
 
@@ -176,7 +183,7 @@ def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> Boa
             f"the picture is blurred: edges are {sharpness:.1f} px wide, squares "
             f"{square_px:.0f} px; hold the board still and focus",
         )
-    half = window or int(np.clip(np.floor(WINDOW_SHARE * square_px), 2, WINDOW_MAX))
+    half = window or int(np.clip(np.floor(window_share(board) * square_px), 2, WINDOW_MAX))
     return BoardView(
         board,
         ids,
@@ -186,6 +193,13 @@ def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> Boa
         square_px=square_px,
         window=half,
     )
+
+
+def window_share(board: Board) -> float:
+    """Half the sub-pixel window over the shortest way across a square of this board."""
+    if board.kind is BoardKind.CHECKERBOARD:
+        return WINDOW_SHARE
+    return min(WINDOW_SHARE, MARKER_SHARE * 0.5 * (1.0 - board.marker / board.square))
 
 
 def refined(grey: Grey, pixels: FloatArray, half: int) -> FloatArray:
