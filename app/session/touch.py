@@ -28,8 +28,8 @@ class Touch:
 
     Attributes:
         p_world: mean of the fixes [m], shape (3,).
-        covariance: of the mean [m²], shape (3, 3): noise divided by the number of fixes, and what
-            calibration leaves, which does not average out.
+        covariance: of the mean [m²], shape (3, 3): the scatter that was seen divided by the
+            number of fixes, and the rest of what a fix says of itself, which does not average out.
         count: number of fixes.
         spread: of the single fixes, root mean square [m].
     """
@@ -94,12 +94,24 @@ class TouchCollector:
                 f"the tip moved by {spread / MILLIMETRE:.1f} mm while it was measured: rest it in "
                 "the mark and hold still for a second"
             )
-        systematic = np.mean([fix.covariance for fix in self._fixes], axis=0) - noise
-        # What the hand's tremor adds shows in the scatter, and counts where it is the larger.
+        whole = np.mean([fix.covariance for fix in self._fixes], axis=0)
         scatter = np.cov(points.T)
-        random = noise if np.trace(noise) > np.trace(scatter) else scatter
-        return Touch(frozen(mean), frozen(systematic + random / count), count, spread)
+        return Touch(frozen(mean), frozen(_of_mean(whole, noise, scatter, count)), count, spread)
 
 
 def _noise(fix: NeedleFix) -> FloatArray:
     return fix.covariance if fix.noise_covariance is None else fix.noise_covariance
+
+
+def _of_mean(whole: FloatArray, noise: FloatArray, scatter: FloatArray, count: int) -> FloatArray:
+    """Covariance of the mean of fixes of covariance `whole` that scatter by `scatter`.
+
+    What a fix allows for and its fixes do not show is the same in all: calibration, and the
+    background behind a marker that does not move.
+    """
+    values, axes = np.linalg.eigh(whole - scatter)
+    constant = (axes * np.maximum(values, 0.0)) @ axes.T
+    stated = whole - noise
+    larger = constant if np.trace(constant) > np.trace(stated) else stated
+    result: FloatArray = larger + scatter / count
+    return result

@@ -41,15 +41,16 @@ class Inspection:
     Attributes:
         pictures: in the order of the rig; a camera without a picture is left out.
         fix: newest; None before the first.
-        radius: round the tip, holds the true one with 95 % [m]; None without a usable tip.
+        rate_hz: pictures a second that the rig's profile promises; 0 where nobody tells.
     """
 
     pictures: tuple[InspectedPicture, ...]
     fix: NeedleFix | None
+    rate_hz: float = 0.0
 
     @property
     def radius(self) -> float | None:
-        """Radius that holds the true tip with 95 % [m]."""
+        """Radius round the tip that holds the true one with 95 % [m]; None without a tip."""
         return self.fix.radius() if self.fix is not None and self.fix.usable else None
 
     @property
@@ -78,7 +79,8 @@ class Inspector:
         stamped = self._tracker.latest.read()
         pictures = self._tracker.pictures()
         inspected = tuple(self._inspect(one, pictures, masks, lines) for one in pictures)
-        return Inspection(inspected, stamped.value if stamped else None)
+        newest = stamped.value if stamped else None
+        return Inspection(inspected, newest, self._tracker.rig.rate_hz)
 
     def _inspect(
         self,

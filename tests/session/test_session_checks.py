@@ -68,7 +68,7 @@ def test_everything_well_is_green_and_says_nothing_to_do() -> None:
         (replace(GOOD, status="the cameras disagree"), "residual", Verdict.BAD, "disagree"),
         (replace(GOOD, touch=None), "touch", Verdict.WAITING, "not touched"),
         (replace(GOOD, touch=replace(TOUCH, p_measured=np.array([0, 3 * MM, 0]))),
-         "touch", Verdict.BAD, "3.0 mm from where it is"),
+         "touch", Verdict.BAD, "3.00 mm off"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_found_and_something_is_to_do(

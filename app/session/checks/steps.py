@@ -177,7 +177,7 @@ def _touch(facts: MorningFacts) -> StepResult:
         return StepResult("touch", title, Verdict.WAITING, found,
                           "rest the tip in a known mark and hold still for a second")  # fmt: skip
     distance, radius = touch.distance / MILLIMETRE, touch.radius / MILLIMETRE
-    text = f"{touch.name}: {distance:.1f} mm from where it is, measured to ± {radius:.1f} mm (95 %)"
+    text = f"{touch.name}: {distance:.2f} mm off, measured to ± {radius:.2f} mm (95 %)"
     if touch.distance <= touch.tolerance:
         return StepResult("touch", title, Verdict.GOOD, text)
     limit = f"the limit is {touch.tolerance / MILLIMETRE:.1f} mm"

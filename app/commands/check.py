@@ -1,0 +1,101 @@
+"""`acus check`: the morning check."""
+
+import json
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from app.session.checks.record import DayCheck
+
+_MARKS = {"good": "✔", "warning": "▲", "bad": "✖", "waiting": "–"}
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("check")(check)
+
+
+def check(
+    device: Annotated[
+        str | None, typer.Option(help="Serial port of a real robot; default: simulated.")
+    ] = None,
+    cameras: Annotated[
+        str | None, typer.Option(help="Real cameras, as in `acus run --cameras`.")
+    ] = None,
+    plate: Annotated[str, typer.Option(help="Plate with the point to touch.")] = "stepped-plate",
+    point: Annotated[str, typer.Option(help="Its fiducial; default: the last.")] = "",
+    touch: Annotated[
+        bool, typer.Option("--touch/--no-touch", help="Whether to touch a point.")
+    ] = True,
+    last: Annotated[
+        bool, typer.Option("--last", help="Show the newest check instead of making one.")
+    ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")] = False,
+) -> None:
+    """Check robot, pictures, marker and one touched point; two minutes; the result is kept.
+
+    Ends with code 1 if something is wrong.
+    """
+    from app.session.checks.record import newest_check
+    from app.session.checks.steps import Verdict
+
+    found = newest_check() if last else _made(device, cameras, plate, point, touch, as_json)
+    if found is None:
+        typer.echo("null" if as_json else "no morning check was made yet")
+        raise typer.Exit(1)
+    _print(found, as_json)
+    if found.verdict in (Verdict.BAD, Verdict.WAITING):
+        raise typer.Exit(1)
+
+
+def _made(
+    device: str | None, cameras: str | None, plate: str, point: str, touch: bool, quiet: bool
+) -> "DayCheck":
+    from datetime import datetime
+
+    from app.compose.morning import MorningCheck, known_point
+    from app.planning.registration.plate import load_plate
+    from app.session.checks.record import DayCheck, save_check
+    from app.session.checks.steps import morning_check
+    from app.tracking.cameras.settings import parse_cameras
+
+    name, place = known_point(load_plate(plate), point)
+    settings = parse_cameras(cameras) if cameras else None
+    morning = MorningCheck(port=device, cameras=settings)
+    try:
+        morning.open()
+        if touch:
+            if morning.simulated and settings is None:
+                morning.move_to(place)
+            else:
+                typer.prompt(
+                    f"Rest the tip in {name} and hold still; press Enter", default="",
+                    show_default=False, err=True,
+                )  # fmt: skip
+            morning.touch(name, place)
+        results = tuple(
+            one for one in morning_check(morning.facts()) if touch or one.name != "touch"
+        )
+        found = DayCheck.of(
+            results, datetime.now().astimezone(), morning.device, morning.simulated,
+            morning.calibration,
+        )  # fmt: skip
+    finally:
+        morning.close()
+    save_check(found)
+    return found
+
+
+def _print(found: "DayCheck", as_json: bool) -> None:
+    from datetime import datetime
+
+    if as_json:
+        document: dict[str, Any] = found.model_dump(mode="json")
+        typer.echo(json.dumps(document, indent=2))
+        return
+    for step in found.steps:
+        typer.echo(f"{_MARKS[step.verdict.value]} {step.name:10} {step.found}")
+        if step.todo:
+            typer.echo(f"  {'':10} → {step.todo}")
+    typer.echo(found.words(datetime.now().astimezone()))
