@@ -1,5 +1,7 @@
 """Pictures of boards with known truth: drawn through a camera model, distortion included."""
 
+from functools import lru_cache
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -9,17 +11,18 @@ from app.tracking.calibration.boards import Board
 from app.tracking.calibration.pattern import dark_rectangles
 from app.tracking.optics.camera_model import CameraModel
 
-_PER_SQUARE = 64
+_PER_SQUARE = 40
 
 
+@lru_cache
 def texture(board: Board) -> NDArray[np.uint8]:
-    """The print with a white rim of one square; 64 pixels a square."""
+    """The print with a white rim of one square; 40 pixels a square."""
     scale = _PER_SQUARE / board.square
     height, width = (board.rows + 3) * _PER_SQUARE, (board.columns + 3) * _PER_SQUARE
     picture = np.full((height, width), 235, np.uint8)
     for x, y, w, h in dark_rectangles(board) * scale + [_PER_SQUARE, _PER_SQUARE, 0, 0]:
         picture[round(y) : round(y + h), round(x) : round(x + w)] = 25
-    return picture
+    return cv2.GaussianBlur(picture, (0, 0), 0.7)
 
 
 def board_picture(
@@ -43,7 +46,7 @@ def board_picture(
     xy[~found | (p[:, 2] <= 0.0)] = -1e4
     maps = xy.reshape(2 * height, 2 * width, 2).astype(np.float32)
     fine = cv2.remap(
-        cv2.GaussianBlur(texture(board), (0, 0), 1.0),
+        texture(board),
         maps[..., 0],
         maps[..., 1],
         cv2.INTER_LINEAR,
