@@ -67,3 +67,13 @@ def measured_axis(loop: Loop) -> Callable[[float], FloatArray | None]:
         return row[sv.AXIS_X : sv.AXIS_X + 3] if known else None
 
     return axis
+
+
+def felt_force(loop: Loop) -> Callable[[float], FloatArray | None]:
+    """Return what tells the tracker the robot's force at the hub [N] at a time, or None."""
+
+    def force(time: float) -> FloatArray | None:
+        row = row_at(loop, time)
+        return row[sv.FELT_X : sv.FELT_X + 3] if row[sv.TICK] > 0.0 else None
+
+    return force

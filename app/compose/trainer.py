@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
-from app.compose.needle import UPRIGHT, measured_axis, needle_scene
+from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
 from app.compose.robot import Robot, connect
 from app.core import paths
 from app.core.build import BUILD, build
@@ -154,6 +154,7 @@ def _build_rig(
         axis=measured_axis(loop),
         fulcrum=profile.pantograph.fulcrum,
         on_fix=lambda fix: trainer.on_fix(fix),
+        force=felt_force(loop),
     )
     trainer = Trainer(
         loop,

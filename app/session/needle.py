@@ -1,7 +1,8 @@
 """The needle's pose from both of its sources: direction from the robot, depth from the cameras.
 
-tip = P_I + depth·d̂. The robot gives d̂ every tick; the cameras give the tip, whose component along
-d̂ from the fulcrum is the depth. Each source has its own clock, so the pose carries both ages.
+tip = P_I + depth·d̂. The robot gives d̂ every tick; the cameras give the tip, and `tracking.fusion`
+says how deep that is on the robot's line. Each source has its own clock, so the pose carries both
+ages.
 """
 
 from dataclasses import dataclass
@@ -13,6 +14,8 @@ import numpy as np
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
 from app.session.ports import DeviceStatePort, FixPort
+from app.tracking.confidence import covariance_radius
+from app.tracking.fusion import DIRECTION_SIGMA, fuse_tip, line_covariance
 
 ENCODER_LIMIT: Final = 0.1
 """Age of the encoder values [s] from which the pose is not valid: the force is zero by then."""
@@ -23,8 +26,8 @@ FRESH_LIMIT: Final = 0.1
 HOLD_LIMIT: Final = 0.2
 """Age of a fix [s] up to which its depth is held; then the model's depth takes over."""
 
-ORIENTATION_SIGMA: Final = 1.0e-4
-"""Standard deviation of the direction [rad]: one encoder count is 0.02° of needle, / √12."""
+ORIENTATION_SIGMA: Final = DIRECTION_SIGMA
+"""Standard deviation of the direction [rad]."""
 
 RATE_SIGMA: Final = 0.02
 """Unknown axial speed while a fix ages [m/s]: an ordinary insertion speed."""
@@ -66,6 +69,13 @@ class NeedlePose:
         valid: whether direction and depth may be used; the depth is measured only if
             `measured` says so too.
         covariance: of the tip [m²], shape (3, 3), read-only.
+        rate: of the depth by the cameras [m/s]; 0 where it is not known.
+        predicted: how far ahead of the capture of its depth the pose has been moved [s]; 0 for a
+            measured pose. Only what is shown is predicted: record, score and force are not.
+        snapped: whether the tip stands on the robot's line; False where the cameras see it beside
+            that, as of a bent needle.
+        deflection: of the tip from the robot's line by both cameras [m]; 0 where it is not known.
+        deflection_sigma: standard deviation of `deflection` [m]; 0 where it is not known.
         reason: why the pose is not valid, one line; empty if it is.
     """
 
@@ -79,6 +89,21 @@ class NeedlePose:
     valid: bool
     covariance: FloatArray
     reason: str = ""
+    rate: float = 0.0
+    predicted: float = 0.0
+    snapped: bool = True
+    deflection: float = 0.0
+    deflection_sigma: float = 0.0
+
+    @property
+    def radius(self) -> float:
+        """Radius [m] round the tip that holds the true one with 95 %."""
+        return covariance_radius(self.covariance)
+
+    @property
+    def bends(self) -> bool:
+        """Whether the tip is off the line by more than chance, with 99 %."""
+        return self.deflection > 3.0 * self.deflection_sigma > 0.0
 
     @property
     def measured(self) -> bool:
@@ -104,18 +129,54 @@ def fuse(
         return _invalid(last, now, fault, _age(encoder_time(device), now))
     axis = axis / np.linalg.norm(axis)
     fulcrum = np.asarray(device.tip) - device.depth * np.asarray(device.axis)
-    depth, variance, age, source = _depth(device, fix, fulcrum, axis, now)
+    if fix is not None and is_usable(fix) and _age(fix.time, now) <= HOLD_LIMIT:
+        return _measured(device, fix, fulcrum, axis, now)
+    depth = float(device.depth)
     return NeedlePose(
         p_tip=read_only(fulcrum + depth * axis),
         axis=read_only(axis),
         depth=depth,
         time=now,
         orientation_age=_age(encoder_time(device), now),
-        depth_age=age,
-        depth_source=source,
+        depth_age=_age(device.time, now),
+        depth_source=DepthSource.MODEL,
         valid=True,
-        covariance=read_only(tip_covariance(axis, depth, variance)),
+        covariance=read_only(tip_covariance(axis, depth, MODEL_SIGMA**2)),
     )
+
+
+def _measured(
+    device: DeviceStatePort, fix: FixPort, fulcrum: FloatArray, axis: FloatArray, now: float
+) -> NeedlePose:
+    """Pose with a depth by the cameras, from `fulcrum` [m] along the unit `axis`."""
+    tip = fuse_tip(fix.p_tip_world, fix.covariance, fulcrum, axis, fix.line_variance)
+    age = _age(fix.time, now)
+    fresh = DepthSource.ONE_CAMERA if _one_eyed(fix) else DepthSource.TRACKED
+    aged = (RATE_SIGMA * age) ** 2 * np.outer(axis, axis)
+    both = fix.line_variance is not None
+    return NeedlePose(
+        p_tip=tip.p_tip,
+        axis=read_only(axis),
+        depth=tip.depth,
+        time=now,
+        orientation_age=_age(encoder_time(device), now),
+        depth_age=age,
+        depth_source=fresh if age <= FRESH_LIMIT else DepthSource.HELD,
+        valid=True,
+        covariance=read_only(tip.covariance + aged),
+        snapped=tip.snapped,
+        deflection=float(np.linalg.norm(tip.beside)) if both else 0.0,
+        deflection_sigma=_across_sigma(fix, axis, tip.depth),
+    )
+
+
+def _across_sigma(fix: FixPort, axis: FloatArray, depth: float) -> float:
+    """Return the standard deviation of tip from line, per axis [m]; 0 where it is unknown."""
+    if fix.line_variance is None:
+        return 0.0
+    total = np.asarray(fix.covariance) + line_covariance(axis, depth, fix.line_variance)
+    across = np.eye(3) - np.outer(axis, axis)
+    return float(np.sqrt(max(0.0, 0.5 * np.trace(across @ total @ across))))
 
 
 def tip_covariance(axis: FloatArray, depth: float, depth_variance: float) -> FloatArray:
@@ -147,28 +208,14 @@ def _device_fault(device: DeviceStatePort, axis: FloatArray, now: float) -> str:
     return ""
 
 
-def _depth(
-    device: DeviceStatePort, fix: FixPort | None, fulcrum: FloatArray, axis: FloatArray, now: float
-) -> tuple[float, float, float, DepthSource]:
-    """Depth [m], its variance [m²], its age [s] and its source."""
-    if fix is not None and is_usable(fix):
-        age = _age(fix.time, now)
-        if age <= HOLD_LIMIT:
-            depth, variance = fix_depth(fix, fulcrum, axis)
-            fresh = DepthSource.ONE_CAMERA if _one_eyed(fix) else DepthSource.TRACKED
-            source = fresh if age <= FRESH_LIMIT else DepthSource.HELD
-            return depth, variance + (RATE_SIGMA * age) ** 2, age, source
-    return float(device.depth), MODEL_SIGMA**2, _age(device.time, now), DepthSource.MODEL
-
-
 def fix_depth(fix: FixPort, fulcrum: FloatArray, axis: FloatArray) -> tuple[float, float]:
     """Depth of the tip that a usable fix says [m], and its variance [m²].
 
-    Projected on the present axis, not the distance from P_I: that is never negative, and biased by
-    the noise across the needle when the tip is at the skin.
+    On the present axis, not the distance from P_I: that is never negative, and biased by the noise
+    across the needle when the tip is at the skin.
     """
-    depth = float((np.asarray(fix.p_tip_world) - fulcrum) @ axis)
-    return depth, max(0.0, float(axis @ np.asarray(fix.covariance) @ axis))
+    tip = fuse_tip(fix.p_tip_world, fix.covariance, fulcrum, axis, fix.line_variance)
+    return tip.depth, tip.depth_variance
 
 
 def is_usable(fix: FixPort) -> bool:

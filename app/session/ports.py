@@ -55,6 +55,11 @@ class FixPort(Protocol):
         ...
 
     @property
+    def line_variance(self) -> float | None:
+        """Of the robot's line across itself [m²]; None if the line has been used for the tip."""
+        ...
+
+    @property
     def residual_px(self) -> float:
         """Reprojection residual [px]."""
         ...

@@ -1,12 +1,16 @@
 """The needle as the cameras have it at one moment."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen
 from app.tracking.confidence import covariance_radius
+from app.tracking.discrepancy import Discrepancy
+
+AGREED: Final = Discrepancy()
 
 
 class FixStatus(StrEnum):
@@ -42,6 +46,13 @@ class NeedleFix:
         noise_covariance: the share of `covariance` that differs from picture to picture [m²]; the
             rest, by the calibration, is the same in all and does not average out. Without it
             everything counts as noise.
+        beside: from the robot's line to the band, across it [m], shape (3,); a bent needle, or one
+            of the two sources is off. Zero unless both cameras give a point.
+        epipolar: how far the pictures miss each other, signed, in standard deviations; 0 unless
+            both cameras give a point.
+        line_variance: of the robot's line across itself [m²] while the tip is the cameras' alone;
+            None if the line has been used to find it.
+        discrepancy: what the last seconds say about why cameras and robot disagree.
     """
 
     p_tip_world: FloatArray
@@ -56,11 +67,16 @@ class NeedleFix:
     has_point: bool = False
     reason: str = ""
     noise_covariance: FloatArray | None = None
+    beside: FloatArray = field(default_factory=lambda: np.zeros(3))
+    epipolar: float = 0.0
+    line_variance: float | None = None
+    discrepancy: Discrepancy = AGREED
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "p_tip_world", frozen(self.p_tip_world, (3,), "tip"))
         object.__setattr__(self, "covariance", frozen(self.covariance, (3, 3), "covariance"))
         noise = self.covariance if self.noise_covariance is None else self.noise_covariance
+        object.__setattr__(self, "beside", frozen(self.beside, (3,), "beside"))
         object.__setattr__(self, "noise_covariance", frozen(noise, (3, 3), "noise covariance"))
 
     @property

@@ -34,11 +34,13 @@ class OneEyed:
 class OneCameraSolver:
     """Finds the band on the needle's line in one camera's picture; no memory."""
 
-    def __init__(self, rig: RigProfile, fulcrum: FloatArray, gate: float) -> None:
+    def __init__(
+        self, rig: RigProfile, fulcrum: FloatArray, gate: float, systematic_px: float
+    ) -> None:
         self._models = rig.models
         self._shape = rig.needle.shape
         self._fulcrum = fulcrum
-        self._systematic = rig.systematic_px**2 * np.eye(2)
+        self._systematic = systematic_px**2 * np.eye(2)
         self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
         self._error = CalibrationError(rig.calibration) if rig.calibration is not None else None
         self._limit = chi_square_quantile(1.0 - gate, 1)

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen, unit
+from app.core.rotation import skew
+from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.fix import FixStatus, NeedleFix
@@ -46,8 +48,9 @@ class FixSolver:
         self._models = rig.models
         self._poses = (self._models[0].T_camera_world, self._models[1].T_camera_world)
         self._fulcrum = frozen(fulcrum, (3,), "fulcrum")
-        self._systematic = rig.systematic_px**2 * np.eye(2)
-        self._single = OneCameraSolver(rig, self._fulcrum, GATE)
+        self._systematic = systematic_px(rig) ** 2 * np.eye(2)
+        self._essential = _essential(self._poses)
+        self._single = OneCameraSolver(rig, self._fulcrum, GATE, systematic_px(rig))
         self._error = CalibrationError(rig.calibration) if rig.calibration is not None else None
         self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
 
@@ -98,7 +101,15 @@ class FixSolver:
             has_point=True,
             reason=reason,
             noise_covariance=found.covariance,
+            beside=_across(found.p_world - self._fulcrum, axis),
+            epipolar=self._signed(found),
+            line_variance=self._line_variance,
         )
+
+    def _signed(self, found: Triangulation) -> float:
+        """Root of chi-square with the sign of x₂ᵀ E x₁ [standard deviations]."""
+        first, second = (np.append(xy, 1.0) for xy in found.observations)
+        return float(np.copysign(np.sqrt(found.chi_square), second @ self._essential @ first))
 
     def _corrected(
         self, sightings: tuple[Sighting, Sighting], p_world: FloatArray, axis: FloatArray
@@ -140,9 +151,8 @@ class FixSolver:
     def _contradiction(self, found: Triangulation, covariance: FloatArray, axis: FloatArray) -> str:
         """Why the point cannot be the marker; empty if it can."""
         residual = self._residual_px(found)
-        offset = found.p_world - self._fulcrum
+        beside = _across(found.p_world - self._fulcrum, axis)
         across = np.eye(3) - np.outer(axis, axis)
-        beside = across @ offset
         spread = across @ covariance @ across + self._line_variance * np.eye(3)
         off_line = float(beside @ np.linalg.solve(spread, beside)) > _LINE_LIMIT
         apart = found.chi_square > _RESIDUAL_LIMIT
@@ -193,6 +203,24 @@ class FixSolver:
             reason=found.reason,
             noise_covariance=found.point.covariance,
         )
+
+
+def systematic_px(rig: RigProfile) -> float:
+    """Error of a pixel that no picture's noise explains, standard deviation per axis [px].
+
+    The rig's own figure, and what the calibration's residual says that its model leaves.
+    """
+    left = rig.calibration.rms_px / np.sqrt(2.0) if rig.calibration is not None else 0.0
+    return float(np.hypot(rig.systematic_px, left))
+
+
+def _across(offset: FloatArray, axis: FloatArray) -> FloatArray:
+    return np.asarray(offset - (offset @ axis) * axis)
+
+
+def _essential(poses: tuple[RigidTransform, RigidTransform]) -> FloatArray:
+    T_second_first = poses[1] @ poses[0].inverse()
+    return np.asarray(skew(T_second_first.translation) @ T_second_first.rotation)
 
 
 def without_point(

@@ -14,6 +14,7 @@ from app.tracking.capture_times import CaptureTimes
 from app.tracking.errors import TrackingError
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.follower import MarkerFollower, Markers
+from app.tracking.health import FixHealth
 from app.tracking.hiding import Hiding
 from app.tracking.markers.choice import extractors as default_extractors
 from app.tracking.markers.extractor import Extractor, MarkerFix, Miss
@@ -26,6 +27,10 @@ _PAUSE = 0.1
 
 Axis = Callable[[float], FloatArray | None]
 """Needle direction, hub to tip, at a time [s]; None while the robot does not know it."""
+
+
+def _unknown(_time: float) -> FloatArray | None:
+    return None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,6 +68,8 @@ class Tracker:
         events: takes an event of kind `camera` when a camera stops, freezes, fails or recovers,
             and of kind `fault` when the tracker itself fails.
         extractors: how the marker is found in each picture; by default `markers.choice.DEFAULT`.
+        force: of the robot on the needle at a time [N], shape (3,), to tell a needle that bends
+            under it; None while it is not known.
 
     Attributes:
         rig, extractors: as given; for whoever looks at the pictures (`inspection`).
@@ -78,6 +85,7 @@ class Tracker:
         on_fix: Callable[[NeedleFix], None] | None = None,
         events: EventQueue | None = None,
         extractors: tuple[Extractor, Extractor] | None = None,
+        force: Axis = _unknown,
     ) -> None:
         if len(cameras) != 2:
             raise TrackingError(f"the tracker needs two cameras, got {len(cameras)}")
@@ -89,6 +97,7 @@ class Tracker:
         self._names = tuple(model.name for model in rig.models)
         self._solver = FixSolver(rig, fulcrum)
         self._hiding = Hiding(rig.needle)
+        self._health = FixHealth(rig.needle.marker_offset, force, self._put)
         self._times = CaptureTimes(self._names, self._put)
         self.rig = rig
         self.extractors = extractors or default_extractors(rig)
@@ -143,7 +152,8 @@ class Tracker:
         axis = self._axis(time)
         markers = self._follower.find(frames, axis, time)
         sightings = self._follower.sightings(frames, markers, time)
-        fix = self._hiding.look(self._solver.solve(sightings, axis, time))
+        fix = self._health.look(self._solver.solve(sightings, axis, time), axis)
+        fix = self._hiding.look(fix)
         if fix.status is FixStatus.INCONSISTENT:
             self._follower.doubt()
         self._show(frames, markers)

@@ -135,6 +135,7 @@ class FakeFix:
     covariance: FloatArray = field(default_factory=lambda: np.eye(3) * 1e-8)
     residual_px: float = 0.2
     has_point: bool = False
+    line_variance: float | None = None
 
     @property
     def usable(self) -> bool:

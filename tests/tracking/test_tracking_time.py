@@ -102,7 +102,7 @@ def test_a_find_that_cannot_be_brought_to_the_time_says_how_unsure_it_is():
 
 class _Still:
     def __init__(self):
-        self.name = "still"
+        self.may_repeat = True
 
 
 def _tracker(rig):

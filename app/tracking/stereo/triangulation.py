@@ -56,6 +56,7 @@ class Triangulation:
         covariance: of the point [m²], shape (3, 3).
         chi_square: squared, noise-weighted reprojection error, one degree of freedom.
         residual: observed minus predicted normalised coordinates, both cameras, shape (4,).
+        observations: as given, shape (2, 2).
         covariances: of the observations, as given, shape (2, 2, 2).
     """
 
@@ -64,6 +65,7 @@ class Triangulation:
     covariance: FloatArray
     chi_square: float
     residual: FloatArray
+    observations: FloatArray
     covariances: FloatArray
 
 
@@ -103,6 +105,7 @@ def triangulate(
         read_only(covariance),
         float(residual @ weights @ residual),
         read_only(residual),
+        read_only(np.array(observations)),
         read_only(np.array(covariances, dtype=np.float64)),
     )
 
@@ -128,5 +131,6 @@ def _ray_status(
 
 def _nothing(status: StereoStatus) -> Triangulation:
     zero, spread = read_only(np.zeros(3)), read_only(np.zeros((3, 3)))
-    residual, covariances = read_only(np.zeros(4)), read_only(np.zeros((2, 2, 2)))
-    return Triangulation(status, zero, spread, 0.0, residual, covariances)
+    residual, observations = read_only(np.zeros(4)), read_only(np.zeros((2, 2)))
+    covariances = read_only(np.zeros((2, 2, 2)))
+    return Triangulation(status, zero, spread, 0.0, residual, observations, covariances)

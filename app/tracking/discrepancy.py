@@ -1,0 +1,192 @@
+"""What makes cameras and robot disagree: a bent needle, a slipped marker or a bumped camera.
+
+Every fix says how far the band seems beside the robot's line and how far the two pictures miss each
+other. A single one means little; over the last seconds each cause leaves its own trace:
+
+- a bumped camera: the pictures miss each other (epipolar residual) or the band is beside the line
+  by the same amount wherever the needle is;
+- a bent needle: the pictures agree, and the band is beside the line the more, the deeper it is and
+  the harder the hand pushes sideways, along that force;
+- a slipped marker: all of that is in order, but the tip is not where it touches a known place.
+"""
+
+from collections import deque
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
+
+WINDOW: Final = 300
+"""Fixes that are looked at: 10 s of 30 Hz."""
+
+ENOUGH: Final = 45
+"""Fewer fixes [-] give no verdict."""
+
+EPIPOLAR_LIMIT: Final = 3.0
+"""Median residual of the pictures, in standard deviations of one, from which a camera has moved."""
+
+BESIDE_LIMIT: Final = 3.0
+"""RMS distance from the line, in standard deviations, from which there is a cause."""
+
+EXPLAINED: Final = 0.5
+"""A cause must leave at most this share of the squared distances, and of what the others leave."""
+
+SPREAD: Final = 15.0 * MILLIMETRE
+"""Range of depths [m] below which a growth with depth cannot be told from a constant."""
+
+SLIP_LIMIT: Final = 0.5 * MILLIMETRE
+"""Mean axial error at touches [m] from which the marker has slipped."""
+
+_FORCE: Final = 0.3
+"""RMS sideways force [N] from which its direction is believed."""
+
+
+class Cause(StrEnum):
+    """Why cameras and robot disagree."""
+
+    NONE = "none"
+    BENT_NEEDLE = "bent_needle"
+    SLIPPED_MARKER = "slipped_marker"
+    BUMPED_CAMERA = "bumped_camera"
+    UNCLEAR = "unclear"  # they disagree, and no cause explains how
+
+
+@dataclass(frozen=True, slots=True)
+class Discrepancy:
+    """How cameras and robot disagree over the last seconds.
+
+    Attributes:
+        cause: what explains it.
+        beside: root mean square distance of the band from the line [m].
+        size: of the cause: deflection at the deepest, shift or slip [m].
+        words: one line for people; empty for none.
+    """
+
+    cause: Cause = Cause.NONE
+    beside: float = 0.0
+    size: float = 0.0
+    words: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Evidence:
+    """One fix by both cameras.
+
+    Attributes:
+        depth: of the band beyond the fulcrum [m].
+        beside: from the line to the band [m], shape (3,), world.
+        sigma: standard deviation that this should have, per axis [m].
+        epipolar: signed residual of the pictures, in standard deviations.
+        force: by the hand on the needle, across it [N], shape (3,), world; zero where unknown.
+    """
+
+    depth: float
+    beside: FloatArray
+    sigma: float
+    epipolar: float
+    force: FloatArray
+
+
+class DiscrepancyMonitor:
+    """Gathers evidence; not thread-safe, the tracker's thread owns it."""
+
+    def __init__(self) -> None:
+        self._evidence: deque[Evidence] = deque(maxlen=WINDOW)
+        self._touches: deque[float] = deque(maxlen=10)
+
+    def add(self, evidence: Evidence) -> None:
+        """Take in one fix; numbers that are not finite are passed over."""
+        numbers = (evidence.depth, *evidence.beside, evidence.sigma, evidence.epipolar)
+        if np.isfinite(numbers).all() and np.isfinite(evidence.force).all():
+            self._evidence.append(evidence)
+
+    def touch(self, measured: float, known: float) -> None:
+        """Take in a touch of a known place: depth by the cameras and its true depth [m]."""
+        if np.isfinite([measured, known]).all():
+            self._touches.append(measured - known)
+
+    def clear(self) -> None:
+        """Forget everything, e.g. after the needle was changed or the cameras calibrated."""
+        self._evidence.clear()
+        self._touches.clear()
+
+    def verdict(self) -> Discrepancy:
+        """Say what the evidence so far means."""
+        if len(self._evidence) >= ENOUGH:
+            found = self._beside()
+            if found.cause is not Cause.NONE:
+                return found
+        else:
+            found = Discrepancy()
+        if len(self._touches) >= 2:
+            slip = float(np.mean(self._touches))
+            scatter = float(np.std(self._touches)) / np.sqrt(len(self._touches))
+            if abs(slip) > max(SLIP_LIMIT, 3.0 * scatter):
+                return Discrepancy(Cause.SLIPPED_MARKER, found.beside, abs(slip), _slipped(slip))
+        return found
+
+    def _beside(self) -> Discrepancy:
+        evidence = list(self._evidence)
+        beside = np.array([e.beside for e in evidence])
+        sigma = np.array([e.sigma for e in evidence])
+        rms = float(np.sqrt(np.mean(np.sum(beside**2, axis=1))))
+        epipolar = float(np.median([e.epipolar for e in evidence]))
+        if abs(epipolar) > EPIPOLAR_LIMIT:
+            return Discrepancy(Cause.BUMPED_CAMERA, rms, rms, _BUMPED)
+        if np.mean(np.sum(beside**2, axis=1) / (2.0 * sigma**2)) < BESIDE_LIMIT**2:
+            return Discrepancy(beside=rms)
+        return _explained(evidence, beside, rms)
+
+
+def _explained(evidence: list[Evidence], beside: FloatArray, rms: float) -> Discrepancy:
+    depth = np.maximum(np.array([e.depth for e in evidence]), 0.0)
+    force = np.array([e.force for e in evidence])
+    total = float(np.sum(beside**2))
+    constant = beside.mean(axis=0)
+    left_by_shift = float(np.sum((beside - constant) ** 2))
+    # A beam that leaves the fulcrum straight: deflection as depth², and in proportion to a force.
+    growth = depth[:, None] ** 2
+    bend = (growth * beside).sum(axis=0) / max(float((growth**2).sum()), 1e-30)
+    left_by_bend = float(np.sum((beside - growth * bend) ** 2))
+    if float(np.sqrt(np.mean(np.sum(force**2, axis=1)))) > _FORCE:
+        pattern = growth * force
+        compliance = float((pattern * beside).sum()) / float((pattern**2).sum() + 1e-30)
+        left_by_bend = min(left_by_bend, float(np.sum((beside - compliance * pattern) ** 2)))
+    least = EXPLAINED * total
+    if left_by_bend < least and (
+        left_by_bend < EXPLAINED * left_by_shift and np.ptp(depth) > SPREAD
+    ):
+        size = float(np.max(np.linalg.norm(beside, axis=1)))
+        return Discrepancy(Cause.BENT_NEEDLE, rms, size, _bent(size))
+    if left_by_shift < least and np.ptp(depth) > SPREAD:
+        return Discrepancy(Cause.BUMPED_CAMERA, rms, float(np.linalg.norm(constant)), _BUMPED)
+    return Discrepancy(Cause.UNCLEAR, rms, rms, _unclear(rms))
+
+
+_BUMPED: Final = (
+    "the cameras see the needle beside the robot's line wherever it is: a camera was moved; run "
+    "the morning check, and calibrate again if it fails"
+)
+
+
+def _bent(size: float) -> str:
+    return f"the needle bends: up to {size / MILLIMETRE:.1f} mm off its line at the band"
+
+
+def _unclear(rms: float) -> str:
+    return (
+        f"the cameras see the needle {rms / MILLIMETRE:.1f} mm beside the robot's line: move it "
+        "through its whole depth to tell a bent needle from a camera that was moved"
+    )
+
+
+def _slipped(slip: float) -> str:
+    where = "towards the tip" if slip > 0.0 else "towards the hub"
+    return (
+        f"the tip touches known places {abs(slip) / MILLIMETRE:.1f} mm from where the cameras see "
+        f"it: the marker has slipped {where}; set it back to its mark"
+    )

@@ -1,0 +1,80 @@
+"""Watches over the fixes for what makes cameras and robot disagree."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
+from app.tracking.discrepancy import Cause, Discrepancy, DiscrepancyMonitor, Evidence
+from app.tracking.fix import FixStatus, NeedleFix
+
+LARGEST_BEND: Final = 8.0 * MILLIMETRE
+"""A band further beside the line than this [m] is no bent needle's."""
+
+_PICTURES_AGREE: Final = 4.5
+"""Epipolar residual [standard deviations] up to which both pictures show the same thing."""
+
+_GROSS: Final = 60.0
+"""Epipolar residual [standard deviations] beyond which the pictures show two things."""
+
+_EVERY: Final = 15
+"""Fixes between two verdicts; they take longer than a fix."""
+
+
+class FixHealth:
+    """Puts the discrepancy into every fix, and lets a bent needle be measured as such.
+
+    Args:
+        marker_offset: from the band to the tip [m].
+        force: of the robot on the needle at a time, [N], shape (3,); None where it is not known.
+        report: takes (kind, message) when the cause changes.
+    """
+
+    def __init__(
+        self,
+        marker_offset: float,
+        force: Callable[[float], FloatArray | None],
+        report: Callable[[str, str], None],
+    ) -> None:
+        self.monitor = DiscrepancyMonitor()
+        self._offset = marker_offset
+        self._force = force
+        self._report = report
+        self._verdict = Discrepancy()
+        self._count = 0
+
+    def look(self, fix: NeedleFix, axis: FloatArray | None) -> NeedleFix:
+        """Return the fix with what is known of the discrepancy.
+
+        A fix that only the line contradicts is a measurement all the same once the needle is known
+        to bend: the pictures agree on where the band is.
+        """
+        if fix.line_variance is None or axis is None or not _near(fix):
+            return replace(fix, discrepancy=self._verdict)
+        self._gather(fix, axis, fix.line_variance)
+        bent = self._verdict.cause is Cause.BENT_NEEDLE and abs(fix.epipolar) <= _PICTURES_AGREE
+        if fix.status is FixStatus.INCONSISTENT and bent:
+            fix = replace(fix, status=FixStatus.VALID, reason="")
+        return replace(fix, discrepancy=self._verdict)
+
+    def _gather(self, fix: NeedleFix, axis: FloatArray, line_variance: float) -> None:
+        force = self._force(fix.time)
+        sideways = np.zeros(3) if force is None else force - (force @ axis) * axis
+        sigma = np.sqrt(line_variance + float(np.trace(fix.covariance)) / 3.0)
+        self.monitor.add(
+            Evidence(fix.depth - self._offset, fix.beside, float(sigma), fix.epipolar, sideways)
+        )
+        self._count += 1
+        if self._count % _EVERY:
+            return
+        before, self._verdict = self._verdict.cause, self.monitor.verdict()
+        if self._verdict.cause is not before and self._verdict.words:
+            self._report("tracker", self._verdict.words)
+
+
+def _near(fix: NeedleFix) -> bool:
+    """Whether this may be the needle at all, and not two other red things."""
+    return float(np.linalg.norm(fix.beside)) <= LARGEST_BEND and abs(fix.epipolar) <= _GROSS
