@@ -168,11 +168,19 @@ def aim(
 
 
 def latency(
+    side: Annotated[str, typer.Option(help="With --display: left or right.")] = "left",
+    display: Annotated[
+        bool, typer.Option("--display", help="Measure: blink a patch on this screen.")
+    ] = False,
     as_json: Json = False,
 ) -> None:
-    """Print the measured latency of the cameras."""
+    """Print the measured latency of the cameras, or measure one before this screen."""
     from app.tracking.cameras.settings import load_settings
 
+    if display:
+        from app.commands.camera_latency import measure
+
+        measure(side)
     settings = load_settings()
     known = {"left": settings.left, "right": settings.right}
     if as_json:
@@ -180,7 +188,7 @@ def latency(
                      for s, c in known.items()})  # fmt: skip
         return
     for name, camera in known.items():
-        told = "not measured" if camera.latency_ms is None else (
+        told = "not measured; use --display" if camera.latency_ms is None else (
             f"{camera.latency_ms:.1f} ms, spread {camera.latency_sd_ms or 0.0:.1f} ms"
         )  # fmt: skip
         typer.echo(f"{name:<6} {camera.source}: {told}")

@@ -39,6 +39,9 @@ def demo(
     skill: Annotated[SkillName, typer.Option(help="Skill of the scripted trainee.")] = (
         SkillName.EXPERT
     ),
+    cameras: Annotated[
+        str, typer.Option(help="As of `acus run`; real ones must see the needle that is shown.")
+    ] = "simulated",
 ) -> None:
     """Show a whole exercise: patient, plan, guided insertion, score, debrief.
 
@@ -48,14 +51,17 @@ def demo(
 
     hidden = headless or not has_display()
     folder = out or (Path("out") / "demo" if hidden else None)
-    _show(ct, hidden, folder, seed, skill)
+    _show(ct, hidden, folder, seed, skill, cameras)
 
 
-def _show(ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: SkillName) -> None:
+def _show(
+    ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: SkillName, cameras: str
+) -> None:
     from app.compose import Desktop
     from app.core.errors import AcusError
     from app.imaging.reading import choose
     from app.imaging.scanning import scan_folder
+    from app.tracking.cameras.settings import parse_cameras
     from app.views.application import start
     from app.views.collector import collect_for
     from app.views.demonstration import Demonstration, Script
@@ -63,10 +69,12 @@ def _show(ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: Ski
 
     if ct is not None:
         choose(scan_folder(ct))  # says here what a dialog would have to ask
+    chosen = parse_cameras(cameras)
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
     window = MainWindow(Desktop(skill.value, seed, sessions))
     window.robot.take("")  # nobody stands beside the robot that is remembered
+    window.cameras.take(chosen)
     script = Script(ct=ct, pictures=out)
     collector = collect_for(window)
     show = Demonstration(window, script)

@@ -20,17 +20,28 @@ def run(
         str | None,
         typer.Option(help="Serial port of a real robot (docs/hardware.md); default: simulated."),
     ] = None,
+    cameras: Annotated[
+        str | None,
+        typer.Option(
+            help="A settings file, left=SOURCE,right=SOURCE or simulated (docs/cameras.md); "
+            "default: as chosen in the window."
+        ),
+    ] = None,
 ) -> None:
     """Open the trainer; the mouse moves a simulated hand, or a real robot its own needle."""
     from app.compose import Desktop
+    from app.tracking.cameras.settings import parse_cameras
     from app.views.application import start
     from app.views.collector import collect_for
     from app.views.window import MainWindow
 
+    chosen = None if cameras is None else parse_cameras(cameras)
     application = start()
     window = MainWindow(Desktop())
     if device is not None:
         window.robot.take(device)
+    if chosen is not None:
+        window.cameras.take(chosen)
     collector = collect_for(window)
     window.show()
     if exercise:

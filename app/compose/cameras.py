@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from app.core.clock import Clock, SystemClock
@@ -86,17 +86,24 @@ def calibration_record(rig: RigProfile) -> dict[str, str]:
 
 
 def checked_cameras(
-    settings: CameraSettings, clock: Clock, reason: str
-) -> tuple[CheckedCamera, CheckedCamera]:
-    """Both cameras, their pictures held to the settings' size; `reason` says why that one."""
+    settings: CameraSettings, clock: Clock, reason: str, sides: Sequence[int] = (0, 1)
+) -> tuple[CheckedCamera, ...]:
+    """Cameras whose pictures are held to the settings' size; `reason` says why that one.
+
+    Args:
+        settings: sources and size.
+        clock: of the pictures.
+        reason: whose size it is, for the message.
+        sides: 0 left, 1 right.
+    """
     names = [camera.name for camera in load_rig(settings.rig).cameras]
-    left, right = (
+    chosen = [(names[side], settings.cameras[side]) for side in sides]
+    return tuple(
         CheckedCamera(
             make_camera(settings, camera, clock), name, camera.source, settings.size, reason
         )
-        for name, camera in zip(names, settings.cameras, strict=True)
+        for name, camera in chosen
     )
-    return left, right
 
 
 def calibration_of(settings: CameraSettings) -> StereoCalibration | None:

@@ -14,9 +14,12 @@ from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
 
 if TYPE_CHECKING:
+    from app.compose.camera_check import Aim
+    from app.compose.live_cameras import LiveReader
     from app.compose.trainer import Rig
     from app.device.commissioning.bench import Bench
     from app.mechanisms.profile import DeviceProfile
+    from app.tracking.cameras.settings import CameraSettings
     from app.views.exercise.run import ExerciseRun
     from app.views.services import RobotPort, RunSetup
 
@@ -82,6 +85,28 @@ class Desktop:
 
         return open_bench(port, profile, progress)
 
+    def camera_sources(self) -> tuple[RobotPort, ...]:
+        """Cameras that are plugged in now."""
+        from app.tracking.cameras.ports import camera_ports
+        from app.views.services import RobotPort
+
+        return tuple(
+            RobotPort(f"usb:{port.port}", f"{port.title} (usb:{port.port})")
+            for port in camera_ports()
+        )
+
+    def open_camera(self, settings: CameraSettings, side: str, progress: Progress) -> LiveReader:
+        """Open one camera; called beside the window, may take seconds."""
+        with ONE_AT_A_TIME:
+            from app.compose.live_cameras import open_live
+        return open_live(settings, side)
+
+    def aim(self, settings: CameraSettings, device: str, progress: Progress) -> Aim:
+        """Return what the cameras see of the needle's cone; called beside the window."""
+        with ONE_AT_A_TIME:  # kernels of the distortion
+            from app.compose.camera_check import aim_of
+        return aim_of(settings, device)
+
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""
         with ONE_AT_A_TIME:  # kernels and OpenCV: behind the window, not before it
@@ -97,6 +122,7 @@ class Desktop:
             self._sessions,
             held_arming=setup.robot.held_arming and self._skill is None,
             port=setup.robot.port or None,
+            cameras=setup.cameras,
         )
         rig = build_rig(trainer)
         try:

@@ -14,6 +14,7 @@ from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.session.machine import RUNNING
 from app.session.snapshot import Snapshot
+from app.tracking.cameras.settings import CameraSettings
 from app.views.background import Indicator
 from app.views.exercise.controller import ExerciseController
 from app.views.exercise.run import ExerciseRun
@@ -61,6 +62,7 @@ class Conductor(QObject):
         self.patient: Patient | None = None
         self.exercise: Exercise | None = None
         self._robot, self._released = RobotChoice(), False
+        self._cameras: CameraSettings | None = None
         self._profile: DeviceProfile | None = None
         self._surfaces = SurfaceExtraction(workspace.scene, self)
         self._drawn: NDArray[np.float64] | None = None
@@ -120,6 +122,12 @@ class Conductor(QObject):
             self._robot = choice
             self._show_plan()
 
+    def set_cameras(self, cameras: CameraSettings | None) -> None:
+        """Take other cameras, None for simulated ones; a run on the present ones ends."""
+        if cameras != self._cameras:
+            self._cameras = cameras
+            self._show_plan()
+
     def let_go(self) -> None:
         """End the run, so that somebody else can have the robot; the plan stays."""
         self._released = True
@@ -163,7 +171,7 @@ class Conductor(QObject):
         if self.exercise is None or self.patient is None:
             return
         pseudonym = self.patient.volume.series.pseudonym
-        self._runs.want(RunSetup(self.exercise, placed, pseudonym, self._robot))
+        self._runs.want(RunSetup(self.exercise, placed, pseudonym, self._robot, self._cameras))
 
     def _click_in_scene(self, point: FloatArray, direction: FloatArray) -> None:
         """Take a click on the skin in 3D as the entry, if one is being placed."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu
 
+from app.views.cameras.menu import CamerasMenu
 from app.views.robot.menu import RobotMenu
 from app.views.slices.presets import menu_windows
 from app.views.slices.viewing import Tool
@@ -29,6 +30,7 @@ class Menus:
         self.undo, self.redo = self._edit()
         self.follow, self.bullseye = self._view()
         self.robot = RobotMenu(self._menu(tr("&Robot")), window.robot, self._show_health)
+        self.cameras = CamerasMenu(self._menu(tr("&Cameras")), window.cameras)
         self._sessions()
         self._help()
 

@@ -10,6 +10,8 @@ from app.core.progress import Progress
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
+from app.tracking.cameras.settings import CameraSettings
+from app.views.cameras.live import AimPort, LiveCamera
 from app.views.exercise.run import ExerciseRun
 from app.views.robot.bench import BenchPort
 
@@ -50,16 +52,19 @@ class RunSetup:
         placed: the plan in the robot's frame.
         ct: pseudonym of the CT, for the record.
         robot: which robot.
+        cameras: real ones; None for simulated ones.
     """
 
     exercise: Exercise
     placed: PlacedPlan
     ct: str = ""
     robot: RobotChoice = RobotChoice()
+    cameras: CameraSettings | None = None
 
     def same_run(self, other: RunSetup) -> bool:
         """Whether a run of the other setup only has to take this plan."""
-        return self.exercise == other.exercise and self.robot == other.robot
+        mine = (self.exercise, self.robot, self.cameras)
+        return mine == (other.exercise, other.robot, other.cameras)
 
 
 class OpenRun(Protocol):
@@ -118,6 +123,26 @@ class Services(Protocol):
         Raises:
             AcusError: if nobody answers, somebody else does, or another program has it.
             Cancelled: if `progress` was cancelled.
+        """
+        ...
+
+    def camera_sources(self) -> tuple[RobotPort, ...]:
+        """Cameras that are plugged in now, `port` being the source; quick, opens none."""
+        ...
+
+    def open_camera(self, settings: CameraSettings, side: str, progress: Progress) -> LiveCamera:
+        """Open one camera, `left` or `right`; called beside the window, may take seconds.
+
+        Raises:
+            AcusError: if it is simulated, cannot be opened, or delivers no picture.
+        """
+        ...
+
+    def aim(self, settings: CameraSettings, device: str, progress: Progress) -> AimPort:
+        """Return what the cameras see of the needle's cone; called beside the window.
+
+        Raises:
+            AcusError: if the calibration is of other cameras or another size.
         """
         ...
 

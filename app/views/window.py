@@ -13,6 +13,7 @@ from app.core.errors import AcusError
 from app.exercises.schema import Exercise
 from app.imaging.window import WindowLevel
 from app.session.result import AttemptResult
+from app.views.cameras.desk import CamerasDesk
 from app.views.conductor import Conductor
 from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
@@ -56,6 +57,7 @@ class MainWindow(QMainWindow):
         self.conductor = Conductor(self.workspace, self.editor, self.runs, self.progress, self)
         self.robot = RobotDesk(services, self.settings, self.conductor, self.runs, self.workspace,
                                self.progress, self)  # fmt: skip
+        self.cameras = CamerasDesk(services, self.settings, self.conductor, self.runs, self)
         self.plan_files = PlanFiles(self.editor, self.recent_plans, self)
         self.open_ct = OpenCt(self.recent_cts, self.progress, self)
         self.start_page, self.debrief_page = StartPage(self), DebriefPage(self)
@@ -202,6 +204,7 @@ class MainWindow(QMainWindow):
             self.debrief.failed,
             conductor.controller.failed,
             self.robot.failed,
+            self.cameras.failed,
         ):
             failure.connect(bar.show_error)
         self.plan_files.noted.connect(bar.show_note)
@@ -289,5 +292,6 @@ class MainWindow(QMainWindow):
             return
         self.open_ct.close()
         self.robot.close()
+        self.cameras.close()
         self.conductor.close()
         event.accept()

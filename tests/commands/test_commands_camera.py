@@ -50,6 +50,8 @@ def test_sources_are_chosen_remembered_and_listed(monkeypatch, capsys, folders):
      (("use", "--left", "webcam"), "valid are: usb:PORT"),
      (("use", "--size", "big"), "give for example 640x480"),
      (("use", "--rate", "0"), "rate_hz"),
+     (("latency", "--display"), "no latency to measure"),
+     (("latency", "--display", "--side", "top"), "there is no 'top' camera"),
      (("show",), "the cameras are simulated"),
      (("show", "--source", "usb:9-9"), "no camera at usb:9-9"),
      (("show", "--cameras", "left=a"), "names no cameras|valid are"),
@@ -93,3 +95,12 @@ def test_the_aim_of_a_rig_is_said_without_a_camera(monkeypatch, capsys, tmp_path
     assert code == 0
     assert "both cameras see 100 %" in out
     assert (tmp_path / "aim" / "left.png").is_file()
+
+
+def test_the_latency_test_is_refused_without_a_screen(monkeypatch, capsys, folders):
+    words = ("camera", "use", "--left", f"folder:{folders}/left",
+             "--right", f"folder:{folders}/right")  # fmt: skip
+    assert run(monkeypatch, capsys, *words)[0] == 0
+    code, _, err = run(monkeypatch, capsys, "camera", "latency", "--display")
+    assert code == 2
+    assert "needs a real screen" in err

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.tracking.cameras.latency import blink_times, estimate_latency
+from app.tracking.cameras.latency import blink_times, estimate_latency, grid_means, liveliest
 from app.tracking.errors import CameraError
 
 
@@ -61,3 +61,17 @@ def test_a_test_that_was_broken_off_is_refused():
         estimate_latency(blinks[:4], times, grey)
     with pytest.raises(CameraError, match="increase"):
         estimate_latency(blinks[::-1], times, grey)
+
+
+def test_the_patch_is_found_where_the_picture_changes():
+    rng, tiles = np.random.default_rng(1), []
+    for number in range(20):
+        image = rng.integers(90, 110, (60, 81, 3)).astype(np.uint8)
+        image[20:30, 40:60] = 200 * (number % 2)
+        tiles.append(grid_means(image))
+    found = liveliest(tiles)
+    assert found[1::2].min() > found[::2].max() + 150.0
+    with pytest.raises(CameraError, match="no picture came"):
+        liveliest([])
+    with pytest.raises(CameraError, match="too small"):
+        grid_means(np.zeros((2, 9, 3), np.uint8))

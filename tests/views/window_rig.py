@@ -15,6 +15,8 @@ from app.session.curves import Offset
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.snapshot import Snapshot
+from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.views.exercise.run import ExerciseRun
 from app.views.services import RobotPort
 from app.views.slices.viewing import Tool
@@ -66,10 +68,42 @@ class FakeOpen:
         self.closed.set()
 
 
+class FakeLive:
+    """A camera whose picture turns bright with the patch of the screen, 40 ms later."""
+
+    def __init__(self, side):
+        self.side, self.closed = side, threading.Event()
+        self.state, self.patch, self.taken = CameraState.LIVE, None, None
+        rng = np.random.default_rng(1)
+        self.frame = Frame(rng.integers(60, 90, (480, 640, 3)).astype(np.uint8), 1.0)
+
+    def newest(self):
+        return self.frame
+
+    def health(self):
+        return CameraHealth(self.side, self.state, 0.5)
+
+    def settings(self):
+        return ("focus: the driver did not accept holding it (it is at 30)",)
+
+    def measure_light(self, wanted):
+        self.taken = wanted
+
+    def light(self):
+        shown = np.array(self.patch.shown)
+        times = np.arange(shown[0] - 0.3, shown[-1] + 0.3, 1.0 / 30.0)
+        bright = np.searchsorted(shown, times) % 2
+        return times + 0.04, np.column_stack([80.0 + 0.0 * times, 60.0 + 100.0 * bright])
+
+    def close(self):
+        self.closed.set()
+
+
 class FakeServices:
     def __init__(self, folder):
         self.folder, self.opened, self.refuses = folder, [], ""
         self.prepared, self.missing = threading.Event(), ""
+        self.sources, self.lives = (RobotPort("usb:1-1", "Webcam (usb:1-1)"),), []
         self.ports, self.benches = (RobotPort("/dev/ttyACM0", "icube A17 on /dev/ttyACM0"),), []
 
     def robots(self):
@@ -80,6 +114,25 @@ class FakeServices:
             raise AcusError(self.refuses)
         self.benches.append(FakeBench())
         return self.benches[-1]
+
+    def camera_sources(self):
+        return self.sources
+
+    def open_camera(self, settings, side, progress):
+        if self.refuses:
+            raise AcusError(self.refuses)
+        self.lives.append(FakeLive(side))
+        return self.lives[-1]
+
+    def aim(self, settings, device, progress):
+        outlines = (np.array([[10.0, 10.0], [600.0, 10.0], [300.0, 400.0]]), np.empty((0, 2)))
+        cone = SimpleNamespace(
+            share=0.51,
+            shares=(1.0, 0.51),
+            outlines=outlines,
+            losses=lambda: ("right loses everything at -30 to 25 mm depth",),
+        )
+        return SimpleNamespace(cone=cone, basis="calibration c1")
 
     def exercises(self):
         return tuple(library().exercises)

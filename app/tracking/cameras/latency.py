@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import ndtr
 
 from app.core.arrays import FloatArray
+from app.tracking.cameras.camera import Image
 from app.tracking.errors import CameraError
 
 LONGEST: Final = 0.5
@@ -25,6 +26,9 @@ LONGEST: Final = 0.5
 
 FEWEST: Final = 10
 """Fewest changes that must have been seen."""
+
+GRID: Final = (6, 8)
+"""Rows and columns of the tiles in which the patch is looked for."""
 
 _STEP: Final = 1e-3
 _CONTRAST: Final = 8.0
@@ -171,6 +175,26 @@ def _lowest(x: FloatArray, y: FloatArray) -> float:
     curvature = below - 2.0 * middle + above
     shift = 0.5 * (below - above) / curvature if curvature > 1e-12 else 0.0
     return float(x[i] + np.clip(shift, -1.0, 1.0) * (x[1] - x[0]))
+
+
+def grid_means(image: Image) -> FloatArray:
+    """Mean brightness of `GRID` tiles of a picture, flat."""
+    rows, columns = GRID
+    height, width = image.shape[:2]
+    if height < rows or width < columns:
+        raise CameraError(f"a picture of {width}x{height} is too small for the test of latency")
+    green = image[: height - height % rows, : width - width % columns, 1]
+    tiles = green.reshape(rows, green.shape[0] // rows, columns, green.shape[1] // columns)
+    return np.asarray(tiles.mean(axis=(1, 3)).ravel(), dtype=np.float64)
+
+
+def liveliest(tiles: ArrayLike) -> FloatArray:
+    """Brightness of the tile that changes most: where the patch is; (m, tiles) -> (m,)."""
+    series = np.asarray(tiles, dtype=np.float64)
+    if series.ndim != 2 or not series.size:
+        raise CameraError("no picture came while the patch was blinking; is the camera running?")
+    low, high = np.percentile(series, [15.0, 85.0], axis=0)
+    return np.asarray(series[:, int(np.argmax(high - low))])
 
 
 def blink_times(seconds: float, rate_hz: float, rng: np.random.Generator) -> FloatArray:

@@ -11,6 +11,7 @@ from pydantic import Field, field_validator
 from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.files import write_atomically
+from app.core.units import MILLISECOND
 from app.tracking.cameras.source import Kind, Source, parse_source
 from app.tracking.errors import CameraError
 
@@ -160,6 +161,17 @@ def with_sources(settings: CameraSettings, sources: dict[str, str]) -> CameraSet
     changed = settings.model_copy(update=sides)
     changed.check()
     return changed
+
+
+def with_latency(settings: CameraSettings, side: str, median: float, sd: float) -> CameraSettings:
+    """Return the settings with a measured latency [s] and its spread [s] of one side."""
+    camera = getattr(settings, side).model_copy(
+        update={
+            "latency_ms": round(max(0.0, median) / MILLISECOND, 2),
+            "latency_sd_ms": round(sd / MILLISECOND, 2),
+        }
+    )
+    return settings.model_copy(update={side: camera})
 
 
 def _sides(text: str) -> dict[str, str]:

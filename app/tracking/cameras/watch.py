@@ -1,6 +1,7 @@
 """Noticing that a camera has stopped, repeats itself or has failed."""
 
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -67,7 +68,8 @@ class CameraReader:
     A camera that hangs or fails so neither stops the other one nor the tracker. After a failure it
     is read again after a pause, after a second one it is closed and opened anew: so it comes back
     when it is plugged in again. `noise_expected` says that two pictures are never the same to the
-    last bit, so that a repetition means a frozen driver.
+    last bit, so that a repetition means a frozen driver. `on_frame` gets every picture that counts
+    and the time of its delivery [s], in the camera's thread.
     """
 
     def __init__(
@@ -77,8 +79,10 @@ class CameraReader:
         clock: Clock,
         arrived: threading.Condition,
         noise_expected: bool,
+        on_frame: Callable[[Frame, float], None] | None = None,
     ) -> None:
         self.name = name
+        self._on_frame = on_frame
         self.lost = self.reopened = 0
         self._camera = camera
         self._clock = clock
@@ -173,6 +177,8 @@ class CameraReader:
         elif verdict is Verdict.NEW:
             self._received = self._changed = now
             self._publish(frame)
+            if self._on_frame is not None:
+                self._on_frame(frame, now)
         elif now - self._received > STALL:
             raise CameraError(f"its capture times cannot be used: {self._intake.figures().text}")
         self._failures, self._error = 0, ""

@@ -1,0 +1,209 @@
+"""What the menu Cameras does: which cameras, how they are set up, aimed and measured."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
+
+from PySide6.QtCore import QObject, Signal, SignalInstance
+from PySide6.QtWidgets import QDialog, QWidget
+
+from app.core.errors import AcusError
+from app.session.machine import RUNNING
+from app.tracking.cameras.settings import (
+    CameraSettings,
+    load_settings,
+    save_settings,
+    with_latency,
+)
+from app.views.background import run_in_background
+from app.views.cameras.aim_dialog import AimDialog
+from app.views.cameras.latency_dialog import LatencyDialog
+from app.views.cameras.settings_dialog import CameraSettingsDialog
+from app.views.conductor import Conductor
+from app.views.runs import Runs
+from app.views.services import Services
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from PySide6.QtCore import QSettings
+
+    from app.tracking.cameras.latency import Latency
+
+_USED = "cameras/real"
+DEVICE = "icube"
+"""Device whose fulcrum is aimed at before an exercise names one."""
+
+
+class CameraDialog(Protocol):
+    """A dialog that has cameras open."""
+
+    finished: SignalInstance
+
+    def open(self) -> None:
+        """Show it."""
+        ...
+
+    def closed(self) -> Callable[[], object]:
+        """Return what waits until its cameras are closed."""
+        ...
+
+
+class CamerasDesk(QObject):
+    """Applies what was remembered, and remembers what the user chooses.
+
+    Which source is which camera stands in `cameras.yaml` (`tracking.cameras.settings`); whether
+    these are used or the simulated ones, in the window's settings.
+
+    Signals:
+        failed(object): an error to show.
+        changed(): other cameras were chosen.
+    """
+
+    failed = Signal(object)
+    changed = Signal()
+
+    def __init__(
+        self,
+        services: Services,
+        settings: QSettings,
+        conductor: Conductor,
+        runs: Runs,
+        parent: QWidget,
+    ) -> None:
+        super().__init__(parent)
+        self._services, self._remembered = services, settings
+        self._conductor, self._runs, self._window = conductor, runs, parent
+        self._taken: CameraSettings | None = None
+        self.dialog: QDialog | None = None
+        self._unreadable: AcusError | None = None
+        self._apply()
+
+    # --- which cameras ------------------------------------------------------------------------
+    @property
+    def chosen(self) -> CameraSettings:
+        """The sources that were chosen, used or not."""
+        if self._taken is not None and not self._taken.simulated:
+            return self._taken
+        try:
+            self._unreadable = None
+            return load_settings()
+        except AcusError as error:
+            self._unreadable = error
+            return CameraSettings()
+
+    @property
+    def real(self) -> bool:
+        """Whether real cameras are used."""
+        if self._taken is not None:
+            return not self._taken.simulated
+        wanted = str(self._remembered.value(_USED)).lower() == "true"
+        return wanted and not self.chosen.simulated
+
+    def take(self, settings: CameraSettings) -> None:
+        """Use these cameras until others are chosen, without remembering them."""
+        self._taken = settings
+        self._apply()
+
+    def use_real(self, wanted: bool) -> None:
+        """Use the chosen cameras, or the simulated ones. Refused while an attempt runs."""
+        if self._refused_in_attempt():
+            self.changed.emit()
+            return
+        if wanted and self.chosen.simulated:
+            if self._unreadable is not None:
+                self.failed.emit(self._unreadable)
+            self.changed.emit()
+            self.set_up()  # there is nothing to use yet
+            return
+        self._taken = None
+        self._remembered.setValue(_USED, wanted)
+        self._apply()
+
+    # --- dialogs ------------------------------------------------------------------------------
+    def set_up(self) -> None:
+        """Choose the sources, with their live pictures."""
+        if self._refused():
+            return
+        dialog = CameraSettingsDialog(self.chosen, self._services, self._free(), self._window)
+        dialog.chosen.connect(self._choose)
+        self._show(dialog)
+
+    def aim(self) -> None:
+        """Show the needle's cone in both pictures."""
+        if self._refused() or self._without_real():
+            return
+        profile = self._conductor.profile
+        device = DEVICE if profile is None else profile.name
+        self._show(AimDialog(self.chosen, device, self._services, self._free(), self._window))
+
+    def measure_latency(self, side: str) -> None:
+        """Measure the latency of the `left` or `right` camera."""
+        if self._refused() or self._without_real():
+            return
+        dialog = LatencyDialog(self.chosen, side, self._services, self._free(), self._window)
+        dialog.measured.connect(self._keep_latency)
+        self._show(dialog)
+
+    def close(self) -> None:
+        """End the dialog that is open; idempotent."""
+        if self.dialog is not None:
+            self.dialog.reject()
+
+    # --- inside -------------------------------------------------------------------------------
+    def _apply(self) -> None:
+        self._conductor.set_cameras(self.chosen if self.real else None)
+        self.changed.emit()
+
+    def _free(self) -> Callable[[], object]:
+        """Let the run go if it has the cameras; return what waits until it has."""
+        if not self.real:
+            return lambda: None
+        self._conductor.let_go()
+        return self._runs.closed()
+
+    def _show(self, dialog: QDialog) -> None:
+        self.dialog = dialog
+        dialog.finished.connect(lambda _: self._ended(dialog))
+        dialog.open()
+
+    def _ended(self, dialog: QDialog) -> None:
+        self.dialog = None
+        wait = getattr(dialog, "closed", lambda: lambda: None)()
+        dialog.deleteLater()
+        again = self._conductor.take_again
+        run_in_background(
+            self, lambda _: wait(), lambda _: again(), lambda _: again(), lambda: again()
+        )
+
+    def _choose(self, settings: CameraSettings) -> None:
+        try:
+            save_settings(settings)
+        except (AcusError, OSError) as error:
+            self.failed.emit(error)
+            return
+        self._taken = None
+        self._remembered.setValue(_USED, not settings.simulated)
+        self._apply()
+
+    def _keep_latency(self, side: str, latency: Latency) -> None:
+        self._choose(with_latency(self.chosen, side, latency.median, latency.sd))
+
+    def _without_real(self) -> bool:
+        if not self.chosen.simulated:
+            return False
+        self.failed.emit(tr(
+            "Only simulated cameras are chosen, which need no aiming and have no latency: choose "
+            "real ones in the menu Cameras, Set up."
+        ))  # fmt: skip
+        return True
+
+    def _refused(self) -> bool:
+        return self.dialog is not None or self._refused_in_attempt()
+
+    def _refused_in_attempt(self) -> bool:
+        run = self._conductor.controller.run
+        if run is None or run.trainer.snapshot().state not in RUNNING:
+            return False
+        self.failed.emit(tr("An attempt is running: end it first, then change the cameras."))
+        return True

@@ -1,0 +1,175 @@
+"""The latency test: a patch blinks, the camera looks at it, the delay is estimated and kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.progress import Progress
+from app.tracking.cameras.settings import CameraSettings
+from app.views import theme
+from app.views.background import run_in_background
+from app.views.cameras.blink_patch import BlinkPatch
+from app.views.cameras.live import LiveCamera, LivePreview
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.tracking.cameras.latency import Latency
+    from app.views.services import Services
+
+TAIL_MS = 700
+"""The last change has reached the camera by then."""
+
+
+class LatencyDialog(QDialog):
+    """Measures one camera.
+
+    Args:
+        settings: the cameras.
+        side: `left` or `right`.
+        services: opens the camera.
+        free: waits, in another thread, until nobody else has it.
+        parent: the window.
+        seconds: how long the patch blinks.
+
+    Signals:
+        measured(str, Latency): the user kept the result for this side.
+    """
+
+    measured = Signal(str, object)
+
+    def __init__(
+        self,
+        settings: CameraSettings,
+        side: str,
+        services: Services,
+        free: Callable[[], object],
+        parent: QWidget | None = None,
+        seconds: float = 20.0,
+    ) -> None:
+        super().__init__(parent)
+        name = {"left": tr("left"), "right": tr("right")}[side]
+        self.setWindowTitle(tr("Latency of the {name} camera", name=name))
+        self._side, self._seconds, self._rate = side, seconds, settings.rate_hz
+        self.patch, self.preview = BlinkPatch(self), LivePreview(self)
+        self.bar, self.outcome = QProgressBar(self), QLabel(self)
+        self.start = QPushButton(tr("Start"))
+        self.keep = QPushButton(tr("Keep"))
+        self.latency: Latency | None = None
+        self._lay_out()
+
+        def operation(progress: Progress) -> LiveCamera:
+            free()
+            return services.open_camera(settings, side, progress)
+
+        self.preview.opened.connect(lambda _: self.start.setEnabled(True))
+        self.preview.open(operation)
+
+    def begin(self) -> None:
+        """Blink, and keep the light of every picture."""
+        from app.tracking.cameras.latency import blink_times  # scipy: when it is needed
+
+        if self.preview.camera is None:
+            return
+        self.latency = None
+        self.keep.setEnabled(False)
+        self.start.setEnabled(False)
+        self.say(tr("measuring: leave camera and window where they are"))
+        self.preview.camera.measure_light(True)
+        rng = np.random.default_rng()
+        self.patch.begin(blink_times(self._seconds, self._rate, rng).tolist())
+
+    def closed(self) -> Callable[[], object]:
+        """Return what waits until the camera is closed; for other threads."""
+        return self.preview.closed()
+
+    def done(self, result: int) -> None:
+        """Let go of the camera."""
+        self.patch.stop()
+        self.preview.stop()
+        super().done(result)
+
+    def say(self, text: str, verdict: str = "") -> None:
+        """Show a line about the test."""
+        colour, symbol = theme.VERDICTS[verdict] if verdict else (theme.TEXT, "")
+        self.outcome.setStyleSheet(f"color: {colour};")
+        self.outcome.setText(f"{symbol} {text}".strip())
+
+    def _evaluate(self) -> None:
+        camera = self.preview.camera
+        self.start.setEnabled(camera is not None)
+        if camera is None:
+            self.say(tr("the camera was lost; start again"), "bad")
+            return
+        times, light = camera.light()
+        camera.measure_light(False)
+        shown = list(self.patch.shown)
+
+        def operation(_: Progress) -> Latency:
+            from app.tracking.cameras.latency import estimate_latency, liveliest
+
+            return estimate_latency(shown, times, liveliest(light))
+
+        run_in_background(self, operation, self._show, lambda error: self.say(str(error), "bad"))
+
+    def _show(self, latency: Latency) -> None:
+        self.latency = latency
+        self.keep.setEnabled(True)
+        self.say(
+            tr("From the screen to the delivered picture: {value}", value=latency.text), "good"
+        )
+
+    def _keep(self) -> None:
+        if self.latency is not None:
+            latency = self.latency
+            self.accept()
+            self.measured.emit(self._side, latency)
+
+    def _lay_out(self) -> None:
+        words = QLabel(tr(
+            "Point the camera at the patch, a hand's breadth away, so that the patch fills a good "
+            "part of the picture. The patch blinks at random for {seconds:.0f} s. The result "
+            "contains the screen's own delay, usually one or two of its pictures (10 to 30 ms).",
+            seconds=self._seconds,
+        ))  # fmt: skip
+        words.setWordWrap(True)
+        self.outcome.setWordWrap(True)
+        self.outcome.setMinimumHeight(3 * theme.FONT_PX)
+        self.bar.setRange(0, 1000)
+        self.bar.setTextVisible(False)
+        self.start.setProperty("role", "primary")
+        self.start.setEnabled(False)
+        self.keep.setEnabled(False)
+        self.start.clicked.connect(lambda _=False: self.begin())
+        self.keep.clicked.connect(lambda _=False: self._keep())
+        self.patch.progressed.connect(lambda share: self.bar.setValue(round(1000 * share)))
+        self.patch.finished.connect(lambda: QTimer.singleShot(TAIL_MS, self._evaluate))
+        pair = QHBoxLayout()
+        pair.setSpacing(theme.MARGIN)
+        pair.addWidget(self.patch, 1)
+        pair.addWidget(self.preview, 1)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close, parent=self)
+        buttons.addButton(self.start, QDialogButtonBox.ButtonRole.ActionRole)
+        buttons.addButton(self.keep, QDialogButtonBox.ButtonRole.ActionRole)
+        buttons.rejected.connect(self.reject)
+        column = QVBoxLayout(self)
+        column.setSpacing(theme.MARGIN)
+        column.addWidget(words)
+        column.addLayout(pair, 1)
+        column.addWidget(self.bar)
+        column.addWidget(self.outcome)
+        column.addWidget(buttons)
+        self.resize(820, 560)

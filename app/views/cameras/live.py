@@ -1,0 +1,214 @@
+"""What the dialogs about cameras need of one, and its live picture with what is wrong with it."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Protocol
+
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from app.core.progress import Progress
+from app.views import theme
+from app.views.background import run_in_background
+from app.views.cameras.picture import PictureView
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.core.arrays import FloatArray
+    from app.tracking.cameras.camera import Frame
+    from app.tracking.cameras.watch import CameraHealth
+
+POLL_MS = 33
+
+
+class LiveCamera(Protocol):
+    """A camera that is open."""
+
+    def newest(self) -> Frame | None:
+        """Return the newest picture, or None before the first."""
+        ...
+
+    def health(self) -> CameraHealth:
+        """Return how it does now."""
+        ...
+
+    def settings(self) -> tuple[str, ...]:
+        """Return what the driver accepted, a line each."""
+        ...
+
+    def measure_light(self, wanted: bool) -> None:
+        """Begin to keep the light of every picture, from none, or stop."""
+        ...
+
+    def light(self) -> tuple[FloatArray, FloatArray]:
+        """Return times of delivery [s], (m,), and light, (m, tiles)."""
+        ...
+
+    def close(self) -> None:
+        """Let go of it; idempotent; may wait for threads."""
+        ...
+
+
+class ConePort(Protocol):
+    """The needle's cone in both pictures (`tracking.optics.view_cone.ViewCone`)."""
+
+    @property
+    def share(self) -> float:
+        """Share that both cameras see, 0 to 1."""
+        ...
+
+    @property
+    def shares(self) -> tuple[float, float]:
+        """Share that each sees, 0 to 1."""
+        ...
+
+    @property
+    def outlines(self) -> tuple[FloatArray, FloatArray]:
+        """Closed line in each picture [px], (m, 2)."""
+        ...
+
+    def losses(self) -> tuple[str, ...]:
+        """Say where the cone is lost."""
+        ...
+
+
+class AimPort(Protocol):
+    """What the cameras see of the cone, and whose cameras they are."""
+
+    @property
+    def cone(self) -> ConePort:
+        """The cone."""
+        ...
+
+    @property
+    def basis(self) -> str:
+        """Calibration, or the rig as designed."""
+        ...
+
+
+class _Opening:
+    """A camera that is being opened; who no longer wants it need not wait for it."""
+
+    def __init__(self, open_camera: Callable[[Progress], LiveCamera]) -> None:
+        self._open = open_camera
+        self._lock = threading.Lock()
+        self._stopped = False
+        self._camera: LiveCamera | None = None
+        self.ended = threading.Event()
+
+    def run(self, progress: Progress) -> LiveCamera:
+        """Open it, in another thread."""
+        try:
+            camera = self._open(progress)
+        except BaseException:
+            self.ended.set()
+            raise
+        with self._lock:
+            self._camera, stopped = camera, self._stopped
+        if stopped:
+            self._close(camera)
+        return camera
+
+    def stop(self) -> None:
+        """Close it, now or as soon as it is open; `ended` says when."""
+        with self._lock:
+            stopped, self._stopped, camera = self._stopped, True, self._camera
+        if camera is not None and not stopped:
+            threading.Thread(target=self._close, args=(camera,), daemon=True).start()
+
+    def _close(self, camera: LiveCamera) -> None:
+        try:
+            camera.close()
+        finally:
+            self.ended.set()
+
+
+class LivePreview(QWidget):
+    """Live picture of one camera, and one line about it.
+
+    Signals:
+        opened(object): the `LiveCamera` that delivers now.
+    """
+
+    opened = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.picture, self.note = PictureView(self), QLabel(self)
+        self.note.setWordWrap(True)
+        self.note.setMinimumHeight(3 * theme.FONT_PX)
+        self.camera: LiveCamera | None = None
+        self._opening: _Opening | None = None
+        self._last: _Opening | None = None
+        self._timer = QTimer(self, interval=POLL_MS)
+        self._timer.timeout.connect(self._look)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.picture, 1)
+        column.addWidget(self.note)
+
+    def open(self, open_camera: Callable[[Progress], LiveCamera]) -> None:
+        """Show another camera; `open_camera` runs beside the window."""
+        self.stop()
+        before = self._last
+        opening = _Opening(open_camera)
+        self._opening = self._last = opening
+        self.say(tr("opening the camera …"))
+
+        def operation(progress: Progress) -> LiveCamera:
+            if before is not None:
+                before.ended.wait(6.0)  # one port is opened once
+            return opening.run(progress)
+
+        run_in_background(
+            self, operation, lambda camera: self._take(opening, camera),
+            lambda error: self._refuse(opening, error),
+        )  # fmt: skip
+
+    def stop(self) -> None:
+        """Show nothing; the camera is closed beside the window."""
+        self._timer.stop()
+        opening, self._opening, self.camera = self._opening, None, None
+        if opening is not None:
+            opening.stop()
+        self.picture.show_image(None)
+
+    def closed(self) -> Callable[[], object]:
+        """Return what waits until the last camera is closed; for other threads."""
+        last = self._last
+        return (lambda: None) if last is None else (lambda: last.ended.wait(8.0))
+
+    def say(self, text: str, bad: bool = False) -> None:
+        """Show a line below the picture."""
+        colour, symbol = theme.VERDICTS["bad"] if bad else (theme.TEXT_DIM, "")
+        self.note.setStyleSheet(f"color: {colour};")
+        self.note.setText(f"{symbol} {text}".strip())
+
+    def _take(self, opening: _Opening, camera: LiveCamera) -> None:
+        if opening is self._opening:
+            self.camera = camera
+            self._timer.start()
+            self.opened.emit(camera)
+
+    def _refuse(self, opening: _Opening, error: Exception) -> None:
+        if opening is self._opening:
+            self.say(str(error), bad=True)
+
+    def _look(self) -> None:
+        if self.camera is None:
+            return
+        frame, health = self.camera.newest(), self.camera.health()
+        if frame is not None:
+            self.picture.show_image(frame.image)
+        well = health.state.value == "live"
+        self.picture.set_dimmed(not well)
+        if not well and health.state.value != "waiting":
+            self.say(health.text, bad=True)
+            return
+        figures = health.figures
+        line = tr("{rate:.0f} pictures/s, jitter {jitter:.1f} ms", rate=figures.rate,
+                  jitter=1e3 * figures.jitter)  # fmt: skip
+        refused = [text for text in self.camera.settings() if "did not accept" in text]
+        self.say("; ".join([line, *([figures.text] if figures.text else []), *refused]))

@@ -1,0 +1,206 @@
+"""Which source is the left camera and which the right one, with their live pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QDoubleSpinBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.errors import AcusError
+from app.tracking.cameras.settings import SIDES, CameraSettings
+from app.tracking.cameras.source import Kind
+from app.views import theme
+from app.views.cameras.live import LiveCamera
+from app.views.cameras.side_editor import SideEditor
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.core.progress import Progress
+    from app.views.services import Services
+
+SIZES = ("640x480", "800x600", "1280x720", "1920x1080")
+QUIET_MS = 500
+"""This long after the last change the cameras are opened anew."""
+
+
+class CameraSettingsDialog(QDialog):
+    """Chooses both cameras.
+
+    Args:
+        settings: the present ones.
+        services: lists and opens cameras.
+        free: waits, in another thread, until nobody else has the cameras.
+        parent: the window.
+
+    Signals:
+        chosen(CameraSettings): the user confirmed.
+    """
+
+    chosen = Signal(object)
+
+    def __init__(
+        self,
+        settings: CameraSettings,
+        services: Services,
+        free: Callable[[], object],
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("Cameras"))
+        self._settings, self._services, self._free = settings, services, free
+        sources = services.camera_sources()
+        titles = (tr("Left camera"), tr("Right camera"))
+        self.sides = tuple(
+            SideEditor(title, camera, sources, self)
+            for title, camera in zip(titles, settings.cameras, strict=True)
+        )
+        self.size_box, self.rate = QComboBox(self), QDoubleSpinBox(self)
+        self.note = QLabel(self)
+        self.swap = QPushButton(tr("Exchange left and right"))
+        self._quiet = QTimer(self, interval=QUIET_MS, singleShot=True)
+        self._quiet.timeout.connect(self.reopen)
+        self._lay_out(not sources)
+        self._quiet.start()
+
+    def settings(self) -> CameraSettings:
+        """Return what is chosen.
+
+        Raises:
+            CameraError: if it cannot be used; says why.
+        """
+        width, height = (int(part) for part in self.size_box.currentText().split("x"))
+        left, right = (side.camera() for side in self.sides)
+        changed = self._settings.model_copy(
+            update={"left": left, "right": right, "size": (width, height),
+                    "rate_hz": self.rate.value()}
+        )  # fmt: skip
+        changed.check()
+        return changed
+
+    def reopen(self) -> None:
+        """Show the pictures of what is chosen now."""
+        for side, editor in zip(SIDES, self.sides, strict=True):
+            editor.preview.stop()
+            try:
+                width, height = (int(part) for part in self.size_box.currentText().split("x"))
+                settings = self._settings.model_copy(
+                    update={side: editor.camera(), "size": (width, height),
+                            "rate_hz": self.rate.value()}
+                )  # fmt: skip
+                if editor.camera().origin.kind is Kind.SIMULATED:
+                    editor.preview.say(tr("simulated: nothing to set up"))
+                    continue
+            except AcusError as error:
+                editor.preview.say(str(error), bad=True)
+                continue
+            self._open(editor, settings, side)
+        self._check()
+
+    def closed(self) -> Callable[[], object]:
+        """Return what waits until the cameras are closed; for other threads."""
+        waits = [side.preview.closed() for side in self.sides]
+        return lambda: [wait() for wait in waits]
+
+    def done(self, result: int) -> None:
+        """Let go of the cameras, whichever way it ends."""
+        self._quiet.stop()
+        for side in self.sides:
+            side.preview.stop()
+        super().done(result)
+
+    def _open(self, editor: SideEditor, settings: CameraSettings, side: str) -> None:
+        free, services = self._free, self._services
+
+        def operation(progress: Progress) -> LiveCamera:
+            free()
+            return services.open_camera(settings, side, progress)
+
+        editor.preview.open(operation)
+
+    def _check(self) -> bool:
+        try:
+            self.settings()
+        except AcusError as error:
+            colour, symbol = theme.VERDICTS["bad"]
+            self.note.setStyleSheet(f"color: {colour};")
+            self.note.setText(f"{symbol} {error}")
+            return False
+        self.note.setText("")
+        return True
+
+    def _take(self) -> None:
+        if self._check():
+            settings = self.settings()
+            self.accept()
+            self.chosen.emit(settings)
+
+    def _exchange(self) -> None:
+        try:
+            left, right = (side.camera() for side in self.sides)
+        except AcusError:
+            self._check()
+            return
+        for side in self.sides:
+            side.preview.stop()
+        self.sides[0].show_camera(right)
+        self.sides[1].show_camera(left)
+        self._quiet.start()
+
+    def _lay_out(self, empty: bool) -> None:
+        present = "x".join(str(n) for n in self._settings.size)
+        self.size_box.addItems([s for s in SIZES if s != present] + [present])
+        self.size_box.setCurrentText(present)
+        self.rate.setRange(1.0, 240.0)
+        self.rate.setDecimals(0)
+        self.rate.setSuffix(tr(" per second"))
+        self.rate.setValue(self._settings.rate_hz)
+        words = tr(
+            "Left and right are as seen from the side on which the cameras stand. Hold a hand "
+            "before one camera: its picture must be the one below its name."
+        )
+        if empty:
+            words = tr(
+                "No camera is plugged in. Plug both in, then open this dialog again; a folder or "
+                "a video can be typed as source: folder:PATH, video:PATH."
+            )
+        explanation = QLabel(words)
+        explanation.setWordWrap(True)
+        self.note.setWordWrap(True)
+        common = QHBoxLayout()
+        for title, widget in ((tr("Size"), self.size_box), (tr("Pictures"), self.rate)):
+            common.addWidget(QLabel(title))
+            common.addWidget(widget)
+        common.addStretch(1)
+        common.addWidget(self.swap)
+        pair = QHBoxLayout()
+        pair.setSpacing(theme.MARGIN)
+        for side in self.sides:
+            pair.addWidget(side, 1)
+            side.changed.connect(self._quiet.start)
+        kinds = QDialogButtonBox.StandardButton
+        buttons = QDialogButtonBox(kinds.Ok | kinds.Cancel, parent=self)
+        buttons.accepted.connect(self._take)
+        buttons.rejected.connect(self.reject)
+        self.swap.clicked.connect(lambda _=False: self._exchange())
+        self.size_box.currentTextChanged.connect(lambda _: self._quiet.start())
+        self.rate.valueChanged.connect(lambda _: self._quiet.start())
+        column = QVBoxLayout(self)
+        column.setSpacing(theme.MARGIN)
+        column.addWidget(explanation)
+        column.addLayout(common)
+        column.addLayout(pair, 1)
+        column.addWidget(self.note)
+        column.addWidget(buttons)
+        self.resize(980, 640)

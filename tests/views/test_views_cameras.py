@@ -1,0 +1,154 @@
+"""The menu Cameras: chosen, set up, aimed, measured; a run's cameras are let go first."""
+
+import pytest
+from PySide6.QtWidgets import QApplication
+from window_rig import plan
+
+from app.session.machine import State
+from app.tracking.cameras.settings import CameraSettings, OneCamera, load_settings, save_settings
+from app.tracking.cameras.watch import CameraState
+from app.tracking.errors import CameraError
+
+REAL = CameraSettings(left=OneCamera(source="usb:1-1"), right=OneCamera(source="usb:1-2"))
+
+
+@pytest.fixture
+def running(window, patient, services, settle):
+    """A window with a run on the real cameras."""
+    save_settings(REAL)
+    window.cameras.use_real(True)
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    return window
+
+
+def test_without_a_choice_the_cameras_are_simulated_and_real_ones_are_asked_for(window, settle):
+    menu = window.menus.cameras
+    assert menu.simulated.isChecked()
+    assert menu.real.text() == "Real cameras: choose…"
+    menu.real.trigger()
+    assert window.cameras.dialog is not None
+    assert menu.simulated.isChecked()
+    window.cameras.dialog.reject()
+
+
+def test_choosing_real_cameras_begins_a_run_on_them_and_is_remembered(running, services):
+    assert services.opened[-1].setup.cameras == REAL
+    assert running.menus.cameras.real.isChecked()
+    assert running.menus.cameras.real.text() == "Real cameras: usb:1-1, usb:1-2"
+    assert str(running.settings.value("cameras/real")).lower() == "true"
+
+
+def test_simulated_cameras_can_be_taken_for_this_start_only(running, services, settle):
+    running.cameras.take(CameraSettings())
+    assert settle(lambda: services.opened[-1].setup.cameras is None, 10.0)
+    assert str(running.settings.value("cameras/real")).lower() == "true"
+
+
+def test_the_cameras_stay_while_an_attempt_runs(running):
+    running.runs.run.trainer.state = State.INSERTING
+    running.cameras.use_real(False)
+    assert "An attempt is running" in running.message_bar.text
+    running.menus.cameras.set_up.trigger()
+    assert running.cameras.dialog is None
+    assert running.cameras.real
+
+
+def test_aiming_lets_the_run_go_shows_the_cone_and_gives_the_cameras_back(
+    running, services, settle
+):
+    run = services.opened[-1]
+    running.menus.cameras.aim.trigger()
+    dialog = running.cameras.dialog
+    assert run.closed.wait(5.0)
+    assert settle(lambda: len(services.lives) == 2 and "51 %" in dialog.share.text(), 10.0)
+    assert "everything at -30 to 25 mm" in dialog.losses.text()
+    assert settle(lambda: dialog.previews[0].picture.has_image, 5.0)
+    assert dialog.previews[0].picture._outline.shape == (3, 2)
+    dialog.reject()
+    assert settle(lambda: running.runs.run is not None, 10.0)
+    assert all(live.closed.is_set() for live in services.lives)
+    assert len(services.opened) == 2
+
+
+def test_a_camera_that_stops_is_said_below_its_darkened_picture(running, services, settle):
+    running.cameras.aim()
+    preview = running.cameras.dialog.previews[1]
+    assert settle(lambda: preview.camera is not None, 10.0)
+    preview.camera.state = CameraState.STALLED
+    assert settle(lambda: "check its cable" in preview.note.text(), 5.0)
+    assert preview.picture._dimmed
+    running.cameras.dialog.reject()
+
+
+def test_a_camera_that_cannot_be_opened_is_said_where_its_picture_would_be(
+    running, services, settle
+):
+    services.refuses = "no camera at usb:1-1; none is plugged in"
+    running.cameras.set_up()
+    editor = running.cameras.dialog.sides[0]
+    assert settle(lambda: "none is plugged in" in editor.preview.note.text(), 10.0)
+    services.refuses = ""
+    running.cameras.dialog.reject()
+
+
+def test_the_settings_take_what_is_chosen_and_refuse_what_cannot_work(window, services, settle):
+    window.cameras.set_up()
+    dialog = window.cameras.dialog
+    left, right = dialog.sides
+    left.source.setCurrentIndex(0)
+    assert left.camera().source == "usb:1-1"
+    with pytest.raises(CameraError, match="one camera is real"):
+        dialog.settings()
+    right.source.setEditText("folder:/pictures")
+    right.exposure.setValue(5.0)
+    dialog.size_box.setCurrentText("1280x720")
+    assert settle(lambda: {live.side for live in services.lives} == {"left", "right"}, 10.0)
+    assert settle(lambda: "did not accept" in left.preview.note.text(), 5.0)
+    dialog.swap.click()
+    assert dialog.settings().left.source == "folder:/pictures"
+    dialog._take()
+    saved = load_settings()
+    assert saved.size == (1280, 720)
+    assert saved.left.exposure_ms == 5.0
+    assert saved.right.source == "usb:1-1"
+    assert window.menus.cameras.real.isChecked()
+    assert settle(lambda: all(live.closed.is_set() for live in services.lives), 10.0)
+
+
+def test_what_was_measured_goes_with_its_camera(window):
+    save_settings(REAL.model_copy(update={"left": OneCamera(source="usb:1-1", latency_ms=40.0)}))
+    window.cameras.set_up()
+    dialog = window.cameras.dialog
+    dialog.swap.click()
+    assert dialog.settings().right.latency_ms == 40.0
+    dialog.sides[1].source.setEditText("usb:9-9")
+    assert dialog.settings().right.latency_ms is None
+    dialog.reject()
+
+
+def test_the_latency_is_measured_by_the_blinking_patch_and_kept(running, services, settle):
+    running.cameras.measure_latency("right")
+    dialog = running.cameras.dialog
+    dialog._seconds = 5.0
+    assert settle(lambda: dialog.start.isEnabled(), 10.0)
+    dialog.preview.camera.patch = dialog.patch
+    dialog.start.click()
+    assert dialog.preview.camera.taken
+    assert settle(lambda: dialog.latency is not None, 15.0), dialog.outcome.text()
+    assert dialog.latency.median == pytest.approx(0.04, abs=5e-3)
+    dialog.keep.click()
+    assert load_settings().right.latency_ms == pytest.approx(40.0, abs=5.0)
+    assert settle(lambda: running.runs.run is not None, 10.0)
+
+
+def test_a_settings_file_that_cannot_be_read_is_told_not_replaced(window, services, tmp_path):
+    path = save_settings(REAL)
+    path.write_text("left: nonsense\n")
+    window.cameras.use_real(True)
+    assert "left" in window.message_bar.text
+    assert path.read_text() == "left: nonsense\n"
+    if window.cameras.dialog is not None:
+        window.cameras.dialog.reject()
+    QApplication.processEvents()
