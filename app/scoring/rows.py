@@ -19,10 +19,13 @@ class Rules(Strict):
         pass_mark: total needed to pass, 0 ... 100.
         minimum_tracking: least share of the insertion with a measured depth [%]; below it the
             score is void.
+        maximum_pause: longest time [s], over all pauses, that an attempt may wait for the cameras;
+            beyond it the score is void.
     """
 
     pass_mark: Annotated[float, Field(ge=0.0, le=100.0)] = 60.0
     minimum_tracking: Annotated[float, Field(ge=0.0, le=100.0)] = 70.0
+    maximum_pause: Annotated[float, Field(ge=0.0)] = 20.0
 
 
 @dataclass(frozen=True, slots=True)

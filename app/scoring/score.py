@@ -28,7 +28,8 @@ def score(
     check_names(tolerances, metrics)
     names = [*tolerances, *(name for name in metrics if name not in tolerances)]
     rows = tuple(_row(metrics[name], trajectory, tolerances.get(name)) for name in names)
-    return judge(rows, rules or Rules(), _attempt_void(trajectory))
+    rules = rules or Rules()
+    return judge(rows, rules, _attempt_void(trajectory, rules))
 
 
 def check_names(
@@ -63,11 +64,17 @@ def _row(metric: Metric, trajectory: Trajectory, limits: Tolerance | None) -> Ro
     return Row(metric.name, metric.label, metric.unit, value, note, limits)
 
 
-def _attempt_void(trajectory: Trajectory) -> str:
+def _attempt_void(trajectory: Trajectory, rules: Rules) -> str:
     if trajectory.was_aborted:
         return f"the attempt was aborted: {trajectory.aborted or 'no reason recorded'}"
     if not trajectory.running.any():
         return "the attempt was never begun"
     if not trajectory.inserted.any():
         return "the needle was never inserted"
+    paused = trajectory.duration(trajectory.paused)
+    if paused > rules.maximum_pause:
+        return (
+            f"the attempt waited {paused:.0f} s for the cameras; {rules.maximum_pause:g} s are "
+            "allowed"
+        )
     return ""

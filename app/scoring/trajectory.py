@@ -30,6 +30,7 @@ class Phase(IntEnum):
     HOLDING = 3
     ENDED = 4
     ABORTED = 5
+    PAUSED = 6
 
 
 _CODES = {phase.name.lower(): phase.value for phase in Phase}
@@ -98,6 +99,11 @@ class Trajectory:
     def inserted(self) -> NDArray[np.bool_]:
         """Samples with the needle in the body (inserting or holding), shape (n,)."""
         return (self.phase == Phase.INSERTING) | (self.phase == Phase.HOLDING)
+
+    @property
+    def paused(self) -> NDArray[np.bool_]:
+        """Samples while the attempt waited for the cameras, in the body, shape (n,)."""
+        return self.phase == Phase.PAUSED
 
     @property
     def was_aborted(self) -> bool:

@@ -67,6 +67,13 @@ class Arming:
         if self.held and not running():
             self._inputs.arm(False)
 
+    def pause(self, before: bool, now: bool) -> None:
+        """Switch the forces off as a pause begins, and as at the beginning when it ends."""
+        if now and not before:
+            self._inputs.arm(False)
+        elif before and not now:
+            self.begin()
+
     def off(self) -> None:
         """Switch the forces off."""
         self._inputs.arm(False)

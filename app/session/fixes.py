@@ -8,6 +8,8 @@ from app.core.arrays import FloatArray
 from app.session.inputs import LoopInputs
 from app.session.needle import fix_depth, is_usable
 from app.session.ports import FixPort, LoopPort
+from app.tracking.motion.choice import depth_filter
+from app.tracking.motion.depth_filter import DepthMotion
 
 
 class Fixes:
@@ -22,6 +24,7 @@ class Fixes:
         self._lock = threading.Lock()
         self._newest: FixPort | None = None
         self._usable: FixPort | None = None
+        self._motion = depth_filter()
 
     def take(self, fix: FixPort, fulcrum: FloatArray) -> None:
         """Look at a fix; one that is not newer than the last is passed over."""
@@ -39,6 +42,11 @@ class Fixes:
         with self._lock:
             return self._usable
 
+    def motion(self, time: float) -> DepthMotion | None:
+        """Return where the depth should be at `time` [s] by its filter; None before a fix."""
+        with self._lock:
+            return self._motion.at(time)
+
     def status(self) -> tuple[str, float]:
         """Status and residual [px] of the newest fix; empty and 0 before the first."""
         with self._lock:
@@ -53,3 +61,5 @@ class Fixes:
         if norm > 0.5:
             depth, variance = fix_depth(fix, fulcrum, np.asarray(device.axis) / norm)
             self._inputs.tracked(depth, fix.time, variance)
+            with self._lock:
+                self._motion.take(fix.time, depth, variance)

@@ -18,6 +18,7 @@ class State(StrEnum):
     ALIGNING = "aligning"
     INSERTING = "inserting"
     HOLDING = "holding"
+    PAUSED = "paused"
     ENDED = "ended"
     ABORTED = "aborted"
 
@@ -29,6 +30,8 @@ class Event(StrEnum):
     INSERT = "insert"
     HOLD = "hold"
     WITHDRAW = "withdraw"
+    PAUSE = "pause"
+    RESUME = "resume"
     END = "end"
     ABORT = "abort"
 
@@ -42,17 +45,22 @@ TABLE: Final[Mapping[tuple[State, Event], State]] = MappingProxyType(
         (State.ALIGNING, Event.ABORT): State.ABORTED,
         (State.INSERTING, Event.HOLD): State.HOLDING,
         (State.INSERTING, Event.WITHDRAW): State.ALIGNING,
+        (State.INSERTING, Event.PAUSE): State.PAUSED,
         (State.INSERTING, Event.END): State.ENDED,
         (State.INSERTING, Event.ABORT): State.ABORTED,
         (State.HOLDING, Event.INSERT): State.INSERTING,
         (State.HOLDING, Event.WITHDRAW): State.ALIGNING,
+        (State.HOLDING, Event.PAUSE): State.PAUSED,
         (State.HOLDING, Event.END): State.ENDED,
         (State.HOLDING, Event.ABORT): State.ABORTED,
+        (State.PAUSED, Event.RESUME): State.INSERTING,
+        (State.PAUSED, Event.END): State.ENDED,
+        (State.PAUSED, Event.ABORT): State.ABORTED,
     }
 )
 """Every legal transition; nothing else is legal."""
 
-RUNNING: Final = frozenset({State.ALIGNING, State.INSERTING, State.HOLDING})
+RUNNING: Final = frozenset({State.ALIGNING, State.INSERTING, State.HOLDING, State.PAUSED})
 """States in which the attempt is being recorded."""
 
 FINAL: Final = frozenset({State.ENDED, State.ABORTED})
@@ -95,10 +103,11 @@ class Attempt:
         return times
 
     def duration(self, now: float) -> float:
-        """Time since the beginning [s]; stands still once finished, 0 before."""
+        """Time since the beginning without pauses [s]; stands still once finished, 0 before."""
         if self.began is None:
             return 0.0
-        return (self.since if self.finished else max(self.since, now)) - self.began
+        end = self.since if self.finished else max(self.since, now)
+        return end - self.began - self.phases(end).get(State.PAUSED, 0.0)
 
 
 def legal(state: State) -> tuple[Event, ...]:

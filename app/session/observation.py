@@ -16,6 +16,7 @@ from app.session.machine import State
 from app.session.needle import DOWN, DepthSource, NeedlePose, fuse
 from app.session.ports import DeviceStatePort
 from app.session.sample import Sample
+from app.session.shown import moment, shown
 
 LOOP_LIMIT: Final = 0.5
 """Age of the loop's newest state [s] from which the loop counts as dead."""
@@ -34,12 +35,14 @@ class Observation:
 
     Attributes:
         time: moment [s].
-        pose: fused pose.
+        pose: fused pose, as measured: it is recorded and scored.
         offset: from the tip to the target.
         p_target: target now, with its motion [m], shape (3,).
         device: newest state of the loop; None before its first tick.
         fix_status: newest status of the tracker; empty before the first fix.
         residual_px: its residual [px].
+        shown: the pose predicted to the moment of display, for the views only.
+        shown_offset: from its tip to the target.
     """
 
     time: float
@@ -49,6 +52,8 @@ class Observation:
     device: DeviceStatePort | None
     fix_status: str
     residual_px: float
+    shown: NeedlePose
+    shown_offset: Offset
 
     @property
     def device_fault(self) -> str:
@@ -120,7 +125,9 @@ def observe(
             p_target = read_only(placed.p_target + shift)
     status, residual = fixes.status()
     away = offset(pose, p_target, placed.axis)
-    return Observation(now, pose, away, p_target, device, status, residual)
+    seen = shown(pose, fixes.motion(moment(pose)))
+    seen_away = away if seen is pose else offset(seen, p_target, placed.axis)
+    return Observation(now, pose, away, p_target, device, status, residual, seen, seen_away)
 
 
 def _no_device(placed: PlacedPlan, now: float, last: NeedlePose | None, missing: str) -> NeedlePose:

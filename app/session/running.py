@@ -8,6 +8,7 @@ from app.session.errors import IllegalTransitionError
 from app.session.inputs import LoopInputs
 from app.session.machine import Attempt
 from app.session.observation import Observation
+from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS, Pauses
 from app.session.phases import DEFAULT, Classifier, Thresholds, classify
 from app.session.result import AttemptResult
 
@@ -28,6 +29,12 @@ class Running:
         self._thresholds = thresholds
         self._classifier = Classifier()
         self._depth = DepthNews()
+        self._pauses = Pauses()
+
+    @property
+    def paused(self) -> bool:
+        """Whether the attempt waits for the cameras."""
+        return self.attempt.state is machine.State.PAUSED
 
     def require_idle(self, what: str) -> None:
         """Refuse what is not possible during an attempt.
@@ -49,6 +56,7 @@ class Running:
         self.require_idle("an attempt cannot begin")
         self.attempt = machine.advance(Attempt(), machine.Event.BEGIN, now)
         self._classifier, self._depth, self.log = Classifier(), DepthNews(), log
+        self._pauses = Pauses()
         failure = log.open(threaded)
         if failure:
             self.say("recorder", f"this attempt is not recorded: {failure}", now)
@@ -68,8 +76,9 @@ class Running:
         self._classifier, event = classify(
             self._classifier, attempt.state, seen.pose, seen.offset.distance, self._thresholds
         )
+        event = self._pauses.look(attempt.state, seen.pose, seen.fix_status) or event
         if event is not None:
-            self._advance(event, seen.time)
+            self._change(event, seen.time)
         news = self._depth.look(seen.pose)
         if news:
             self.say("depth", news, seen.time, {"source": seen.pose.depth_source.value})
@@ -121,6 +130,14 @@ class Running:
         self.events.put(event)
         if self.log is not None:
             self.log.event(event)
+
+    def _change(self, event: machine.Event, now: float) -> None:
+        self._advance(event, now)
+        if event is machine.Event.PAUSE:
+            self.say("pause", PAUSED_WORDS, now)
+        elif event is machine.Event.RESUME:
+            self._classifier = Classifier()
+            self.say("pause", RESUMED_WORDS, now)
 
     def _advance(self, event: machine.Event, now: float, reason: str = "") -> None:
         # The caller's time may have been read just before another thread's last transition.

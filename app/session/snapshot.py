@@ -11,6 +11,7 @@ from app.session.inputs import LoopInputs
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.observation import Observation
+from app.session.pauses import PAUSED_WORDS
 from app.session.ports import ClearancePort, DeviceStatePort
 from app.session.recorder import RecordingStatus
 from app.session.running import Running
@@ -27,7 +28,8 @@ class Snapshot:
         reason: why it was aborted; empty otherwise.
         elapsed: time since the attempt began [s]; stands still once it is over.
         phases: time spent per state [s].
-        pose: needle, world.
+        pose: needle, world, predicted to the moment of display (`predicted` says how far); what is
+            recorded and scored is the measured one, `measured_pose`.
         offset: from the tip to the target.
         p_target: target now, with its motion [m], shape (3,).
         device: newest state of the loop; None before its first tick.
@@ -41,6 +43,7 @@ class Snapshot:
         messages: what the student should know, one line each, most urgent first.
         held_arming: whether the forces are on only while a key or pedal is held.
         clearance: how much force the device is cleared for; None where nobody is asked.
+        measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
     """
 
     time: float
@@ -62,6 +65,7 @@ class Snapshot:
     messages: tuple[str, ...]
     held_arming: bool = False
     clearance: ClearancePort | None = None
+    measured_pose: NeedlePose | None = None
 
 
 _FIX_TEXT = {
@@ -81,6 +85,7 @@ def advice(
     reason: str,
     recording: RecordingStatus | None,
     held_back: str = "",
+    paused: bool = False,
 ) -> tuple[str, ...]:
     """Messages for the student, most urgent first.
 
@@ -91,10 +96,13 @@ def advice(
         reason: why the attempt was aborted; empty otherwise.
         recording: how the record stands.
         held_back: why the device is not cleared for full force; empty if it is.
+        paused: whether the attempt waits for the cameras.
     """
     found = []
     if reason:
         found.append(f"attempt aborted: {reason}")
+    if paused:
+        found.append(PAUSED_WORDS)
     if fault:
         found.append(f"no force: {fault}")
     if held_back:
@@ -134,8 +142,8 @@ def take(
         reason=attempt.reason,
         elapsed=attempt.duration(now),
         phases=attempt.phases(now),
-        pose=seen.pose,
-        offset=seen.offset,
+        pose=seen.shown,
+        offset=seen.shown_offset,
         p_target=seen.p_target,
         device=seen.device,
         timing=watch.timing,
@@ -145,7 +153,10 @@ def take(
         assistance=inputs.assistance,
         armed=inputs.armed,
         recording=recording,
-        messages=advice(seen.pose, seen.fix_status, fault, attempt.reason, recording, held_back),
+        messages=advice(
+            seen.pose, seen.fix_status, fault, attempt.reason, recording, held_back, running.paused
+        ),
         held_arming=arming.held,
         clearance=arming.clearance,
+        measured_pose=seen.pose,
     )

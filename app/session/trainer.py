@@ -188,7 +188,7 @@ class Trainer:
 
     def arm(self) -> None:
         """Arm the forces; `begin` does, unless a held key or pedal must. Never waits."""
-        self._arming.arm(lambda: self._running.attempt.running)
+        self._arming.arm(lambda: self._running.attempt.running and not self._running.paused)
 
     def disarm(self) -> None:
         """Switch the forces off; `end` and `abort` do. Never waits."""
@@ -225,7 +225,9 @@ class Trainer:
             try:
                 self._arming.look()
                 seen = self._watch.look(self._placed, now)
+                was_paused = self._running.paused
                 reason = self._running.look(seen, self._inputs, self.held_arming)
+                self._arming.pause(was_paused, self._running.paused)
                 reason = reason or self._watch.news(self._running, self.events)
             except AcusError as error:
                 reason = str(error)

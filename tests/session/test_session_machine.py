@@ -22,6 +22,11 @@ LEGAL = [
     ("holding", "withdraw", "aligning"),
     ("holding", "end", "ended"),
     ("holding", "abort", "aborted"),
+    ("inserting", "pause", "paused"),
+    ("holding", "pause", "paused"),
+    ("paused", "resume", "inserting"),
+    ("paused", "end", "ended"),
+    ("paused", "abort", "aborted"),
 ]
 
 
@@ -70,6 +75,21 @@ def test_times_per_state_add_up_over_several_visits() -> None:
     ended = advance(attempt, Event.END, 22.0)
     assert ended.duration(99.0) == 12.0
     assert sum(ended.phases(99.0).values()) == ended.duration(99.0)
+
+
+def test_the_clock_of_an_attempt_stands_still_while_it_is_paused() -> None:
+    attempt = Attempt()
+    for event, time in (
+        (Event.BEGIN, 10.0),
+        (Event.INSERT, 12.0),
+        (Event.PAUSE, 15.0),
+        (Event.RESUME, 21.0),
+        (Event.PAUSE, 22.0),
+    ):
+        attempt = advance(attempt, event, time)
+    assert attempt.duration(23.0) == 6.0
+    assert attempt.duration(99.0) == 6.0
+    assert advance(attempt, Event.END, 30.0).duration(99.0) == 6.0
 
 
 def test_transitions_at_equal_times_take_no_time() -> None:

@@ -1,4 +1,4 @@
-"""Share of the time in the body during which the depth of the tip was measured."""
+"""Share of the time in the body, pauses included, during which the tip's depth was measured."""
 
 from app.scoring.trajectory import Trajectory
 
@@ -11,7 +11,7 @@ HIGHER_IS_BETTER = True
 def compute(trajectory: Trajectory) -> float:
     """Return the share [%]; of a single sample, 0 or 100."""
     trajectory.insertions()
-    inserted = trajectory.inserted
+    inserted = trajectory.inserted | trajectory.paused
     whole = trajectory.duration(inserted)
     if whole > 0.0:
         return 100.0 * trajectory.duration(inserted & trajectory.depth_valid) / whole

@@ -21,6 +21,7 @@ PHASE_SHADES: Final = {
     "aligning": "#1d2a38",
     "inserting": "#33291b",
     "holding": "#1d3127",
+    "paused": "#2b2233",
     "ended": "#1b1f23",
     "aborted": "#3a1f1f",
 }

@@ -17,7 +17,12 @@ from app.views.exercise.state_words import state_word
 _BUCKETS: Final = 800
 """A curve of more points is drawn by the least and the largest of each bucket."""
 
-_SHADES: Final = {"aligning": "#eaf1f8", "inserting": "#fbf1e1", "holding": "#e6f4ec"}
+_SHADES: Final = {
+    "aligning": "#eaf1f8",
+    "inserting": "#fbf1e1",
+    "holding": "#e6f4ec",
+    "paused": "#efe8f4",
+}
 _LEFT, _TITLE = 34.0, 13.0
 
 

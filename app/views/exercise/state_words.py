@@ -10,6 +10,7 @@ def state_word(state: str) -> str:
         "aligning": tr("Aligning"),
         "inserting": tr("Inserting"),
         "holding": tr("Holding"),
+        "paused": tr("Paused: cameras"),
         "ended": tr("Ended"),
         "aborted": tr("Aborted"),
         "unfinished": tr("Unfinished"),

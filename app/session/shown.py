@@ -1,0 +1,49 @@
+"""The pose that is shown: where the tip will be when the light of the screen is seen.
+
+A depth is old when it comes (capture, transfer, search) and older when it is seen. For the views it
+is moved on to the moment of display, at the rate of its filter, by at most `FARTHEST`. The record,
+the score and the force laws use the measured pose: a prediction overshoots where the hand stops.
+"""
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from app.core.arrays import read_only
+from app.session.needle import DepthSource, NeedlePose
+from app.tracking.motion.depth_filter import DepthMotion
+
+DISPLAY_LATENCY: Final = 0.030
+"""From a pose to the light of the screen [s]: declared, one frame of 60 Hz and the panel's own."""
+
+FARTHEST: Final = 0.100
+"""No depth is predicted further than this beyond its capture [s]."""
+
+
+def moment(pose: NeedlePose) -> float:
+    """Time that the shown depth should stand for [s]."""
+    captured = pose.time - pose.depth_age
+    return min(pose.time + DISPLAY_LATENCY, captured + FARTHEST)
+
+
+def shown(pose: NeedlePose, motion: DepthMotion | None) -> NeedlePose:
+    """Return the pose with the depth of `motion`, which stands for `moment(pose)`.
+
+    Only a depth that cameras measured is moved; any other pose is returned as it is.
+    """
+    by_cameras = pose.measured and pose.depth_source is not DepthSource.NONE
+    if motion is None or not by_cameras:
+        return pose
+    change = motion.depth - pose.depth
+    along = np.outer(pose.axis, pose.axis)
+    present = float(pose.axis @ pose.covariance @ pose.axis)
+    growth = max(0.0, motion.variance - present)
+    return replace(
+        pose,
+        p_tip=read_only(pose.p_tip + change * pose.axis),
+        depth=motion.depth,
+        rate=motion.rate,
+        predicted=max(0.0, motion.time - (pose.time - pose.depth_age)),
+        covariance=read_only(pose.covariance + growth * along),
+    )

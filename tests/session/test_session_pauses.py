@@ -1,0 +1,174 @@
+"""Attempts pause without cameras, go on with them; what is shown is ahead of what is recorded."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from session_fakes import Bench
+
+from app.core.arrays import read_only
+from app.session.machine import Event, State
+from app.session.needle import DepthSource, NeedlePose
+from app.session.pauses import BACK, LOST, Pauses
+from app.session.shown import DISPLAY_LATENCY, FARTHEST, moment, shown
+from app.tracking.motion.depth_filter import DepthMotion
+
+DOWN = np.array([0.0, 0.0, -1.0])
+
+
+def pose(time: float, source: DepthSource = DepthSource.TRACKED, age: float = 0.04) -> NeedlePose:
+    return NeedlePose(
+        p_tip=read_only(np.array([0.0, 0.16, 0.04])),
+        axis=read_only(DOWN.copy()),
+        depth=0.05,
+        time=time,
+        orientation_age=0.0,
+        depth_age=age,
+        depth_source=source,
+        valid=source is not DepthSource.NONE,
+        covariance=read_only(1e-9 * np.eye(3)),
+    )
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Iterator[Bench]:
+    bench = Bench(tmp_path)
+    yield bench
+    bench.trainer.close()
+
+
+def _events(bench: Bench, kind: str) -> list[str]:
+    return [event.message for event in bench.trainer.events.drain() if event.kind == kind]
+
+
+def test_without_a_measured_depth_in_the_body_the_attempt_pauses_and_goes_on_by_itself(
+    bench: Bench,
+) -> None:
+    bench.trainer.begin()
+    bench.run(0.5, -0.02)
+    bench.run(2.0, 0.04)
+    bench.tracker.status = "out_of_view"
+    assert bench.run(1.0).state is State.INSERTING
+    snapshot = bench.run(0.5)
+    assert snapshot.state is State.PAUSED
+    assert not snapshot.armed
+    assert bench.loop.inbox.values["enabled"] == 0.0
+    assert any("clock stands still" in message for message in snapshot.messages)
+    elapsed = snapshot.elapsed
+    assert bench.run(3.0).elapsed == pytest.approx(elapsed)
+    bench.tracker.status = "valid"
+    assert bench.run(0.4).state is State.PAUSED
+    snapshot = bench.run(0.3)
+    assert snapshot.state is State.INSERTING
+    assert snapshot.armed
+    assert snapshot.elapsed < elapsed + 0.3
+    told = _events(bench, "pause")
+    assert len(told) == 2
+    assert "goes on" in told[1]
+
+
+def test_a_pause_stands_in_the_record_and_in_the_times_and_too_long_ones_void_the_score(
+    bench: Bench,
+) -> None:
+    bench.trainer.begin()
+    bench.run(0.5, -0.02)
+    bench.run(60.0, 0.055)
+    bench.tracker.status = "out_of_view"
+    bench.run(23.0)
+    bench.tracker.status = "valid"
+    bench.run(1.0)
+    result = bench.trainer.end()
+    assert result.phases[State.PAUSED] == pytest.approx(22.0 + BACK, abs=0.5)
+    assert result.duration == pytest.approx(85.5 - 1.0 - result.phases[State.PAUSED], abs=1.5)
+    assert result.score is not None
+    assert result.score.total is None
+    assert "waited" in result.score.void_reason
+
+
+def test_a_short_pause_leaves_the_score_standing(bench: Bench) -> None:
+    bench.trainer.begin()
+    bench.insertion()
+    bench.tracker.status = "out_of_view"
+    bench.run(2.0)
+    bench.tracker.status = "valid"
+    bench.run(8.0)
+    result = bench.trainer.end()
+    assert result.score is not None
+    assert result.score.void_reason == ""
+    assert result.score.row("tracking_valid").value < 95.0
+
+
+def test_a_pause_can_be_ended_and_its_forces_stay_off(bench: Bench) -> None:
+    bench.trainer.begin()
+    bench.run(2.0, 0.04)
+    bench.tracker.status = "out_of_view"
+    assert bench.run(1.6).state is State.PAUSED
+    bench.trainer.disarm()
+    assert bench.trainer.end().state is State.ENDED
+    assert bench.loop.inbox.values["enabled"] == 0.0
+
+
+def _paused(source: DepthSource, state: State, status: str = "") -> bool:
+    pauses = Pauses()
+    pauses.look(state, pose(0.0), "valid")
+    return any(
+        pauses.look(state, pose(0.02 * k, source), status) is Event.PAUSE for k in range(1, 200)
+    )
+
+
+def test_only_a_loss_in_the_body_pauses() -> None:
+    assert _paused(DepthSource.MODEL, State.INSERTING)
+    assert _paused(DepthSource.MODEL, State.HOLDING)
+    assert not _paused(DepthSource.MODEL, State.ALIGNING)
+    assert not _paused(DepthSource.ONE_CAMERA, State.INSERTING)
+    assert not _paused(DepthSource.HELD, State.INSERTING)
+    assert not _paused(DepthSource.NONE, State.INSERTING)  # the robot's trouble
+    assert not _paused(DepthSource.MODEL, State.INSERTING, "not_yet_visible")
+
+
+def test_a_flickering_marker_neither_pauses_nor_resumes() -> None:
+    pauses = Pauses()
+    for k in range(400):
+        seen = DepthSource.TRACKED if k % 20 == 0 else DepthSource.MODEL
+        assert pauses.look(State.INSERTING, pose(0.02 * k, seen), "") is None
+    assert LOST > BACK
+    for k in range(400):
+        seen = DepthSource.MODEL if k % 20 == 0 else DepthSource.TRACKED
+        assert pauses.look(State.PAUSED, pose(8.0 + 0.02 * k, seen), "") is None
+
+
+# --- shown ----------------------------------------------------------------------------------------
+def test_the_shown_pose_is_ahead_by_age_and_display_and_says_so() -> None:
+    measured = pose(10.0)
+    assert moment(measured) == pytest.approx(10.0 + DISPLAY_LATENCY)
+    ahead = shown(measured, DepthMotion(moment(measured), 0.0535, 0.05, 4e-9))
+    assert ahead.predicted == pytest.approx(0.04 + DISPLAY_LATENCY)
+    assert ahead.rate == 0.05
+    np.testing.assert_allclose(ahead.p_tip, measured.p_tip + 0.0035 * DOWN)
+    assert ahead.covariance[2, 2] == pytest.approx(4e-9)
+    assert ahead.covariance[0, 0] == pytest.approx(1e-9)
+
+
+def test_an_old_depth_is_predicted_no_further_than_its_limit() -> None:
+    old = pose(10.0, DepthSource.HELD, age=0.18)
+    assert moment(old) == pytest.approx(10.0 - 0.18 + FARTHEST)
+
+
+@pytest.mark.parametrize("source", [DepthSource.MODEL, DepthSource.NONE])
+def test_a_depth_that_no_camera_measured_is_not_predicted(source: DepthSource) -> None:
+    other = pose(10.0, source)
+    assert shown(other, DepthMotion(10.03, 0.09, 0.5, 1e-9)) is other
+
+
+def test_the_window_sees_the_prediction_and_the_record_the_measurement(bench: Bench) -> None:
+    bench.trainer.begin()
+    bench.run(0.5, -0.02)
+    snapshot = bench.run(1.0, 0.03)  # 50 mm/s
+    true = float(bench.loop.latest().depth)
+    assert snapshot.pose.predicted > DISPLAY_LATENCY
+    assert snapshot.measured_pose.predicted == 0.0
+    assert snapshot.pose.depth == pytest.approx(true + 0.05 * DISPLAY_LATENCY, abs=0.3e-3)
+    assert snapshot.measured_pose.depth < true + 1e-9
+    result = bench.trainer.end()
+    assert result.trajectory.depth[-1] == pytest.approx(snapshot.measured_pose.depth)
