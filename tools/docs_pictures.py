@@ -52,11 +52,11 @@ def studies() -> None:
                 shutil.copyfile(picture, PICTURES / f"study-{picture.name}")
 
 
-def robot() -> None:
-    """Keep the robot's pictures as docs/pictures/robot-<name>.png, with settings of their own."""
+def own_settings(module: str) -> None:
+    """Let a module of `tools` keep its pictures, with settings of their own."""
     with tempfile.TemporaryDirectory() as folder:
         own = {"ACUS_SETTINGS": f"{folder}/settings", "ACUS_DATA": f"{folder}/data"}
-        order = [sys.executable, "-m", "tools.robot_pictures", str(PICTURES)]
+        order = [sys.executable, "-m", module, str(PICTURES)]
         subprocess.run(order, check=True, cwd=ROOT, env=os.environ | own)
 
 
@@ -68,7 +68,8 @@ def main() -> None:
         demonstration("chest", FROM_CHEST, "--ct", CHEST)
     else:
         print(f"no chest CT in {CHEST}: its pictures stay as they are", file=sys.stderr)
-    robot()
+    own_settings("tools.robot_pictures")
+    own_settings("tools.camera_pictures")
     studies()
 
 

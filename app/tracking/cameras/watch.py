@@ -68,8 +68,8 @@ class CameraReader:
     A camera that hangs or fails so neither stops the other one nor the tracker. After a failure it
     is read again after a pause, after a second one it is closed and opened anew: so it comes back
     when it is plugged in again. `noise_expected` says that two pictures are never the same to the
-    last bit, so that a repetition means a frozen driver. `on_frame` gets every picture that counts
-    and the time of its delivery [s], in the camera's thread.
+    last bit, so that a repetition means a frozen driver. `on_frame` gets every picture whose time
+    can be, repeated ones too, and the time of its delivery [s], in the camera's thread.
     """
 
     def __init__(
@@ -172,13 +172,13 @@ class CameraReader:
     def _take(self, frame: Frame) -> None:
         now = self._clock.now()
         verdict = self._intake.judge(frame, now)
+        if self._on_frame is not None and verdict in (Verdict.NEW, Verdict.REPEATED):
+            self._on_frame(frame, now)
         if verdict is Verdict.REPEATED:
             self._received = now  # it lives, but shows nothing new
         elif verdict is Verdict.NEW:
             self._received = self._changed = now
             self._publish(frame)
-            if self._on_frame is not None:
-                self._on_frame(frame, now)
         elif now - self._received > STALL:
             raise CameraError(f"its capture times cannot be used: {self._intake.figures().text}")
         self._failures, self._error = 0, ""

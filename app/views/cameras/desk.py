@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal, SignalInstance
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QDialog, QWidget
 
 from app.core.errors import AcusError
@@ -33,20 +33,6 @@ if TYPE_CHECKING:
 _USED = "cameras/real"
 DEVICE = "icube"
 """Device whose fulcrum is aimed at before an exercise names one."""
-
-
-class CameraDialog(Protocol):
-    """A dialog that has cameras open."""
-
-    finished: SignalInstance
-
-    def open(self) -> None:
-        """Show it."""
-        ...
-
-    def closed(self) -> Callable[[], object]:
-        """Return what waits until its cameras are closed."""
-        ...
 
 
 class CamerasDesk(QObject):
@@ -119,15 +105,17 @@ class CamerasDesk(QObject):
         self._taken = None
         self._remembered.setValue(_USED, wanted)
         self._apply()
+        if self.dialog is None:
+            self._conductor.take_again()  # one that failed before may be plugged in now
 
     # --- dialogs ------------------------------------------------------------------------------
     def set_up(self) -> None:
         """Choose the sources, with their live pictures."""
         if self._refused():
             return
-        dialog = CameraSettingsDialog(self.chosen, self._services, self._free(), self._window)
+        dialog = CameraSettingsDialog(self.chosen, self._services, self.free(), self._window)
         dialog.chosen.connect(self._choose)
-        self._show(dialog)
+        self.show(dialog)
 
     def aim(self) -> None:
         """Show the needle's cone in both pictures."""
@@ -135,15 +123,28 @@ class CamerasDesk(QObject):
             return
         profile = self._conductor.profile
         device = DEVICE if profile is None else profile.name
-        self._show(AimDialog(self.chosen, device, self._services, self._free(), self._window))
+        self.show(AimDialog(self.chosen, device, self._services, self.free(), self._window))
 
     def measure_latency(self, side: str) -> None:
         """Measure the latency of the `left` or `right` camera."""
         if self._refused() or self._without_real():
             return
-        dialog = LatencyDialog(self.chosen, side, self._services, self._free(), self._window)
+        dialog = LatencyDialog(self.chosen, side, self._services, self.free(), self._window)
         dialog.measured.connect(self._keep_latency)
-        self._show(dialog)
+        self.show(dialog)
+
+    def free(self) -> Callable[[], object]:
+        """Let the run go if it has the cameras; return what waits until it has."""
+        if not self.real:
+            return lambda: None
+        self._conductor.let_go()
+        return self._runs.closed()
+
+    def show(self, dialog: QDialog) -> None:
+        """Show a dialog; when it ends and its cameras are closed, the run has them again."""
+        self.dialog = dialog
+        dialog.finished.connect(lambda _: self._ended(dialog))
+        dialog.open()
 
     def close(self) -> None:
         """End the dialog that is open; idempotent."""
@@ -154,18 +155,6 @@ class CamerasDesk(QObject):
     def _apply(self) -> None:
         self._conductor.set_cameras(self.chosen if self.real else None)
         self.changed.emit()
-
-    def _free(self) -> Callable[[], object]:
-        """Let the run go if it has the cameras; return what waits until it has."""
-        if not self.real:
-            return lambda: None
-        self._conductor.let_go()
-        return self._runs.closed()
-
-    def _show(self, dialog: QDialog) -> None:
-        self.dialog = dialog
-        dialog.finished.connect(lambda _: self._ended(dialog))
-        dialog.open()
 
     def _ended(self, dialog: QDialog) -> None:
         self.dialog = None
@@ -184,6 +173,7 @@ class CamerasDesk(QObject):
             return
         self._taken = None
         self._remembered.setValue(_USED, not settings.simulated)
+        self._conductor.let_go()  # until the dialog's cameras are closed: `_ended`
         self._apply()
 
     def _keep_latency(self, side: str, latency: Latency) -> None:
