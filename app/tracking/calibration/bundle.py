@@ -22,7 +22,7 @@ from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import PARAMETERS
 
 _ROUNDS = 60
-_GAIN = 1e-12
+_GAIN = 1e-10
 """Relative fall of the cost below which the adjustment has ended."""
 
 Flags = NDArray[np.bool_]

@@ -13,6 +13,7 @@ from app.tracking.calibration.finders import Found, Grey
 from app.tracking.calibration.grid import (
     extents,
     first_square_is_dark,
+    goes_on,
     is_mirrored,
     local_axes,
     mapped,
@@ -175,6 +176,11 @@ def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> Boa
     if not _lies_flat(ids, pixels, homography, board, square_px):
         return Rejection(
             Reason.OTHER_BOARD, "the corners found do not lie on a grid; check the board's counts"
+        )
+    if board.kind is BoardKind.CHECKERBOARD and goes_on(grey, board, homography):
+        return Rejection(
+            Reason.OTHER_BOARD,
+            f"the board has more than {board.columns}x{board.rows} inner corners; count them anew",
         )
     sharpness = edge_width(grey, board, homography, seen)
     if sharpness > MOST_BLUR * square_px:

@@ -75,3 +75,43 @@ def first_square_is_dark(grey: NDArray[np.uint8], board: Board, pixels: FloatArr
     if not odd.any():
         return True
     return bool(values[odd == 0].mean() < values[odd == 1].mean())
+
+
+def goes_on(grey: NDArray[np.uint8], board: Board, homography: FloatArray) -> bool:
+    """Whether dark and bright squares go on beyond the one row that surrounds the inner corners.
+
+    Then the print has more corners than the board was said to have, and the ones found are some of
+    them: others in every picture. The outermost squares of a print may be trimmed, so the place
+    just behind that row counts.
+    """
+    x, y = np.arange(board.columns + 1) - 0.5, np.arange(board.rows + 1) - 0.5
+    inner = _alternation(grey, homography, np.stack(np.meshgrid(x[1:-1], y[1:-1]), -1))
+    if inner is None or abs(inner) < 1.0:
+        return False
+    behind = [np.column_stack([np.full(y.size, place), y]) for place in (-_BEHIND, x[-1] + 0.7)]
+    behind += [np.column_stack([x, np.full(x.size, place)]) for place in (-_BEHIND, y[-1] + 0.7)]
+    values = [_alternation(grey, homography, row) for row in behind]
+    return any(value is not None and abs(value / inner) > _MORE for value in values)
+
+
+_BEHIND = 1.2
+"""Distance from the outermost corners at which no square may be any more [squares]."""
+
+_MORE = 0.5
+"""Contrast, in parts of the board's, from which a row of squares is one."""
+
+
+def _alternation(
+    grey: NDArray[np.uint8], homography: FloatArray, centres: FloatArray
+) -> float | None:
+    """Mean grey of every other square less that of those between; None outside the picture."""
+    xy = centres.reshape(-1, 2)
+    uv = mapped(homography, xy)
+    size = np.array(grey.shape[::-1]) - 1.0
+    inside = (uv >= 0.0).all(axis=1) & (uv <= size).all(axis=1)
+    odd = np.rint((xy + 0.5).sum(axis=1)).astype(np.int64) % 2 == 1
+    if (inside & odd).sum() < 2 or (inside & ~odd).sum() < 2:
+        return None
+    column, row = np.rint(np.clip(uv, 0.0, size)).astype(np.int64).T
+    values = grey[row, column].astype(np.float64)
+    return float(values[inside & odd].mean() - values[inside & ~odd].mean())

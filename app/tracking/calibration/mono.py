@@ -12,7 +12,7 @@ from app.tracking.calibration.outliers import limit_px
 from app.tracking.calibration.poses import board_pose
 from app.tracking.calibration.selection import Dropped, smallest_model
 from app.tracking.calibration.start import first_estimate, usual_rms
-from app.tracking.calibration.views import BoardView
+from app.tracking.calibration.views import BoardView, named
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration
 
@@ -82,6 +82,7 @@ def calibrate_mono(
     """
     progress = progress or Progress()
     _require(views, name)
+    views = named(views)
     count = held_back.default_count(len(views)) if hold_back is None else hold_back
     held = set(held_back.choose(views, min(count, len(views) - LEAST_VIEWS)))
     kept = [view for i, view in enumerate(views) if i not in held]

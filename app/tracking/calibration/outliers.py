@@ -12,7 +12,7 @@ SPREADS = 5.0
 FACTOR = 2.5
 """Times the median that it must exceed as well: alike views have next to no spread."""
 
-FLOOR = 0.1
+FLOOR = 0.15
 """No view with less residual is an outlier [px]."""
 
 LEAST = 5
@@ -22,7 +22,7 @@ LEAST = 5
 def limit_px(residuals: Sequence[float]) -> float:
     """Residual from which a view counts as an outlier [px].
 
-    max(median + 5 · 1.4826 · MAD, 2.5 · median, 0.1 px); infinite for fewer than five views. Up to
+    max(median + 5 · 1.4826 · MAD, 2.5 · median, 0.15 px); infinite for fewer than five views. Up to
     nearly half of the views may be bad before median and MAD give way (Rousseeuw and Croux 1993).
     """
     values: FloatArray = np.asarray(residuals, dtype=np.float64)

@@ -82,7 +82,10 @@ def calibrate_pairs(
             f"{len(views_left)} left and {len(views_right)} right views; they are taken in pairs: "
             "give None where a camera did not see the board"
         )
-    both = list(zip(views_left, views_right, strict=True))
+    both = [
+        (_called(a, f"{names[0]} {i}"), _called(b, f"{names[1]} {i}"))
+        for i, (a, b) in enumerate(zip(views_left, views_right, strict=True), 1)
+    ]
     pairs = [(a, b) for a, b in both if a is not None and b is not None]
     alone = (
         [a for a, b in both if a is not None and b is None],
@@ -100,6 +103,10 @@ def calibrate_pairs(
     rows = (*estimate.residuals, *(_held_row(pair, estimate) for pair in apart))
     progress.report(1.0, "calibrated")
     return StereoResult(calibration, estimate, tuple(sorted(rows, key=lambda row: row.name)))
+
+
+def _called(view: MaybeView, name: str) -> MaybeView:
+    return view if view is None or view.name else view.called(name)
 
 
 def _held(pairs: Sequence[ViewPair], hold_back: int | None) -> list[int]:

@@ -19,6 +19,8 @@ from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 
 LEAST_PAIRS = 3
+LEAST_BASELINE = 0.01
+"""Distance of the cameras over that of the board from which they count as two."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +96,7 @@ def estimate_stereo(
     _require_agreement(agreement, posed, right)
     mended = _mended(pairs, agreement)
     adjusted, used = _adjusted(mended, posed, left, right, agreement, progress.part(0.7, 1.0))
+    _require_apart(adjusted)
     residuals = _residuals(mended, used, adjusted)
     changed = tuple(pairs[i][1].name for i in used if agreement.ways[i] and pairs[i][1].name)
     return StereoEstimate(
@@ -133,6 +136,18 @@ def _require_two_cameras(pairs: Sequence[ViewPair]) -> None:
         raise CalibrationError(
             "left and right show the same pictures: both come from one camera; choose another "
             "source for one of them"
+        )
+
+
+def _require_apart(adjusted: Adjusted) -> None:
+    """Refuse cameras at one place: nothing can be triangulated."""
+    apart = float(np.linalg.norm(adjusted.state.T_right_left.translation))
+    far = float(np.median([np.linalg.norm(T.translation) for T in adjusted.state.poses]))
+    if apart < LEAST_BASELINE * far:
+        raise CalibrationError(
+            f"the two cameras stand at one place ({apart * 1e3:.2f} mm apart, the board "
+            f"{far * 1e3:.0f} mm away); both pictures seem to come from one camera: choose another "
+            "source for one of them, or move them apart"
         )
 
 

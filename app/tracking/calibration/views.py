@@ -1,5 +1,6 @@
 """What one picture shows of a board, or why it is of no use."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
@@ -97,3 +98,8 @@ class BoardView:
     def called(self, name: str) -> "BoardView":
         """Return the same view under a name."""
         return replace(self, name=name)
+
+
+def named(views: Sequence[BoardView], word: str = "view") -> list[BoardView]:
+    """Return views that all have a name; those without one are numbered."""
+    return [view if view.name else view.called(f"{word} {i + 1}") for i, view in enumerate(views)]

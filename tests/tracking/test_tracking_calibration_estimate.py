@@ -1,0 +1,156 @@
+"""Cameras from views whose truth is known: estimates, their covariance, what is dropped."""
+
+import cv2
+import numpy as np
+import pytest
+
+from app.core.transform import RigidTransform
+from app.tracking.calibration.bundle import Sighting, State, adjust, with_free
+from app.tracking.calibration.lens import project, project_with_derivatives
+from app.tracking.calibration.mono import calibrate_mono
+from app.tracking.calibration.start import first_estimate
+from app.tracking.calibration.views import BoardView
+from app.tracking.errors import CalibrationError
+from app.tracking.optics.calibration import PARAMETERS
+from tests.tracking.calibration_rig import Rig, camera, thesis_rig, usual_rig
+
+PLAIN = ("fx", "fy", "cx", "cy", "k1", "k2")
+NOISE = 0.1
+
+
+def truth(rig: Rig) -> np.ndarray:
+    return np.concatenate([rig.left.intrinsics, rig.left.distortion])
+
+
+def sightings(views: list[BoardView], side: int = 0) -> list[Sighting]:
+    return [Sighting(i, side, view.points, view.pixels) for i, view in enumerate(views)]
+
+
+def test_the_derivatives_are_those_of_the_projection_and_the_projection_the_cameras() -> None:
+    rng = np.random.default_rng(0)
+    points = rng.uniform(-0.1, 0.1, (6, 3)) + [0.0, 0.0, 0.5]
+    p = np.array([500.0, 510.0, 320.0, 240.0, -0.3, 0.1, 1e-3, -2e-3, 0.05])
+    uv, by_point, by_parameter = project_with_derivatives(points, p)
+    model = camera("c", tuple(p[:4]), tuple(p[4:]), (640, 480))
+    np.testing.assert_allclose(uv, model.project(points)[0], atol=1e-10)
+    for i, step in enumerate(np.eye(3) * 1e-6):
+        slope = (project(points + step, p) - project(points - step, p)) / 2e-6
+        np.testing.assert_allclose(by_point[:, :, i], slope, rtol=1e-6, atol=1e-4)
+    for i, step in enumerate(np.eye(9) * 1e-5):
+        slope = (project(points, p + step) - project(points, p - step)) / 2e-5
+        np.testing.assert_allclose(by_parameter[:, :, i], slope, rtol=1e-6, atol=1e-6)
+
+
+def test_estimate_and_standard_deviations_are_opencvs() -> None:
+    views, _ = usual_rig().pairs(8, 1, NOISE)
+    start = first_estimate(views)
+    ours = adjust(sightings(views), start, with_free(PARAMETERS))
+    points = [view.points.astype(np.float32) for view in views]
+    pixels = [view.pixels.astype(np.float32) for view in views]
+    rms, matrix, _, _, _, sd, _, _ = cv2.calibrateCameraExtended(
+        points, pixels, (640, 480), None, None
+    )
+    assert ours.rms_px == pytest.approx(rms, rel=1e-5)
+    assert ours.state.parameters[0, 0] == pytest.approx(matrix[0, 0], abs=0.01)
+    np.testing.assert_allclose(ours.sd(), sd.ravel()[:9], rtol=1e-3)
+
+
+def test_the_covariance_of_one_camera_is_that_of_repeated_trials() -> None:
+    rig, trials = usual_rig(), 80
+    poses = rig.poses(7, 2)
+    rng = np.random.default_rng(5)
+    start = State(truth(rig)[None], RigidTransform.identity(), tuple(poses))
+    found, distances = [], []
+    keep = [PARAMETERS.index(name) for name in PLAIN]
+    for _ in range(trials):
+        views = [rig.view(rig.left, T, NOISE, rng) for T in poses]
+        result = adjust(sightings(views), start, with_free(PLAIN))
+        error = (result.state.parameters[0] - truth(rig))[keep]
+        covariance = result.covariance[np.ix_(keep, keep)]
+        distances.append(error @ np.linalg.solve(covariance, error))
+        found.append(error / np.sqrt(np.diag(covariance)))
+    spread = np.sqrt(np.mean(np.square(found), axis=0))
+    np.testing.assert_allclose(spread, 1.0, atol=0.25)  # 3 standard errors of 80 trials
+    assert np.mean(distances) == pytest.approx(len(keep), rel=0.2)
+
+
+def test_the_covariance_of_two_cameras_pose_is_that_of_repeated_trials() -> None:
+    rig, trials = usual_rig(), 80
+    poses = rig.poses(6, 3)
+    rng = np.random.default_rng(6)
+    cameras = np.array(
+        [np.concatenate([m.intrinsics, m.distortion]) for m in (rig.left, rig.right)]
+    )
+    start = State(cameras, rig.T_right_left, tuple(poses))
+    distances = []
+    for _ in range(trials):
+        seen = [
+            Sighting(i, side, rig.board.points, rig.view(model, T, NOISE, rng).pixels)
+            for i, T in enumerate(poses)
+            for side, model in enumerate((rig.left, rig.right))
+        ]
+        result = adjust(seen, start, with_free(PLAIN, 2))
+        twist = (result.state.T_right_left @ rig.T_right_left.inverse()).log()
+        distances.append(twist @ np.linalg.solve(result.covariance[18:, 18:], twist))
+    assert np.mean(distances) == pytest.approx(6.0, rel=0.22)
+
+
+def test_what_narrow_views_cannot_tell_is_dropped_and_the_camera_stays_true() -> None:
+    rig = thesis_rig()  # 33 by 25 degrees: k3 is uncertain by tens
+    left, _ = rig.pairs(14, 4, 0.15)
+    result = calibrate_mono(left, "left", 0)
+    dropped = {one.name: one for one in result.dropped}
+    assert {"k2", "k3", "p1", "p2"} <= set(dropped)
+    assert dropped["k3"].sd > 3.0
+    assert "k3" not in result.calibration.estimated
+    sd = result.adjusted.sd()
+    error = result.adjusted.state.parameters[0] - truth(rig)
+    assert (np.abs(error[:4]) < 4.0 * sd[:4]).all()
+    assert any("k3" in note and "±" in note for note in result.notes)
+
+
+def test_coefficients_that_matter_are_kept() -> None:
+    lens = (-0.35, 0.2, 0.004, -0.003, -0.08)
+    wide = camera("left", (420.0, 421.0, 318.0, 242.0), lens, (640, 480))
+    usual = usual_rig()
+    rig = Rig(wide, usual.right, usual.board, 0.25)
+    left, _ = rig.pairs(16, 8, 0.05, 40.0)
+    result = calibrate_mono(left, "left", 0)
+    assert {"k1", "k2", "p1", "p2"} <= set(result.calibration.estimated)
+    sd = result.adjusted.sd()
+    error = result.adjusted.state.parameters[0] - truth(rig)
+    assert (np.abs(error[[0, 1, 2, 3, 6, 7]]) < 4.0 * sd[[0, 1, 2, 3, 6, 7]]).all()
+
+
+def test_a_view_that_does_not_belong_is_named_and_left_out() -> None:
+    left, _ = usual_rig().pairs(10, 3, NOISE)
+    rng = np.random.default_rng(1)
+    bad = left[4]
+    left[4] = BoardView(
+        bad.board,
+        bad.ids,
+        bad.pixels + rng.normal(0, 2.0, bad.pixels.shape),
+        bad.image_size,
+        name="shaken.png",
+    )
+    result = calibrate_mono(left, "left", 0)
+    assert [r.name for r in result.residuals if r.role == "outlier"] == ["shaken.png"]
+    assert any("shaken.png" in note for note in result.notes)
+    assert result.calibration.rms_px == pytest.approx(NOISE * np.sqrt(2), rel=0.15)
+
+
+def test_views_held_back_are_fitted_afterwards() -> None:
+    left, _ = usual_rig().pairs(12, 9, NOISE)
+    result = calibrate_mono(left, "left", 3)
+    assert sum(r.role == "held_back" for r in result.residuals) == 3
+    assert result.calibration.views == 9
+    assert result.held_back_rms_px == pytest.approx(NOISE * np.sqrt(2), rel=0.3)
+
+
+def test_too_few_views_and_views_of_different_sizes_are_refused() -> None:
+    left, _ = usual_rig().pairs(4, 9, NOISE)
+    with pytest.raises(CalibrationError, match="2 usable views"):
+        calibrate_mono(left[:2], "left")
+    other = BoardView(left[0].board, left[0].ids, left[0].pixels, (1280, 960))
+    with pytest.raises(CalibrationError, match="640x480 and 1280x960"):
+        calibrate_mono([other, *left], "left")

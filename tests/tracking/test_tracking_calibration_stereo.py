@@ -1,0 +1,173 @@
+"""Two cameras from pairs whose truth is known: corner orders, outliers, swaps, scale."""
+
+import numpy as np
+import pytest
+
+from app.core.progress import Cancelled, Progress
+from app.tracking.calibration.boards import parse_board
+from app.tracking.calibration.checks import check_baseline, check_second_board
+from app.tracking.calibration.mirrored import mirrored_view
+from app.tracking.calibration.run import StereoResult, calibrate_pairs, calibrate_stereo
+from app.tracking.calibration.views import BoardView
+from app.tracking.errors import CalibrationError
+from app.tracking.optics.calibration import StereoCalibration
+from tests.tracking.calibration_rig import Rig, small_rig, thesis_rig, usual_rig
+
+NOISE = 0.1
+Views = list[BoardView]
+
+
+@pytest.fixture(scope="module")
+def rig() -> Rig:
+    return usual_rig()
+
+
+@pytest.fixture(scope="module")
+def pairs(rig: Rig) -> tuple[Views, Views]:
+    return rig.pairs(12, 1, NOISE)
+
+
+@pytest.fixture(scope="module")
+def result(pairs: tuple[Views, Views]) -> StereoResult:
+    return calibrate_pairs(*pairs)
+
+
+def twist_error(calibration: StereoCalibration, rig: Rig) -> tuple[np.ndarray, np.ndarray]:
+    twist = (calibration.pose.transform @ rig.T_right_left.inverse()).log()
+    return twist, np.sqrt(np.diag(calibration.pose.pose_covariance))
+
+
+def turned(views: Views, which: set[int]) -> Views:
+    order = np.arange(views[0].board.count)[::-1]
+    return [view.reordered(order) if i in which else view for i, view in enumerate(views)]
+
+
+def test_the_pose_is_within_its_stated_uncertainty(result: StereoResult, rig: Rig) -> None:
+    error, sd = twist_error(result.calibration, rig)
+    assert (np.abs(error) < 4.0 * sd).all()
+    assert (sd[:3] < 0.5e-3).all()
+
+
+def test_boards_held_back_come_out_true(result: StereoResult) -> None:
+    value = result.calibration.validation
+    assert value is not None
+    assert value.views == 2
+    assert value.points == 2 * 54
+    assert value.scale == pytest.approx(1.0, abs=0.002)
+    assert value.rms_mm < 1.2  # depth: z²/(f b) x 0.14 px is 0.5 mm at 0.4 m, 0.8 mm at 0.5 m
+    assert value.epipolar_px < 3.0 * NOISE
+    assert sum(r.role == "held_back" for r in result.residuals) == 2
+
+
+def test_corner_orders_that_flip_in_eight_of_34_pairs_are_mended() -> None:
+    rig = thesis_rig()  # 5x7 corners: the picture alone cannot tell
+    left, right = rig.pairs(34, 2, NOISE)
+    flipped = {1, 4, 9, 13, 20, 21, 28, 33}
+    straight = calibrate_pairs(left, right, hold_back=0)
+    mended = calibrate_pairs(left, turned(right, flipped), hold_back=0)
+    assert set(mended.estimate.mended) == {f"r{i}" for i in flipped}
+    assert any("8 of 34 pairs" in note for note in mended.calibration.notes)
+    assert mended.calibration.rms_px == pytest.approx(straight.calibration.rms_px, rel=1e-4)
+    error, sd = twist_error(mended.calibration, rig)
+    assert (np.abs(error) < 4.0 * sd).all()
+
+
+def test_a_flip_of_most_pairs_is_mended_as_well() -> None:
+    rig = thesis_rig()
+    left, right = rig.pairs(9, 5, NOISE)
+    calibration = calibrate_pairs(left, turned(right, set(range(7))), hold_back=0).calibration
+    error, sd = twist_error(calibration, rig)
+    assert (np.abs(error) < 4.0 * sd).all()
+
+
+def test_an_ambiguous_board_that_was_hardly_moved_is_refused() -> None:
+    rig = thesis_rig()
+    poses = rig.poses(1, 3)
+    rng = np.random.default_rng(0)
+    # Both cameras know their own lens from elsewhere; the pairs are six times the same place.
+    single, other = rig.pairs(9, 4, NOISE)
+    left = [rig.view(rig.left, poses[0], NOISE, rng) for _ in range(6)]
+    right = [rig.view(rig.right, poses[0], NOISE, rng) for _ in range(6)]
+    nothing: list[BoardView | None] = [None] * 9
+    with pytest.raises(CalibrationError, match="half a turn"):
+        calibrate_stereo([*left, *single, *nothing], [*right, *nothing, *other], hold_back=0)
+
+
+def test_views_of_one_camera_alone_help_its_own_parameters(
+    rig: Rig, pairs: tuple[Views, Views]
+) -> None:
+    few_left, few_right = (views[:5] for views in pairs)
+    more, _ = rig.pairs(12, 44, NOISE)
+    without = calibrate_stereo(few_left, few_right, hold_back=0)
+    with_more = calibrate_stereo([*few_left, *more], [*few_right, *[None] * 12], hold_back=0)
+    focal_sd = [
+        float(np.sqrt(c.cameras[0].parameter_covariance[0, 0])) for c in (without, with_more)
+    ]
+    assert focal_sd[1] < 0.8 * focal_sd[0]
+
+
+def test_a_pair_that_was_not_taken_together_is_named(pairs: tuple[Views, Views]) -> None:
+    left, right = list(pairs[0]), list(pairs[1])
+    right[3] = right[7].called("late")
+    found = calibrate_pairs(left, right, hold_back=0)
+    assert [r.name for r in found.residuals if r.role == "outlier"] == ["l3 + late"]
+    assert any("late" in note for note in found.calibration.notes)
+
+
+def test_pairs_in_the_wrong_order_are_refused(pairs: tuple[Views, Views]) -> None:
+    left, right = pairs
+    with pytest.raises(CalibrationError, match="do not agree on where the cameras stand"):
+        calibrate_pairs(left, [*right[1:], right[0]], hold_back=0)
+
+
+def test_pictures_mirrored_on_one_side_are_found_out(pairs: tuple[Views, Views]) -> None:
+    left, right = pairs
+    with pytest.raises(CalibrationError, match="mirrored"):
+        calibrate_pairs(left, [mirrored_view(view) for view in right], hold_back=0)
+
+
+def test_one_camera_used_twice_is_refused(pairs: tuple[Views, Views]) -> None:
+    with pytest.raises(CalibrationError, match="both come from one camera"):
+        calibrate_pairs(pairs[0], pairs[0])
+
+
+def test_swapped_cameras_are_said(pairs: tuple[Views, Views]) -> None:
+    left, right = pairs
+    notes = calibrate_pairs(right, left, hold_back=0).calibration.notes
+    assert any("may be swapped" in note for note in notes)
+
+
+def test_a_small_rig_is_calibrated() -> None:
+    rig = small_rig()
+    calibration = calibrate_stereo(*rig.pairs(10, 1, 0.05))
+    error, sd = twist_error(calibration, rig)
+    assert (np.abs(error) < 4.0 * sd).all()
+
+
+def test_a_wrong_board_size_keeps_the_residual_and_is_caught_by_a_known_length(
+    pairs: tuple[Views, Views], rig: Rig, result: StereoResult
+) -> None:
+    wrong = parse_board("checkerboard:9x6:30mm")
+    left, right = (
+        [BoardView(wrong, v.ids, v.pixels, v.image_size, name=v.name) for v in views]
+        for views in pairs
+    )
+    calibration = calibrate_stereo(left, right)
+    assert calibration.rms_px == pytest.approx(result.calibration.rms_px, rel=1e-6)
+    assert calibration.validation is not None
+    assert calibration.validation.scale == pytest.approx(1.0, abs=0.002)  # cannot tell by itself
+    check = check_baseline(calibration, 83.0)
+    assert not check.passed
+    assert check.ratio == pytest.approx(1.2, abs=0.01)
+    assert "25" in check.text
+    second = [(a, b) for a, b in zip(*rig.pairs(3, 70, NOISE), strict=True)]
+    assert not check_second_board(calibration, second).passed
+    assert check_baseline(result.calibration, 83.0).passed
+    assert check_second_board(result.calibration, second).passed
+
+
+def test_a_calibration_can_be_cancelled(pairs: tuple[Views, Views]) -> None:
+    progress = Progress()
+    progress.cancel()
+    with pytest.raises(Cancelled):
+        calibrate_pairs(*pairs, progress=progress)
