@@ -80,7 +80,7 @@ class FixSolver:
         self, sightings: tuple[Sighting, Sighting], axis: FloatArray, time: float
     ) -> NeedleFix:
         pixels = (sightings[0].uv, sightings[1].uv)
-        found = self._triangulate(sightings, (np.zeros(2), np.zeros(2)), Way.LINEAR)
+        found = self._triangulate(sightings, (np.zeros(2), np.zeros(2)), Way.MIDPOINT)
         if found is not None and found.status is StereoStatus.FOUND:
             found = self._corrected(sightings, found.p_world, axis)
         if found is None or found.status is not StereoStatus.FOUND:

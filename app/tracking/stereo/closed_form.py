@@ -1,4 +1,4 @@
-"""Closed forms of triangulation: direct linear transformation, and midpoint of the two rays."""
+"""Closed forms of triangulation: direct linear transformation, rays and where they are closest."""
 
 import numpy as np
 
@@ -33,19 +33,6 @@ def linear(poses: Pair, observations: FloatArray) -> FloatArray:
     vector = np.linalg.svd(rows)[2][-1]
     w = vector[3] if abs(vector[3]) > 1e-12 else np.copysign(1e-12, vector[3])
     return np.asarray(origin + unit * vector[:3] / w)
-
-
-def midpoint(poses: Pair, observations: FloatArray) -> FloatArray:
-    """Middle of the shortest line between the two rays, which may lie behind a camera.
-
-    It weighs both cameras alike in space, though the farther one sees less exactly.
-
-    Args:
-        poses: of cameras with a baseline.
-        observations: normalised coordinates of rays that are not parallel, shape (2, 2).
-    """
-    first, second = (ray(pose, xy) for pose, xy in zip(poses, observations, strict=True))
-    return 0.5 * sum(closest(first, second), start=np.zeros(3))
 
 
 def ray(pose: RigidTransform, observation: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -19,7 +19,7 @@ from app.core.arrays import FloatArray, read_only
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE
 from app.tracking.stereo.closed_form import closest, ray
-from app.tracking.stereo.reprojection import NEAREST, inverse, refine, reprojection
+from app.tracking.stereo.reprojection import NEAREST, refine
 
 LEAST_ANGLE: Final = 15.0 * DEGREE
 """Angle between ray and shaft [rad] below which there is no point: there an error of the line
@@ -77,17 +77,14 @@ def point_on_line(
         return _nothing(RayStatus.ALONG_THE_SHAFT)
     start = closest(seen, line)[1]
     poses, observed = (T_camera_world,), np.asarray(observation)[None]
-    weights: FloatArray = np.asarray(np.linalg.inv(covariance), dtype=np.float64)
     prior = (np.eye(3) - np.outer(line[1], line[1])) / line_variance
-    p_world = refine(poses, observed, weights, start, (line[0], prior))
-    residual, jacobian, depths = reprojection(poses, observed, p_world)
-    if depths[0] <= NEAREST:
+    p_world, spread, chi_square, nearest, residual = refine(
+        poses, observed, np.asarray(covariance)[None], start, (line[0], prior)
+    )
+    if nearest <= NEAREST:
         return _nothing(RayStatus.BEHIND)
-    spread = inverse(jacobian.T @ weights @ jacobian + prior)
     if spread is None:
         return _nothing(RayStatus.ALONG_THE_SHAFT)
-    beside = p_world - line[0]
-    chi_square = float(residual @ weights @ residual + beside @ prior @ beside)
     return LinePoint(
         RayStatus.FOUND, read_only(p_world), read_only(spread), chi_square, read_only(residual)
     )

@@ -1,20 +1,20 @@
-"""The optimal point: least squared, noise-weighted reprojection error, by Gauss–Newton."""
-
-from typing import Any
+"""Residual, Jacobian and optimum of a point's reprojection; the work is done by `kernels`."""
 
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.compiled import njit
 from app.core.transform import RigidTransform
-
-NEAREST = 1e-6
-"""Depth [m] before a camera below which a point counts as not in front of it."""
-
-_STEPS = 10
+from app.tracking.stereo.kernels import NEAREST, optimum, reproject
 
 Poses = tuple[RigidTransform, ...]
 """T_camera_world of the cameras."""
+
+__all__ = ["NEAREST", "Poses", "inverse", "refine", "reprojection", "stacked"]
+
+
+def stacked(poses: Poses) -> tuple[FloatArray, FloatArray]:
+    """Rotations (n, 3, 3) and translations (n, 3), as the kernels take them."""
+    return np.array([p.rotation for p in poses]), np.array([p.translation for p in poses])
 
 
 def reprojection(
@@ -27,16 +27,13 @@ def reprojection(
         [1/m], shape (2n, 3), and depths before the cameras [m], shape (n,).
     """
     n = len(poses)
+    rotations, translations = stacked(poses)
+    observed, point = np.array(observations), np.array(p_world)
     residual, jacobian, depths = np.empty(2 * n), np.empty((2 * n, 3)), np.empty(n)
-    for i, pose in enumerate(poses):
+    for i in range(n):
         rows = slice(2 * i, 2 * i + 2)
-        depths[i] = _reproject(
-            pose.rotation,
-            pose.translation,
-            observations[i],
-            p_world,
-            residual[rows],
-            jacobian[rows],
+        depths[i] = reproject(
+            rotations[i], translations[i], observed[i], point, residual[rows], jacobian[rows]
         )
     return residual, jacobian, depths
 
@@ -44,40 +41,40 @@ def reprojection(
 def refine(
     poses: Poses,
     observations: FloatArray,
-    weights: FloatArray,
+    covariances: FloatArray,
     p_world: FloatArray,
     prior: tuple[FloatArray, FloatArray] | None = None,
-) -> FloatArray:
+    steps: int = 10,
+) -> tuple[FloatArray, FloatArray | None, float, float, FloatArray]:
     """Gauss–Newton from `p_world` [m]; a step that does not lower the error is not taken.
 
     Args:
         poses: T_camera_world of n cameras.
         observations: normalised coordinates, shape (n, 2).
-        weights: inverse of their covariance, shape (2n, 2n).
+        covariances: of them, shape (n, 2, 2), positive definite.
         p_world: where to begin, shape (3,).
         prior: a point [m] and the information about it [1/m²], (3,) and (3, 3); its error is added.
+        steps: at most so many; 0 evaluates at `p_world`.
+
+    Returns:
+        Point [m], (3,); its covariance [m²], (3, 3), None where it is not determined; squared
+        weighted error; least depth before a camera [m]; residual, (2n,).
     """
-    centre, information = prior if prior is not None else (p_world, np.zeros((3, 3)))
-    residual, jacobian, depths = reprojection(poses, observations, p_world)
-    if depths.min() <= NEAREST:
-        return p_world
-    cost = float(residual @ weights @ residual) + _squared(p_world - centre, information)
-    for _ in range(_STEPS):
-        spread = inverse(jacobian.T @ weights @ jacobian + information)
-        if spread is None:
-            break
-        slope = jacobian.T @ (weights @ residual) - information @ (p_world - centre)
-        candidate = p_world + spread @ slope
-        new_residual, new_jacobian, new_depths = reprojection(poses, observations, candidate)
-        new_cost = float(new_residual @ weights @ new_residual)
-        new_cost += _squared(candidate - centre, information)
-        if new_depths.min() <= NEAREST or not new_cost <= cost:
-            break
-        done = cost - new_cost <= 1e-12 * cost or np.abs(candidate - p_world).max() < 1e-12
-        p_world, residual, jacobian, cost = candidate, new_residual, new_jacobian, new_cost
-        if done:
-            break
-    return p_world
+    point = np.array(p_world, dtype=np.float64)
+    centre, information = prior if prior is not None else (point, np.zeros((3, 3)))
+    residual, spread = np.empty(2 * len(poses)), np.empty((3, 3))
+    cost, least, found = optimum(
+        *stacked(poses),
+        np.array(observations, dtype=np.float64),
+        np.array(covariances, dtype=np.float64),
+        point,
+        np.array(centre, dtype=np.float64),
+        np.array(information, dtype=np.float64),
+        steps,
+        residual,
+        spread,
+    )
+    return point, spread if found else None, float(cost), float(least), residual
 
 
 def inverse(information: FloatArray) -> FloatArray | None:
@@ -86,22 +83,3 @@ def inverse(information: FloatArray) -> FloatArray | None:
     if not values[0] > 1e-14 * values[-1]:
         return None
     return np.asarray((vectors / values) @ vectors.T)
-
-
-def _squared(difference: FloatArray, information: FloatArray) -> float:
-    return float(difference @ information @ difference)
-
-
-@njit
-def _reproject(r: Any, t: Any, observed: Any, p: Any, residual: Any, jacobian: Any) -> float:
-    """One camera's rows, in place; returns the depth."""
-    x = r[0, 0] * p[0] + r[0, 1] * p[1] + r[0, 2] * p[2] + t[0]
-    y = r[1, 0] * p[0] + r[1, 1] * p[1] + r[1, 2] * p[2] + t[1]
-    depth = r[2, 0] * p[0] + r[2, 1] * p[1] + r[2, 2] * p[2] + t[2]
-    z = depth if abs(depth) > NEAREST else NEAREST
-    x, y = x / z, y / z
-    residual[0], residual[1] = observed[0] - x, observed[1] - y
-    for k in range(3):
-        jacobian[0, k] = (r[0, k] - x * r[2, k]) / z
-        jacobian[1, k] = (r[1, k] - y * r[2, k]) / z
-    return depth

@@ -3,7 +3,7 @@
 Observations are normalised coordinates (x, y) = (X/Z, Y/Z) of each camera, undistorted, with their
 own 2×2 covariances. Three ways are named: `linear` (DLT, the null vector of four equations with
 scaled rows), `midpoint` (of the shortest line between the rays) and `reprojection` (Gauss–Newton on
-the squared, noise-weighted reprojection error, begun at the linear solution). The default is
+the squared, noise-weighted reprojection error, begun at the midpoint). The default is
 `reprojection`: the covariance handed out is that of this maximum-likelihood point,
 
     Σ_p = (Jᵀ diag(Σ₁, Σ₂)⁻¹ J)⁻¹,   J = [J₁; J₂], 4×3, each camera with its own Σ
@@ -18,14 +18,12 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only
 from app.core.transform import RigidTransform
-from app.tracking.stereo.closed_form import linear, midpoint, ray
-from app.tracking.stereo.reprojection import NEAREST, inverse, refine, reprojection
+from app.tracking.stereo import kernels
+from app.tracking.stereo.closed_form import linear
+from app.tracking.stereo.kernels import NEAREST, meet
+from app.tracking.stereo.reprojection import refine, stacked
 
-_PARALLEL = 1e-6
-"""Sine of the angle between rays [-] below which they do not meet at a finite point."""
-
-_BASELINE = 1e-6
-"""Distance of the camera centres [m] below which there is no second point of view."""
+_STEPS = 10
 
 
 class Way(StrEnum):
@@ -83,50 +81,38 @@ def triangulate(
         covariances: of the observations, shape (2, 2, 2), positive definite.
         way: see the module.
     """
-    observations = np.asarray(observations, dtype=np.float64)
-    status = _ray_status(T_camera_world, observations)
+    observed = np.array(observations, dtype=np.float64)
+    middle = np.zeros(3)
+    status = _STATUS[meet(*stacked(T_camera_world), observed, middle)]
     if status is not StereoStatus.FOUND:
         return _nothing(status)
-    weights = np.zeros((4, 4))
-    weights[:2, :2], weights[2:, 2:] = np.linalg.inv(np.asarray(covariances, dtype=np.float64))
-    closed = midpoint if way is Way.MIDPOINT else linear
-    p_world = closed(T_camera_world, observations)
-    if way is Way.REPROJECTION:
-        p_world = refine(T_camera_world, observations, weights, p_world)
-    residual, jacobian, depths = reprojection(T_camera_world, observations, p_world)
-    if depths.min() <= NEAREST:
+    start = linear(T_camera_world, observed) if way is Way.LINEAR else middle
+    steps = _STEPS if way is Way.REPROJECTION else 0
+    spreads = np.array(covariances, dtype=np.float64)
+    p_world, covariance, chi_square, nearest, residual = refine(
+        T_camera_world, observed, spreads, start, steps=steps
+    )
+    if nearest <= NEAREST:
         return _nothing(StereoStatus.BEHIND)
-    covariance = inverse(jacobian.T @ weights @ jacobian)
     if covariance is None:
         return _nothing(StereoStatus.DEGENERATE)
     return Triangulation(
         StereoStatus.FOUND,
         read_only(p_world),
         read_only(covariance),
-        float(residual @ weights @ residual),
+        chi_square,
         read_only(residual),
-        read_only(np.array(observations)),
-        read_only(np.array(covariances, dtype=np.float64)),
+        read_only(observed),
+        read_only(spreads),
     )
 
 
-def _ray_status(
-    poses: tuple[RigidTransform, RigidTransform], observations: FloatArray
-) -> StereoStatus:
-    """Decide on the rays themselves, before any system is solved."""
-    if not np.isfinite(observations).all():
-        return StereoStatus.NOT_FINITE
-    (centre, first), (other, second) = (
-        ray(pose, xy) for pose, xy in zip(poses, observations, strict=True)
-    )
-    baseline = other - centre
-    length = float(np.linalg.norm(baseline))
-    if length < _BASELINE:
-        return StereoStatus.DEGENERATE
-    if float(np.linalg.norm(np.cross(first, second))) < _PARALLEL:
-        along = float(np.linalg.norm(np.cross(first, baseline))) < _PARALLEL * length
-        return StereoStatus.DEGENERATE if along else StereoStatus.AT_INFINITY
-    return StereoStatus.FOUND
+_STATUS = {
+    kernels.FOUND: StereoStatus.FOUND,
+    kernels.DEGENERATE: StereoStatus.DEGENERATE,
+    kernels.AT_INFINITY: StereoStatus.AT_INFINITY,
+    kernels.NOT_FINITE: StereoStatus.NOT_FINITE,
+}
 
 
 def _nothing(status: StereoStatus) -> Triangulation:

@@ -1,0 +1,57 @@
+"""Studies of the cameras: triangulation with figure 42, and the filters of the depth."""
+
+import numpy as np
+import pytest
+
+from app.core.units import MILLIMETRE
+from app.studies import depth_motion, stereo
+from app.studies.runner import run
+from app.tracking.optics.rig import load_rig
+from app.tracking.stereo.triangulation import Way
+
+
+@pytest.fixture
+def few(monkeypatch):
+    monkeypatch.setattr(stereo, "_POINTS", 20)
+    monkeypatch.setattr(stereo, "_TRIALS", 60)
+    monkeypatch.setattr(stereo, "_STEP", 12e-3)
+
+
+@pytest.mark.parametrize("name", stereo.RIGS)
+def test_the_printed_error_is_about_a_third_of_the_real_one(name, monkeypatch):
+    monkeypatch.setattr(stereo, "_TRIALS", 300)
+    rig = load_rig(name)
+    points = stereo.workspace(rig, 20e-3)
+    assert len(points) > 2
+    for point in points[:3]:
+        printed, rms, radius = stereo.figures(rig, point)
+        assert 0.3 < printed / rms < 0.42
+        assert 1.5 * rms < radius < 2.5 * rms
+        errors = stereo.simulated(rig, point, Way.REPROJECTION, 4)
+        assert np.sqrt(np.mean(np.sum(errors**2, axis=1))) == pytest.approx(rms, rel=0.12)
+
+
+def test_the_thesis_rig_gives_the_size_that_its_figure_shows():
+    rig = load_rig("thesis")
+    printed = [stereo.figures(rig, p)[0] / MILLIMETRE for p in stereo.workspace(rig, 8e-3)]
+    assert 0.012 < np.mean(printed) < 0.018
+
+
+def test_the_study_of_triangulation_runs(few):
+    result = run("stereo", repeats=1)
+    assert result.failures == ()
+    assert result.too_coarse() == ()
+    sheet = result.findings.sheets[0]
+    assert {row[0] for row in sheet.rows} == {"thesis", "wide"}
+
+
+def test_the_default_filter_is_calm_at_rest_and_close_in_motion():
+    errors = {
+        name: [depth_motion.shown_error(make(), path) for path in depth_motion.PATHS.values()]
+        for name, (_, make) in depth_motion._FILTERS.items()
+    }
+    strokes, _, rest, steady = errors["Kalman, 2e-4 m²/s³"]
+    assert rest < 0.2
+    assert strokes < 0.4 * errors["newest fix"][0]
+    assert steady < 0.05 * errors["newest fix"][3]
+    assert strokes < errors["one euro, 5 Hz"][0]
