@@ -10,6 +10,7 @@ from pathlib import Path
 
 from app.compose import Desktop
 from app.views.application import start
+from app.views.slices.camera import Camera
 from app.views.window import MainWindow
 from tools.robot_pictures import keep, pause, wait
 
@@ -39,6 +40,51 @@ def tracker(window: MainWindow, folder: Path) -> None:
     keep(panel, folder / "eyes-tracker.png")
 
 
+def morning(window: MainWindow, folder: Path) -> None:
+    """The morning check, its point touched by the simulated tip."""
+    window.checks.open_morning()
+    page = window.checks.morning
+    if page is None:
+        raise RuntimeError("the morning check did not open")
+    page.move_tip.click()
+    pause(3.0)
+    page.touch.click()
+    wait(lambda: not page.toucher.active, 90.0)
+    pause(1.0)
+    page.keep.click()
+    pause(0.3)
+    keep(page, folder / "eyes-morning.png")
+    page.close()
+
+
+def registration(window: MainWindow, folder: Path) -> None:
+    """All fiducials of the plate touched by the simulated tip; then what students see."""
+    window.checks.open_registration()
+    dialog = window.checks.registration
+    if dialog is None:
+        raise RuntimeError("the registration check did not open")
+    for row in range(len(dialog.plate.names)):
+        dialog.table.selectRow(row)
+        dialog.buttons["move"].click()
+        pause(3.0)
+        dialog.touch()
+        wait(lambda: not dialog.toucher.active, 90.0)
+        if row == 1:
+            keep(dialog, folder / "eyes-registration-begun.png")
+    keep(dialog, folder / "eyes-registration.png")
+    dialog.save()
+    dialog.close()
+    window.cursor_to_target()
+    pause(2.0)
+    for pane in window.workspace.panes:
+        canvas = pane.canvas
+        if canvas.plane is not None:
+            at = canvas.plane.point(window.workspace.viewing.cursor_mm, canvas.index)
+            canvas.set_camera(Camera(at.x, at.y, 24.0))
+    pause(2.0)
+    keep(window, folder / "eyes-agreement.png")
+
+
 def main(folder: Path) -> None:
     """Make them all."""
     application = start(offscreen=True)
@@ -49,6 +95,8 @@ def main(folder: Path) -> None:
         try:
             running(window)
             tracker(window, folder)
+            morning(window, folder)
+            registration(window, folder)
         finally:
             window.editor.saved(Path("kept"))
             window.close()

@@ -68,10 +68,11 @@ class TouchCollector:
 
     @property
     def share(self) -> float:
-        """How much of the time is over, 0...1."""
+        """How much of it is done, 0...1: of the time and of the fewest fixes."""
         if self._first is None:
             return 0.0
-        return float(np.clip((self._newest - self._first) / self.duration, 0.0, 1.0))
+        time = (self._newest - self._first) / self.duration
+        return float(np.clip(min(time, len(self._fixes) / FEWEST), 0.0, 1.0))
 
     def touch(self) -> Touch:
         """Return the mean.

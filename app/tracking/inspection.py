@@ -42,11 +42,15 @@ class Inspection:
         pictures: in the order of the rig; a camera without a picture is left out.
         fix: newest; None before the first.
         rate_hz: pictures a second that the rig's profile promises; 0 where nobody tells.
+        rig: name of the rig's profile.
+        calibration: id of the cameras' calibration; empty for cameras by their profile.
     """
 
     pictures: tuple[InspectedPicture, ...]
     fix: NeedleFix | None
     rate_hz: float = 0.0
+    rig: str = ""
+    calibration: str = ""
 
     @property
     def radius(self) -> float | None:
@@ -80,7 +84,9 @@ class Inspector:
         pictures = self._tracker.pictures()
         inspected = tuple(self._inspect(one, pictures, masks, lines) for one in pictures)
         newest = stamped.value if stamped else None
-        return Inspection(inspected, newest, self._tracker.rig.rate_hz)
+        rig = self._tracker.rig
+        calibration = rig.calibration.id if rig.calibration is not None else ""
+        return Inspection(inspected, newest, rig.rate_hz, rig.name, calibration)
 
     def _inspect(
         self,

@@ -216,7 +216,8 @@ class Conductor(QObject):
         length = run.profile.geometry.needle_length
         # Without a measured depth only the line is known: it ends at the entry, grey.
         p_end = pose.p_tip if pose.measured else run.placed.p_entry
-        needle = NeedleOverlay.of_world(p_end, pose.axis, length, transform, pose.measured)
+        spread = pose.covariance if pose.measured else None
+        needle = NeedleOverlay.of_world(p_end, pose.axis, length, transform, pose.measured, spread)
         self._workspace.viewing.set_needle(needle)
         ends = np.concatenate([needle.start_mm, needle.tip_mm])
         if self._drawn is None or np.abs(ends - self._drawn).max() > SCENE_DEAD_BAND_MM:

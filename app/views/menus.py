@@ -31,6 +31,7 @@ class Menus:
         self.follow, self.bullseye = self._view()
         self.robot = RobotMenu(self._menu(tr("&Robot")), window.robot, self._show_health)
         self.cameras = CamerasMenu(self._menu(tr("&Cameras")), window.cameras)
+        self.errors = self._checks()
         self._sessions()
         self._help()
 
@@ -130,6 +131,19 @@ class Menus:
     def _show_health(self) -> None:
         self._window.show_workspace()
         self._window.workspace.show_health()
+
+    def _checks(self) -> QAction:
+        window = self._window
+        *_, errors = self._add(self._menu(tr("&Checks")), [
+            (tr("Morning check…"), "F9", window.checks.open_morning),
+            (tr("Registration check…"), "", window.checks.open_registration),
+            None,
+            (tr("Draw errors of target and tip"), "", lambda: None),
+        ])  # fmt: skip
+        errors.setCheckable(True)
+        errors.setChecked(True)
+        errors.toggled.connect(window.workspace.viewing.set_shows_errors)
+        return errors
 
     def _sessions(self) -> None:
         window = self._window

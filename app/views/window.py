@@ -14,6 +14,7 @@ from app.exercises.schema import Exercise
 from app.imaging.window import WindowLevel
 from app.session.result import AttemptResult
 from app.views.cameras.desk import CamerasDesk
+from app.views.checks.desk import ChecksDesk
 from app.views.conductor import Conductor
 from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
@@ -58,6 +59,8 @@ class MainWindow(QMainWindow):
         self.robot = RobotDesk(services, self.settings, self.conductor, self.runs, self.workspace,
                                self.progress, self)  # fmt: skip
         self.cameras = CamerasDesk(services, self.settings, self.conductor, self.runs, self)
+        self.checks = ChecksDesk(self.conductor, self.editor, self.workspace,
+                                 lambda: self.runs.run, self)  # fmt: skip
         self.plan_files = PlanFiles(self.editor, self.recent_plans, self)
         self.open_ct = OpenCt(self.recent_cts, self.progress, self)
         self.start_page, self.debrief_page = StartPage(self), DebriefPage(self)
@@ -205,9 +208,11 @@ class MainWindow(QMainWindow):
             conductor.controller.failed,
             self.robot.failed,
             self.cameras.failed,
+            self.checks.failed,
         ):
             failure.connect(bar.show_error)
         self.plan_files.noted.connect(bar.show_note)
+        self.checks.noted.connect(bar.show_note)
         self.debrief.saved.connect(lambda path: bar.show_note(tr("Saved {name}", name=path)))
         self.editor.refused.connect(lambda error: bar.show_until(REFUSAL, error))
         self.editor.changed.connect(lambda: bar.forget(REFUSAL))
@@ -291,6 +296,7 @@ class MainWindow(QMainWindow):
             event.ignore()
             return
         self.open_ct.close()
+        self.checks.close()
         self.robot.close()
         self.cameras.close()
         self.conductor.close()

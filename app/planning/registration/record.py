@@ -55,7 +55,7 @@ class RegistrationRecord(Strict):
         plate: the plate as it was then, so that a later edit of its file changes nothing here.
         touched: in world.
         picked: in the CT (LPS); empty where none was used.
-        series: SeriesInstanceUID of that CT.
+        series: pseudonym of that CT.
         calibration: id of the cameras' calibration; empty for cameras by their profile.
         rig: name of the camera rig.
         simulated: whether robot and cameras were simulated.

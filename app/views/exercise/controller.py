@@ -1,5 +1,6 @@
 """Between trainer and widgets: pulls, shows, passes on. It judges nothing and stores nothing."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
@@ -23,6 +24,7 @@ from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.readings import figures, hand_pose, pad_view, status_items, tracker_figures
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status import StatusStrip
+from app.views.exercise.status_items import StatusItem
 from app.views.exercise.tracker_panel import TrackerPanel
 
 PERIOD_MS: Final = 25
@@ -48,6 +50,7 @@ class ExerciseController(QObject):
 
     Attributes:
         rates: of the loop [Hz], and the share of deadlines it missed of late, at the last look.
+        extra_items: further lines of the status strip, by whoever else watches; none by default.
 
     Signals:
         needle_moved(NeedlePose): at every look, while the pose is valid.
@@ -77,6 +80,7 @@ class ExerciseController(QObject):
         self._beat = 0.0
         self._status_time = -1.0
         self.rates = (0.0, 0.0)
+        self.extra_items: Callable[[Snapshot], tuple[StatusItem, ...]] = lambda _: ()
         self._rates = LoopRates()
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.look)
@@ -157,7 +161,8 @@ class ExerciseController(QObject):
             views.tracker.show_tracker(seen, tracker_figures(snapshot), now)
         if now - self._status_time >= STATUS_PERIOD:
             self._status_time = now
-            views.status.show_items(status_items(snapshot, rate, missing, late))
+            items = status_items(snapshot, rate, missing, late)
+            views.status.show_items((*self.extra_items(snapshot), *items))
 
     def _drain(self, run: ExerciseRun) -> None:
         for event in run.trainer.events.drain():

@@ -156,6 +156,12 @@ class PlanEditor(QObject):
             self._history = self._history.do(replace(self.edit, placement=placement))
             self._announce()
 
+    def take(self, draft: DraftPlan, placement: Placement) -> None:
+        """Take points and position together, as one step to undo."""
+        if not self._refuse_locked():
+            self._history = self._history.do(Edit(draft, placement))
+            self._announce()
+
     def apply_remedy(self) -> None:
         """Turn the patient as the verdict suggests."""
         reached = self.verdict.reach

@@ -73,6 +73,26 @@ class Ball:
             self._actor.SetPosition(*np.asarray(at, dtype=np.float64))
 
 
+class Ellipsoid:
+    """A translucent sphere, stretched and turned."""
+
+    def __init__(self, renderer: vtkRenderer, mark: Mark, opacity: float) -> None:
+        source = vtkSphereSource()
+        source.SetRadius(1.0)
+        source.SetThetaResolution(28)
+        source.SetPhiResolution(20)
+        self._actor = _actor(renderer, source.GetOutputPort(), mark)
+        self._actor.GetProperty().SetOpacity(opacity)
+
+    def place(self, at: ArrayLike | None, half_axes: FloatArray | None) -> None:
+        """Stand at a point [mm] with these half axes as columns [mm]; hidden without."""
+        self._actor.SetVisibility(at is not None and half_axes is not None)
+        if at is not None and half_axes is not None:
+            placed = np.eye(4)
+            placed[:3, :3], placed[:3, 3] = half_axes, np.asarray(at, dtype=np.float64)
+            self._actor.SetUserMatrix(_matrix(placed))
+
+
 class SurfaceActor:
     """A mesh, and its coarse version for while the picture moves."""
 

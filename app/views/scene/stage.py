@@ -9,13 +9,15 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
+from app.core.confidence import principal_axes
 from app.core.errors import AcusError
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.planning.draft import DraftPlan
 from app.views import theme
+from app.views.error_overlay import ERROR_SCALE, SMALLEST_MM
 from app.views.needle_overlay import NeedleOverlay
-from app.views.scene.actors import Ball, Rod, SurfaceActor, colour
+from app.views.scene.actors import Ball, Ellipsoid, Rod, SurfaceActor, colour
 from app.views.scene.orbit import Orbit
 from app.views.scene.robot import RobotShape
 from app.views.scene.surfaces import Surfaces
@@ -43,6 +45,7 @@ class Stage:
         self._fulcrum = Ball(self._renderer, theme.ROBOT, FULCRUM_RADIUS_MM)
         self._needle = Rod(self._renderer, theme.NEEDLE, NEEDLE_RADIUS_MM)
         self._tip = Ball(self._renderer, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM)
+        self._error = Ellipsoid(self._renderer, theme.NEEDLE_TIP, opacity=0.35)
         self._path = Rod(self._renderer, theme.PATH, PATH_RADIUS_MM)
         self._entry = Ball(self._renderer, theme.ENTRY, POINT_RADIUS_MM)
         self._target = Ball(self._renderer, theme.TARGET, POINT_RADIUS_MM)
@@ -75,10 +78,17 @@ class Stage:
         if needle is None:
             self._needle.place(None, None)
             self._tip.place(None)
+            self._error.place(None, None)
             return
         self._needle.place(needle.start_mm, needle.tip_mm)
         self._tip.place(needle.tip_mm)
         self._needle.set_colour(theme.NEEDLE if needle.valid else theme.ROBOT)
+        error = needle.error
+        if error is None:
+            self._error.place(None, None)
+        else:
+            axes = ERROR_SCALE * principal_axes(error.covariance_mm2 + SMALLEST_MM**2 * np.eye(3))
+            self._error.place(error.centre_mm, axes)
 
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
         """Show the links and the ball; world metres are brought into the patient."""

@@ -15,6 +15,7 @@ from app.core.arrays import FloatArray
 from app.imaging.orthogonal import View
 from app.views import theme
 from app.views.slices.camera import Camera
+from app.views.slices.error_layer import ErrorLayer
 from app.views.slices.items import ImageItem
 from app.views.slices.layers import CrosshairLayer, Labels, NeedleLayer, PlanLayer
 from app.views.slices.plane import SlicePlane
@@ -66,6 +67,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         scene.addItem(self._image)
         self._crosshair = CrosshairLayer(scene, view)
         self._plan, self._needle = PlanLayer(scene), NeedleLayer(scene)
+        self._errors = ErrorLayer(scene)
         self._labels = Labels((self._plan.target, self._plan.entry, self._needle.tip))
         self._set_up_view()
         viewing.volume_changed.connect(self.show_volume)
@@ -115,12 +117,20 @@ class SliceCanvas(pyqtgraph.GraphicsView):
 
     def _show_plan(self) -> None:
         if self.plane is not None:
-            self._plan.place(self.viewing.draft, self.plane, self.index, self.camera.scale)
+            scale, viewing = self.camera.scale, self.viewing
+            error = viewing.target_error if viewing.shows_errors else None
+            self._plan.place(viewing.draft, self.plane, self.index, scale, error is not None)
+            self._errors.place_target(error, self.plane, self.index, scale)
             self._arrange_labels()
 
     def _show_needle(self) -> None:
         if self.plane is not None:
-            self._needle.place(self.viewing.needle, self.plane, self.index, self.camera.scale)
+            needle, scale = self.viewing.needle, self.camera.scale
+            shown = needle is not None and self.viewing.shows_errors
+            self._needle.place(needle, self.plane, self.index, scale)
+            self._errors.place_tip(
+                needle.error if needle and shown else None, self.plane, self.index, scale
+            )
             self._arrange_labels()
 
     def _arrange_labels(self) -> None:

@@ -95,12 +95,20 @@ class PlanLayer:
             item.setVisible(False)
             scene.addItem(item)
 
-    def place(self, draft: DraftPlan, plane: SlicePlane, index: int, scale: float) -> None:
-        """Show what the draft has."""
+    def place(
+        self,
+        draft: DraftPlan,
+        plane: SlicePlane,
+        index: int,
+        scale: float,
+        with_error: bool = False,
+    ) -> None:
+        """Show what the draft has; `with_error` says what the ellipse round the target is."""
         entry = None if draft.entry_mm is None else plane.point(draft.entry_mm, index)
         target = None if draft.target_mm is None else plane.point(draft.target_mm, index)
         _place_mark(self.entry, entry, tr("Entry"), plane)
-        _place_mark(self.target, target, tr("Target"), plane)
+        name = tr("Target, TRE 95 %") if with_error else tr("Target")
+        _place_mark(self.target, target, name, plane)
         if entry is None or target is None:
             self._path.hide()
         else:

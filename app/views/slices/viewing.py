@@ -13,6 +13,7 @@ from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.volume import Volume
 from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
+from app.views.error_overlay import ErrorOverlay
 from app.views.needle_overlay import NeedleOverlay
 
 FOLLOW_DEAD_BAND_MM = 0.3
@@ -56,6 +57,8 @@ class Viewing(QObject):
         self.tool = Tool.NAVIGATE
         self.draft = DraftPlan()
         self.needle: NeedleOverlay | None = None
+        self.target_error: ErrorOverlay | None = None
+        self.shows_errors = True
         self.follows_tip = False
         self.point_refused = False
 
@@ -117,6 +120,17 @@ class Viewing(QObject):
             return
         if np.linalg.norm(needle.tip_mm - self.cursor_mm) > FOLLOW_DEAD_BAND_MM:
             self.set_cursor(needle.tip_mm)
+
+    def set_target_error(self, error: ErrorOverlay | None) -> None:
+        """Show how far the target may be from where the CT has it; None where nobody checked."""
+        self.target_error = error
+        self.plan_changed.emit()
+
+    def set_shows_errors(self, shown: bool) -> None:
+        """Draw error ellipses round target and tip, or none."""
+        self.shows_errors = shown
+        self.plan_changed.emit()
+        self.needle_changed.emit()
 
     def set_follows_tip(self, follows: bool) -> None:
         """Let the slices pass through the needle's tip from now on, or stay."""

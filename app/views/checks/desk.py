@@ -1,0 +1,203 @@
+"""What the menu Checks does, and the check that is in force: status strip and ellipse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QWidget
+
+from app.core.arrays import FloatArray
+from app.core.errors import AcusError
+from app.core.transform import RigidTransform
+from app.imaging.volume import Volume
+from app.planning.draft import DraftPlan
+from app.session.snapshot import Snapshot
+from app.views.checks.words import agreement_item
+from app.views.conductor import Conductor
+from app.views.error_overlay import ErrorOverlay
+from app.views.exercise.run import ExerciseRun
+from app.views.exercise.status_items import StatusItem
+from app.views.plan.editor import PlanEditor
+from app.views.text import tr
+from app.views.workspace import Workspace
+
+if TYPE_CHECKING:
+    from app.planning.registration.check import RegistrationCheck
+    from app.planning.registration.record import RegistrationRecord
+    from app.views.checks.morning_page import MorningPage
+    from app.views.checks.registration_dialog import RegistrationDialog
+
+FURTHEST_MM = 10.0
+"""A measured place that moves the entry farther than this is not this patient's."""
+
+
+class ChecksDesk(QObject):
+    """Opens the pages; keeps the registration check that holds for the present cameras and CT.
+
+    Signals:
+        failed(object): an error to show.
+        noted(str): something worked.
+    """
+
+    failed = Signal(object)
+    noted = Signal(str)
+
+    def __init__(
+        self,
+        conductor: Conductor,
+        editor: PlanEditor,
+        workspace: Workspace,
+        run: Callable[[], ExerciseRun | None],
+        parent: QWidget,
+    ) -> None:
+        super().__init__(parent)
+        self._conductor, self._editor, self._workspace = conductor, editor, workspace
+        self._run, self._window = run, parent
+        self.morning: MorningPage | None = None
+        self.registration: RegistrationDialog | None = None
+        self.record: RegistrationRecord | None = None
+        self._check: RegistrationCheck | None = None
+        self._looked = False
+        conductor.controller.extra_items = self.items
+        conductor.patient_changed.connect(self.forget)
+
+    # --- what the dialog needs ----------------------------------------------------------------
+    def run(self) -> ExerciseRun | None:
+        """Return what runs now."""
+        return self._run()
+
+    def volume(self) -> Volume | None:
+        """Return the CT that is shown."""
+        return self._workspace.viewing.volume
+
+    def cursor_mm(self) -> FloatArray:
+        """Return the crosshair in the CT (LPS, mm), shape (3,)."""
+        return self._workspace.viewing.cursor_mm
+
+    # --- pages --------------------------------------------------------------------------------
+    def open_morning(self) -> None:
+        """Show the morning check."""
+        from app.planning.registration.plate import load_plate, plate_names
+        from app.views.checks.morning_page import MorningPage  # OpenCV: not before the window
+
+        if self.morning is None:
+            try:
+                plate = load_plate(plate_names()[0])
+            except AcusError as error:
+                self.failed.emit(error)
+                return
+            self.morning = MorningPage(self.run, plate, self._window)
+            self.morning.kept.connect(self.noted)
+        self.morning.show()
+        self.morning.raise_()
+
+    def open_registration(self) -> None:
+        """Show the registration check."""
+        from app.views.checks.registration_dialog import RegistrationDialog
+
+        if self.registration is None:
+            try:
+                self.registration = RegistrationDialog(self, self._window)
+            except AcusError as error:
+                self.failed.emit(error)
+                return
+            self.registration.saved.connect(self._take)
+            self.registration.place_wanted.connect(self.use_place)
+        self.registration.show()
+        self.registration.raise_()
+
+    def close(self) -> None:
+        """Close the pages; idempotent."""
+        for page in (self.morning, self.registration):
+            if page is not None:
+                page.close()
+
+    # --- the check in force -------------------------------------------------------------------
+    def forget(self) -> None:
+        """Look for the check anew at the next look: patient or cameras are others."""
+        self._looked, self.record, self._check = False, None, None
+        self._workspace.viewing.set_target_error(None)
+
+    def items(self, snapshot: Snapshot) -> tuple[StatusItem, ...]:
+        """Line of the status strip about how well screen and needle agree at the target."""
+        run = self.run()
+        if run is None:
+            return ()
+        if not self._looked:
+            self._look(run)
+        check, record = self._check, self.record
+        if check is None or record is None:
+            return (agreement_item(None),)
+        used = run.placed.T_world_patient
+        covariance = snapshot.pose.covariance if snapshot.pose.measured else np.zeros((3, 3))
+        try:
+            agreement = check.agreement(run.placed.p_target, covariance, used)
+        except AcusError as error:
+            return (agreement_item(None, str(error)),)
+        self._show_error(run, check)
+        checked = tr("Checked {when} with {plate}.", when=f"{record.created:%Y-%m-%d %H:%M}",
+                     plate=record.plate.name)  # fmt: skip
+        return (agreement_item(agreement, checked=checked),)
+
+    def use_place(self, T_world_patient: RigidTransform) -> None:
+        """Take the measured place of the patient; one step to undo in the plan."""
+        from app.planning.registration.draft import measured_placement
+
+        profile, edit = self._conductor.profile, self._editor.edit
+        if profile is None or not edit.draft.complete:
+            self.failed.emit(tr("A plan is needed first: place entry and target."))
+            return
+        try:
+            plan, placement, moved = measured_placement(
+                T_world_patient, edit.draft.plan(), edit.placement, profile.pantograph.fulcrum
+            )
+        except AcusError as error:
+            self.failed.emit(error)
+            return
+        if moved > FURTHEST_MM:
+            self.failed.emit(tr(
+                "By the measured place the needle enters {moved:.0f} mm from the planned entry: "
+                "lay the phantom so that its entry is at the robot's fulcrum (at most {most:.0f} "
+                "mm), then measure again", moved=moved, most=FURTHEST_MM,
+            ))  # fmt: skip
+            return
+        self._editor.take(DraftPlan.of(plan), placement)
+        self.noted.emit(tr("The measured place is used; the entry moved by {mm:.1f} mm", mm=moved))
+
+    def _look(self, run: ExerciseRun) -> None:
+        from app.planning.registration.record import Registrations
+
+        seen = run.inspect(False, False) if run.inspect is not None else None
+        if seen is None:
+            return
+        self._looked, volume = True, self.volume()
+        series = volume.series.pseudonym if volume is not None else ""
+        try:
+            record = Registrations.own().newest(
+                seen.calibration, seen.rig, not run.is_real, series
+            )  # fmt: skip
+            if record is not None:
+                self._take(record)
+        except AcusError as error:
+            self.failed.emit(error)
+
+    def _take(self, record: RegistrationRecord) -> None:
+        self._looked, self.record, self._check = True, record, record.check()
+
+    def _show_error(self, run: ExerciseRun, check: RegistrationCheck) -> None:
+        viewing, target = self._workspace.viewing, self._editor.edit.draft.target_mm
+        if target is None:
+            return
+        shown = viewing.target_error
+        spread = check.spread(run.placed.p_target)
+        error = ErrorOverlay.of_world(
+            np.asarray(target), spread, run.placed.T_world_patient.rotation
+        )
+        if shown is None or not (
+            np.allclose(shown.centre_mm, error.centre_mm)
+            and np.allclose(shown.covariance_mm2, error.covariance_mm2)
+        ):
+            viewing.set_target_error(error)

@@ -1,0 +1,353 @@
+"""The registration check: each fiducial touched, or its bead picked in the CT; the result live."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Protocol
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QComboBox,
+    QDialog,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.arrays import FloatArray
+from app.core.confidence import covariance_radius
+from app.core.errors import AcusError
+from app.core.transform import RigidTransform
+from app.core.units import MILLIMETRE
+from app.imaging.volume import Volume
+from app.planning.history import History
+from app.planning.registration import words
+from app.planning.registration.check import RegistrationCheck
+from app.planning.registration.draft import CheckDraft
+from app.planning.registration.plate import load_plate, plate_names
+from app.planning.registration.record import RegistrationRecord, Registrations, new_id, points_of
+from app.session.touch import Touch
+from app.views import theme
+from app.views.checks.toucher import Toucher, move_there
+from app.views.exercise.run import ExerciseRun
+from app.views.text import tr
+
+COLUMNS = 5
+
+
+class Surroundings(Protocol):
+    """What the dialog needs of the window."""
+
+    def run(self) -> ExerciseRun | None:
+        """Return what runs now."""
+        ...
+
+    def volume(self) -> Volume | None:
+        """Return the CT that is shown."""
+        ...
+
+    def cursor_mm(self) -> FloatArray:
+        """Return the crosshair in the CT (LPS, mm), shape (3,)."""
+        ...
+
+
+class RegistrationDialog(QDialog):
+    """Stands beside the window, so that hand and slices can be used meanwhile.
+
+    Signals:
+        saved(RegistrationRecord): a check was written.
+        place_wanted(object): T_world_patient that was measured shall be used.
+    """
+
+    saved = Signal(object)
+    place_wanted = Signal(object)
+
+    def __init__(self, around: Surroundings, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("Registration check"))
+        self.setMinimumSize(780, 640)
+        self._around = around
+        self._history = History(CheckDraft())
+        self._touching = ""
+        self.toucher = Toucher(around.run, self)
+        self.plates, self.table = QComboBox(self), QTableWidget(self)
+        self.plates.addItems(plate_names())
+        self.plate = load_plate(self.plates.currentText())
+        self.buttons = {name: QPushButton(title, self) for name, title in _BUTTONS.items()}
+        self.progress = QProgressBar(self)
+        self.student, self.trouble, self.figures = QLabel(self), QLabel(self), QLabel(self)
+        self._lay_out()
+        self._connect()
+        self._fill()
+
+    # --- what was found -----------------------------------------------------------------------
+    @property
+    def draft(self) -> CheckDraft:
+        """Points so far."""
+        return self._history.present
+
+    @property
+    def selected(self) -> str:
+        """Fiducial of the chosen row."""
+        return self.plate.names[max(0, self.table.currentRow())]
+
+    def touch(self) -> None:
+        """Average the tip for a second: it touches the chosen fiducial."""
+        self._touching = self.selected
+        self.toucher.start()
+        self._refresh()
+
+    def pick(self) -> None:
+        """Take the bead at the crosshair as the chosen fiducial."""
+        from app.imaging.bead import find_bead  # scipy: only with a CT
+
+        volume = self._around.volume()
+        if volume is None:
+            self._say(tr("No CT is shown: open the CT of the scanned phantom."))
+            return
+        try:
+            bead = find_bead(volume, self._around.cursor_mm(), self.plate.bead_diameter_mm)
+        except AcusError as error:
+            self._say(str(error))
+            return
+        self._do(self.draft.with_pick(self.selected, bead.centre_mm))
+
+    def forget(self) -> None:
+        """Forget what was found of the chosen fiducial."""
+        self._do(self.draft.without(self.selected), advance=False)
+
+    def undo(self) -> None:
+        """Take the last step back."""
+        self._history = self._history.undo()
+        self._fill()
+
+    def redo(self) -> None:
+        """Take it again."""
+        self._history = self._history.redo()
+        self._fill()
+
+    def choose_plate(self, name: str) -> None:
+        """Take another plate; points of the one before are forgotten."""
+        self.plate = load_plate(name)
+        self._history = History(CheckDraft())
+        self._fill()
+
+    def save(self) -> None:
+        """Write the check; it is used from now on."""
+        found, run = self.draft.check(self.plate), self._around.run()
+        if isinstance(found, str) or run is None or run.inspect is None:
+            return
+        seen, volume, now = run.inspect(False, False), self._around.volume(), datetime.now()
+        record = RegistrationRecord(
+            id=new_id(now), created=now.astimezone(), plate=self.plate,
+            touched=self.draft.touched, picked=self.draft.picked,
+            series=volume.series.pseudonym if volume is not None and self.draft.picked else "",
+            calibration=seen.calibration, rig=seen.rig, simulated=not run.is_real,
+        )  # fmt: skip
+        try:
+            Registrations.own().save(record)
+        except OSError as error:
+            self._say(tr("The check could not be written: {why}", why=error))
+            return
+        self.saved.emit(record)
+
+    def use_place(self) -> None:
+        """Have the measured T_world_patient used in place of the computed one."""
+        found = self.draft.check(self.plate)
+        if isinstance(found, RegistrationCheck) and found.T_world_patient is not None:
+            self.place_wanted.emit(found.T_world_patient)
+
+    # --- inside -------------------------------------------------------------------------------
+    def _touched(self, touch: Touch) -> None:
+        self._do(self.draft.with_touch(self._touching, touch.p_world, touch.covariance))
+
+    def _do(self, draft: CheckDraft, advance: bool = True) -> None:
+        self._history = self._history.do(draft)
+        row = self.table.currentRow()
+        self._fill()
+        if advance and row + 1 < self.table.rowCount():
+            self.table.selectRow(row + 1)
+
+    def _fill(self) -> None:
+        found = self.draft.check(self.plate)
+        check = found if isinstance(found, RegistrationCheck) else None
+        row = max(0, self.table.currentRow())
+        self.table.setRowCount(len(self.plate.names))
+        for i, name in enumerate(self.plate.names):
+            for column, text in enumerate(_cells(self.draft, check, name)):
+                item = QTableWidgetItem(text)
+                if column:
+                    item.setTextAlignment(
+                        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+                    )  # fmt: skip
+                self.table.setItem(i, column, item)
+        self.table.selectRow(min(row, self.table.rowCount() - 1))
+        self._show(found)
+        self._refresh()
+
+    def _show(self, found: RegistrationCheck | str) -> None:
+        if isinstance(found, str):
+            self.student.setText(words.NOT_CHECKED.capitalize())
+            self._say(found.capitalize())
+            self.figures.setText("")
+            return
+        p_target, used = self._target()
+        try:
+            agreement = found.agreement(p_target, T_world_patient=used)
+            self.student.setText(words.student_line(agreement).capitalize())
+        except AcusError as error:
+            self.student.setText(words.NOT_CHECKED.capitalize())
+            self._say(str(error))
+        else:
+            self._say("")
+        if troubles := words.troubles(found):
+            self._say("\n".join(troubles))
+        lines = list(words.technician_lines(found))
+        if found.trusted:
+            lines.append(words.target_line(found, p_target))
+        self.figures.setText("\n".join([*lines, *words.MEANING]))
+
+    def _target(self) -> tuple[FloatArray, RigidTransform | None]:
+        run = self._around.run()
+        if run is None:
+            return np.array([0.0, 0.16056, 0.03]), None
+        return run.placed.p_target, run.placed.T_world_patient
+
+    def _say(self, text: str) -> None:
+        self.trouble.setText(f"▲ {text}" if text else "")
+
+    def _refresh(self) -> None:
+        run, buttons = self._around.run(), self.buttons
+        found = self.draft.check(self.plate)
+        check = found if isinstance(found, RegistrationCheck) else None
+        buttons["touch"].setEnabled(run is not None and not self.toucher.active)
+        buttons["move"].setVisible(run is not None and not run.is_real and run.interactive)
+        buttons["pick"].setEnabled(self._around.volume() is not None)
+        buttons["undo"].setEnabled(self._history.can_undo)
+        buttons["redo"].setEnabled(self._history.can_redo)
+        buttons["save"].setEnabled(check is not None and check.trusted and run is not None)
+        measured = check is not None and check.trusted and check.patient is not None
+        buttons["place"].setEnabled(measured)
+
+    def _move(self) -> None:
+        run = self._around.run()
+        if run is not None and self.plate.place is not None:
+            row = self.plate.rows((self.selected,))[0]
+            move_there(run, self.plate.place.transform @ self.plate.touch[row])
+
+    def _lay_out(self) -> None:
+        self.table.setColumnCount(COLUMNS)
+        self.table.setHorizontalHeaderLabels([
+            tr("Fiducial"), tr("Tip: x  y  z [mm]"), tr("± 95 % [mm]"),
+            tr("CT: L  P  S [mm]"), tr("Residual [mm]"),
+        ])  # fmt: skip
+        self.table.verticalHeader().hide()
+        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        header = self.table.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        for column in (1, 3):
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
+        self.student.setStyleSheet(f"font-size: {theme.TITLE_PX}px;")
+        self.trouble.setStyleSheet(f"color: {theme.WARNING};")
+        self.figures.setProperty("role", "dim")
+        for label in (self.student, self.trouble, self.figures):
+            label.setWordWrap(True)
+        self.progress.setRange(0, 100)
+        self.progress.setTextVisible(False)
+        self.progress.setFixedHeight(10)
+        self.buttons["save"].setProperty("role", "primary")
+        head = QHBoxLayout()
+        head.addWidget(QLabel(tr("Plate"), self))
+        head.addWidget(self.plates)
+        head.addStretch(1)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
+        page.setSpacing(theme.SPACING)
+        page.addLayout(head)
+        page.addWidget(self.table, 1)
+        page.addLayout(self._row("touch", "move", "pick", "forget"))
+        page.addWidget(self.progress)
+        for label in (self.student, self.trouble, self.figures):
+            page.addWidget(label)
+        page.addLayout(self._row("undo", "redo", None, "place", "save"))
+
+    def _row(self, *names: str | None) -> QHBoxLayout:
+        row = QHBoxLayout()
+        for name in names:
+            if name is None:
+                row.addStretch(1)
+            else:
+                row.addWidget(self.buttons[name])
+        if None not in names:
+            row.addStretch(1)
+        return row
+
+    def _connect(self) -> None:
+        for name, command in (
+            ("touch", self.touch), ("move", self._move), ("pick", self.pick),
+            ("forget", self.forget), ("undo", self.undo), ("redo", self.redo),
+            ("save", self.save), ("place", self.use_place),
+        ):  # fmt: skip
+            self.buttons[name].clicked.connect(command)
+        for keys, command in (("Ctrl+Z", self.undo), ("Ctrl+Y", self.redo)):
+            QShortcut(QKeySequence(keys), self, command)
+        self.plates.textActivated.connect(self.choose_plate)
+        self.toucher.progressed.connect(lambda share: self.progress.setValue(round(100 * share)))
+        self.toucher.touched.connect(self._touched)
+        self.toucher.failed.connect(self._failed)
+
+    def _failed(self, reason: str) -> None:
+        self._refresh()
+        self._say(reason)
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Stop measuring."""
+        self.toucher.stop()
+        super().closeEvent(event)
+
+
+def _cells(draft: CheckDraft, check: RegistrationCheck | None, name: str) -> tuple[str, ...]:
+    touched = next((one for one in draft.touched if one.name == name), None)
+    picked = next((one for one in draft.picked if one.name == name), None)
+    radius = ""
+    if touched is not None:
+        spread = points_of((touched,)).covariances[0]
+        radius = f"{covariance_radius(spread) / MILLIMETRE:.2f}" if spread.any() else "–"
+    residual = ""
+    if check is not None and name in check.world.names:
+        row = check.world.fit.residuals[check.world.names.index(name)]
+        residual = f"{float(np.linalg.norm(row)) / MILLIMETRE:.2f}"
+    return (
+        name,
+        _coordinates(touched.point_mm) if touched is not None else "",
+        radius,
+        _coordinates(picked.point_mm) if picked is not None else "",
+        residual,
+    )
+
+
+def _coordinates(point_mm: tuple[float, float, float]) -> str:
+    return "  ".join(f"{value:.1f}" for value in point_mm)
+
+
+_BUTTONS = {
+    "touch": tr("Touch now"),
+    "move": tr("Bring the simulated tip there"),
+    "pick": tr("Pick the bead at the crosshair"),
+    "forget": tr("Forget"),
+    "undo": tr("Undo"),
+    "redo": tr("Redo"),
+    "place": tr("Use the measured place"),
+    "save": tr("Save"),
+}

@@ -1,0 +1,61 @@
+"""Error ellipsoids in patient coordinates: what slices and 3D view draw."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.core.arrays import FloatArray, frozen
+from app.core.confidence import chi_square_quantile
+from app.core.units import MILLIMETRE
+
+POINTS = 48
+SMALLEST_MM = 1e-4
+ERROR_SCALE = 10.0
+"""The 3D view enlarges ellipsoids so much, and says so: true ones vanish inside the needle."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ErrorOverlay:
+    """Where a point truly is with 95 %.
+
+    Attributes:
+        centre_mm: LPS, shape (3,).
+        covariance_mm2: LPS, shape (3, 3).
+
+    Raises:
+        NumericalError: if a number is not finite.
+    """
+
+    centre_mm: FloatArray
+    covariance_mm2: FloatArray
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "centre_mm", frozen(self.centre_mm, (3,), "centre_mm"))
+        object.__setattr__(
+            self, "covariance_mm2", frozen(self.covariance_mm2, (3, 3), "covariance_mm2")
+        )
+
+    @classmethod
+    def of_world(
+        cls, centre_mm: FloatArray, covariance: FloatArray, R_world_patient: FloatArray
+    ) -> ErrorOverlay:
+        """Bring a covariance in world [m²], shape (3, 3), to a point of the patient [mm]."""
+        turned = R_world_patient.T @ covariance @ R_world_patient
+        return cls(centre_mm, turned / MILLIMETRE**2)
+
+    def outline_mm(self, across: FloatArray) -> FloatArray:
+        """Outline of the ellipsoid seen along a plane's normal, from its centre, shape (48, 2).
+
+        The shadow of the ellipsoid that holds the point with 95 % (chi-square with three degrees
+        of freedom), not the smaller ellipse of two: what lies outside it is outside the ellipsoid.
+
+        Args:
+            across: plane coordinates of the three LPS axes [mm/mm], shape (2, 3).
+        """
+        values, vectors = np.linalg.eigh(across @ self.covariance_mm2 @ across.T)
+        axes = vectors * np.sqrt(chi_square_quantile(0.95, 3) * np.maximum(values, SMALLEST_MM**2))
+        turn = np.linspace(0.0, 2.0 * np.pi, POINTS, endpoint=False)
+        outline: FloatArray = np.column_stack([np.cos(turn), np.sin(turn)]) @ axes.T
+        return outline
