@@ -41,7 +41,7 @@ def tracker(window: MainWindow, folder: Path) -> None:
 
 
 def morning(window: MainWindow, folder: Path) -> None:
-    """The morning check, its point touched by the simulated tip."""
+    """Make the morning check, its point touched by the simulated tip."""
     window.checks.open_morning()
     page = window.checks.morning
     if page is None:

@@ -218,6 +218,7 @@ class MainWindow(QMainWindow):
         self.editor.changed.connect(lambda: bar.forget(REFUSAL))
         self.runs.failed.connect(lambda error: bar.show_until(ROBOT, error))
         self.runs.ready.connect(lambda _: bar.forget(ROBOT))
+        self.runs.ready.connect(lambda _: self.checks.forget())
         self.open_ct.opened.connect(
             lambda patient: self.plan_files.after_question(lambda: self.show_patient(patient))
         )

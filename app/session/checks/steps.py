@@ -183,7 +183,7 @@ def _touch(facts: MorningFacts) -> StepResult:
     limit = f"the limit is {touch.tolerance / MILLIMETRE:.1f} mm"
     return StepResult("touch", title, Verdict.BAD, text,
                       f"{limit}: touch again; is it {touch.name}, is the plate in its place? then "
-                      "check with all fiducials: menu Cameras, Registration check")  # fmt: skip
+                      "check with all fiducials: menu Checks, Registration check")  # fmt: skip
 
 
 _STEPS: Final[tuple[Callable[[MorningFacts], StepResult], ...]] = (
