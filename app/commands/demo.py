@@ -42,6 +42,9 @@ def demo(
     cameras: Annotated[
         str, typer.Option(help="As of `acus run`; real ones must see the needle that is shown.")
     ] = "simulated",
+    pen: Annotated[
+        bool, typer.Option("--pen", help="No robot: a pen with printed markers, simulated.")
+    ] = False,
 ) -> None:
     """Show a whole exercise: patient, plan, guided insertion, score, debrief.
 
@@ -51,11 +54,17 @@ def demo(
 
     hidden = headless or not has_display()
     folder = out or (Path("out") / "demo" if hidden else None)
-    _show(ct, hidden, folder, seed, skill, cameras)
+    _show(ct, hidden, folder, seed, skill, cameras, pen)
 
 
 def _show(
-    ct: Path | None, hidden: bool, out: Path | None, seed: int, skill: SkillName, cameras: str
+    ct: Path | None,
+    hidden: bool,
+    out: Path | None,
+    seed: int,
+    skill: SkillName,
+    cameras: str,
+    pen: bool,
 ) -> None:
     from app.compose import Desktop
     from app.core.errors import AcusError
@@ -73,7 +82,10 @@ def _show(
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
     window = MainWindow(Desktop(skill.value, seed, sessions))
-    window.robot.take("")  # nobody stands beside the robot that is remembered
+    if pen:
+        window.robot.take_pen("simulated")
+    else:
+        window.robot.take("")  # nobody stands beside the robot that is remembered
     window.cameras.take(chosen)
     script = Script(ct=ct, pictures=out)
     collector = collect_for(window)

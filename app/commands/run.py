@@ -27,14 +27,24 @@ def run(
             "default: as chosen in the window."
         ),
     ] = None,
+    pen: Annotated[
+        str | None,
+        typer.Option(
+            help="No robot: a webcam that sees a pen with printed markers, usb:0, folder:PATH, "
+            "video:PATH or simulated (docs/pen.md)."
+        ),
+    ] = None,
 ) -> None:
     """Open the trainer; the mouse moves a simulated hand, or a real robot its own needle."""
     from app.compose import Desktop
     from app.tracking.cameras.settings import parse_cameras
+    from app.tracking.cameras.source import parse_source
     from app.views.application import start
     from app.views.collector import collect_for
     from app.views.window import MainWindow
 
+    if pen is not None:
+        parse_source(pen)
     chosen = None if cameras is None else parse_cameras(cameras)
     application = start()
     window = MainWindow(Desktop())
@@ -42,6 +52,8 @@ def run(
         window.robot.take(device)
     if chosen is not None:
         window.cameras.take(chosen)
+    if pen is not None:
+        window.robot.take_pen(pen)
     collector = collect_for(window)
     window.show()
     if exercise:

@@ -14,12 +14,17 @@ from app.exercises.schema import Exercise
 from app.planning.placement import PlacedPlan
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from app.compose.camera_check import Aim
     from app.compose.live_cameras import LiveReader
     from app.compose.trainer import Rig
     from app.device.commissioning.bench import Bench
     from app.mechanisms.profile import DeviceProfile
     from app.tracking.cameras.settings import CameraSettings
+    from app.tracking.inspection import Inspection
+    from app.tracking.pen.tracker import PenTracker
+    from app.tracking.tracker import Tracker
     from app.views.exercise.run import ExerciseRun
     from app.views.services import RobotPort, RunSetup
 
@@ -110,6 +115,7 @@ class Desktop:
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""
         with ONE_AT_A_TIME:  # kernels and OpenCV: behind the window, not before it
+            from app.compose.pen import pen_settings
             from app.compose.trainer import TrainerSetup, build_rig
         progress.report(0.1, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed
@@ -123,6 +129,7 @@ class Desktop:
             held_arming=setup.robot.held_arming and self._skill is None,
             port=setup.robot.port or None,
             cameras=setup.cameras,
+            pen=pen_settings(setup.robot.pen) if setup.robot.pen else None,
         )
         rig = build_rig(trainer)
         try:
@@ -151,6 +158,16 @@ def _wait_until_alive(rig: Rig, progress: Progress) -> None:
         raise LoopError(f"the control loop has not ticked in {waited:.0f} s; start it again")
 
 
+def _inspector(tracker: Tracker | PenTracker) -> Callable[[bool, bool], Inspection]:
+    from app.tracking.inspection import Inspector
+    from app.tracking.pen.inspection import PenInspector
+    from app.tracking.pen.tracker import PenTracker
+
+    if isinstance(tracker, PenTracker):
+        return PenInspector(tracker).look
+    return Inspector(tracker).look
+
+
 class DesktopRun:
     """A trainer that runs for the window (`views.services.OpenRun`)."""
 
@@ -161,7 +178,6 @@ class DesktopRun:
     def run(self) -> ExerciseRun:
         """What its views need, as the robot's board says it now: it may have come back anew."""
         from app.device.control.velocity import DEFAULT_VELOCITY
-        from app.tracking.inspection import Inspector
         from app.views.exercise.pad_view import rings  # Qt only for who has a window
         from app.views.exercise.run import ExerciseRun
 
@@ -170,9 +186,9 @@ class DesktopRun:
             self._rig.trainer,
             setup.placed,
             self._rig.profile,
-            interactive=setup.skill is None,
+            interactive=setup.skill is None and (setup.pen is None or setup.pen.simulated),
             rings=rings(setup.exercise.tolerances),
-            inspect=Inspector(self._rig.tracker).look,
+            inspect=_inspector(self._rig.tracker),
             board=None if robot is None else robot.link.info(),
             port=setup.port or "",
             clearance=None if robot is None else robot.clearance(),

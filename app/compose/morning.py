@@ -83,7 +83,7 @@ class MorningCheck:
     @property
     def calibration(self) -> str:
         """Id of the cameras' calibration; empty for cameras by their profile."""
-        calibration = self._running.tracker.rig.calibration
+        calibration = self._running.stereo.rig.calibration
         return calibration.id if calibration is not None else ""
 
     @property
@@ -102,7 +102,7 @@ class MorningCheck:
             robot.clearance() if robot is not None else None,
             robot.readiness if robot is not None else None,
         )
-        seen = Inspector(rig.tracker).look(lines=False)
+        seen = Inspector(rig.stereo).look(lines=False)
         return morning_facts(snapshot, seen, facts, self._touch, self._failure)
 
     def move_to(self, point: FloatArray) -> None:

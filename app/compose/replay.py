@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from app.compose.pen import pen_table
 from app.compose.trainer import TrainerSetup, loop_table
 from app.core.configuration import parse
 from app.device.control import Table
@@ -39,6 +40,12 @@ def replay_table(recording: Recording) -> Table:
         skill=recording.metadata.get("trainee", {}).get("scripted") or None,
         seed=_seed(recording),
     )
+    pen = recording.metadata.get("device", {}).get("pen")
+    if pen:
+        simulated = pen == "yes"
+        return pen_table(
+            exercise, setup.placed, profile, [], setup.skill, setup.seed, simulated=simulated
+        )
     return loop_table(setup, profile, simulated=is_simulated(recording))
 
 

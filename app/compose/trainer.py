@@ -2,33 +2,34 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
 from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
+from app.compose.pen import Pen
+from app.compose.record import run_context
 from app.compose.robot import Robot, connect
 from app.core import paths
-from app.core.build import BUILD, build
 from app.core.clock import Clock, SystemClock
 from app.device.control import Loop, Table, laws, pantograph_stages
 from app.device.links.link import Link
 from app.device.links.simulated import simulated_link
-from app.exchange.markups import plan_document
 from app.exercises.scene import compile_exercise, device_of, law_requests
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.context import RunContext
 from app.session.hands import TRAINEE
-from app.session.header import Attachment
 from app.session.trainer import Trainer
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.trainee import trainee_stage
 from app.tracking.cameras.settings import CameraSettings
+from app.tracking.errors import TrackingError
 from app.tracking.optics.rig import load_rig
+from app.tracking.pen.settings import PenSettings
+from app.tracking.pen.tracker import PenTracker
 from app.tracking.tracker import Tracker
 
 START_DEPTH: Final = -0.015
@@ -52,6 +53,7 @@ class TrainerSetup:
             they always are.
         port: serial port of a real robot; None simulates one.
         cameras: real ones; None simulates those of the exercise's rig.
+        pen: a pen with printed markers and a webcam in place of robot and cameras; no force then.
     """
 
     exercise: Exercise
@@ -64,6 +66,7 @@ class TrainerSetup:
     held_arming: bool = False
     port: str | None = None
     cameras: CameraSettings | None = None
+    pen: PenSettings | None = None
 
 
 def build_trainer(setup: TrainerSetup) -> Trainer:
@@ -82,9 +85,21 @@ class Rig:
     setup: TrainerSetup
     profile: DeviceProfile
     loop: Loop
-    tracker: Tracker
+    tracker: Tracker | PenTracker
     trainer: Trainer
     robot: Robot | None = None
+    pen: Pen | None = None
+
+    @property
+    def stereo(self) -> Tracker:
+        """The tracker with two cameras.
+
+        Raises:
+            TrackingError: if a pen and its webcam are in place of robot and cameras.
+        """
+        if isinstance(self.tracker, PenTracker):
+            raise TrackingError("this needs the two cameras of a robot; a pen has one webcam")
+        return self.tracker
 
     def close(self) -> None:
         """End everything at zero force, then let go of a real robot; idempotent."""
@@ -101,7 +116,11 @@ class Rig:
             AcusError: if an attempt is running, or the trainee cannot follow the plan.
         """
         setup = replace(self.setup, placed=placed)
-        table = loop_table(setup, self.profile, self.robot is None, self.robot)
+        table = (
+            loop_table(setup, self.profile, self.robot is None, self.robot)
+            if self.pen is None
+            else self.pen.table(setup.exercise, placed, setup.skill, setup.seed)
+        )
         self.trainer.place(placed)
         reopen = self.loop.is_open
         self.loop.close()
@@ -125,6 +144,8 @@ def build_rig(setup: TrainerSetup, robot: Robot | None = None) -> Rig:
         AcusError: if a profile, an effect or the path cannot be used, or the robot does not answer.
     """
     profile = device_of(setup.exercise)
+    if setup.pen is not None:
+        return _build_pen_rig(setup, Pen.of(setup.pen, profile))
     real = None
     if setup.cameras is not None and not setup.cameras.simulated:
         real = real_cameras(setup.cameras, setup.clock)
@@ -170,6 +191,21 @@ def _build_rig(
     return Rig(setup, profile, loop, tracker, trainer, robot)
 
 
+def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
+    table = pen.table(setup.exercise, setup.placed, setup.skill, setup.seed)
+    initial = initial_plant(pen.profile, UPRIGHT, START_DEPTH)
+    loop = Loop(table, pen.profile.rate_hz, setup.clock, initial=initial)
+    loop.inbox.write(hand_depth=START_DEPTH, hand_holds=1.0, homed=1.0)
+    tracker = pen.tracker(loop, setup.clock, setup.seed)
+    metadata = {**pen.metadata(setup.skill), "ct": {"pseudonym": setup.ct}}
+    documents = {"device": pen.profile, "pen": pen.settings.profile()}
+    context = run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents)
+    trainer = Trainer(loop, tracker, setup.placed, setup.exercise, context, setup.clock)
+    tracker.listen(trainer.on_fix)
+    trainer.assistance(0.0)
+    return Rig(setup, pen.profile, loop, tracker, trainer, pen=pen)
+
+
 def build_loop(setup: TrainerSetup, profile: DeviceProfile, robot: Robot | None = None) -> Loop:
     """Build the control loop of a real robot, or of a simulated one whose needle waits upright."""
     initial = initial_plant(profile, UPRIGHT, START_DEPTH)
@@ -212,31 +248,11 @@ def loop_table(
 def _context(
     setup: TrainerSetup, profile: DeviceProfile, cameras: AttachedCameras, robot: Robot | None
 ) -> RunContext:
-    device = {"name": profile.name, "simulated": "yes"}
-    documents = {"exercise": _anonymous(setup.exercise), "device": profile, "cameras": cameras.rig}
-    return RunContext(
-        folder=setup.sessions,
-        seed=setup.seed,
-        metadata={
-            "device": device if robot is None else robot.metadata(),
-            "cameras": cameras.metadata,
-            "ct": {"pseudonym": setup.ct},
-            TRAINEE: {"scripted": setup.skill or ""} | ({"hand": "robot"} if robot else {}),
-            BUILD: build(),
-        },
-        attachments=tuple(
-            _attachment(f"{name}.json", document.model_dump(mode="json"))
-            for name, document in documents.items()
-        ),
-        plan_files=lambda placed: (_attachment("plan.mrk.json", plan_document(placed.plan)),),
-    )
-
-
-def _anonymous(exercise: Exercise) -> Exercise:
-    """Without folder and series of its CT, which may name a patient; the record has a pseudonym."""
-    ct = exercise.ct.model_copy(update={"folder": None, "series": None})
-    return exercise.model_copy(update={"ct": ct})
-
-
-def _attachment(name: str, document: Any) -> Attachment:
-    return Attachment(name, "application/json", json.dumps(document, indent=1).encode())
+    metadata = {
+        "device": {"name": profile.name, "simulated": "yes"} if robot is None else robot.metadata(),
+        "cameras": cameras.metadata,
+        "ct": {"pseudonym": setup.ct},
+        TRAINEE: {"scripted": setup.skill or ""} | ({"hand": "robot"} if robot else {}),
+    }
+    documents = {"device": profile, "cameras": cameras.rig}
+    return run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents)

@@ -24,10 +24,13 @@ class RobotChoice:
         port: where it is plugged in; empty for the simulated one.
         held_arming: whether the simulated robot too gives force only while a key is held; a real
             one always does.
+        pen: source of the webcam's pictures where a pen with printed markers is used in place of
+            robot and cameras; empty without a pen.
     """
 
     port: str = ""
     held_arming: bool = False
+    pen: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -69,6 +69,20 @@ def test_a_single_face_seen_from_the_side_and_near_is_decided():
     assert np.linalg.norm((found.T_camera_board @ pose.inverse()).log()[3:]) < 0.05
 
 
+def test_the_hole_settles_which_of_two_poses_it_is_where_the_shaft_goes_through_it(draw):
+    what, _ = scene((0.0, 0.0), depth=-0.015)
+    look = step(MODEL).look(picture(draw, what))
+    assert [m.id for m in look.sightings.markers if m.id < 5] == [3]
+    assert look.fix.status is FixStatus.VALID
+    assert np.linalg.norm(look.needle.p_tip - what.p_tip) < look.needle.tip_radius()
+    lifted, _ = scene((0.0, 0.0), depth=-0.015, beside=(0.03, 0.0, 0.0))
+    beside = step(MODEL).look(picture(draw, lifted))
+    if beside.fix.status is FixStatus.VALID:  # by the picture alone
+        np.testing.assert_allclose(np.linalg.norm(beside.beside), 0.03, atol=3e-3)
+    else:
+        assert "two poses" in beside.fix.reason
+
+
 def test_a_second_face_settles_what_one_leaves_open():
     pose = facing(0.8, (0.0, 0.5, 0.0))
     both = [0, *(m.id for m in BODY.markers[1:4] if visible(pose, m))]

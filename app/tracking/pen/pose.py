@@ -6,7 +6,7 @@ poses explain the picture about equally well the answer is a refusal, not a gues
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import cv2
@@ -20,7 +20,7 @@ from app.tracking.optics.distortion import distortion_jacobian
 from app.tracking.pen.board import Marker, MarkerBoard
 from app.tracking.pen.detector import MarkerSighting
 
-_DECISIVE = 16.0
+DECISIVE = 16.0
 """Difference of chi-square between the two minima from which the better one is certain."""
 
 _SAME = 0.01
@@ -67,6 +67,8 @@ class BoardPose:
         ids: of the markers that were used.
         tilt_apart: angle between the two minima [rad]; 0 if there is one only.
         reason: one line for people; empty when found.
+        either: where two poses explain the picture, both, the better one first: who knows more
+            than the picture may choose.
     """
 
     status: PoseStatus
@@ -79,6 +81,7 @@ class BoardPose:
     ids: tuple[int, ...] = ()
     tilt_apart: float = 0.0
     reason: str = ""
+    either: tuple["BoardPose", ...] = ()
 
     @classmethod
     def none(
@@ -189,27 +192,33 @@ class BoardLocator:
         other = next((m for m in minima[1:] if _apart(m.pose, best.pose) > _SAME), None)
         apart = _apart(other.pose, best.pose) if other is not None else 0.0
         factor = max(1.0, best.cost / freedom) if misfit else 1.0
-        if other is not None and other.cost - best.cost < factor * _DECISIVE:
-            return BoardPose.none(
-                PoseStatus.AMBIGUOUS,
+        if other is not None and other.cost - best.cost < factor * DECISIVE:
+            either = tuple(_found(problem, m, ids, apart, factor) for m in (best, other))
+            reason = (
                 f"the {name} is seen too flat: two poses {np.degrees(apart):.0f}° apart look the "
-                "same; turn it so that two faces show, or move the webcam to the side",
-                ids,
-                apart,
+                "same; turn it so that two faces show, or move the webcam to the side"
             )
-        covariance = np.linalg.inv(best.normal)
-        sensitivity = -covariance @ (best.slopes.T @ problem.by_parameters(best.pose))
-        return BoardPose(
-            PoseStatus.FOUND,
-            best.pose,
-            read_only(0.5 * factor * (covariance + covariance.T)),
-            read_only(sensitivity),
-            best.cost,
-            freedom,
-            best.residual_px,
-            ids,
-            apart,
-        )
+            return replace(BoardPose.none(PoseStatus.AMBIGUOUS, reason, ids, apart), either=either)
+        return _found(problem, best, ids, apart, factor)
+
+
+def _found(
+    problem: _Problem, best: _Minimum, ids: tuple[int, ...], apart: float, factor: float
+) -> BoardPose:
+    """Pose of a minimum; `factor` widens its covariance."""
+    covariance = np.linalg.inv(best.normal)
+    sensitivity = -covariance @ (best.slopes.T @ problem.by_parameters(best.pose))
+    return BoardPose(
+        PoseStatus.FOUND,
+        best.pose,
+        read_only(0.5 * factor * (covariance + covariance.T)),
+        read_only(sensitivity),
+        best.cost,
+        2 * len(problem.points) - 6,
+        best.residual_px,
+        ids,
+        apart,
+    )
 
 
 def _usable(sighting: MarkerSighting) -> bool:

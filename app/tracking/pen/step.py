@@ -11,10 +11,16 @@ from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.pen.board import all_ids
 from app.tracking.pen.body import PenProfile
-from app.tracking.pen.detector import MarkerDetector, Sightings
+from app.tracking.pen.detector import MarkerDetector, MarkerSighting, Sightings
 from app.tracking.pen.needle import PenNeedle, PenTip, solve_needle
-from app.tracking.pen.pose import BoardLocator, BoardPose, PoseStatus
+from app.tracking.pen.pose import DECISIVE, BoardLocator, BoardPose, PoseStatus
 from app.tracking.pen.webcam import Webcam, guessed_webcam
+
+BASE_MARKERS = 8
+"""Markers of the sheet that are used at least, if so many are seen."""
+
+HOLE = 0.005
+"""How far a shaft in the hole passes the entry, standard deviation [m]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -75,7 +81,9 @@ class PenStep:
         self.webcam, model = webcam, webcam.model
         sightings = self._detector.find(frame.image, self._wanted)
         body = self._body.locate(model, sightings.markers)
-        base = self._base.locate(model, sightings.markers)
+        base = self._base.locate(model, self._base_markers(sightings))
+        if body.either and base.status is PoseStatus.FOUND:
+            body = self._through_the_entry(body, base, webcam)
         status, reason = _status(sightings, body, base, self._body.board.name, self._ids())
         if status is not FixStatus.VALID:
             return self._without(frame.time, status, reason, sightings, body, base, model)
@@ -88,6 +96,34 @@ class PenStep:
             float(np.hypot(body.residual_px, base.residual_px)), depth, variance, has_point=True,
         )  # fmt: skip
         return PenObservation(fix, sightings, body, base, model, needle, beside, beside_sd)
+
+    def _through_the_entry(self, body: BoardPose, base: BoardPose, webcam: Webcam) -> BoardPose:
+        """Of two poses that look the same the one whose shaft goes through the hole, if one does.
+
+        They are tens of degrees apart; with the shaft in the hole the wrong one misses it by far.
+        """
+        needles = [
+            solve_needle(one, base, self.T_world_base, self.tip, webcam.parameter_covariance)
+            for one in body.either
+        ]
+        misses = [float(np.linalg.norm(n.beside(self.fulcrum)[0])) for n in needles]
+        costs = [
+            one.chi_square + (miss / HOLE) ** 2
+            for one, miss in zip(body.either, misses, strict=True)
+        ]
+        best, other = np.argsort(costs).tolist()
+        certain = (
+            costs[other] - costs[best] > DECISIVE
+            and misses[best] < 3.0 * HOLE
+            and needles[best].axis[2] < 0.0
+        )
+        return body.either[best] if certain else body
+
+    def _base_markers(self, sightings: Sightings) -> list[MarkerSighting]:
+        """Return markers spread over the sheet: more of them cost time and gain little."""
+        found = [s for s in sightings.markers if self._base.board.find(s.id) is not None]
+        found.sort(key=lambda sighting: sighting.id)
+        return found[:: max(1, len(found) // BASE_MARKERS)]
 
     def _ids(self) -> set[int]:
         return {marker.id for marker in self._body.board.markers}

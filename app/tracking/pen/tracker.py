@@ -87,6 +87,10 @@ class PenTracker:
         """The lens that is used; None before the first picture if it has to be guessed."""
         return self._step.webcam
 
+    def listen(self, on_fix: Callable[[NeedleFix], None]) -> None:
+        """Call `on_fix` with every fix from now on."""
+        self._on_fix = on_fix
+
     def open(self) -> None:
         """Open the webcam and start; opening twice is fine.
 

@@ -1,7 +1,7 @@
 """Simulated cameras that deliver pictures of the needle, as a real camera would."""
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -75,6 +75,16 @@ class NeedleRenderer:
         return row_spans(uv, ok, float(reach), width, height)
 
 
+class Renderer(Protocol):
+    """Draws scenes of one kind as one camera sees them."""
+
+    model: CameraModel
+
+    def render(self, scene: Any) -> Image:
+        """Picture without noise, uint8 (height, width, 3), writable."""
+        ...
+
+
 class SimulatedCamera(Camera):
     """A camera whose pictures are rendered at the moment they are asked for.
 
@@ -84,8 +94,8 @@ class SimulatedCamera(Camera):
 
     def __init__(
         self,
-        renderer: NeedleRenderer,
-        scene: Scene,
+        renderer: Renderer,
+        scene: Callable[[float], Any],
         clock: Clock,
         rate_hz: float = 30.0,
         latency: float = 0.0,

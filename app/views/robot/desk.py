@@ -55,6 +55,7 @@ class RobotDesk(QObject):
         self._workspace, self._indicator, self._window = workspace, indicator, parent
         self._opening = False
         self._taken: str | None = None
+        self._pen = ""
         self.wizard: Wizard | None = None
         self._connect()
         self._apply()
@@ -67,8 +68,22 @@ class RobotDesk(QObject):
 
     def take(self, port: str) -> None:
         """Take a robot until another one is chosen, without remembering it."""
-        self._taken = port
+        self._taken, self._pen = port, ""
         self._apply()
+
+    @property
+    def pen(self) -> str:
+        """Source of the webcam of a pen that is used in place of a robot; empty without one."""
+        return self._pen
+
+    def take_pen(self, source: str) -> None:
+        """Take a pen before a webcam in place of the robot, until a robot is chosen.
+
+        Refused while an attempt runs.
+        """
+        if not self._refused_in_attempt():
+            self._taken, self._pen = "", source
+            self._apply()
 
     def ports(self) -> tuple[RobotPort, ...]:
         """Ports at which a robot may be; the chosen one is always among them.
@@ -87,7 +102,7 @@ class RobotDesk(QObject):
         """Take another robot; empty for the simulated one. Refused while an attempt runs."""
         if self._refused_in_attempt():
             return
-        self.settings.port, self._taken = port, None
+        self.settings.port, self._taken, self._pen = port, None, ""
         self._apply()
         if not self._opening:
             self._conductor.take_again()  # one that failed before may be there now
@@ -191,8 +206,8 @@ class RobotDesk(QObject):
         source = self._workspace.bullseye.source
         if remembered.hand and remembered.hand != source.name:
             source.set_source(remembered.hand)
-        held = bool(self.port) or remembered.practise_holding
-        self._conductor.set_robot(RobotChoice(self.port, held))
+        held = not self._pen and (bool(self.port) or remembered.practise_holding)
+        self._conductor.set_robot(RobotChoice(self.port, held, self._pen))
         self.changed.emit()
 
     def _choose_typed(self, text: str) -> None:

@@ -47,7 +47,7 @@ class RobotMenu:
         for port, title in choices:
             action = self.robots.addAction(title)
             action.setCheckable(True)
-            action.setChecked(port == chosen)
+            action.setChecked(port == chosen and not self._desk.pen)
             action.triggered.connect(lambda _=False, port=port: self._desk.choose(port))
         if len(choices) == 1:
             self.robots.addAction(tr("no other robot is plugged in")).setEnabled(False)
