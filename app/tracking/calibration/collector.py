@@ -5,7 +5,7 @@ time, and says what to do next. The same pictures in the same order give the sam
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -84,13 +84,18 @@ class ViewCollector:
         """Return what the kept views of a camera cover."""
         return self._coverage[camera]
 
-    def look(self, images: Images) -> Offer:
+    def look(self, images: Images, names: Sequence[str] = ()) -> Offer:
         """Find the board in pictures taken at the same time, and keep them if they are useful.
+
+        `names` of the pictures, one for each camera, go into the views.
 
         Raises:
             CalibrationError: if there is not one picture (or None) for each camera.
         """
-        return self.consider(tuple(self._find(image) for image in images))
+        found = [self._find(image) for image in images]
+        if names:
+            found = [_called(one, name) for one, name in zip(found, names, strict=True)]
+        return self.consider(tuple(found))
 
     def consider(self, seen: Seen) -> Offer:
         """Keep what was found, if it is useful.
@@ -225,3 +230,7 @@ class ViewCollector:
     def _next(self) -> str:
         missing = self.missing
         return missing[0] if missing else "there are enough views"
+
+
+def _called(found: BoardView | Rejection | None, name: str) -> BoardView | Rejection | None:
+    return replace(found, name=name) if found is not None else None

@@ -1,0 +1,145 @@
+"""The calibration wizard: board, pictures, result, place, save."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import (
+    QDialog,
+    QHBoxLayout,
+    QListWidget,
+    QListWidgetItem,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.views import theme
+from app.views.cameras.take_board import OpenPair
+from app.views.cameras.wizard_board import BoardPage
+from app.views.cameras.wizard_capture import CapturePage
+from app.views.cameras.wizard_job import CalibrationJob
+from app.views.cameras.wizard_parts import button
+from app.views.cameras.wizard_result import ResultPage
+from app.views.cameras.wizard_save import SavePage
+from app.views.cameras.wizard_world import WorldPage
+from app.views.text import tr
+
+Step = BoardPage | CapturePage | ResultPage | WorldPage | SavePage
+
+
+class CalibrationWizard(QDialog):
+    """Leads through the calibration of two cameras; nothing in it blocks the window.
+
+    Signals:
+        used(): another calibration is in use.
+
+    Args:
+        job: what is calibrated, and where it is kept.
+        open_pair: opens the real cameras; None if none are chosen: folders only.
+        parent: window.
+    """
+
+    used = Signal()
+
+    def __init__(
+        self, job: CalibrationJob, open_pair: OpenPair | None = None, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("Calibration of the cameras"))
+        self.setMinimumSize(940, 620)
+        self.job = job
+        self.list, self.pages = QListWidget(self), QStackedWidget(self)
+        self.board_page = BoardPage(job, self)
+        self.capture_page = CapturePage(job, open_pair, self)
+        self.result_page = ResultPage(job, self)
+        self.world_page = WorldPage(job, open_pair, self)
+        self.save_page = SavePage(job, self)
+        self.steps: tuple[Step, ...] = (
+            self.board_page,
+            self.capture_page,
+            self.result_page,
+            self.world_page,
+            self.save_page,
+        )
+        for page in self.steps:
+            self.pages.addWidget(page)
+            self.list.addItem(QListWidgetItem())
+        self.back, self.next = button(tr("Back")), button(tr("Next"))
+        self._lay_out()
+        self._connect()
+        self.show_page(0)
+
+    @property
+    def running(self) -> bool:
+        """Whether a page works."""
+        return self.capture_page.running or self.result_page.running or self.world_page.running
+
+    def show_page(self, number: int) -> None:
+        """Go to a page; one that works keeps it."""
+        if self.running:
+            number = self.pages.currentIndex()
+        number = min(max(number, 0), len(self.steps) - 1)
+        self.pages.setCurrentIndex(number)
+        self.list.setCurrentRow(number)
+        page = self.steps[number]
+        if isinstance(page, ResultPage | WorldPage | SavePage):
+            page.enter()
+        self._refresh()
+
+    def done(self, code: int) -> None:
+        """Close by any way: what works is stopped, the cameras are let go."""
+        self.capture_page.end()
+        self.result_page.stop()
+        self.world_page.stop()
+        super().done(code)
+
+    def _refresh(self) -> None:
+        for row, page in enumerate(self.steps):
+            colour, symbol = page.verdict.look
+            item = self.list.item(row)
+            item.setText(f"{symbol} {page.title}")
+            item.setForeground(QColor(colour))
+        here, running = self.pages.currentIndex(), self.running
+        self.back.setEnabled(here > 0 and not running)
+        self.next.setEnabled(not running and self.board_page.valid)
+        self.next.setText(tr("Close") if here == len(self.steps) - 1 else tr("Next"))
+        self.list.setEnabled(not running)
+
+    def _go_on(self) -> None:
+        here = self.pages.currentIndex()
+        if here == len(self.steps) - 1:
+            self.accept()
+        else:
+            self.show_page(here + 1)
+
+    def _board_changed(self) -> None:
+        self.capture_page.forget()
+        self._refresh()
+
+    def _saved(self) -> None:
+        self._refresh()
+        self.used.emit()
+
+    def _lay_out(self) -> None:
+        self.list.setFixedWidth(150)
+        row = QHBoxLayout()
+        row.addWidget(self.list)
+        row.addWidget(self.pages, 1)
+        buttons = QHBoxLayout()
+        buttons.addStretch(1)
+        for one in (self.back, self.next):
+            buttons.addWidget(one)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
+        column.addLayout(row, 1)
+        column.addLayout(buttons)
+
+    def _connect(self) -> None:
+        self.list.currentRowChanged.connect(self.show_page)
+        self.back.clicked.connect(lambda: self.show_page(self.pages.currentIndex() - 1))
+        self.next.clicked.connect(self._go_on)
+        self.board_page.changed.connect(self._board_changed)
+        for page in (self.capture_page, self.result_page, self.world_page):
+            page.changed.connect(self._refresh)
+        self.save_page.changed.connect(self._saved)

@@ -1,0 +1,244 @@
+"""The wizard's second page: pictures of the board, live or from a folder."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QProgressBar, QWidget
+
+from app.core.errors import AcusError
+from app.tracking.calibration.collector import ViewCollector
+from app.tracking.calibration.views import BoardView
+from app.views.background import run_in_background
+from app.views.cameras.capture import FolderShots, LiveShots, Search
+from app.views.cameras.coverage_view import CoverageView
+from app.views.cameras.take_board import OpenCamera, OpenPair
+from app.views.cameras.wizard_job import CalibrationJob, Views
+from app.views.cameras.wizard_parts import button, column, label, tell
+from app.views.exercise.status_items import Verdict
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.tracking.calibration.collector import Offer
+    from app.views.cameras.capture import Shot
+
+POLL_MS: Final = 40
+LEAST_PAIRS: Final = 5
+"""Fewer pairs are not worth computing."""
+
+
+class CapturePage(QWidget):
+    """Collects views.
+
+    Signals:
+        changed(): there are more views, or the search has begun or ended.
+    """
+
+    changed = Signal()
+
+    def __init__(self, job: CalibrationJob, open_pair: OpenPair | None, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._job, self._open_pair = job, open_pair
+        self._cameras: Sequence[OpenCamera] = ()
+        self.search: Search | None = None
+        self._live, self._opening = False, False
+        self._collector: ViewCollector | None = None
+        self.views = tuple(CoverageView(name, self) for name in job.names)
+        self.live = button(tr("Begin with the live cameras"), "primary")
+        self.folder = button(tr("Pictures of a folder…"))
+        self.stop = button(tr("Stop"))
+        self.back = button(tr("Drop the last"))
+        self.state, self.advice = label(), label()
+        self.bar = QProgressBar(self)
+        self.bar.setRange(0, 1000)
+        self.bar.setTextVisible(False)
+        self.bar.setFixedHeight(10)
+        self._timer = QTimer(self, interval=POLL_MS)
+        self._timer.timeout.connect(self.look)
+        self._lay_out()
+        self._connect()
+        self.refresh()
+
+    @property
+    def title(self) -> str:
+        """What stands in the wizard's list."""
+        return tr("Pictures")
+
+    @property
+    def verdict(self) -> Verdict:
+        """How the page stands."""
+        if self._job.pairs >= LEAST_PAIRS:
+            return Verdict.GOOD if self._enough() else Verdict.WARNING
+        return Verdict.IDLE
+
+    @property
+    def running(self) -> bool:
+        """Whether pictures are searched."""
+        return self.search is not None or self._opening
+
+    def begin_live(self) -> None:
+        """Open the cameras beside the window, then search their pictures."""
+        if self._open_pair is None or self.running:
+            return
+        self._opening = True
+        tell(self.state, Verdict.IDLE, tr("opening the cameras …"))
+        self.refresh()
+        run_in_background(self, self._open_pair, self._opened, self._refused)
+
+    def begin_folder(self, folder: Path) -> None:
+        """Search the pictures of a folder."""
+        if self.running:
+            return
+        try:
+            shots = FolderShots(folder)
+        except AcusError as error:
+            tell(self.state, Verdict.BAD, str(error))
+            return
+        self._live = False
+        self.bar.setRange(0, len(shots.pairs))
+        self._begin(Search(shots, ViewCollector(self._job.board, self._job.names, live=False)))
+
+    def end(self) -> None:
+        """Stop the search and keep what it found; idempotent."""
+        self._timer.stop()
+        search, self.search = self.search, None
+        if search is not None:
+            search.close()
+            self._take(search)
+            self._show(search)
+        cameras, self._cameras = self._cameras, ()
+        for camera in cameras:
+            camera.close()
+        self.refresh()
+        self.changed.emit()
+
+    def look(self) -> None:
+        """Show what the search has found since."""
+        search = self.search
+        if search is None:
+            return
+        self._show(search)
+        if search.done.is_set():
+            error = search.error
+            self.end()
+            if error is not None:
+                tell(self.state, Verdict.BAD, str(error))
+
+    def refresh(self) -> None:
+        """Enable what can be done now."""
+        self.live.setEnabled(self._open_pair is not None and not self.running)
+        self.folder.setEnabled(not self.running)
+        self.stop.setEnabled(self.search is not None)
+        self.back.setEnabled(self.search is not None and self._live)
+        if self._open_pair is None:
+            self.live.setToolTip(tr("Choose real cameras in the menu Cameras first"))
+        if not self.running and not self._job.views and not self.state.text():
+            self.state.setText(tr("No pictures yet."))
+
+    def forget(self) -> None:
+        """Show nothing: another board was chosen."""
+        if self._job.views:
+            return
+        for view in self.views:
+            view.show_picture(None, None)
+        collector = ViewCollector(self._job.board, self._job.names)
+        for i, view in enumerate(self.views):
+            view.show_coverage(collector.coverage(i))
+        self.advice.clear()
+        self.bar.setValue(0)
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _opened(self, cameras: Sequence[OpenCamera]) -> None:
+        self._opening, self._live, self._cameras = False, True, cameras
+        self.bar.setRange(0, 1000)
+        collector = ViewCollector(self._job.board, self._job.names)
+        self._begin(Search(LiveShots(cameras, self._job.names), collector))
+
+    def _refused(self, error: Exception) -> None:
+        self._opening = False
+        self.refresh()
+        tell(self.state, Verdict.BAD, str(error))
+
+    def _begin(self, search: Search) -> None:
+        self._job.set_views((), ())
+        self.search = search.open()
+        self._timer.start()
+        tell(self.state, Verdict.IDLE, tr("looking for the board …"))
+        self.refresh()
+        self.changed.emit()
+
+    def _show(self, search: Search) -> None:
+        collector, newest = search.collector, search.newest
+        for i, view in enumerate(self.views):
+            view.show_coverage(collector.coverage(i))
+        if newest is not None:
+            self._show_shot(*newest)
+        self.advice.setText("\n".join(f"➜ {line}" for line in collector.missing[:4]))
+        if self._live:
+            self.bar.setValue(round(1000 * collector.progress))
+            if collector.enough:
+                self.advice.setText(tr("✔ There are enough views: go on, or take more."))
+        else:
+            self.bar.setValue(search.count)
+
+    def _show_shot(self, shot: Shot, offer: Offer) -> None:
+        for view, image, found in zip(self.views, shot.images, offer.seen, strict=True):
+            view.show_picture(image, found if isinstance(found, BoardView) else None, offer.kept)
+        verdict = Verdict.GOOD if offer.kept else Verdict.IDLE
+        tell(self.state, verdict, offer.words)
+
+    def _take(self, search: Search) -> None:
+        """Live pictures that were kept; all of a folder in which the board was found."""
+        chosen = search.collector.kept if self._live else search.views
+        views: tuple[Views, ...] = tuple((one[0], one[1]) for one in chosen)
+        self._job.set_views(views, () if self._live else search.refused)
+        refused = self._job.refused
+        words = tr("{pairs} pairs in which both cameras see the board", pairs=self._job.pairs)
+        if refused:
+            names = ", ".join(view.name for view in refused[:4])
+            more = " …" if len(refused) > 4 else ""
+            words += "; " + tr("not used: {names} ({why})", names=names + more, why=refused[0].text)
+        enough = self._job.pairs >= LEAST_PAIRS
+        tell(self.state, Verdict.GOOD if enough else Verdict.BAD, words)
+        self._collector = search.collector
+
+    def _enough(self) -> bool:
+        return self._collector is not None and self._collector.enough
+
+    def _drop(self) -> None:
+        if self.search is not None:
+            self.search.collector.drop_last()
+
+    def _ask(self) -> None:
+        answer = QFileDialog.getExistingDirectory(self, tr("Folder of the pictures"))
+        if answer:
+            self.begin_folder(Path(answer))
+
+    def _lay_out(self) -> None:
+        rows = column(self, tr("Show the board to both cameras"))
+        rows.addWidget(label(tr(
+            "Hold it still for a moment, then move it on: near and far, to every corner of the "
+            "pictures, tilted to all sides. A useful picture is taken by itself. From a folder, "
+            "pictures are paired by name: left01.png with right01.png."
+        ), "dim"))  # fmt: skip
+        pictures = QHBoxLayout()
+        for view in self.views:
+            pictures.addWidget(view, 1)
+        rows.addLayout(pictures, 1)
+        rows.addWidget(self.bar)
+        rows.addWidget(self.state)
+        rows.addWidget(self.advice)
+        last = QHBoxLayout()
+        for one in (self.live, self.folder, self.stop, self.back):
+            last.addWidget(one)
+        last.addStretch(1)
+        rows.addLayout(last)
+
+    def _connect(self) -> None:
+        self.live.clicked.connect(self.begin_live)
+        self.folder.clicked.connect(self._ask)
+        self.stop.clicked.connect(self.end)
+        self.back.clicked.connect(self._drop)

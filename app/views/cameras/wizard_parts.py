@@ -1,0 +1,46 @@
+"""Small parts that the calibration wizard's pages are made of."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout, QWidget
+
+from app.views import theme
+from app.views.exercise.status_items import Verdict
+
+
+def column(page: QWidget, title: str) -> QVBoxLayout:
+    """Return a page's column, its title on top."""
+    rows = QVBoxLayout(page)
+    rows.setContentsMargins(theme.MARGIN, 0, 0, 0)
+    rows.setSpacing(theme.SPACING)
+    heading = QLabel(title, page)
+    heading.setProperty("role", "title")
+    rows.addWidget(heading)
+    return rows
+
+
+def label(text: str = "", role: str = "") -> QLabel:
+    """Return a label of plain text that wraps."""
+    made = QLabel(text)
+    made.setWordWrap(True)
+    made.setTextFormat(Qt.TextFormat.PlainText)
+    if role:
+        made.setProperty("role", role)
+    return made
+
+
+def button(text: str, role: str = "") -> QPushButton:
+    """Return a button that Enter does not press by itself."""
+    made = QPushButton(text)
+    made.setAutoDefault(False)
+    if role:
+        made.setProperty("role", role)
+    return made
+
+
+def tell(line: QLabel, verdict: Verdict, words: str) -> None:
+    """Show words in a verdict's colour, with its symbol."""
+    colour, symbol = verdict.look
+    line.setText(f"{symbol} {words}" if words else "")
+    line.setStyleSheet(f"color: {colour};")

@@ -1,0 +1,204 @@
+"""The wizard's third page: computing, and what came out."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QGridLayout,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QProgressBar,
+    QTableWidget,
+    QTableWidgetItem,
+    QWidget,
+)
+
+from app.tracking.calibration.run import StereoResult
+from app.views import theme
+from app.views.background import Task, run_in_background
+from app.views.cameras.wizard_job import CalibrationJob
+from app.views.cameras.wizard_parts import button, column, label, tell
+from app.views.cameras.wizard_words import figures, parameter_rows, verdict_of, view_rows
+from app.views.exercise.status_items import Verdict
+from app.views.text import tr
+
+
+class ResultPage(QWidget):
+    """Computes beside the window, with progress and cancel, and shows the result.
+
+    Signals:
+        changed(): it has begun or ended.
+    """
+
+    changed = Signal()
+
+    def __init__(self, job: CalibrationJob, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._job = job
+        self._task: Task | None = None
+        self.start, self.cancel = button(tr("Compute again")), button(tr("Cancel"), "danger")
+        self.bar = QProgressBar(self)
+        self.bar.setRange(0, 1000)
+        self.bar.setTextVisible(False)
+        self.bar.setFixedHeight(10)
+        self.state, self.notes = label(), label(role="dim")
+        self._figures = QGridLayout()
+        self.views = _table((tr("Pair"), tr("px"), tr("Remark")))
+        self.parameters = _table((tr("Parameter"), job.names[0], job.names[1]))
+        self._lay_out()
+        self.start.clicked.connect(self.begin)
+        self.cancel.clicked.connect(self.stop)
+        self.refresh()
+
+    @property
+    def title(self) -> str:
+        """What stands in the wizard's list."""
+        return tr("Result")
+
+    @property
+    def verdict(self) -> Verdict:
+        """How the page stands."""
+        result = self._job.result
+        return verdict_of(result.calibration)[0] if result is not None else Verdict.IDLE
+
+    @property
+    def running(self) -> bool:
+        """Whether it computes."""
+        return self._task is not None
+
+    def enter(self) -> None:
+        """Compute if there are views that were not calibrated yet."""
+        if self._job.result is None and self._job.pairs and not self.running:
+            self.begin()
+        self.refresh()
+
+    def begin(self) -> None:
+        """Compute."""
+        if self.running:
+            return
+        self.bar.setValue(0)
+        tell(self.state, Verdict.IDLE, tr("computing …"))
+        job = self._job
+        self._task = run_in_background(
+            self, job.calibrate, self._done, self._failed, self._cancelled
+        )
+        self._task.progressed.connect(self._progressed)
+        self.refresh()
+        self.changed.emit()
+
+    def stop(self) -> None:
+        """Ask the computation to stop."""
+        if self._task is not None:
+            self._task.cancel()
+
+    def refresh(self) -> None:
+        """Show what is known."""
+        result = self._job.result
+        self.start.setEnabled(not self.running and self._job.pairs > 0)
+        self.cancel.setEnabled(self.running)
+        if result is None:
+            self._clear()
+            if not self.running and not self._job.pairs:
+                tell(self.state, Verdict.IDLE, tr("There are no pictures yet."))
+            return
+        calibration = result.calibration
+        tell(self.state, *verdict_of(calibration))
+        _fill_grid(self._figures, figures(calibration))
+        self._show_views(result)
+        left, right = (parameter_rows(camera) for camera in calibration.cameras)
+        self.parameters.setRowCount(len(left))
+        for i, ((name, one), (_, other)) in enumerate(zip(left, right, strict=True)):
+            for k, text in enumerate((name, one, other)):
+                self.parameters.setItem(i, k, QTableWidgetItem(text))
+        self.notes.setText("\n".join(calibration.notes))
+        self.bar.setValue(1000)
+
+    def _show_views(self, result: StereoResult) -> None:
+        rows = view_rows(result)
+        self.views.setRowCount(len(rows))
+        for i, (name, rms, verdict, remark) in enumerate(rows):
+            colour = verdict.look[0] if remark else theme.TEXT
+            for k, text in enumerate((name, f"{rms:.2f}", remark)):
+                item = QTableWidgetItem(text)
+                item.setForeground(QColor(colour))
+                if k == 1:
+                    item.setTextAlignment(
+                        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+                    )
+                self.views.setItem(i, k, item)
+
+    def _clear(self) -> None:
+        _fill_grid(self._figures, [])
+        self.views.setRowCount(0)
+        self.parameters.setRowCount(0)
+        self.notes.clear()
+        if not self.running:
+            self.bar.setValue(0)
+            self.state.clear()
+
+    def _progressed(self, fraction: float, text: str) -> None:
+        self.bar.setValue(round(1000 * fraction))
+        tell(self.state, Verdict.IDLE, tr("computing: {what}", what=text))
+
+    def _done(self, result: StereoResult) -> None:
+        self._task = None
+        self._job.set_result(result)
+        self.refresh()
+        self.changed.emit()
+
+    def _failed(self, error: Exception) -> None:
+        self._end(Verdict.BAD, str(error))
+
+    def _cancelled(self) -> None:
+        self._end(Verdict.WARNING, tr("Cancelled; nothing was kept."))
+
+    def _end(self, verdict: Verdict, words: str) -> None:
+        self._task = None
+        self.refresh()
+        tell(self.state, verdict, words)
+        self.changed.emit()
+
+    def _lay_out(self) -> None:
+        rows = column(self, tr("Result"))
+        rows.addWidget(self.bar)
+        rows.addWidget(self.state)
+        self._figures.setColumnStretch(1, 1)
+        rows.addLayout(self._figures)
+        tables = QHBoxLayout()
+        tables.addWidget(self.views, 1)
+        tables.addWidget(self.parameters, 1)
+        rows.addLayout(tables, 1)
+        rows.addWidget(self.notes)
+        last = QHBoxLayout()
+        last.addWidget(self.start)
+        last.addWidget(self.cancel)
+        last.addStretch(1)
+        rows.addLayout(last)
+
+
+def _table(titles: tuple[str, ...]) -> QTableWidget:
+    table = QTableWidget(0, len(titles))
+    table.setHorizontalHeaderLabels(titles)
+    table.verticalHeader().setVisible(False)
+    table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+    table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
+    table.setShowGrid(False)
+    header = table.horizontalHeader()
+    header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+    header.setStretchLastSection(True)
+    header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+    return table
+
+
+def _fill_grid(grid: QGridLayout, rows: list[tuple[str, str]]) -> None:
+    while (item := grid.takeAt(0)) is not None:
+        if (widget := item.widget()) is not None:
+            widget.deleteLater()
+    for i, (title, value) in enumerate(rows):
+        name = QLabel(title)
+        name.setProperty("role", "dim")
+        grid.addWidget(name, i, 0)
+        grid.addWidget(QLabel(value), i, 1)

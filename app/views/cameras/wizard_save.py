@@ -1,0 +1,216 @@
+"""The wizard's last page: keeping the result, and the calibrations kept so far."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QInputDialog,
+    QTableWidget,
+    QTableWidgetItem,
+    QWidget,
+)
+
+from app.core.errors import AcusError
+from app.tracking.calibration.history import Entry
+from app.views import theme
+from app.views.cameras.wizard_job import CalibrationJob
+from app.views.cameras.wizard_parts import button, column, label, tell
+from app.views.exercise.status_items import Verdict
+from app.views.text import tr
+
+
+class SavePage(QWidget):
+    """Keeps, uses, takes back, condemns; nothing is deleted.
+
+    Signals:
+        changed(): another calibration is in use, or one was kept or condemned.
+    """
+
+    changed = Signal()
+
+    def __init__(self, job: CalibrationJob, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._job = job
+        self.state, self._remark = label(), label(role="dim")
+        self.save = button(tr("Save and use it"), "primary")
+        self.undo, self.redo = button(tr("Undo")), button(tr("Redo"))
+        self.use, self.condemn = button(tr("Use this one")), button(tr("Found bad…"), "danger")
+        self.table = QTableWidget(0, 4)
+        self._prepare()
+        self._lay_out()
+        self._connect()
+        self.refresh()
+
+    @property
+    def title(self) -> str:
+        """What stands in the wizard's list."""
+        return tr("Save")
+
+    @property
+    def verdict(self) -> Verdict:
+        """How the page stands."""
+        if self._job.saved is not None:
+            return Verdict.GOOD
+        return Verdict.WARNING if self._job.outcome() is not None else Verdict.IDLE
+
+    def enter(self) -> None:
+        """Show the present state."""
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show what there is to keep, and the history."""
+        outcome, saved = self._job.outcome(), self._job.saved
+        self.save.setEnabled(outcome is not None and saved is None)
+        if saved is not None:
+            tell(self.state, Verdict.GOOD, tr("saved as {id} and in use", id=saved.id))
+        elif outcome is None:
+            tell(self.state, Verdict.IDLE, tr("There is nothing new to save."))
+        elif outcome.world is None:
+            tell(self.state, Verdict.WARNING, tr(
+                "Not saved yet. Without a place (the page before) it cannot be used to track."
+            ))  # fmt: skip
+        else:
+            tell(self.state, Verdict.WARNING, tr("Not saved yet."))
+        self._show_history()
+
+    def chosen(self) -> str | None:
+        """Id of the calibration that is selected in the list."""
+        rows = self.table.selectionModel().selectedRows()
+        item = self.table.item(rows[0].row(), 0) if rows else None
+        return str(item.data(Qt.ItemDataRole.UserRole)) if item is not None else None
+
+    def condemn_chosen(self, reason: str) -> None:
+        """Say that the selected calibration was found bad."""
+        chosen = self.chosen()
+        if chosen is not None:
+            self._do(lambda: self._job.history.condemn(chosen, reason))
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _save(self) -> None:
+        self._do(self._job.save)
+
+    def _use(self) -> None:
+        chosen = self.chosen()
+        if chosen is not None:
+            self._do(lambda: self._job.history.use(chosen))
+
+    def _ask_why(self) -> None:
+        reason, given = QInputDialog.getText(
+            self, tr("Found bad"),
+            tr("What is wrong with it? Attempts made with it will say so."))  # fmt: skip
+        if given:
+            self.condemn_chosen(reason)
+
+    def _do(self, work: Callable[[], object]) -> None:
+        try:
+            work()
+        except AcusError as error:
+            self.refresh()
+            tell(self.state, Verdict.BAD, str(error))
+            return
+        self.refresh()
+        self.changed.emit()
+
+    def _show_history(self) -> None:
+        try:
+            entries = self._job.history.entries()
+        except AcusError as error:
+            self.table.setRowCount(0)
+            self._remark.setText(str(error))
+            self._enable(())
+            return
+        self._remark.setText(str(self._job.history.folder))
+        self.table.setRowCount(len(entries))
+        for row, entry in enumerate(reversed(entries)):
+            self._show_entry(row, entry)
+        self._enable(entries)
+
+    def _show_entry(self, row: int, entry: Entry) -> None:
+        colour, state = theme.TEXT_DIM, ""
+        if entry.active:
+            colour, state = theme.GOOD, tr("✔ in use")
+        if entry.condemned is not None:
+            colour, state = theme.BAD, tr("✖ found bad: {why}", why=entry.condemned.reason)
+        try:
+            calibration = self._job.history.load(entry.id)
+        except AcusError as error:
+            figures, world = str(error), ""
+            colour, state = theme.BAD, state or tr("✖ unreadable")
+        else:
+            checked = calibration.validation
+            figures = tr("{px:.2f} px", px=calibration.rms_px)
+            if checked is not None:
+                figures += tr(", {mm:.3f} mm held back", mm=checked.rms_mm)
+            world = tr("placed") if calibration.world is not None else tr("no place")
+        for k, text in enumerate((entry.id, figures, world, state)):
+            item = QTableWidgetItem(text)
+            item.setToolTip(text)
+            if k == 3:
+                item.setForeground(QColor(colour))
+            if k == 0:
+                item.setData(Qt.ItemDataRole.UserRole, entry.id)
+            self.table.setItem(row, k, item)
+
+    def _enable(self, entries: tuple[Entry, ...]) -> None:
+        self.undo.setEnabled(any(entry.active for entry in entries))
+        self.redo.setEnabled(bool(entries))
+        chosen = self.chosen()
+        entry = next((one for one in entries if one.id == chosen), None)
+        good = entry is not None and entry.condemned is None
+        self.use.setEnabled(good and entry is not None and not entry.active)
+        self.condemn.setEnabled(good)
+
+    def _selected(self) -> None:
+        try:
+            self._enable(self._job.history.entries())
+        except AcusError:
+            self._enable(())
+
+    def _prepare(self) -> None:
+        self.table.setHorizontalHeaderLabels(
+            (tr("Calibration"), tr("Error"), tr("Place"), tr("State"))
+        )
+        self.table.verticalHeader().setVisible(False)
+        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.table.setShowGrid(False)
+        header = self.table.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setStretchLastSection(True)
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+
+    def _lay_out(self) -> None:
+        rows = column(self, tr("Save"))
+        rows.addWidget(self.state)
+        first = QHBoxLayout()
+        first.addWidget(self.save)
+        first.addStretch(1)
+        rows.addLayout(first)
+        rows.addWidget(label(tr(
+            "Calibrations so far; none is ever deleted. One that is found bad is used no more, "
+            "and attempts made with it are flagged."
+        ), "dim"))  # fmt: skip
+        rows.addWidget(self.table, 1)
+        rows.addWidget(self._remark)
+        last = QHBoxLayout()
+        for one in (self.undo, self.redo, self.use):
+            last.addWidget(one)
+        last.addStretch(1)
+        last.addWidget(self.condemn)
+        rows.addLayout(last)
+
+    def _connect(self) -> None:
+        history = self._job.history
+        self.save.clicked.connect(self._save)
+        self.undo.clicked.connect(lambda: self._do(history.undo))
+        self.redo.clicked.connect(lambda: self._do(history.redo))
+        self.use.clicked.connect(self._use)
+        self.condemn.clicked.connect(self._ask_why)
+        self.table.itemSelectionChanged.connect(self._selected)

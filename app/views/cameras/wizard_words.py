@@ -1,0 +1,130 @@
+"""What the wizard says of a calibration: verdict, figures, parameters, views, cameras' places."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from app.core.units import MILLIMETRE
+from app.tracking.calibration.run import StereoResult
+from app.tracking.calibration.world import WorldFrame
+from app.tracking.optics.calibration import PARAMETERS, CameraCalibration, StereoCalibration
+from app.views.exercise.status_items import Verdict
+from app.views.text import tr
+
+GOOD_PX: Final = 0.6
+WORST_PX: Final = 1.5
+"""Residuals of a pair [px]: above the first something is not flat or sharp, above the second the
+calibration is of no use."""
+
+GOOD_MM: Final = 0.3
+WORST_MM: Final = 1.0
+"""The same on pairs held back [mm]."""
+
+GOOD_SCALE: Final = 0.003
+"""Relative error of lengths on pairs held back."""
+
+Line = tuple[Verdict, str]
+
+
+def verdict_of(calibration: StereoCalibration) -> Line:
+    """Whether a calibration is of use, and why not."""
+    rms, checked = calibration.rms_px, calibration.validation
+    if rms > WORST_PX or (checked is not None and checked.rms_mm > WORST_MM):
+        return Verdict.BAD, tr(
+            "Not good enough to use: glue the board on something flat, take sharper pictures, and "
+            "check the board's counts and sizes."
+        )
+    if checked is None:
+        return Verdict.WARNING, tr(
+            "It fits, but was not checked: there were too few pairs to hold some back. Take at "
+            "least eight."
+        )
+    wrong_scale = abs(checked.scale - 1.0) > max(GOOD_SCALE, 3.0 * checked.scale_sd)
+    if rms > GOOD_PX or checked.rms_mm > GOOD_MM or wrong_scale:
+        return Verdict.WARNING, tr(
+            "Usable, but worse than usual: more and sharper views will do better."
+        )
+    return Verdict.GOOD, tr("Good: pairs that took no part come out right.")
+
+
+def figures(calibration: StereoCalibration) -> list[tuple[str, str]]:
+    """Titles and values of the result."""
+    left, right = calibration.cameras
+    rows = [
+        (tr("Residual"), tr(
+            "{pair:.2f} px both, {left:.2f} px {l}, {right:.2f} px {r}", pair=calibration.rms_px,
+            left=left.rms_px, l=left.name, right=right.rms_px, r=right.name)),
+        (tr("Distance of the cameras"), tr(
+            "{mm:.2f} ± {sd:.2f} mm", mm=calibration.baseline / MILLIMETRE,
+            sd=baseline_sd(calibration) / MILLIMETRE)),
+    ]  # fmt: skip
+    checked = calibration.validation
+    if checked is not None:
+        words = tr(
+            "{n} pairs, {points} corners: {rms:.3f} mm RMS, {most:.3f} mm at most",
+            n=checked.views,
+            points=checked.points,
+            rms=checked.rms_mm,
+            most=checked.max_mm,
+        )
+        rows.append((tr("Pairs held back"), words))
+        rows.append((tr("Lengths in them"), tr(
+            "{scale:.4f} ± {sd:.4f} times the true ones", scale=checked.scale,
+            sd=checked.scale_sd)))  # fmt: skip
+    return rows
+
+
+def baseline_sd(calibration: StereoCalibration) -> float:
+    """Return the standard deviation of the distance between the cameras [m].
+
+    The twist (ρ, ω) on the left moves t to t + ρ + ω×t; |t| changes by t·ρ / |t|.
+    """
+    t = calibration.pose.transform.translation
+    u = t / max(1e-12, calibration.baseline)
+    spread = calibration.pose.pose_covariance[:3, :3]
+    return float(np.sqrt(max(0.0, float(u @ spread @ u))))
+
+
+def parameter_rows(camera: CameraCalibration) -> list[tuple[str, str]]:
+    """Each parameter with its standard deviation, or that it was dropped."""
+    values = dict(
+        zip(PARAMETERS, (*camera.focal_px, *camera.centre_px, *camera.distortion), strict=True)
+    )
+    rows = []
+    for i, name in enumerate(PARAMETERS):
+        sd = max(0.0, camera.covariance[i][i]) ** 0.5
+        if name not in camera.estimated:
+            rows.append((name, tr("dropped: not significant")))
+        elif i < 4:
+            rows.append((name, tr("{value:.2f} ± {sd:.2f} px", value=values[name], sd=sd)))
+        else:
+            rows.append((name, tr("{value:.5f} ± {sd:.5f}", value=values[name], sd=sd)))
+    return rows
+
+
+def view_rows(result: StereoResult) -> list[tuple[str, float, Verdict, str]]:
+    """Name, residual [px], verdict and remark of every pair; the worst first."""
+    remarks = {
+        "used": (Verdict.IDLE, ""),
+        "outlier": (Verdict.WARNING, tr("outlier, left out")),
+        "held_back": (Verdict.GOOD, tr("held back")),
+    }
+    rows = [(row.name, row.rms_px, *remarks[row.role]) for row in result.residuals]
+    return sorted(rows, key=lambda row: -row[1])
+
+
+def world_lines(calibration: StereoCalibration, world: WorldFrame) -> list[Line]:
+    """Where the cameras stand, how sure that is, and what to look at."""
+    lines: list[Line] = []
+    for camera, centre in zip(calibration.cameras, world.centres, strict=True):
+        x, y, z = centre / MILLIMETRE
+        lines.append((Verdict.GOOD, tr(
+            "{camera} camera at x {x:.0f}, y {y:.0f}, z {z:.0f} mm", camera=camera.name, x=x, y=y,
+            z=z)))  # fmt: skip
+    lines.append((Verdict.GOOD, tr("corners within {px:.2f} px", px=world.rms_px)))
+    if world.disagreement_mm > 0.0:
+        lines.append((Verdict.GOOD, tr("places agree within {mm:.1f} mm",
+                                       mm=world.disagreement_mm)))  # fmt: skip
+    return lines + [(Verdict.WARNING, remark) for remark in world.remarks]
