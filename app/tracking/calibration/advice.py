@@ -45,7 +45,8 @@ def _place_words(coverage: Coverage, alone: bool) -> list[str]:
     if coverage.covered < ENOUGH_COVERED:
         share = round(100.0 * coverage.covered)
         where = f", nothing near the {bare[0]} corner" if bare else ""
-        return [f"{share} % of the picture covered, {ENOUGH_COVERED:.0%} wanted{where}"]
+        wanted = round(100.0 * ENOUGH_COVERED)
+        return [f"{share} % of the picture covered, {wanted} % wanted{where}"]
     return []
 
 

@@ -94,7 +94,8 @@ def find_world(
         poses.append(board.T_world_board @ fit.T_left_board.inverse())
         spreads.append(_spread(fit, board.T_world_board, poses[-1], place_sd_mm, place_sd_deg))
     joined, covariance = _joined(poses, spreads)
-    away = max(float(np.linalg.norm(p.translation - joined.translation)) for p in poses)
+    apart = [float(np.linalg.norm(p.translation - joined.translation)) for p in poses]
+    away = max(apart) if len(boards) > 1 else 0.0
     pose = PoseCalibration.of(joined, covariance)
     placed = calibration.model_copy(update={"world": pose})
     centres = np.array([model.centre for model in placed.models()])

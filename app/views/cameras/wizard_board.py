@@ -80,7 +80,7 @@ class BoardPage(QWidget):
         tell(self.state, Verdict.GOOD, words)
 
     def _changed(self) -> None:
-        charuco = self.kind.currentData() is BoardKind.CHARUCO
+        charuco = self.kind.currentData() == BoardKind.CHARUCO  # Qt hands out a plain text
         for widget in (self.marker, self.dictionary, self._titles["marker"],
                        self._titles["dictionary"]):  # fmt: skip
             widget.setVisible(charuco)

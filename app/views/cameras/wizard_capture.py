@@ -107,8 +107,8 @@ class CapturePage(QWidget):
         search, self.search = self.search, None
         if search is not None:
             search.close()
-            self._take(search)
             self._show(search)
+            self._take(search)
         cameras, self._cameras = self._cameras, ()
         for camera in cameras:
             camera.close()

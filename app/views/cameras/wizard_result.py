@@ -21,7 +21,13 @@ from app.views import theme
 from app.views.background import Task, run_in_background
 from app.views.cameras.wizard_job import CalibrationJob
 from app.views.cameras.wizard_parts import button, column, label, tell
-from app.views.cameras.wizard_words import figures, parameter_rows, verdict_of, view_rows
+from app.views.cameras.wizard_words import (
+    figures,
+    other_notes,
+    parameter_rows,
+    verdict_of,
+    view_rows,
+)
 from app.views.exercise.status_items import Verdict
 from app.views.text import tr
 
@@ -108,12 +114,16 @@ class ResultPage(QWidget):
         tell(self.state, *verdict_of(calibration))
         _fill_grid(self._figures, figures(calibration))
         self._show_views(result)
-        left, right = (parameter_rows(camera) for camera in calibration.cameras)
+        alone = (result.estimate.left, result.estimate.right)
+        left, right = (
+            parameter_rows(mono, camera)
+            for mono, camera in zip(alone, calibration.cameras, strict=True)
+        )
         self.parameters.setRowCount(len(left))
         for i, ((name, one), (_, other)) in enumerate(zip(left, right, strict=True)):
             for k, text in enumerate((name, one, other)):
                 self.parameters.setItem(i, k, QTableWidgetItem(text))
-        self.notes.setText("\n".join(calibration.notes))
+        self.notes.setText("\n".join(other_notes(calibration)))
         self.bar.setValue(1000)
 
     def _show_views(self, result: StereoResult) -> None:

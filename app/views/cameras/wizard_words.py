@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from app.core.units import MILLIMETRE
+from app.tracking.calibration.mono import MonoResult
 from app.tracking.calibration.run import StereoResult
 from app.tracking.calibration.world import WorldFrame
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration, StereoCalibration
@@ -87,21 +88,35 @@ def baseline_sd(calibration: StereoCalibration) -> float:
     return float(np.sqrt(max(0.0, float(u @ spread @ u))))
 
 
-def parameter_rows(camera: CameraCalibration) -> list[tuple[str, str]]:
-    """Each parameter with its standard deviation, or that it was dropped."""
-    values = dict(
-        zip(PARAMETERS, (*camera.focal_px, *camera.centre_px, *camera.distortion), strict=True)
-    )
+def parameter_rows(mono: MonoResult, camera: CameraCalibration) -> list[tuple[str, str]]:
+    """Each parameter with its standard deviation; those that the views do not support as well.
+
+    Args:
+        mono: the camera by itself, which decided on the distortion's coefficients.
+        camera: as it came out with the other one.
+    """
+    values = (*camera.focal_px, *camera.centre_px, *camera.distortion)
+    dropped = {one.name: one for one in mono.dropped}
     rows = []
-    for i, name in enumerate(PARAMETERS):
+    for i, (name, value) in enumerate(zip(PARAMETERS, values, strict=True)):
         sd = max(0.0, camera.covariance[i][i]) ** 0.5
-        if name not in camera.estimated:
-            rows.append((name, tr("dropped: not significant")))
-        elif i < 4:
-            rows.append((name, tr("{value:.2f} ± {sd:.2f} px", value=values[name], sd=sd)))
+        if name in camera.estimated:
+            digits = 2 if i < 4 else 5
+            rows.append(
+                (f"{name} [px]" if i < 4 else name, f"{value:.{digits}f} ± {sd:.{digits}f}")
+            )
+        elif name in dropped:
+            lost = dropped[name]
+            rows.append((name, tr("dropped: {value:.2g} ± {sd:.2g}", value=lost.value, sd=lost.sd)))
         else:
-            rows.append((name, tr("{value:.5f} ± {sd:.5f}", value=values[name], sd=sd)))
+            rows.append((name, tr("dropped: not supported")))
     return rows
+
+
+def other_notes(calibration: StereoCalibration) -> list[str]:
+    """Return notes that neither the table of parameters nor that of pairs tells."""
+    told = ("is not significant", "does not fit")
+    return [note for note in calibration.notes if not any(words in note for words in told)]
 
 
 def view_rows(result: StereoResult) -> list[tuple[str, float, Verdict, str]]:
