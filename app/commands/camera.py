@@ -127,7 +127,8 @@ def show(
             typer.echo(line)
     if found.skew_ms is not None:
         typer.echo(f"skew (right after left): {found.skew_ms:.1f} ms")
-    typer.echo(found.order)
+    if found.order:
+        typer.echo(found.order)
 
 
 def aim(
@@ -136,6 +137,12 @@ def aim(
         str, typer.Option(help="Ask about a rig profile as it is designed, without cameras.")
     ] = "",
     device: Annotated[str, typer.Option(help="Device profile: where the fulcrum is.")] = "icube",
+    depths: Annotated[
+        str, typer.Option(metavar="MIN,MAX", help="Depths [mm]; default: the rig's range.")
+    ] = "",
+    tilt: Annotated[
+        float | None, typer.Option(help="Largest tilt [degrees]; default: the rig's range.")
+    ] = None,
     out: Annotated[
         Path | None, typer.Option(help="Folder for both pictures with the cone drawn in.")
     ] = None,
@@ -148,7 +155,7 @@ def aim(
     settings = load_settings() if cameras is None else parse_cameras(cameras)
     if rig:
         settings = CameraSettings(rig=rig)
-    found = aim_of(settings, device)
+    found = aim_of(settings, device, _range(depths, tilt))
     if out is not None:
         found.write_pictures(settings, out)
     cone = found.cone
@@ -192,6 +199,19 @@ def latency(
             f"{camera.latency_ms:.1f} ms, spread {camera.latency_sd_ms or 0.0:.1f} ms"
         )  # fmt: skip
         typer.echo(f"{name:<6} {camera.source}: {told}")
+
+
+def _range(depths: str, tilt: float | None) -> dict[str, float]:
+    from app.tracking.errors import CameraError
+
+    given = {} if tilt is None else {"tilt_max_deg": tilt}
+    if not depths:
+        return given
+    try:
+        lowest, highest = (float(part) for part in depths.split(","))
+    except ValueError as error:
+        raise CameraError(f"{depths!r} is no range of depths; give for example -30,120") from error
+    return given | {"depth_min_mm": lowest, "depth_max_mm": highest}
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +11,7 @@ import numpy as np
 from app.compose.cameras import calibration_of, checked_cameras
 from app.core.arrays import FloatArray
 from app.core.clock import SystemClock
+from app.core.configuration import parse
 from app.core.units import MILLISECOND
 from app.mechanisms.profile import load_profile
 from app.tracking.calibration.applies import require_cameras
@@ -23,7 +24,7 @@ from app.tracking.cameras.survey import CameraReport, survey
 from app.tracking.errors import CameraError
 from app.tracking.markers.choice import extractors
 from app.tracking.markers.extractor import MarkerFix
-from app.tracking.optics.rig import RigProfile, load_rig
+from app.tracking.optics.rig import RangeProfile, RigProfile, load_rig
 from app.tracking.optics.view_cone import ViewCone, view_cone
 from app.tracking.stereo.swapped import check_order
 
@@ -106,12 +107,18 @@ def _order(settings: CameraSettings, rig: RigProfile, frames: Sequence[tuple[Fra
     return check_order(calibration.models(), pixels).text
 
 
-def aim_of(settings: CameraSettings, device: str) -> Aim:
+def aim_of(settings: CameraSettings, device: str, reach: Mapping[str, float] | None = None) -> Aim:
     """Return what the cameras see of the needle's cone: calibrated ones, else as designed.
+
+    Args:
+        settings: of the cameras.
+        device: name of the device profile: where the fulcrum is.
+        reach: fields of the rig's range that are to be others.
 
     Raises:
         CalibrationError: if the calibration is of other cameras or another size.
-        RigError: if there is no such rig.
+        RigError: if there is no such rig, or the range is empty.
+        ConfigurationError: if the range cannot be.
     """
     rig = load_rig(settings.rig)
     fulcrum = load_profile(device).pantograph.fulcrum
@@ -123,4 +130,5 @@ def aim_of(settings: CameraSettings, device: str) -> Aim:
         rig, basis = rig.calibrated(calibration), f"calibration {calibration.id}"
     elif not settings.simulated:
         basis += "; the cameras are not calibrated with a world frame yet"
-    return Aim(view_cone(rig.models, rig.needle, rig.range, fulcrum), rig, basis)
+    wanted = parse(rig.range.model_dump() | dict(reach or {}), RangeProfile, "range")
+    return Aim(view_cone(rig.models, rig.needle, wanted, fulcrum), rig, basis)

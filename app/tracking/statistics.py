@@ -76,7 +76,7 @@ class TrackerMeter:
         trouble = next((c for c in cameras if c.state in _TROUBLE), None)
         reason = fault or (newest.reason if newest else "")
         if trouble is not None:
-            reason = f"camera {trouble.name}: {trouble.text}"
+            reason = trouble.named
         span = max(now - recent[0][0], 1e-3) if len(recent) > 1 else WINDOW
         return TrackerStatistics(
             rate=(len(recent) - 1) / span if len(recent) > 1 else 0.0,

@@ -56,6 +56,9 @@ def test_sources_are_chosen_remembered_and_listed(monkeypatch, capsys, folders):
      (("show", "--source", "usb:9-9"), "no camera at usb:9-9"),
      (("show", "--cameras", "left=a"), "names no cameras|valid are"),
      (("show", "--cameras", "sideways"), "left=SOURCE,right=SOURCE"),
+     (("aim", "--depths", "deep"), "give for example -30,120"),
+     (("aim", "--depths", "9,3"), "swap depth_min_mm"),
+     (("aim", "--tilt", "120"), "tilt_max_deg"),
      (("aim", "--rig", "narrow"), "no camera rig is called 'narrow'")],
 )  # fmt: skip
 def test_a_bad_choice_is_one_line_that_says_what_to_do(monkeypatch, capsys, words, message):
@@ -90,6 +93,8 @@ def test_the_aim_of_a_rig_is_said_without_a_camera(monkeypatch, capsys, tmp_path
     code, out, _ = run(monkeypatch, capsys, "camera", "aim", "--rig", "wide", "--json")
     assert code == 0
     assert json.loads(out)["share"] == 1.0
+    words = ("camera", "aim", "--rig", "thesis", "--depths", "-30,120", "--json")
+    assert 0.25 < json.loads(run(monkeypatch, capsys, *words)[1])["share"] < 0.4
     words = ("camera", "aim", "--rig", "thesis", "--out", tmp_path / "aim")
     code, out, _ = run(monkeypatch, capsys, *words)
     assert code == 0

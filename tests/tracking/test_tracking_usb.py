@@ -14,7 +14,7 @@ from app.tracking.cameras.ports import camera_ports, find_port
 from app.tracking.cameras.source import Kind, Source, parse_source
 from app.tracking.cameras.timing import CaptureTime
 from app.tracking.cameras.usb import UsbCamera
-from app.tracking.cameras.watch import CameraReader, CameraState
+from app.tracking.cameras.watch import CameraHealth, CameraReader, CameraState
 from app.tracking.errors import CameraError
 
 
@@ -271,6 +271,12 @@ def test_a_stream_that_goes_wrong_is_noticed_in_half_a_second_and_named(
     assert time.monotonic() - begin < 0.55
     _until(lambda: _state(reader) is state)
     assert word in reader.health(time.monotonic()).text
+
+
+def test_a_camera_is_named_once_in_its_trouble():
+    named = [CameraHealth("left", CameraState.FAILED, 1.0, message).named
+             for message in ("camera left (usb:1): gone", "gone")]  # fmt: skip
+    assert named == ["camera left (usb:1): gone", "camera left: gone"]
 
 
 def test_a_covered_lens_is_told_from_a_driver_that_hangs(bus, camera, reader):

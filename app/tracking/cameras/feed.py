@@ -129,6 +129,6 @@ class CameraFeed:
             if health.state is before:
                 continue
             if health.state in _TROUBLE:
-                self._report("camera", f"camera {health.name}: {health.text}")
+                self._report("camera", health.named)
             elif before in _TROUBLE:
                 self._report("camera", f"camera {health.name} delivers pictures again")

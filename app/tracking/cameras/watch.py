@@ -61,6 +61,12 @@ class CameraHealth:
         refused = f" ({self.figures.text})" if self.figures.backwards + self.figures.future else ""
         return f"no picture for {self.age:.1f} s{refused}; check its cable"
 
+    @property
+    def named(self) -> str:
+        """`text` with the camera's name before it, once."""
+        prefix = f"camera {self.name}"
+        return self.text if self.text.startswith(prefix) else f"{prefix}: {self.text}"
+
 
 class CameraReader:
     """Reads one camera in its own thread and keeps the newest picture.
