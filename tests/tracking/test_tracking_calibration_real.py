@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -99,3 +100,16 @@ def test_corner_orders_that_differ_between_the_cameras_are_mended(
     np.testing.assert_allclose(
         mended.calibration.pose.translation_mm, result.calibration.pose.translation_mm, atol=1e-4
     )
+
+
+def test_the_published_stereo_residual_comes_out_with_the_published_recipe(
+    pairs: list[Pair],
+) -> None:
+    left, right = seen(pairs, window=11)
+    points = [view.points.astype(np.float32) for view in left]
+    pixels = [[view.pixels.astype(np.float32) for view in side] for side in (left, right)]
+    size = (640, 480)
+    lens = [cv2.calibrateCamera(points, side, size, None, None)[1:3] for side in pixels]
+    fixed = cv2.CALIB_FIX_INTRINSIC
+    rms = cv2.stereoCalibrate(points, *pixels, *lens[0], *lens[1], size, flags=fixed)[0]
+    assert rms == pytest.approx(0.448, abs=0.004)

@@ -152,9 +152,15 @@ def _require_apart(adjusted: Adjusted) -> None:
 
 
 def _posed(pair: ViewPair, left: MonoResult, right: MonoResult) -> PosedPair:
-    T_left, _ = board_pose(pair[0], left.adjusted.state.parameters[0])
-    T_right, _ = board_pose(pair[1], right.adjusted.state.parameters[0])
-    return PosedPair(pair[0], pair[1], T_left, T_right)
+    return PosedPair(pair[0], pair[1], _pose_in(pair[0], left), _pose_in(pair[1], right))
+
+
+def _pose_in(view: BoardView, camera: MonoResult) -> RigidTransform:
+    """Pose of a board in a camera; known already if the view was used for the camera itself."""
+    for used, T in zip(camera.views, camera.adjusted.state.poses, strict=True):
+        if used is view:
+            return T
+    return board_pose(view, camera.adjusted.state.parameters[0])[0]
 
 
 def _require_agreement(agreement: Agreement, posed: list[PosedPair], right: MonoResult) -> None:
