@@ -45,6 +45,7 @@ TRAJECTORY_COLUMNS: Final = (
     "tip_y_mm",
     "tip_z_mm",
     "depth_mm",
+    "tip_radius_95_mm",
     "lateral_mm",
     "remaining_mm",
     "angle_deg",
@@ -90,6 +91,7 @@ def trajectory_table(recording: Recording) -> str:
         samples.depth_source,
         *(samples.tip * 1e3).T,
         figures.depth * 1e3,
+        _radii(samples) * 1e3,
         figures.lateral * 1e3,
         figures.remaining * 1e3,
         np.degrees(figures.angle),
@@ -101,6 +103,11 @@ def trajectory_table(recording: Recording) -> str:
     for values in zip(*(column.tolist() for column in columns), strict=True):
         lines.append([_cell(value) for value in (*values, DISCLAIMER)])
     return _text(lines)
+
+
+def _radii(samples: Samples) -> NDArray[np.float64]:
+    """Radius round the tip that holds the true one with 95 % [m]; NaN where it is not known."""
+    return np.full(len(samples.time), np.nan) if samples.radius is None else samples.radius
 
 
 def _sources(samples: Samples) -> NDArray[np.str_]:

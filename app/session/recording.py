@@ -141,6 +141,8 @@ def _samples(content: Scan, problems: list[str]) -> Samples:
     rows = _documents(content, "/attempt", problems)
     by_stamp = {_stamp(d): d for d in _documents(content, "/haptic/wrench", problems)}
     wrenches = [by_stamp.get(_stamp(row), {}) for row in rows]  # both channels share the stamp
+    stated = {_stamp(d): d for d in _documents(content, "/tracking/quality", problems)}
+    qualities = [stated.get(_stamp(row), {}) for row in rows]
     return Samples(
         time=floats([row["time"] for row in rows]),
         state=words([row["state"] for row in rows]),
@@ -154,6 +156,7 @@ def _samples(content: Scan, problems: list[str]) -> Samples:
         guide=vectors([wrench.get("guide") for wrench in wrenches]),
         felt=vectors([wrench.get("felt") for wrench in wrenches]),
         measured=floats([wrench.get("measured") for wrench in wrenches]),
+        radius=floats([quality.get("radius_95") for quality in qualities]),
     )
 
 

@@ -208,7 +208,15 @@ def _quality(sample: Sample, stamp: dict[str, int]) -> dict[str, Any]:
         "orientation_age": pose.orientation_age,
         "depth_age": pose.depth_age,
         "sigma_along": sqrt(variance) if variance >= 0.0 else None,
+        "radius_95": radius_95(sample),
+        "deflection": pose.deflection if pose.deflection_sigma > 0.0 else None,
     }
+
+
+def radius_95(sample: Sample) -> float | None:
+    """Radius round the tip that holds the true one with 95 % [m], while cameras vouch for it."""
+    measured = sample.pose_valid and sample.pose.measured
+    return sample.pose.radius if measured else None
 
 
 def _joints(device: DeviceStatePort, stamp: dict[str, int]) -> dict[str, Any]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, read_only
-from app.session.sample import Sample
+from app.session.sample import Sample, radius_95
 
 SAMPLE_PERIOD: Final = 0.01
 """Samples are kept at most this often [s]: 100 Hz."""
@@ -35,6 +35,8 @@ class Samples:
         guide: the virtual fixture's share of the wanted force [N], shape (n, 3).
         felt: force at the hub point after all limits [N], shape (n, 3), estimated from torques.
         measured: force across the needle that a gauge measured [N], shape (n,); NaN without one.
+        radius: round the tip that holds the true one with 95 % [m], shape (n,); NaN where no camera
+            vouches for the tip. None in records of versions that did not keep it.
     """
 
     time: FloatArray
@@ -49,6 +51,7 @@ class Samples:
     guide: FloatArray
     felt: FloatArray
     measured: FloatArray
+    radius: FloatArray | None = None
 
 
 class History:
@@ -82,6 +85,7 @@ class History:
             guide=vectors([xyz(s.device.guide) if s.device else None for s in kept]),
             felt=vectors([xyz(s.device.felt) if s.device else None for s in kept]),
             measured=floats([_measured(s) for s in kept]),
+            radius=floats([radius_95(s) for s in kept]),
         )
 
 

@@ -115,7 +115,10 @@ QUALITY: Final = _object(
         "orientation_age": _NUMBER_OR_NULL,
         "depth_age": _NUMBER_OR_NULL,
         "sigma_along": _NUMBER_OR_NULL,
+        "radius_95": _NUMBER_OR_NULL,
+        "deflection": _NUMBER_OR_NULL,
     },
+    optional=("radius_95", "deflection"),
 )
 _TEXT_OR_NULL: Final[Schema] = {"type": ["string", "null"]}
 SCORE: Final = _object(

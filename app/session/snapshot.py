@@ -113,6 +113,8 @@ def advice(
         found.append(pose.reason)
     if fix_status in _FIX_TEXT:
         found.append(_FIX_TEXT[fix_status])
+    if pose.bends:
+        found.append(f"the needle bends: its tip is {pose.deflection * 1e3:.1f} mm off its line")
     if pose.depth_source is DepthSource.ONE_CAMERA:
         found.append("depth from one camera and the needle's line: less exact")
     elif pose.depth_source is DepthSource.HELD:

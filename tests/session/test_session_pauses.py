@@ -11,6 +11,7 @@ from app.core.arrays import read_only
 from app.session.machine import Event, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.pauses import BACK, LOST, Pauses
+from app.session.recording import read_recording
 from app.session.shown import DISPLAY_LATENCY, FARTHEST, moment, shown
 from app.tracking.motion.depth_filter import DepthMotion
 
@@ -171,4 +172,8 @@ def test_the_window_sees_the_prediction_and_the_record_the_measurement(bench: Be
     assert snapshot.pose.depth == pytest.approx(true + 0.05 * DISPLAY_LATENCY, abs=0.3e-3)
     assert snapshot.measured_pose.depth < true + 1e-9
     result = bench.trainer.end()
+    samples = read_recording(result.record).samples
+    known = samples.radius[np.isfinite(samples.radius)]
+    assert len(known) > 50
+    assert known[-1] == pytest.approx(snapshot.measured_pose.radius, rel=0.01)
     assert result.trajectory.depth[-1] == pytest.approx(snapshot.measured_pose.depth)

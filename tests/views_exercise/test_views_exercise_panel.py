@@ -51,7 +51,7 @@ def live(state, **changes):
 @pytest.mark.parametrize("state", list(State))
 def test_only_what_the_state_allows_is_enabled(panel, state):
     panel.show_figures(live(state))
-    running = state in (State.ALIGNING, State.INSERTING, State.HOLDING)
+    running = state in (State.ALIGNING, State.INSERTING, State.HOLDING, State.PAUSED)
     assert panel.buttons.start.isEnabled() is not running
     for button in (panel.buttons.scan, panel.buttons.end, panel.buttons.abort):
         assert button.isEnabled() is running
@@ -69,6 +69,19 @@ def test_the_readouts_carry_their_units(panel):
     assert texts == ["1:07", "52.3 mm", "3.3°", "2.9 mm", "32.0 mm"]
     panel.show_figures(live(State.INSERTING, measured=False))
     assert panel.readouts.text("depth").endswith("◇")
+
+
+def test_the_readouts_say_how_well_the_tip_is_known_and_whether_the_needle_bends(panel):
+    panel.show_figures(live(State.INSERTING))
+    assert panel.readouts.text("radius") == "–"
+    assert panel.readouts.text("bending") == "–"
+    for deflection, text in ((1.6e-3, "1.6 mm"), (0.2e-3, "< 0.6 mm")):
+        moment = replace(
+            live(State.INSERTING), radius=0.43e-3, deflection=deflection, deflection_sigma=0.2e-3
+        )
+        panel.show_figures(moment)
+        assert panel.readouts.text("radius") == "± 0.4 mm"
+        assert panel.readouts.text("bending") == text
 
 
 def test_keys_end_and_scan_only_while_the_attempt_runs(panel):

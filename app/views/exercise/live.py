@@ -21,6 +21,10 @@ class LiveFigures:
         force_measured: whether a gauge measured it; else it is estimated from the torques.
         force_limit: the device's [N].
         scans: control scans so far.
+        radius: round the tip that holds the true one with 95 % [m]; None while it is not measured.
+        deflection: of the tip from the straight needle, as both cameras see it [m]; None where it
+            is not known.
+        deflection_sigma: its standard deviation [m].
     """
 
     state: State | None
@@ -34,3 +38,6 @@ class LiveFigures:
     force_measured: bool
     force_limit: float
     scans: int
+    radius: float | None = None
+    deflection: float | None = None
+    deflection_sigma: float = 0.0

@@ -48,6 +48,9 @@ def figures(snapshot: Snapshot, force_limit: float) -> LiveFigures:
         force_measured=force.measured,
         force_limit=force_limit,
         scans=snapshot.scans,
+        radius=snapshot.pose.radius if snapshot.pose.measured else None,
+        deflection=snapshot.pose.deflection if snapshot.pose.deflection_sigma > 0.0 else None,
+        deflection_sigma=snapshot.pose.deflection_sigma,
     )
 
 

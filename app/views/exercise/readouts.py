@@ -69,6 +69,14 @@ def _rows() -> dict[str, tuple[str, str]]:
         "angle": (tr("Angle error"), tr("Between the needle and the planned path")),
         "lateral": (tr("Off the path"), tr("Tip from the line of the planned path")),
         "to_target": (tr("To target"), tr("Along the path; negative when the tip is too deep")),
+        "radius": (
+            tr("Tip known to"),
+            tr("Radius round the tip that holds the true one with 95 %, as it is shown now"),
+        ),
+        "bending": (
+            tr("Bending"),
+            tr("Tip off the straight needle, by both cameras; less than chance is shown as <"),
+        ),
         "scans": (tr("Control scans"), tr("Scans taken in this attempt")),
     }
 
@@ -83,8 +91,24 @@ def _texts(figures: LiveFigures) -> dict[str, str]:
         "angle": tr("{deg:.1f}°", deg=degrees(figures.angle_error)),
         "lateral": measured_mm(figures.lateral),
         "to_target": measured_mm(figures.to_target),
+        "radius": radius_text(figures.radius),
+        "bending": bending_text(figures.deflection, figures.deflection_sigma),
         "scans": str(figures.scans),
     }
+
+
+def radius_text(radius: float | None) -> str:
+    """Radius that holds the true tip with 95 % [m]; a dash while the tip is not measured."""
+    return _EMPTY if radius is None else tr("± {mm:.1f} mm", mm=1e3 * radius)
+
+
+def bending_text(deflection: float | None, sigma: float) -> str:
+    """Say how far the tip is off the straight needle [m]; below three sigma, the bound."""
+    if deflection is None:
+        return _EMPTY
+    if deflection > 3.0 * sigma:
+        return tr("{mm:.1f} mm", mm=1e3 * deflection)
+    return tr("< {mm:.1f} mm", mm=3e3 * sigma)
 
 
 def clock_text(seconds: float) -> str:
