@@ -152,3 +152,28 @@ def test_a_settings_file_that_cannot_be_read_is_told_not_replaced(window, servic
     if window.cameras.dialog is not None:
         window.cameras.dialog.reject()
     QApplication.processEvents()
+
+
+def test_calibrating_lets_the_run_go_searches_both_pictures_and_gives_the_cameras_back(
+    running, services, settle
+):
+    run = services.opened[-1]
+    running.menus.cameras.calibrate.trigger()
+    dialog = running.cameras.dialog
+    dialog.show_page(1)
+    dialog.capture_page.begin_live()
+    assert run.closed.wait(5.0)
+    assert settle(lambda: dialog.capture_page.search is not None, 10.0)
+    assert settle(lambda: "no ChArUco board" in dialog.capture_page.state.text(), 10.0)
+    assert len(services.lives) == 2
+    dialog.reject()
+    assert settle(lambda: running.runs.run is not None, 10.0)
+    assert all(live.closed.wait(5.0) for live in services.lives)
+
+
+def test_without_real_cameras_a_calibration_is_made_from_folders(window):
+    window.menus.cameras.calibrate.trigger()
+    dialog = window.cameras.dialog
+    assert not dialog.capture_page.live.isEnabled()
+    assert dialog.capture_page.folder.isEnabled()
+    dialog.reject()

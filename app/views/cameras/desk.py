@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QDialog, QWidget
 from app.core.errors import AcusError
 from app.session.machine import RUNNING
 from app.tracking.cameras.settings import (
+    SIDES,
     CameraSettings,
     load_settings,
     save_settings,
@@ -28,7 +29,10 @@ from app.views.text import tr
 if TYPE_CHECKING:
     from PySide6.QtCore import QSettings
 
+    from app.core.progress import Progress
     from app.tracking.cameras.latency import Latency
+    from app.views.cameras.camera_pair import OpenCamera
+    from app.views.cameras.wizard import CalibrationWizard
 
 _USED = "cameras/real"
 DEVICE = "icube"
@@ -133,6 +137,18 @@ class CamerasDesk(QObject):
         dialog.measured.connect(self._keep_latency)
         self.show(dialog)
 
+    def calibrate(self) -> None:
+        """Calibrate both cameras; without real ones from folders of pictures."""
+        if self._refused():
+            return
+        try:
+            dialog = self._wizard(self.chosen)
+        except AcusError as error:
+            self.failed.emit(error)
+            return
+        dialog.used.connect(self._apply)
+        self.show(dialog)
+
     def free(self) -> Callable[[], object]:
         """Let the run go if it has the cameras; return what waits until it has."""
         if not self.real:
@@ -155,6 +171,32 @@ class CamerasDesk(QObject):
     def _apply(self) -> None:
         self._conductor.set_cameras(self.chosen if self.real else None)
         self.changed.emit()
+
+    def _wizard(self, chosen: CameraSettings) -> CalibrationWizard:
+        # OpenCV and kernels: only for whom the wizard is opened, not with the window.
+        from app.mechanisms.profile import load_profile
+        from app.tracking.optics.rig import load_rig
+        from app.views.cameras.camera_pair import open_both
+        from app.views.cameras.wizard import CalibrationWizard
+        from app.views.cameras.wizard_job import CalibrationJob
+
+        profile, rig = self._conductor.profile, load_rig(chosen.rig)
+        left, right = (camera.name for camera in rig.cameras)
+        fulcrum = (load_profile(DEVICE) if profile is None else profile).pantograph.fulcrum
+        job = CalibrationJob(
+            names=(left, right),
+            watched=fulcrum[None, :],
+            expected=rig.models[0].T_world_camera,
+        )
+        if chosen.simulated:
+            return CalibrationWizard(job, None, self._window)
+        free, services = self.free(), self._services
+
+        def open_side(side: str, progress: Progress) -> OpenCamera:
+            free()
+            return services.open_camera(chosen, side, progress)
+
+        return CalibrationWizard(job, open_both(open_side, SIDES), self._window)
 
     def _ended(self, dialog: QDialog) -> None:
         self.dialog = None

@@ -22,6 +22,7 @@ class CamerasMenu:
         menu.addSeparator()
         self.set_up = self._add(menu, tr("Set up…"), desk.set_up)
         self.aim = self._add(menu, tr("Aim…"), desk.aim)
+        self.calibrate = self._add(menu, tr("Calibrate…"), desk.calibrate)
         latency = menu.addMenu(tr("Latency"))
         self._add(latency, tr("Left camera…"), lambda: desk.measure_latency("left"))
         self._add(latency, tr("Right camera…"), lambda: desk.measure_latency("right"))

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Sequence
-from typing import Final, Protocol
+from collections.abc import Sequence
+from typing import Final
 
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
@@ -14,24 +14,13 @@ from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.placed_board import PlacedBoard
 from app.tracking.calibration.views import BoardView, Rejection
 from app.tracking.errors import CalibrationError
-from app.views.cameras.capture import LiveShots, Newest
+from app.views.cameras.camera_pair import OpenPair, close_all
+from app.views.cameras.capture import LiveShots
 
 _PICTURES: Final = 3
 """Live pictures that are averaged at one place."""
 
 _LIVE_TIMEOUT: Final = 10.0
-
-
-class OpenCamera(Newest, Protocol):
-    """A camera that is open and must be closed."""
-
-    def close(self) -> None:
-        """Let go of it; idempotent."""
-        ...
-
-
-OpenPair = Callable[[Progress], Sequence[OpenCamera]]
-"""Opens both cameras, left and right; called beside the window."""
 
 
 def take_board(
@@ -63,8 +52,7 @@ def take_board(
             if len(pairs) == _PICTURES:
                 break
     finally:
-        for camera in cameras:
-            camera.close()
+        close_all(cameras)
     if not pairs:
         raise CalibrationError(
             f"the board was not seen within {_LIVE_TIMEOUT:.0f} s: "

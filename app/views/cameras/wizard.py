@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
@@ -14,8 +16,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.core.progress import Progress
 from app.views import theme
-from app.views.cameras.take_board import OpenPair
+from app.views.cameras.camera_pair import OpenCamera, OpenPair
 from app.views.cameras.wizard_board import BoardPage
 from app.views.cameras.wizard_capture import CapturePage
 from app.views.cameras.wizard_job import CalibrationJob
@@ -53,7 +56,7 @@ class CalibrationWizard(QDialog):
         self.board_page = BoardPage(job, self)
         self.capture_page = CapturePage(job, open_pair, self)
         self.result_page = ResultPage(job, self)
-        self.world_page = WorldPage(job, open_pair, self)
+        self.world_page = WorldPage(job, self._after_capture(open_pair), self)
         self.save_page = SavePage(job, self)
         self.steps: tuple[Step, ...] = (
             self.board_page,
@@ -93,6 +96,23 @@ class CalibrationWizard(QDialog):
         self.result_page.stop()
         self.world_page.stop()
         super().done(code)
+
+    def closed(self) -> Callable[[], object]:
+        """Return what waits until the cameras are let go; for other threads."""
+        waits = (self.capture_page.closed(), self.world_page.closed())
+        return lambda: [wait() for wait in waits]
+
+    def _after_capture(self, open_pair: OpenPair | None) -> OpenPair | None:
+        """Open the cameras once the page before has let them go: one port is opened once."""
+        if open_pair is None:
+            return None
+        closed = self.capture_page.closed
+
+        def open_after(progress: Progress) -> Sequence[OpenCamera]:
+            closed()()
+            return open_pair(progress)
+
+        return open_after
 
     def _refresh(self) -> None:
         for row, page in enumerate(self.steps):

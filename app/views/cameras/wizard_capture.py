@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -13,9 +13,9 @@ from app.core.errors import AcusError
 from app.tracking.calibration.collector import ViewCollector
 from app.tracking.calibration.views import BoardView
 from app.views.background import run_in_background
+from app.views.cameras.camera_pair import OpenCamera, OpenPair, PairOpening
 from app.views.cameras.capture import FolderShots, LiveShots, Search
 from app.views.cameras.coverage_view import CoverageView
-from app.views.cameras.take_board import OpenCamera, OpenPair
 from app.views.cameras.wizard_job import CalibrationJob, Views
 from app.views.cameras.wizard_parts import button, column, label, tell
 from app.views.exercise.status_items import Verdict
@@ -23,7 +23,8 @@ from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.tracking.calibration.collector import Offer
-    from app.views.cameras.capture import Shot
+    from app.views.cameras.camera_pair import OpenCamera, OpenPair, PairOpening
+from app.views.cameras.capture import Shot
 
 POLL_MS: Final = 40
 LEAST_PAIRS: Final = 5
@@ -42,7 +43,7 @@ class CapturePage(QWidget):
     def __init__(self, job: CalibrationJob, open_pair: OpenPair | None, parent: QWidget) -> None:
         super().__init__(parent)
         self._job, self._open_pair = job, open_pair
-        self._cameras: Sequence[OpenCamera] = ()
+        self._pair: PairOpening | None = None
         self.search: Search | None = None
         self._live, self._opening = False, False
         self._collector: ViewCollector | None = None
@@ -84,9 +85,13 @@ class CapturePage(QWidget):
         if self._open_pair is None or self.running:
             return
         self._opening = True
+        pair = self._pair = PairOpening(self._open_pair, self._pair)
         tell(self.state, Verdict.IDLE, tr("opening the cameras …"))
         self.refresh()
-        run_in_background(self, self._open_pair, self._opened, self._refused)
+        self.changed.emit()
+        run_in_background(
+            self, pair.run, lambda cameras: self._opened(pair, cameras), self._refused
+        )
 
     def begin_folder(self, folder: Path) -> None:
         """Search the pictures of a folder."""
@@ -109,11 +114,16 @@ class CapturePage(QWidget):
             search.close()
             self._show(search)
             self._take(search)
-        cameras, self._cameras = self._cameras, ()
-        for camera in cameras:
-            camera.close()
+        self._opening = False
+        if self._pair is not None:
+            self._pair.stop()
         self.refresh()
         self.changed.emit()
+
+    def closed(self) -> Callable[[], object]:
+        """Return what waits until the cameras are let go; for other threads."""
+        pair = self._pair
+        return (lambda: None) if pair is None else (lambda: pair.ended.wait(8.0))
 
     def look(self) -> None:
         """Show what the search has found since."""
@@ -131,7 +141,7 @@ class CapturePage(QWidget):
         """Enable what can be done now."""
         self.live.setEnabled(self._open_pair is not None and not self.running)
         self.folder.setEnabled(not self.running)
-        self.stop.setEnabled(self.search is not None)
+        self.stop.setEnabled(self.running)
         self.back.setEnabled(self.search is not None and self._live)
         if self._open_pair is None:
             self.live.setToolTip(tr("Choose real cameras in the menu Cameras first"))
@@ -151,16 +161,21 @@ class CapturePage(QWidget):
         self.bar.setValue(0)
 
     # --- inside -----------------------------------------------------------------------------------
-    def _opened(self, cameras: Sequence[OpenCamera]) -> None:
-        self._opening, self._live, self._cameras = False, True, cameras
+    def _opened(self, pair: PairOpening, cameras: Sequence[OpenCamera]) -> None:
+        if not self._opening or pair is not self._pair:
+            return  # nobody wants them any more: they are closed already
+        self._opening, self._live = False, True
         self.bar.setRange(0, 1000)
         collector = ViewCollector(self._job.board, self._job.names)
         self._begin(Search(LiveShots(cameras, self._job.names), collector))
 
     def _refused(self, error: Exception) -> None:
+        if not self._opening:
+            return
         self._opening = False
         self.refresh()
         tell(self.state, Verdict.BAD, str(error))
+        self.changed.emit()
 
     def _begin(self, search: Search) -> None:
         self._job.set_views((), ())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
@@ -22,7 +23,8 @@ from app.tracking.calibration.world import WorldFrame
 from app.tracking.calibration.world_set import placed_boards
 from app.tracking.errors import CalibrationError
 from app.views.background import Task, run_in_background
-from app.views.cameras.take_board import OpenPair, take_board
+from app.views.cameras.camera_pair import OpenPair
+from app.views.cameras.take_board import take_board
 from app.views.cameras.wizard_job import CalibrationJob
 from app.views.cameras.wizard_parts import button, column, label, tell
 from app.views.cameras.wizard_words import world_lines
@@ -43,6 +45,8 @@ class WorldPage(QWidget):
         super().__init__(parent)
         self._job, self._open_pair = job, open_pair
         self._task: Task | None = None
+        self._let_go = threading.Event()
+        self._let_go.set()
         self.fields = tuple(_field(unit) for unit in ("mm",) * 3 + ("°",) * 3)
         for spin, value in zip(self.fields, (-60.0, 190.0, 90.0, 180.0, 0.0, 0.0), strict=True):
             spin.setValue(value)
@@ -93,6 +97,11 @@ class WorldPage(QWidget):
         if self._task is not None:
             self._task.cancel()
 
+    def closed(self) -> Callable[[], object]:
+        """Return what waits until the cameras are let go; for other threads."""
+        let_go = self._let_go
+        return lambda: let_go.wait(12.0)
+
     def refresh(self) -> None:
         """Show what is known."""
         self.live.setEnabled(self._open_pair is not None and not self.running)
@@ -124,8 +133,13 @@ class WorldPage(QWidget):
             return
         job, known = self._job, self._job.places
 
+        let_go = self._let_go = threading.Event()
+
         def operation(progress: Progress) -> tuple[tuple[PlacedBoard, ...], WorldFrame]:
-            places = (*known, work(progress))
+            try:
+                places = (*known, work(progress))
+            finally:
+                let_go.set()
             return places, job.find_world(places)
 
         tell(self.state, Verdict.IDLE, tr("looking for the board …"))
