@@ -58,14 +58,24 @@ class MarkerDetector:
     def __init__(self, dictionary: str) -> None:
         parameters = cv2.aruco.DetectorParameters()
         parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_NONE
-        parameters.adaptiveThreshWinSizeMin = 7
-        parameters.adaptiveThreshWinSizeMax = 31
-        parameters.adaptiveThreshWinSizeStep = 12
+        parameters.adaptiveThreshWinSizeMin = 9
+        parameters.adaptiveThreshWinSizeMax = 23
+        parameters.adaptiveThreshWinSizeStep = 14
         parameters.minMarkerPerimeterRate = 0.04
         self._detector = cv2.aruco.ArucoDetector(aruco_dictionary(dictionary), parameters)
 
-    def find(self, image: Image, wanted: set[int]) -> Sightings:
-        """Return the markers of the wanted ids; an empty result also says if mirroring helps."""
+    def find(
+        self, image: Image, wanted: set[int], many: frozenset[int] = frozenset(), enough: int = 8
+    ) -> Sightings:
+        """Return the markers of the wanted ids; an empty result also says if mirroring helps.
+
+        Args:
+            image: blue, green, red.
+            wanted: ids to look for.
+            many: ids of which about `enough`, spread over their order, are measured: more of one
+                sheet cost time and gain little.
+            enough: see `many`.
+        """
         grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
         squares = self._squares(grey, wanted)
         if not squares:
@@ -73,7 +83,13 @@ class MarkerDetector:
             return Sightings((), mirrored=len(flipped) >= 2)
         counts = Counter(number for number, _ in squares)
         doubles = tuple(sorted(number for number, count in counts.items() if count > 1))
-        single = [(number, found) for number, found in squares if counts[number] == 1]
+        single = sorted(
+            ((number, found) for number, found in squares if counts[number] == 1),
+            key=lambda square: square[0],
+        )
+        spare = [number for number, _ in single if number in many]
+        left_out = set(spare) - set(spare[:: max(1, len(spare) // enough)])
+        single = [square for square in single if square[0] not in left_out]
         corners = np.array([found for _, found in single]).reshape(-1, 4, 2)
         markers, unmeasured = [], []
         for (number, _), square in zip(single, measure_squares(grey, corners), strict=True):

@@ -11,13 +11,10 @@ from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.pen.board import all_ids
 from app.tracking.pen.body import PenProfile
-from app.tracking.pen.detector import MarkerDetector, MarkerSighting, Sightings
+from app.tracking.pen.detector import MarkerDetector, Sightings
 from app.tracking.pen.needle import PenNeedle, PenTip, solve_needle
 from app.tracking.pen.pose import DECISIVE, BoardLocator, BoardPose, PoseStatus
 from app.tracking.pen.webcam import Webcam, guessed_webcam
-
-BASE_MARKERS = 8
-"""Markers of the sheet that are used at least, if so many are seen."""
 
 HOLE = 0.005
 """How far a shaft in the hole passes the entry, standard deviation [m]."""
@@ -65,6 +62,7 @@ class PenStep:
         self.T_world_base = pen.base.pose(self.fulcrum)
         body, base = pen.body.board(), pen.base.board()
         self._wanted = all_ids((body, base))
+        self._sheet = frozenset(marker.id for marker in base.markers)
         self._body = BoardLocator(body, pen.systematic_px)
         self._base = BoardLocator(base, pen.systematic_px)
         self._detector = MarkerDetector(body.dictionary)
@@ -79,9 +77,9 @@ class PenStep:
         webcam = self.webcam or guessed_webcam((width, height))
         webcam.require_size((width, height))
         self.webcam, model = webcam, webcam.model
-        sightings = self._detector.find(frame.image, self._wanted)
+        sightings = self._detector.find(frame.image, self._wanted, self._sheet)
         body = self._body.locate(model, sightings.markers)
-        base = self._base.locate(model, self._base_markers(sightings))
+        base = self._base.locate(model, sightings.markers)
         if body.either and base.status is PoseStatus.FOUND:
             body = self._through_the_entry(body, base, webcam)
         status, reason = _status(sightings, body, base, self._body.board.name, self._ids())
@@ -118,12 +116,6 @@ class PenStep:
             and needles[best].axis[2] < 0.0
         )
         return body.either[best] if certain else body
-
-    def _base_markers(self, sightings: Sightings) -> list[MarkerSighting]:
-        """Return markers spread over the sheet: more of them cost time and gain little."""
-        found = [s for s in sightings.markers if self._base.board.find(s.id) is not None]
-        found.sort(key=lambda sighting: sighting.id)
-        return found[:: max(1, len(found) // BASE_MARKERS)]
 
     def _ids(self) -> set[int]:
         return {marker.id for marker in self._body.board.markers}

@@ -1,0 +1,61 @@
+"""`acus pen`: a needle without a robot, printed and seen by one webcam."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from app.tracking.pen.body import PenProfile
+
+Name = Annotated[str, typer.Option("--pen", help="A pen's name or the path of its file.")]
+app = typer.Typer(help="A pen with printed markers before a webcam (docs/pen.md).")
+
+
+def register(root: typer.Typer) -> None:
+    """Add the group."""
+    root.add_typer(app, name="pen")
+
+
+@app.command("list")
+def list_pens(
+    as_json: Annotated[bool, typer.Option("--json", help="JSON instead of text.")] = False,
+) -> None:
+    """Name the pens that come with the program, and whether their tips are measured."""
+    from app.tracking.pen.body import shipped_pens
+    from app.tracking.pen.settings import PenSettings
+
+    rows = []
+    for name in shipped_pens():
+        pen = PenSettings(pen=name).profile()
+        rows.append({"name": name, "description": pen.description, "tip": _tip(pen)})
+    if as_json:
+        typer.echo(json.dumps(rows, indent=2))
+        return
+    for row in rows:
+        typer.echo(f"{row['name']:8} {row['description']}; {row['tip']}")
+
+
+@app.command("print")
+def print_pen(
+    out: Annotated[Path, typer.Option(help="PDF to write.")],
+    pen: Name = "cube",
+    paper: Annotated[str, typer.Option(help="A4, A3 or Letter.")] = "A4",
+) -> None:
+    """Write cube or ring with its tabs, and the sheet, as a PDF at true size."""
+    from app.tracking.pen.body import load_pen
+    from app.views.cameras.board_layout import paper_named
+    from app.views.pen.net_page import write_pen
+
+    profile = load_pen(pen)
+    write_pen(out, profile, paper_named(paper))
+    typer.echo(
+        f"wrote {out}: print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)"
+    )
+
+
+def _tip(pen: PenProfile) -> str:
+    return "tip measured" if pen.tip.calibrated else "tip by the drawing: `acus pen calibrate`"

@@ -1,0 +1,1 @@
+"""The pen with printed markers: its print, its page in the window, its calibration."""
