@@ -8,11 +8,13 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Final
 
+import numpy as np
+
 from app import __version__
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import write_atomically
 from app.session.errors import BrokenRecordingError
-from app.session.machine import FINAL
+from app.session.machine import FINAL, State
 from app.session.recording import Recording, read_recording
 from app.session.sample import finite
 from app.session.schemas import SCORE, conforms
@@ -115,7 +117,7 @@ def derive(recording: Recording) -> Summary:
     exercise = recording.metadata.get("exercise", {})
     result = recording.metadata.get("result", {})
     time = recording.samples.time
-    measured = float(time[-1] - time[0]) if len(time) else 0.0
+    measured = float(time[-1] - time[0]) - _paused(recording) if len(time) else 0.0
     return Summary(
         id=recording.path.stem,  # what `find` takes, also of a record that was renamed
         started=session.get("started", ""),
@@ -176,6 +178,13 @@ def _checked_score(document: Any) -> Mapping[str, Any]:
     if not conforms(document, SCORE):
         raise ValueError("not a stored score")
     return MappingProxyType(document)
+
+
+def _paused(recording: Recording) -> float:
+    """Time that the attempt waited for the cameras [s], which is no part of its duration."""
+    samples = recording.samples
+    paused = samples.state[:-1] == State.PAUSED.value
+    return float(np.sum(np.diff(samples.time)[paused]))
 
 
 def _number(text: str | None, otherwise: float) -> float:

@@ -11,6 +11,7 @@ from app.core.latest import Latest
 from app.tracking.cameras.camera import Camera, Frame, Image
 from app.tracking.cameras.feed import CameraFeed, Pair
 from app.tracking.capture_times import CaptureTimes
+from app.tracking.continuity import Continuity
 from app.tracking.errors import TrackingError
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.follower import MarkerFollower, Markers
@@ -97,6 +98,7 @@ class Tracker:
         self._names = tuple(model.name for model in rig.models)
         self._solver = FixSolver(rig, fulcrum)
         self._hiding = Hiding(rig.needle)
+        self._continuity = Continuity()
         self._health = FixHealth(rig.needle.marker_offset, force, self._put)
         self._times = CaptureTimes(self._names, self._put)
         self.rig = rig
@@ -153,7 +155,7 @@ class Tracker:
         markers = self._follower.find(frames, axis, time)
         sightings = self._follower.sightings(frames, markers, time)
         fix = self._health.look(self._solver.solve(sightings, axis, time), axis)
-        fix = self._hiding.look(fix)
+        fix = self._hiding.look(self._continuity.look(fix))
         if fix.status is FixStatus.INCONSISTENT:
             self._follower.doubt()
         self._show(frames, markers)

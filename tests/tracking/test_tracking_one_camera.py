@@ -2,11 +2,14 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from app.tracking.continuity import Continuity
 from app.tracking.fix import FixStatus
 from app.tracking.hiding import Hiding
 from app.tracking.markers.silhouette import centroid_shift
-from app.tracking.optics.rig import NeedleProfile
+from app.tracking.optics.rig import NeedleProfile, load_rig
 from app.tracking.solver import FixSolver, Sighting
 from app.tracking.stereo.one_camera import LEAST_ANGLE, RayStatus, point_on_line
 
@@ -97,6 +100,41 @@ def test_the_refusal_of_parallel_rays_is_sharp_and_never_jumps_to_infinity(wide,
     assert np.isfinite(found.covariance).all()
     if not refused:
         assert np.abs(found.p_world - middle).max() < 1e-9
+
+
+def test_one_camera_is_believed_only_where_it_goes_on_with_what_both_saw(wide):
+    solver, continuity = FixSolver(wide, FULCRUM), Continuity()
+    axis = _axis(10.0, 200.0)
+
+    def fix(time, depth, cameras):
+        band = FULCRUM + depth * axis
+        seen = [_sighting(wide, i, band, axis) if i in cameras else None for i in (0, 1)]
+        return continuity.look(solver.solve((seen[0], seen[1]), axis, time))
+
+    alone = fix(0.0, 0.05, (0,))
+    assert not alone.usable
+    assert alone.status is FixStatus.ONE_CAMERA
+    assert "both have seen it" in alone.reason
+    assert fix(0.1, 0.05, (0, 1)).usable
+    assert fix(0.2, 0.052, (0,)).usable
+    assert not fix(0.233, 0.09, (0,)).usable  # 38 mm in a thirtieth of a second
+    assert fix(0.266, 0.053, (1,)).usable
+    assert fix(1.2, 0.053, (1,)).usable
+    assert not fix(2.5, 0.053, (1,)).usable
+    assert fix(2.6, 0.09, (0, 1)).usable
+
+
+@settings(derandomize=True, deadline=None, max_examples=60)
+@given(*[st.floats(-2000.0, 3000.0)] * 2, st.sampled_from([0, 1]), st.booleans())
+def test_any_pixel_of_one_camera_gives_a_finite_fix_with_a_reason(u, v, camera, poor):
+    rig = load_rig("thesis" if poor else "wide")
+    sighting = Sighting(np.array([u, v]), np.eye(2) * 1e-3)
+    pair = (sighting, None) if camera == 0 else (None, sighting)
+    fix = FixSolver(rig, FULCRUM).solve(pair, _axis(30.0, 50.0), 0.0)
+    assert np.isfinite(fix.p_tip_world).all()
+    assert np.isfinite(fix.covariance).all()
+    assert fix.reason
+    assert fix.status in (FixStatus.ONE_CAMERA, FixStatus.INCONSISTENT)
 
 
 def _profile(rig, **changes):

@@ -112,6 +112,7 @@ def test_a_needle_out_of_view_is_reported_with_the_camera_that_misses_it(
 ):
     tracker, cameras = _stepped(wide, wide_renderers, needle)
     left, right = cameras[0].read(), cameras[1].read()
+    assert tracker.process(left, right).status is FixStatus.VALID
     needle.visible = False
     gone_left, gone_right = cameras[0].read(), cameras[1].read()
     fix = tracker.process(gone_left, gone_right)
