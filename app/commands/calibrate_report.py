@@ -9,7 +9,8 @@ from app.commands.calibrate import view_document
 
 if TYPE_CHECKING:
     from app.tracking.calibration.checks import Check
-    from app.tracking.calibration.mono import MonoResult, ViewResidual
+    from app.tracking.calibration.mono import MonoResult
+    from app.tracking.calibration.remarks import ViewResidual
     from app.tracking.calibration.sets import MonoSet, Seen, StereoSet
     from app.tracking.optics.calibration import CameraCalibration
 

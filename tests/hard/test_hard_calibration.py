@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
-from app.tracking.calibration.bundle import Sighting, State, adjust, with_free
+from app.tracking.calibration.bundle import adjust, with_free
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.mono import calibrate_mono
 from app.tracking.calibration.pairing import Pair
@@ -20,6 +20,7 @@ from app.tracking.calibration.poses import board_pose
 from app.tracking.calibration.rigid_fit import rigid_fit
 from app.tracking.calibration.run import calibrate_pairs
 from app.tracking.calibration.sets import mono_set, stereo_set
+from app.tracking.calibration.sightings import Sighting, State
 from app.tracking.calibration.validation import triangulated
 from app.tracking.calibration.views import BoardView, Reason, Rejection
 from app.tracking.errors import CalibrationError

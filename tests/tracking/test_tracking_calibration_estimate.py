@@ -5,10 +5,12 @@ import numpy as np
 import pytest
 
 from app.core.transform import RigidTransform
-from app.tracking.calibration.bundle import Sighting, State, adjust, with_free
+from app.tracking.calibration.bundle import adjust, with_free
 from app.tracking.calibration.lens import project, project_with_derivatives
 from app.tracking.calibration.mono import calibrate_mono
+from app.tracking.calibration.sightings import Sighting, State
 from app.tracking.calibration.start import first_estimate
+from app.tracking.calibration.validation import triangulated
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import PARAMETERS
@@ -75,7 +77,7 @@ def test_the_covariance_of_one_camera_is_that_of_repeated_trials() -> None:
 
 
 def test_the_covariance_of_two_cameras_pose_is_that_of_repeated_trials() -> None:
-    rig, trials = usual_rig(), 80
+    rig, trials = usual_rig(), 60
     poses = rig.poses(6, 3)
     rng = np.random.default_rng(6)
     cameras = np.array(
@@ -154,3 +156,51 @@ def test_too_few_views_and_views_of_different_sizes_are_refused() -> None:
     other = BoardView(left[0].board, left[0].ids, left[0].pixels, (1280, 960))
     with pytest.raises(CalibrationError, match="640x480 and 1280x960"):
         calibrate_mono([other, *left], "left")
+
+
+def test_lenses_and_pose_err_together_as_the_joint_covariance_says() -> None:
+    rig, trials = usual_rig(), 40
+    poses = rig.poses(6, 3)
+    rng = np.random.default_rng(7)
+    p_left = np.array([[0.02, 0.01, 0.42]])
+    pixels = [model.project(p_left)[0] for model in (rig.left, rig.right)]
+    cameras = np.array(
+        [np.concatenate([m.intrinsics, m.distortion]) for m in (rig.left, rig.right)]
+    )
+    start = State(cameras, rig.T_right_left, tuple(poses))
+    points, joint = [], np.zeros((24, 24))
+    for _ in range(trials):
+        seen = [
+            Sighting(i, side, rig.board.points, rig.view(model, T, NOISE, rng).pixels)
+            for i, T in enumerate(poses)
+            for side, model in enumerate((rig.left, rig.right))
+        ]
+        result = adjust(seen, start, with_free(PLAIN, 2))
+        points.append(_triangulated(rig, result.state, pixels))
+        joint += result.covariance / trials
+    gain = np.empty((3, 24))
+    for i in range(24):
+        step = np.zeros(24)
+        step[i] = 1e-6
+        there, back = (_triangulated(rig, _moved(start, s), pixels) for s in (step, -step))
+        gain[:, i] = (there - back) / 2e-6
+    blocks = np.zeros((24, 24))
+    for block in (slice(0, 9), slice(9, 18), slice(18, 24)):
+        blocks[block, block] = joint[block, block]
+    found = float(np.sqrt(np.trace(np.cov(np.array(points).T))))
+    together, apart = (float(np.sqrt(np.trace(gain @ s @ gain.T))) for s in (joint, blocks))
+    assert found == pytest.approx(together, rel=0.3)
+    assert apart > 2.0 * together  # what independent blocks would say
+
+
+def _moved(state: State, step: np.ndarray) -> State:
+    cameras = state.parameters + step[:18].reshape(2, 9)
+    return State(cameras, RigidTransform.exp(step[18:]) @ state.T_right_left, state.poses)
+
+
+def _triangulated(rig: Rig, state: State, pixels: list[np.ndarray]) -> np.ndarray:
+    left, right = (
+        camera("c", tuple(p[:4]), tuple(p[4:]), (640, 480), pose)
+        for p, pose in zip(state.parameters, (None, state.T_right_left.inverse()), strict=True)
+    )
+    return triangulated(left, right, *pixels)[0]

@@ -7,10 +7,12 @@ import numpy as np
 
 from app.core.progress import Progress
 from app.tracking.calibration import held_back
-from app.tracking.calibration.bundle import Adjusted, Sighting, State, adjust, rms, with_free
+from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
 from app.tracking.calibration.outliers import limit_px
 from app.tracking.calibration.poses import board_pose
+from app.tracking.calibration.remarks import ViewResidual, mono_remarks
 from app.tracking.calibration.selection import Dropped, smallest_model
+from app.tracking.calibration.sightings import Sighting, State
 from app.tracking.calibration.start import first_estimate, usual_rms
 from app.tracking.calibration.views import BoardView, named
 from app.tracking.errors import CalibrationError
@@ -19,21 +21,6 @@ from app.tracking.optics.calibration import PARAMETERS, CameraCalibration
 LEAST_VIEWS = 3
 MOST_FOCAL_SPREAD = 0.05
 """Standard deviation of the focal length over itself beyond which views are refused."""
-
-
-@dataclass(frozen=True)
-class ViewResidual:
-    """A view and how well it fits.
-
-    Attributes:
-        name: of the picture.
-        rms_px: root mean square distance of its corners, 2D [px].
-        role: `used`, `outlier` or `held_back`.
-    """
-
-    name: str
-    rms_px: float
-    role: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +92,7 @@ def calibrate_mono(
         dropped,
         usual_rms(views),
         float(np.sqrt(np.mean(np.square(apart)))) if apart else None,
-        (*_notes(name, used, adjusted, dropped, residuals),),
+        tuple(mono_remarks(name, used, adjusted, dropped, residuals)),
     )
 
 
@@ -214,41 +201,3 @@ def camera_of(
         rms_px=rms_px,
         views=views,
     )
-
-
-def _notes(
-    name: str,
-    used: list[BoardView],
-    adjusted: Adjusted,
-    dropped: tuple[Dropped, ...],
-    residuals: tuple[ViewResidual, ...],
-) -> list[str]:
-    notes = [f"{name}: {one.text}" for one in dropped]
-    notes += [
-        f"{name}: {r.name} does not fit ({r.rms_px:.2f} px against {adjusted.rms_px:.2f} px): "
-        "left out"
-        for r in residuals
-        if r.role == "outlier"
-    ]
-    notes += coverage_notes(name, used)
-    focal, spread = adjusted.state.parameters[0, :2], adjusted.sd()[:2]
-    ratio, ratio_sd = float(focal[1] / focal[0]), float(np.hypot(*(spread / focal)))
-    if abs(ratio - 1.0) > max(0.01, 4.0 * ratio_sd):
-        notes.append(
-            f"{name}: fy/fx = {ratio:.4f}: the pixels or the squares are not square; measure the "
-            "print in both directions"
-        )
-    return notes
-
-
-def coverage_notes(name: str, views: Sequence[BoardView]) -> list[str]:
-    """Say where the distortion is not measured but continued."""
-    pixels = np.concatenate([view.pixels for view in views])
-    centre = np.array(views[0].image_size) / 2.0
-    reach = float(np.linalg.norm(pixels - centre, axis=1).max() / np.linalg.norm(centre))
-    if reach >= 0.75:
-        return []
-    return [
-        f"{name}: corners reach {reach:.0%} of the way to the picture's corners; distortion beyond "
-        "is not measured: show the board at the edges too"
-    ]

@@ -5,7 +5,8 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.transform import RigidTransform
-from app.tracking.calibration.bundle import Sighting, State, adjust, rms
+from app.tracking.calibration.bundle import adjust, rms
+from app.tracking.calibration.sightings import Sighting, State
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 

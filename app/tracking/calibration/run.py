@@ -8,14 +8,10 @@ from app.core.progress import Progress
 from app.tracking.calibration import held_back
 from app.tracking.calibration.bundle import rms
 from app.tracking.calibration.identity import new_id
-from app.tracking.calibration.mono import ViewResidual, camera_of
-from app.tracking.calibration.stereo import (
-    LEAST_PAIRS,
-    StereoEstimate,
-    estimate_stereo,
-    matched,
-    matched_residual,
-)
+from app.tracking.calibration.mono import camera_of
+from app.tracking.calibration.pair_fit import matched, matched_residual
+from app.tracking.calibration.remarks import ViewResidual
+from app.tracking.calibration.stereo import LEAST_PAIRS, StereoEstimate, estimate_stereo
 from app.tracking.calibration.validation import ViewPair, validate
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
@@ -143,5 +139,6 @@ def _value(estimate: StereoEstimate, names: tuple[str, str], now: datetime) -> S
         cameras=(cameras[0], cameras[1]),
         pose=PoseCalibration.of(adjusted.state.T_right_left, covariance[18:, 18:]),
         rms_px=estimate.rms_px,
+        joint_covariance=tuple(tuple(float(value) for value in row) for row in covariance),
         notes=estimate.notes,
     )

@@ -7,10 +7,11 @@ from pathlib import Path
 from app.core.progress import Progress
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.mono import MonoResult, calibrate_mono
+from app.tracking.calibration.pair_fit import matched
 from app.tracking.calibration.pairing import Pair
 from app.tracking.calibration.pictures import look_at_all
 from app.tracking.calibration.run import StereoResult, calibrate_pairs
-from app.tracking.calibration.stereo import StereoEstimate, matched
+from app.tracking.calibration.stereo import StereoEstimate
 from app.tracking.calibration.validation import ViewPair
 from app.tracking.calibration.views import BoardView, Rejection
 from app.tracking.errors import CalibrationError

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 
 from app.core.transform import RigidTransform
-from app.tracking.calibration.bundle import State
+from app.tracking.calibration.sightings import State
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 

@@ -1,19 +1,22 @@
 """Two cameras from pairs of views of one board."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
-from app.tracking.calibration.bundle import Adjusted, Sighting, State, adjust, rms, with_free
+from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
 from app.tracking.calibration.corner_order import Agreement, PosedPair, agree, turns
 from app.tracking.calibration.mirrored import one_side_is_mirrored
-from app.tracking.calibration.mono import MonoResult, ViewResidual, calibrate_mono
+from app.tracking.calibration.mono import MonoResult, calibrate_mono
 from app.tracking.calibration.outliers import limit_px
+from app.tracking.calibration.pair_fit import matched_residual, pair_residuals, pair_sightings
 from app.tracking.calibration.poses import board_pose
+from app.tracking.calibration.remarks import ViewResidual, stereo_remarks
+from app.tracking.calibration.sightings import Sighting, State
 from app.tracking.calibration.validation import ViewPair
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
@@ -99,6 +102,7 @@ def estimate_stereo(
     _require_apart(adjusted)
     residuals = _residuals(mended, used, adjusted)
     changed = tuple(pairs[i][1].name for i in used if agreement.ways[i] and pairs[i][1].name)
+    remarks = stereo_remarks(names, len(pairs), changed, residuals, adjusted)
     return StereoEstimate(
         left,
         right,
@@ -106,25 +110,8 @@ def estimate_stereo(
         tuple(mended[i] for i in used),
         residuals,
         changed,
-        (*left.notes, *right.notes, *_notes(names, pairs, changed, residuals, adjusted)),
+        (*left.notes, *right.notes, *remarks),
     )
-
-
-def matched(pair: ViewPair, adjusted: Adjusted) -> ViewPair:
-    """Return a pair with its right picture numbered as the left one, by cameras that are known."""
-    left, right = pair
-    T_left_board, _ = board_pose(left, adjusted.state.parameters[0])
-    best = min(
-        turns(left.board),
-        key=lambda order: _pair_error(left, right.reordered(order), T_left_board, adjusted),
-    )
-    return left, right.reordered(best)
-
-
-def matched_residual(pair: ViewPair, adjusted: Adjusted) -> float:
-    """Root mean square residual of a pair that took no part, its board's pose fitted [px]."""
-    T_left_board, _ = board_pose(pair[0], adjusted.state.parameters[0])
-    return _pair_error(*pair, T_left_board, adjusted)
 
 
 def _require_two_cameras(pairs: Sequence[ViewPair]) -> None:
@@ -203,7 +190,7 @@ def _adjusted(
     used = [i for i in range(len(pairs)) if agreement.agreeing[i]]
     while True:
         poses = [posed[i].T_left_board for i in used] + [T for _, _, T in lone]
-        seen = _sightings([pairs[i] for i in used])
+        seen = pair_sightings([pairs[i] for i in used])
         seen += [
             Sighting(len(used) + i, side, view.points, view.pixels)
             for i, (side, view, _) in enumerate(lone)
@@ -231,20 +218,6 @@ def _lone(
     ]
 
 
-def _sightings(pairs: Sequence[ViewPair]) -> list[Sighting]:
-    return [
-        Sighting(i, side, view.points, view.pixels)
-        for i, pair in enumerate(pairs)
-        for side, view in enumerate(pair)
-    ]
-
-
-def pair_residuals(adjusted: Adjusted, pairs: int) -> list[float]:
-    """Root mean square residual of each pair, both pictures together [px]."""
-    both = adjusted.residuals[: 2 * pairs]
-    return [rms(np.concatenate(both[i : i + 2])) for i in range(0, len(both), 2)]
-
-
 def _residuals(
     pairs: list[ViewPair], used: list[int], adjusted: Adjusted
 ) -> tuple[ViewResidual, ...]:
@@ -257,44 +230,3 @@ def _residuals(
             continue
         rows.append(ViewResidual(name, matched_residual(pair, adjusted), "outlier"))
     return tuple(rows)
-
-
-def _pair_error(
-    left: BoardView, right: BoardView, T_left_board: RigidTransform, adjusted: Adjusted
-) -> float:
-    """Root mean square residual of a pair whose board pose alone is fitted [px]."""
-    start = replace(adjusted.state, poses=(T_left_board,))
-    none = np.zeros((2, 9), dtype=bool)
-    try:
-        found = adjust(_sightings([(left, right)]), start, none, rounds=20, pose_free=False)
-    except CalibrationError:
-        return float("inf")
-    return found.rms_px
-
-
-def _notes(
-    names: tuple[str, str],
-    pairs: Sequence[ViewPair],
-    changed: tuple[str, ...],
-    residuals: tuple[ViewResidual, ...],
-    adjusted: Adjusted,
-) -> list[str]:
-    notes = []
-    if changed:
-        notes.append(
-            f"{len(changed)} of {len(pairs)} pairs had their corners numbered from opposite ends; "
-            f"mended: {', '.join(changed)}"
-        )
-    notes += [
-        f"{r.name} does not fit the other pairs ({r.rms_px:.2f} px against "
-        f"{adjusted.rms_px:.2f} px): left out"
-        for r in residuals
-        if r.role == "outlier"
-    ]
-    p_right = adjusted.state.T_right_left.inverse().translation
-    if p_right[0] < 0.0:
-        notes.append(
-            f"camera {names[1]} stands {-p_right[0] * 1e3:.0f} mm to the left of camera "
-            f"{names[0]}: the two may be swapped"
-        )
-    return notes

@@ -150,6 +150,9 @@ class StereoCalibration(Strict):
         rms_px: root mean square reprojection error over both pictures.
         world: T_world_left; None until a board at a known place was seen.
         validation: on views held back; None if there were none.
+        joint_covariance: of both cameras' `PARAMETERS` and the twist of `pose`, estimated together,
+            24 rows of 24; None where only each one's own is known (imported files). Lenses and pose
+            make up for each other: taken as independent they promise less than is true.
         notes: lines for people: coefficients dropped, views left out, corner orders mended.
     """
 
@@ -163,13 +166,27 @@ class StereoCalibration(Strict):
     rms_px: Annotated[float, Field(ge=0.0)] = 0.0
     world: PoseCalibration | None = None
     validation: Validation | None = None
+    joint_covariance: tuple[tuple[float, ...], ...] | None = None
     notes: tuple[str, ...] = ()
 
     @model_validator(mode="after")
     def _known(self) -> Self:
         if self.format != FORMAT or self.version != 1:
             raise ValueError(f"format {self.format} {self.version} is not {FORMAT} 1")
+        if self.joint_covariance is not None and np.shape(self.joint_covariance) != (24, 24):
+            raise ValueError("joint_covariance needs 24 rows of 24 numbers: left, right, pose")
         return self
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Covariance of left and right `PARAMETERS` and the twist of `pose`, shape (24, 24)."""
+        if self.joint_covariance is not None:
+            return frozen(self.joint_covariance, (24, 24), "joint covariance")
+        result = np.zeros((24, 24))
+        result[:9, :9] = self.cameras[0].parameter_covariance
+        result[9:18, 9:18] = self.cameras[1].parameter_covariance
+        result[18:, 18:] = self.pose.pose_covariance
+        return frozen(result, (24, 24), "covariance")
 
     @property
     def baseline(self) -> float:

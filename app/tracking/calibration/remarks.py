@@ -1,0 +1,93 @@
+"""What a calibration says about itself, in lines for people."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.tracking.calibration.bundle import Adjusted
+from app.tracking.calibration.selection import Dropped
+from app.tracking.calibration.views import BoardView
+
+
+@dataclass(frozen=True)
+class ViewResidual:
+    """A view and how well it fits.
+
+    Attributes:
+        name: of the picture.
+        rms_px: root mean square distance of its corners, 2D [px].
+        role: `used`, `outlier` or `held_back`.
+    """
+
+    name: str
+    rms_px: float
+    role: str
+
+
+def mono_remarks(
+    name: str,
+    used: list[BoardView],
+    adjusted: Adjusted,
+    dropped: tuple[Dropped, ...],
+    residuals: tuple[ViewResidual, ...],
+) -> list[str]:
+    """Say what was dropped, left out, not covered or not square."""
+    notes = [f"{name}: {one.text}" for one in dropped]
+    notes += [
+        f"{name}: {r.name} does not fit ({r.rms_px:.2f} px against {adjusted.rms_px:.2f} px): "
+        "left out"
+        for r in residuals
+        if r.role == "outlier"
+    ]
+    notes += coverage_notes(name, used)
+    focal, spread = adjusted.state.parameters[0, :2], adjusted.sd()[:2]
+    ratio, ratio_sd = float(focal[1] / focal[0]), float(np.hypot(*(spread / focal)))
+    if abs(ratio - 1.0) > max(0.01, 4.0 * ratio_sd):
+        notes.append(
+            f"{name}: fy/fx = {ratio:.4f}: the pixels or the squares are not square; measure the "
+            "print in both directions"
+        )
+    return notes
+
+
+def coverage_notes(name: str, views: Sequence[BoardView]) -> list[str]:
+    """Say where the distortion is not measured but continued."""
+    pixels = np.concatenate([view.pixels for view in views])
+    centre = np.array(views[0].image_size) / 2.0
+    reach = float(np.linalg.norm(pixels - centre, axis=1).max() / np.linalg.norm(centre))
+    if reach >= 0.75:
+        return []
+    return [
+        f"{name}: corners reach {reach:.0%} of the way to the picture's corners; distortion beyond "
+        "is not measured: show the board at the edges too"
+    ]
+
+
+def stereo_remarks(
+    names: tuple[str, str],
+    pairs: int,
+    changed: tuple[str, ...],
+    residuals: tuple[ViewResidual, ...],
+    adjusted: Adjusted,
+) -> list[str]:
+    """Say which corner orders were mended, which pairs left out, and if cameras look swapped."""
+    notes = []
+    if changed:
+        notes.append(
+            f"{len(changed)} of {pairs} pairs had their corners numbered from opposite ends; "
+            f"mended: {', '.join(changed)}"
+        )
+    notes += [
+        f"{r.name} does not fit the other pairs ({r.rms_px:.2f} px against "
+        f"{adjusted.rms_px:.2f} px): left out"
+        for r in residuals
+        if r.role == "outlier"
+    ]
+    p_right = adjusted.state.T_right_left.inverse().translation
+    if p_right[0] < 0.0:
+        notes.append(
+            f"camera {names[1]} stands {-p_right[0] * 1e3:.0f} mm to the left of camera "
+            f"{names[0]}: the two may be swapped"
+        )
+    return notes
