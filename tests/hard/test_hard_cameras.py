@@ -1,7 +1,9 @@
 """Streams as bad drivers make them: pictures repeat, times go back, stop, or are no numbers."""
 
 import threading
+import time as real_time
 from itertools import pairwise
+from queue import SimpleQueue
 
 import numpy as np
 import pytest
@@ -12,7 +14,8 @@ from app.core.clock import VirtualClock
 from app.tracking.cameras.camera import Camera, Frame
 from app.tracking.cameras.intake import Intake, Verdict
 from app.tracking.cameras.timing import CaptureTime
-from app.tracking.cameras.watch import CameraReader
+from app.tracking.cameras.watch import CameraReader, CameraState
+from app.tracking.errors import CameraError
 
 
 def _frame(time, grey=0):
@@ -31,7 +34,7 @@ def test_whatever_a_driver_says_the_times_that_pass_only_grow_and_each_picture_i
     assert all(np.isfinite(t) for t in passed)
     assert all(late > early for early, late in pairwise(passed))
     figures = intake.figures()
-    counted = figures.taken + figures.repeated + figures.backwards + figures.future
+    counted = figures.taken + figures.repeated + figures.backwards + figures.impossible
     assert counted == len(stream)
 
 
@@ -47,13 +50,68 @@ def test_capture_times_are_finite_and_never_in_the_future(stamps):
 @pytest.mark.parametrize(
     ("time", "grey", "verdict"),
     [(5.0, 1, Verdict.REPEATED), (5.1, 0, Verdict.REPEATED), (4.9, 1, Verdict.BACKWARDS),
-     (9.0, 1, Verdict.FUTURE), (np.nan, 1, Verdict.FUTURE), (-np.inf, 1, Verdict.FUTURE),
-     (5.1, 1, Verdict.NEW)],
+     (9.0, 1, Verdict.IMPOSSIBLE),
+     (np.nan, 1, Verdict.IMPOSSIBLE), (-np.inf, 1, Verdict.IMPOSSIBLE),
+     (-1e160, 1, Verdict.IMPOSSIBLE), (5.1, 1, Verdict.NEW)],
 )  # fmt: skip
 def test_a_picture_is_refused_by_name(time, grey, verdict):
     intake = Intake(noise_expected=True)
     assert intake.judge(_frame(5.0, 0), 5.1) is Verdict.NEW
     assert intake.judge(_frame(time, grey), 5.1) is verdict
+
+
+class _OnOrder(Camera):
+    """Hands out what it is given, one after the other; hangs meanwhile."""
+
+    def __init__(self):
+        self.orders = SimpleQueue()
+
+    def open(self):
+        pass
+
+    def read(self):
+        order = self.orders.get()
+        if isinstance(order, Exception):
+            raise order
+        return order
+
+    def close(self):
+        self.orders.put(CameraError("closed"))
+
+
+def _state_after(seconds, later):
+    """State `seconds` after a good picture, if `later` (time, grey or an error) follow it."""
+    clock, camera = VirtualClock(10.0), _OnOrder()
+    reader = CameraReader(camera, "left", clock, threading.Condition(), True)
+    reader.open()
+    camera.orders.put(_frame(10.0, 1))
+    _until(lambda: reader.newest() is not None)
+    for number, order in enumerate(later, 1):
+        clock.time = 10.0 + seconds * number / len(later)
+        camera.orders.put(order if isinstance(order, Exception) else _frame(*order))
+        _until(camera.orders.empty)
+        threading.Event().wait(0.01)
+    state = reader.health(10.0 + seconds).state
+    reader.close()
+    return state
+
+
+def _until(condition):
+    end = real_time.monotonic() + 10.0
+    while not condition():
+        assert real_time.monotonic() < end
+        real_time.sleep(0.001)
+
+
+@pytest.mark.parametrize(
+    ("later", "state"),
+    [([], CameraState.STALLED), ([(10.0, 2), (10.0, 2)], CameraState.FROZEN),
+     ([(10.2, 1), (10.5, 1)], CameraState.FROZEN), ([(9.0, 2)], CameraState.FAILED),
+     ([CameraError("unplugged")], CameraState.FAILED),
+     ([(10.2, 2), (10.4, 3)], CameraState.LIVE)],
+)  # fmt: skip
+def test_half_a_second_after_a_camera_goes_wrong_it_is_known(later, state):
+    assert _state_after(0.5, later) is state
 
 
 class _Scripted(Camera):
@@ -89,4 +147,4 @@ def test_refused_pictures_never_replace_the_newest_one():
     reader.close()
     assert newest is not None
     assert newest.time == 9.1
-    assert (figures.taken, figures.repeated, figures.backwards, figures.future) == (2, 1, 1, 1)
+    assert (figures.taken, figures.repeated, figures.backwards, figures.impossible) == (2, 1, 1, 1)

@@ -4,8 +4,10 @@ import cv2
 import numpy as np
 import pytest
 
-from app.core.clock import VirtualClock
+from app.core.clock import SystemClock, VirtualClock
+from app.tracking.cameras.camera import Camera, Frame
 from app.tracking.cameras.checked import CheckedCamera
+from app.tracking.cameras.feed import CameraFeed
 from app.tracking.cameras.files import FolderCamera, VideoCamera
 from app.tracking.errors import CameraError
 
@@ -115,3 +117,35 @@ def test_pictures_of_another_size_than_the_calibrations_are_refused_by_name(fold
         CameraError, match=r"camera left \(folder:x\) gives pictures of 64x48, calibration c1"
     ):
         camera.open()
+
+
+def test_the_feed_says_how_far_apart_two_cameras_capture():
+    clock = SystemClock()
+    cameras = [_Ticking(clock, 0.0), _Ticking(clock, 0.008)]
+    feed = CameraFeed(cameras, ("left", "right"), clock, True, lambda *_: None)
+    assert feed.skew() is None
+    feed.open()
+    for _ in range(12):
+        feed.wait()
+    skew = feed.skew()
+    feed.close()
+    assert skew.median == pytest.approx(0.008, abs=1e-6)
+
+
+class _Ticking(Camera):
+    """Fifty pictures a second at the clock's own multiples, shifted."""
+
+    def __init__(self, clock, shift):
+        self.clock, self.shift, self.last = clock, shift, 0
+
+    def open(self):
+        self.last = int(50.0 * self.clock.now())
+
+    def read(self):
+        self.last = max(self.last + 1, int(50.0 * self.clock.now()))
+        self.clock.sleep(self.last / 50.0 + 0.01 - self.clock.now())
+        image = np.full((48, 64, 3), self.last % 250, np.uint8)
+        return Frame(image, self.last / 50.0 + self.shift)
+
+    def close(self):
+        pass

@@ -19,6 +19,9 @@ from app.tracking.cameras.camera import Frame
 AHEAD: Final = 0.1
 """A picture may be stamped so far after its arrival [s]; more is another clock's time."""
 
+BEHIND: Final = 10.0
+"""A picture may be stamped so long before its arrival [s]."""
+
 _STRIDE: Final = 16
 _KEPT: Final = 90
 _UNIFORM: Final = 2
@@ -30,7 +33,7 @@ class Verdict(StrEnum):
     NEW = "new"
     REPEATED = "repeated"  # the same capture time, or the same to the last bit
     BACKWARDS = "backwards"  # captured before the one before
-    FUTURE = "from the future"  # captured after it was delivered, or at no time at all
+    IMPOSSIBLE = "at an impossible time"  # after its delivery, long before it, or no number
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +44,7 @@ class StreamFigures:
         rate: pictures per second by their capture times; 0 before there are two.
         jitter: standard deviation of the time between two [s].
         taken: pictures that counted.
-        repeated, backwards, future: pictures that were refused, by the reason.
+        repeated, backwards, impossible: pictures that were refused, by the reason.
     """
 
     rate: float = 0.0
@@ -49,7 +52,7 @@ class StreamFigures:
     taken: int = 0
     repeated: int = 0
     backwards: int = 0
-    future: int = 0
+    impossible: int = 0
 
     @property
     def repeated_share(self) -> float:
@@ -60,7 +63,7 @@ class StreamFigures:
     def text(self) -> str:
         """Counts of refused pictures for people; empty if there were none."""
         counts = ((self.repeated, "repeated"), (self.backwards, "with times that go back"),
-                  (self.future, "with impossible times"))  # fmt: skip
+                  (self.impossible, "with impossible times"))  # fmt: skip
         return ", ".join(f"{count} {what}" for count, what in counts if count)
 
 
@@ -101,12 +104,12 @@ class Intake:
             taken=counts[Verdict.NEW],
             repeated=counts[Verdict.REPEATED],
             backwards=counts[Verdict.BACKWARDS],
-            future=counts[Verdict.FUTURE],
+            impossible=counts[Verdict.IMPOSSIBLE],
         )
 
     def _judge(self, frame: Frame, now: float) -> Verdict:
-        if not isfinite(frame.time) or frame.time > now + AHEAD:
-            return Verdict.FUTURE
+        if not isfinite(frame.time) or not -BEHIND <= frame.time - now <= AHEAD:
+            return Verdict.IMPOSSIBLE
         if self._before is None:
             return Verdict.NEW
         if frame.time < self._before.time:

@@ -58,7 +58,9 @@ class CameraHealth:
             return f"the picture is {self.plain}; look at the lens cap, the light, the exposure"
         if self.state is CameraState.FROZEN:
             return "the picture does not change any more; plug the camera in again"
-        refused = f" ({self.figures.text})" if self.figures.backwards + self.figures.future else ""
+        refused = (
+            f" ({self.figures.text})" if self.figures.backwards + self.figures.impossible else ""
+        )
         return f"no picture for {self.age:.1f} s{refused}; check its cable"
 
     @property
