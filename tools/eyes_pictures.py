@@ -26,7 +26,21 @@ def running(window: MainWindow) -> None:
         source.moved.emit(lambda hand: hand.advance(0.0022))
         source.moved.emit(lambda hand: hand.tilt(radians(0.2), radians(0.1)))
         pause(0.05)
+    seen(window)
+
+
+def seen(window: MainWindow) -> None:
+    """Wait until the cameras have the needle and the status strip says so."""
+    run = window.conductor.controller.run
+
+    def well() -> bool:
+        snapshot = run.trainer.snapshot() if run is not None else None
+        return snapshot is not None and snapshot.pose.measured and snapshot.tracker.age < 0.5
+
     pause(1.0)
+    wait(well, 120.0)
+    pause(0.3)
+    wait(well, 120.0)
 
 
 def tracker(window: MainWindow, folder: Path) -> None:
@@ -35,8 +49,7 @@ def tracker(window: MainWindow, folder: Path) -> None:
     panel = window.workspace.tracker_panel
     for name in ("mask", "region"):
         panel.set_overlay(name, True)
-    pause(1.0)
-    keep(window, folder / "eyes-cameras.png")
+    seen(window)
     keep(panel, folder / "eyes-tracker.png")
 
 
@@ -69,8 +82,6 @@ def registration(window: MainWindow, folder: Path) -> None:
         pause(3.0)
         dialog.touch()
         wait(lambda: not dialog.toucher.active, 90.0)
-        if row == 1:
-            keep(dialog, folder / "eyes-registration-begun.png")
     keep(dialog, folder / "eyes-registration.png")
     dialog.save()
     dialog.close()
@@ -81,7 +92,8 @@ def registration(window: MainWindow, folder: Path) -> None:
         if canvas.plane is not None:
             at = canvas.plane.point(window.workspace.viewing.cursor_mm, canvas.index)
             canvas.set_camera(Camera(at.x, at.y, 24.0))
-    pause(2.0)
+    window.workspace.show_exercise()
+    seen(window)
     keep(window, folder / "eyes-agreement.png")
 
 

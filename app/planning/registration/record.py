@@ -58,7 +58,7 @@ class RegistrationRecord(Strict):
         series: pseudonym of that CT.
         calibration: id of the cameras' calibration; empty for cameras by their profile.
         rig: name of the camera rig.
-        simulated: whether robot and cameras were simulated.
+        simulated: whether the robot was simulated.
     """
 
     format: str = FORMAT

@@ -30,7 +30,7 @@ class DayCheck(Strict):
         created: local time with its offset.
         verdict: of all steps.
         steps: in their order.
-        device: name of the device profile; `simulated` whether robot and cameras were.
+        device: name of the device profile; `simulated` whether the robot was.
         calibration: id of the cameras' calibration; empty for cameras by their profile.
     """
 

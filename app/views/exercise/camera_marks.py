@@ -57,16 +57,24 @@ def draw_region(painter: QPainter, region: QRectF) -> None:
 
 def draw_mask(painter: QPainter, place: QRectF, mask: NDArray[np.uint8]) -> None:
     """Show what counts as the marker's colour, in one translucent colour."""
+    painter.drawImage(place, mask_image(mask))
+
+
+def mask_image(mask: NDArray[np.uint8]) -> QImage:
+    """Return the mask as a picture, clear where it is zero."""
     colours = np.zeros((*mask.shape, 4), dtype=np.uint8)
     red, green, blue, alpha = MASK
     colours[mask > 0] = (blue, green, red, alpha)
     rows, columns = mask.shape
-    image = QImage(colours.data, columns, rows, 4 * columns, QImage.Format.Format_ARGB32)
-    painter.drawImage(place, image)
+    return QImage(colours.data, columns, rows, 4 * columns, QImage.Format.Format_ARGB32).copy()
 
 
 def draw_magnified(
-    painter: QPainter, place: QRectF, image: QImage, pixel: NDArray[np.float64]
+    painter: QPainter,
+    place: QRectF,
+    image: QImage,
+    pixel: NDArray[np.float64],
+    mask: NDArray[np.uint8] | None = None,
 ) -> None:
     """Show the marker's surroundings enlarged, unsmoothed, in the lower corner away from it."""
     side = min(ZOOM * (2 * _HALF + 1), _SHARE * place.height())
@@ -80,6 +88,8 @@ def draw_magnified(
     painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
     painter.fillRect(window, QColor(theme.IMAGE_BACKGROUND))
     painter.drawImage(window, image, source)
+    if mask is not None:
+        painter.drawImage(window, mask_image(mask), source)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(QPen(QColor(theme.BORDER), 1.5))
     painter.drawRect(window)

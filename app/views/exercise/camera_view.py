@@ -123,7 +123,8 @@ class CameraView(QWidget):
         if pixel is not None:
             draw_marker(painter, at(pixel))
             if self.overlays.magnifier:
-                draw_magnified(painter, place, self._image, pixel)
+                mask = shown.mask if self.overlays.mask else None
+                draw_magnified(painter, place, self._image, pixel, mask)
 
     def _placed(self) -> tuple[QPointF, float]:
         """Upper left corner of the picture in the widget and its scale."""
