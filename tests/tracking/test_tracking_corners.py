@@ -89,6 +89,9 @@ def test_a_charuco_board_of_other_counts_is_named() -> None:
     found = find_corners(image, parse_board("charuco:6x11:20mm:15mm:DICT_5X5_100"))
     assert isinstance(found, Rejection)
     assert found.reason is Reason.OTHER_BOARD
+    inner = find_corners(image, parse_board("charuco:8x6:20mm:15mm:DICT_5X5_100"))
+    assert isinstance(inner, Rejection)
+    assert "fit charuco:9x7" in inner.text
 
 
 def test_a_board_larger_than_its_counts_say_is_named() -> None:

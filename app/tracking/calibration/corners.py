@@ -1,5 +1,6 @@
 """A board's corners in one picture, to a fraction of a pixel, or why the picture is of no use."""
 
+from dataclasses import replace
 from typing import Any
 
 import cv2
@@ -144,12 +145,24 @@ def _charuco(grey: Grey, board: Board, thorough: bool) -> Found | Rejection:
         return Rejection(
             Reason.OTHER_BOARD,
             f"{markers} markers of {board.dictionary} are seen, but they do not lie as on "
-            f"{board.spec}; check the counts of squares",
+            f"{board.spec}; {_counted(grey, board)}",
         )
     return Rejection(
         Reason.NO_BOARD,
         f"no ChArUco board with markers of {board.dictionary} is seen; check the dictionary",
     )
+
+
+def _counted(grey: Grey, board: Board) -> str:
+    """Say whether the board fits if its inner corners were counted in place of its squares."""
+    try:
+        larger = replace(board, columns=board.columns + 1, rows=board.rows + 1)
+    except CalibrationError:  # more markers than the dictionary has
+        return "check the counts of squares"
+    found, _ = finders.charuco(grey, larger, False)
+    if found is not None and found[0].size >= LEAST_CORNERS:
+        return f"they fit {larger.spec}: squares are counted, not inner corners"
+    return "check the counts of squares"
 
 
 def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> BoardView | Rejection:

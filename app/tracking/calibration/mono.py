@@ -76,9 +76,9 @@ def calibrate_mono(
     progress.report(0.1, f"{name}: first estimate")
     used, out = _without_outliers(kept, progress.part(0.2, 0.6))
     progress.report(0.6, f"{name}: which coefficients the views support")
-    start = first_estimate(used)
+    start, choosing = first_estimate(used), progress.part(0.7, 0.9)
     adjusted, names, dropped = smallest_model(
-        lambda free, earlier: _fit(used, earlier.state if earlier else start, free, progress)
+        lambda free, earlier: _fit(used, earlier.state if earlier else start, free, choosing)
     )
     _require_determined(adjusted, name)
     progress.report(0.9, f"{name}: views held back")
@@ -102,16 +102,23 @@ def _require(views: Sequence[BoardView], name: str) -> None:
             f"camera {name}: {len(views)} usable views of the board; at least {LEAST_VIEWS} are "
             "needed, 15 to 30 are good"
         )
-    sizes = sorted({view.image_size for view in views})
-    if len(sizes) > 1:
-        raise CalibrationError(
-            f"camera {name}: pictures of different sizes, "
-            + " and ".join(f"{w}x{h}" for w, h in sizes)
-            + "; one camera at one resolution is needed"
-        )
+    _require_one_size(views, name)
     boards = sorted({view.board.spec for view in views})
     if len(boards) > 1:
         raise CalibrationError(f"camera {name}: views of different boards, {', '.join(boards)}")
+
+
+def _require_one_size(views: Sequence[BoardView], name: str) -> None:
+    sizes = [view.image_size for view in views]
+    usual = max(set(sizes), key=sizes.count)
+    other = [view for view in views if view.image_size != usual]
+    if other:
+        width, height = other[0].image_size
+        raise CalibrationError(
+            f"camera {name}: pictures of different sizes: {other[0].name or 'a view'} has "
+            f"{width}x{height} ({len(other)} of {len(views)} are not {usual[0]}x{usual[1]}); one "
+            "camera at one resolution is needed: leave the others out"
+        )
 
 
 def _fit(
