@@ -1,0 +1,216 @@
+"""The picture round the band as a linear model of its colours (compiled).
+
+Every pixel sees, through the point spread (a Gaussian), shares of the band, of the shaft behind it,
+of the point before it and of the background. Given where the band is, their colours are linear
+unknowns; a column each, of which the first seven are the paint's shading and common to all colours:
+
+    band        1, sin, cos of ψ, 2ψ and 4ψ (sin ψ = x, -1 to 1 across): the harmonics that a
+                matt body has in any light (Ramamoorthi and Hanrahan 2001)
+    shaft, tip  quadratic B-splines in x: polished, with a highlight along it
+
+The derivatives of every entry by where the band is (n, e), how wide and how long, come along. The
+integral over the point spread is exact along the needle and across, but for the strips' width
+(`band_outline.CELLS`), within which an arc is a step.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from app.core.compiled import njit
+from app.tracking.markers.band_outline import CELLS
+
+BAND: Final = 7
+SPLINES: Final = 9
+COLUMNS: Final = BAND + 2 * SPLINES
+PARTIALS: Final = 5
+"""Entry and derivatives by n, e, the width's and the length's relative change."""
+
+_FAR: Final = 4.0
+_FINE: Final = 256
+"""Entries of the tables per standard deviation: linear between them, to 1e-6."""
+
+_GRID = np.arange(-_FAR * _FINE, _FAR * _FINE + 2) / _FINE
+STEP_TABLE: Final = np.array([0.5 + 0.5 * math.erf(z / math.sqrt(2.0)) for z in _GRID])
+BELL_TABLE: Final = np.exp(-0.5 * _GRID**2) / math.sqrt(2.0 * math.pi)
+
+
+@njit
+def _step(z: float) -> float:
+    """Share of a Gaussian below z."""
+    t = (z + _FAR) * _FINE
+    if t <= 0.0:
+        return 0.0
+    k = int(t)
+    if k >= STEP_TABLE.shape[0] - 2:
+        return 1.0
+    return STEP_TABLE[k] + (t - k) * (STEP_TABLE[k + 1] - STEP_TABLE[k])
+
+
+@njit
+def _bell(z: float) -> float:
+    t = (z + _FAR) * _FINE
+    k = int(t)
+    if t <= 0.0 or k >= BELL_TABLE.shape[0] - 2:
+        return 0.0
+    return BELL_TABLE[k] + (t - k) * (BELL_TABLE[k + 1] - BELL_TABLE[k])
+
+
+@njit
+def quadratic_spline(t: float, count: int, weights: Any) -> int:
+    """Three quadratic B-splines of `count` that are not zero at t in 0..1; returns the first's."""
+    t *= count - 2
+    k = min(count - 3, max(0, int(t)))
+    t -= k
+    weights[0] = 0.5 * (1.0 - t) * (1.0 - t)
+    weights[1] = 0.5 + t * (1.0 - t)
+    weights[2] = 0.5 * t * t
+    return k
+
+
+@njit
+def design(
+    pixels: Any,
+    frame: Any,
+    arcs: Any,
+    shape: Any,
+    blur: float,
+    stretch: Any,
+    rows: Any,
+) -> None:
+    """Fill the rows of the pixels.
+
+    Args:
+        pixels: u, v from the frame's origin, moved back by the shift being fitted, (m, 2).
+        frame: see `band_outline.outline`.
+        arcs: likewise.
+        shape: a `rig.NeedleShape`.
+        blur: standard deviation of the point spread [px].
+        stretch: width and length of the band over those of the outline, (2,).
+        rows: out, (m, PARTIALS, COLUMNS).
+    """
+    profile, splines = np.zeros((CELLS, BAND)), np.empty((CELLS, 3))
+    first = np.empty(CELLS, dtype=np.int64)
+    low, high = np.inf, -np.inf
+    for j in range(CELLS):
+        x = (2 * j + 1.0) / CELLS - 1.0
+        depth = math.sqrt(1.0 - x * x)
+        profile[j, 0], profile[j, 1], profile[j, 2] = 1.0, x, depth
+        double_sine, double_cosine = 2.0 * x * depth, 1.0 - 2.0 * x * x
+        profile[j, 3], profile[j, 4] = double_sine, double_cosine
+        profile[j, 5] = 2.0 * double_sine * double_cosine
+        profile[j, 6] = 1.0 - 2.0 * double_sine * double_sine
+        first[j] = quadratic_spline(0.5 * (x + 1.0), SPLINES, splines[j])
+        low, high = min(low, arcs[0, j], arcs[1, j]), max(high, arcs[0, j], arcs[1, j])
+    low, high, reach = stretch[1] * low, stretch[1] * high, _FAR * blur
+    edges = np.empty((3, CELLS + 1))
+    # a cone's outline: the tangents from its apex to the ellipse of its base
+    lean = shape[0] / shape[5] * math.sqrt(1.0 - frame[9] * frame[9]) / frame[9]
+    taper = 1.0 / (shape[5] * math.sqrt(max(0.1, 1.0 - lean * lean)))
+    for i in range(pixels.shape[0]):
+        row = rows[i]
+        row[:] = 0.0
+        e = pixels[i, 0] * frame[2] + pixels[i, 1] * frame[3]
+        n = pixels[i, 1] * frame[2] - pixels[i, 0] * frame[3]
+        left, right = frame[4] + frame[5] * e, frame[6] + frame[7] * e
+        middle, width = 0.5 * (left + right), 0.5 * (right - left)
+        if low - reach < e < high + reach:
+            a, b = _across(n, middle, width, blur, stretch[0], edges)
+            _band(row, e, a, b, edges, arcs, blur, stretch[1], profile)
+        for tip in range(2):
+            if (e < high - reach * 2.0) if tip else (e > low + reach * 2.0):
+                continue
+            radius = shape[0]
+            if tip:
+                radius *= min(1.0, max(0.05, taper * (shape[3] - e / frame[8])))
+            a, b = _across(n, middle, width * radius / shape[1], blur, stretch[0], edges)
+            _shaft(row, e, a, b, edges, arcs, blur, stretch[1], tip, splines, first)
+
+
+@njit
+def _across(n: float, middle: float, width: float, blur: float, stretch: float, edges: Any) -> Any:
+    """Fill share below, bell, its n and width derivative at the strips' edges near a pixel.
+
+    Returns the first strip near and the last + 1.
+    """
+    step = 2.0 * stretch * width / CELLS
+    start = (n - _FAR * blur - middle + stretch * width) / step
+    stop = (n + _FAR * blur - middle + stretch * width) / step
+    a, b = max(0, math.floor(start)), min(CELLS, math.ceil(stop))
+    for j in range(a, b + 1):
+        x = 2.0 * j / CELLS - 1.0
+        z = (middle + stretch * width * x - n) / blur
+        bell = _bell(z) / blur
+        edges[0, j], edges[1, j], edges[2, j] = _step(z), -bell, bell * width * x
+    return a, b
+
+
+@njit
+def _band(
+    row: Any,
+    e: float,
+    a: int,
+    b: int,
+    edges: Any,
+    arcs: Any,
+    blur: float,
+    stretch: float,
+    profile: Any,
+) -> None:
+    """Add the band's columns of one pixel and their derivatives."""
+    for j in range(a, b):
+        h1, h2 = (stretch * arcs[0, j] - e) / blur, (stretch * arcs[1, j] - e) / blur
+        along = _step(h2) - _step(h1)
+        k1, k2 = _bell(h1) / blur, _bell(h2) / blur
+        across = edges[0, j + 1] - edges[0, j]
+        share = across * along
+        by_n = (edges[1, j + 1] - edges[1, j]) * along
+        by_e = (k1 - k2) * across
+        by_width = (edges[2, j + 1] - edges[2, j]) * along
+        by_length = (k2 * arcs[1, j] - k1 * arcs[0, j]) * across
+        for k in range(BAND):
+            p = profile[j, k]
+            row[0, k] += p * share
+            row[1, k] += p * by_n
+            row[2, k] += p * by_e
+            row[3, k] += p * by_width
+            row[4, k] += p * by_length
+
+
+@njit
+def _shaft(
+    row: Any,
+    e: float,
+    a: int,
+    b: int,
+    edges: Any,
+    arcs: Any,
+    blur: float,
+    stretch: float,
+    tip: int,
+    splines: Any,
+    first: Any,
+) -> None:
+    """Add the columns of the shaft beyond one end of the band, and their derivatives."""
+    start = BAND + tip * SPLINES
+    sign = -1.0 if tip else 1.0
+    for j in range(a, b):
+        h = (stretch * arcs[tip, j] - e) / blur
+        along = _step(sign * h)
+        if along == 0.0:
+            continue
+        bell = sign * _bell(h) / blur
+        across = edges[0, j + 1] - edges[0, j]
+        share = across * along
+        by_n = (edges[1, j + 1] - edges[1, j]) * along
+        by_e = -bell * across
+        by_width = (edges[2, j + 1] - edges[2, j]) * along
+        by_length = bell * arcs[tip, j] * across
+        for k in range(3):
+            p, column = splines[j, k], start + first[j] + k
+            row[0, column] += p * share
+            row[1, column] += p * by_n
+            row[2, column] += p * by_e
+            row[3, column] += p * by_width
+            row[4, column] += p * by_length

@@ -1,0 +1,106 @@
+"""Where the band's edges lie in a picture, seen through lens and perspective (compiled).
+
+The band is a cylinder. The camera sees the half of it between two lines of tangency; a point of
+that half has the coordinate x across, from -1 to 1 between the tangents, and its end circles give
+two arcs. All are projected through the camera with its distortion and given in a frame of the
+picture: origin at the picture of the band's centre, `e` along the needle towards the tip, `n`
+across.
+
+An end that faces the camera shows its face where the shaft does not hide it: there the arc is that
+of the shaft's circle, and beside a shaft that is thinner than the band the far half of the end.
+"""
+
+from typing import Any, Final
+
+import numpy as np
+
+from app.core.compiled import njit
+from app.tracking.optics.distortion import distort_point
+
+CELLS: Final = 28
+"""Strips across the band, for integration: narrower than half the point spread."""
+
+
+@njit
+def _pixel(x: float, y: float, z: float, intrinsics: Any, distortion: Any) -> Any:
+    x_d, y_d = distort_point(x / z, y / z, distortion)
+    return intrinsics[0] * x_d + intrinsics[2], intrinsics[1] * y_d + intrinsics[3]
+
+
+@njit
+def outline(
+    c: Any, a: Any, shape: Any, intrinsics: Any, distortion: Any, arcs: Any, frame: Any
+) -> bool:
+    """Fill the band's outline; False where it has none (behind the camera, seen end on).
+
+    Args:
+        c: centre of the band in the camera frame [m].
+        a: unit vector from hub to tip, camera frame.
+        shape: a `rig.NeedleShape`.
+        intrinsics: fx, fy, cx, cy.
+        distortion: k1, k2, p1, p2, k3.
+        arcs: out, (2, CELLS): e of both ends [px] at the middle of each strip, hub end first.
+        frame: out, (10,): origin u, v; e's u, v; n of the tangents x = -1 and x = 1, each at e = 0
+            and per pixel of e; e per metre along the needle; |sine| of the needle to the ray.
+    """
+    radius, half = shape[1], shape[2]
+    along = c[0] * a[0] + c[1] * a[1] + c[2] * a[2]
+    fx, fy, fz = along * a[0] - c[0], along * a[1] - c[1], along * a[2] - c[2]
+    gap = np.sqrt(fx * fx + fy * fy + fz * fz)
+    if not (c[2] > 4.0 * half and gap > 4.0 * radius):
+        return False
+    fx, fy, fz = fx / gap, fy / gap, fz / gap
+    tx, ty, tz = a[1] * fz - a[2] * fy, a[2] * fx - a[0] * fz, a[0] * fy - a[1] * fx
+    u0, v0 = _pixel(c[0], c[1], c[2], intrinsics, distortion)
+    u1, v1 = _pixel(
+        c[0] - half * a[0], c[1] - half * a[1], c[2] - half * a[2], intrinsics, distortion
+    )
+    u2, v2 = _pixel(
+        c[0] + half * a[0], c[1] + half * a[1], c[2] + half * a[2], intrinsics, distortion
+    )
+    length = np.hypot(u2 - u1, v2 - v1)
+    if not length > 2.0:
+        return False
+    eu, ev = (u2 - u1) / length, (v2 - v1) / length
+    sine = radius / gap
+    cosine = np.sqrt(1.0 - sine * sine)
+    frame[0], frame[1], frame[2], frame[3] = u0, v0, eu, ev
+    frame[8], frame[9] = length / (2.0 * half), gap / np.sqrt(gap * gap + along * along)
+    for side in range(2):
+        x = -cosine if side == 0 else cosine
+        n, e = np.empty(2), np.empty(2)
+        for end in range(2):
+            s = half if end else -half
+            u, v = _pixel(
+                c[0] + s * a[0] + radius * (x * tx + sine * fx),
+                c[1] + s * a[1] + radius * (x * ty + sine * fy),
+                c[2] + s * a[2] + radius * (x * tz + sine * fz),
+                intrinsics,
+                distortion,
+            )
+            e[end] = (u - u0) * eu + (v - v0) * ev
+            n[end] = (v - v0) * eu - (u - u0) * ev
+        slope = (n[1] - n[0]) / (e[1] - e[0])
+        frame[4 + 2 * side], frame[5 + 2 * side] = n[0] - slope * e[0], slope
+    if frame[4] > frame[6]:  # n grows with x
+        for k in range(2):
+            frame[4 + k], frame[6 + k] = frame[6 + k], frame[4 + k]
+        tx, ty, tz = -tx, -ty, -tz
+    for end in range(2):
+        s = half if end else -half
+        faces = (along + s) * s < 0.0
+        for j in range(CELLS):
+            x = cosine * ((2 * j + 1.0) / CELLS - 1.0)
+            depth = np.sqrt(1.0 - x * x)
+            if faces:
+                hidden = (shape[0] / radius) ** 2 - x * x
+                depth = np.sqrt(hidden) if hidden >= 0.0 else -depth
+            u, v = _pixel(
+                c[0] + s * a[0] + radius * (x * tx + depth * fx),
+                c[1] + s * a[1] + radius * (x * ty + depth * fy),
+                c[2] + s * a[2] + radius * (x * tz + depth * fz),
+                intrinsics,
+                distortion,
+            )
+            arcs[end, j] = (u - u0) * eu + (v - v0) * ev
+    return True

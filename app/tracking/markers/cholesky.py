@@ -1,0 +1,53 @@
+"""Solution of a small positive definite system, inside a kernel (compiled)."""
+
+from typing import Any
+
+import numpy as np
+
+from app.core.compiled import njit
+
+
+@njit
+def factorise(matrix: Any) -> bool:
+    """Replace the lower triangle by Cholesky's factor; False if it is not positive definite."""
+    size = matrix.shape[0]
+    for i in range(size):
+        for j in range(i + 1):
+            total = matrix[i, j]
+            for k in range(j):
+                total -= matrix[i, k] * matrix[j, k]
+            if i == j:
+                if not total > 0.0:
+                    return False
+                matrix[i, i] = np.sqrt(total)
+            else:
+                matrix[i, j] = total / matrix[j, j]
+    return True
+
+
+@njit
+def halve(factor: Any, right: Any) -> None:
+    """Replace B, (size, n), by L⁻¹ B: products of two such are those with the inverse between."""
+    size, count = right.shape
+    for i in range(size):
+        for k in range(i):
+            x = factor[i, k]
+            if x != 0.0:
+                for c in range(count):
+                    right[i, c] -= x * right[k, c]
+        for c in range(count):
+            right[i, c] /= factor[i, i]
+
+
+@njit
+def finish(factor: Any, right: Any) -> None:
+    """Replace L⁻¹ B by (L Lᵀ)⁻¹ B."""
+    size, count = right.shape
+    for i in range(size - 1, -1, -1):
+        for k in range(i + 1, size):
+            x = factor[k, i]
+            if x != 0.0:
+                for c in range(count):
+                    right[i, c] -= x * right[k, c]
+        for c in range(count):
+            right[i, c] /= factor[i, i]
