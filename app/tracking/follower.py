@@ -3,7 +3,7 @@
 from app.core.arrays import FloatArray
 from app.tracking.cameras.feed import Pair
 from app.tracking.fix import FixStatus
-from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Miss, MissReason
+from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix, Miss, MissReason
 from app.tracking.solver import FixSolver, Sighting
 from app.tracking.track import PixelTrack
 
@@ -23,13 +23,14 @@ class MarkerFollower:
         self._extractors = extractors
         self._solver = solver
         self._tracks = (PixelTrack(), PixelTrack())
+        self._p_world: FloatArray | None = None
 
     def find(self, frames: Pair, axis: FloatArray | None, time: float) -> Markers:
         """Marker in each picture; of several red things the pair that geometry and robot allow."""
         markers: list[Found] = [None, None]
         for i, (frame, track) in enumerate(zip(frames, self._tracks, strict=True)):
             if frame is not None and (predicted := track.predict(frame.time)) is not None:
-                hint = Hint(predicted, axis_world=axis)
+                hint = Hint(predicted, self._p_world, axis)
                 markers[i] = self._extractors[i].find(frame.image, hint)
         if any(
             f is not None and not isinstance(m, MarkerFix)
@@ -55,6 +56,10 @@ class MarkerFollower:
                 sightings.append(Sighting.of(marker))
         return sightings[0], sightings[1]
 
+    def remember(self, p_world: FloatArray | None) -> None:
+        """Keep the band's centre [m], shape (3,), for the next pictures, or None."""
+        self._p_world = p_world
+
     def doubt(self) -> None:
         """Search the whole pictures next time."""
         for track in self._tracks:
@@ -71,14 +76,37 @@ class MarkerFollower:
         firsts, seconds = (
             [one for one in found if isinstance(one, MarkerFix)] for found in candidates
         )
-        if axis is None or len(firsts) * len(seconds) < 2:
+        if axis is None:
             return best
         for first in firsts:
             for second in seconds:
-                pair = (Sighting.of(first), Sighting.of(second))
-                if self._solver.solve(pair, axis, time).status is FixStatus.VALID:
-                    return [first, second]
-        return best
+                fix = self._solver.solve((Sighting.of(first), Sighting.of(second)), axis, time)
+                if fix.status is FixStatus.VALID:
+                    p_world = self._solver.band(fix, axis)
+                    return [
+                        self._closer(i, frames, one, p_world, axis)
+                        for i, one in enumerate((first, second))
+                    ]
+        if firsts and seconds:  # the solver says what contradicts; a moving pair needs its track
+            return best
+        return [
+            self._closer(i, frames, one, None, axis) if isinstance(one, MarkerFix) else one
+            for i, one in enumerate(best)
+        ]
+
+    def _closer(
+        self,
+        camera: int,
+        frames: Pair,
+        found: MarkerFix,
+        p_world: FloatArray | None,
+        axis: FloatArray,
+    ) -> Found:
+        """Look again where a search has found something, now that the axis is known."""
+        frame = frames[camera]
+        if frame is None or found.centre is Centre.BAND:
+            return found
+        return self._extractors[camera].find(frame.image, Hint(found.uv, p_world, axis))
 
     def _candidates(self, camera: int, frames: Pair) -> tuple[MarkerFix | Miss, ...]:
         frame = frames[camera]

@@ -76,6 +76,12 @@ class FixSolver:
             return self._one_eyed((first, second), unit(axis), time)
         return self._solve((first, second), unit(axis), time)
 
+    def band(self, fix: NeedleFix, axis: FloatArray | None) -> FloatArray | None:
+        """Centre of the band of a fix [m], shape (3,), where it has a point that counts."""
+        if axis is None or not fix.usable:
+            return None
+        return np.asarray(fix.p_tip_world - self._rig.needle.marker_offset * unit(axis))
+
     def _solve(
         self, sightings: tuple[Sighting, Sighting], axis: FloatArray, time: float
     ) -> NeedleFix:

@@ -158,6 +158,7 @@ class Tracker:
         fix = self._hiding.look(self._continuity.look(fix))
         if fix.status is FixStatus.INCONSISTENT:
             self._follower.doubt()
+        self._follower.remember(self._solver.band(fix, axis))
         self._show(frames, markers)
         return self._without_picture(fix, frames)
 

@@ -103,6 +103,7 @@ def design(
         profile[j, 6] = 1.0 - 2.0 * double_sine * double_sine
         first[j] = quadratic_spline(0.5 * (x + 1.0), SPLINES, splines[j])
         low, high = min(low, arcs[0, j], arcs[1, j]), max(high, arcs[0, j], arcs[1, j])
+    end = stretch[1] * np.mean(arcs[1])
     low, high, reach = stretch[1] * low, stretch[1] * high, _FAR * blur
     edges = np.empty((3, CELLS + 1))
     # a cone's outline: the tangents from its apex to the ellipse of its base
@@ -114,7 +115,8 @@ def design(
         e = pixels[i, 0] * frame[2] + pixels[i, 1] * frame[3]
         n = pixels[i, 1] * frame[2] - pixels[i, 0] * frame[3]
         left, right = frame[4] + frame[5] * e, frame[6] + frame[7] * e
-        middle, width = 0.5 * (left + right), 0.5 * (right - left)
+        bow = frame[10] * (e * e - frame[11])
+        middle, width = 0.5 * (left + right) + bow, 0.5 * (right - left)
         if low - reach < e < high + reach:
             a, b = _across(n, middle, width, blur, stretch[0], edges)
             _band(row, e, a, b, edges, arcs, blur, stretch[1], profile)
@@ -123,7 +125,9 @@ def design(
                 continue
             radius = shape[0]
             if tip:
-                radius *= min(1.0, max(0.05, taper * (shape[3] - e / frame[8])))
+                h = (end - e) / blur  # where on the point the pixel looks, on average
+                seen = e + blur * _bell(h) / max(_step(-h), 1e-3)
+                radius *= min(1.0, max(0.05, taper * (shape[3] - seen / frame[8])))
             a, b = _across(n, middle, width * radius / shape[1], blur, stretch[0], edges)
             _shaft(row, e, a, b, edges, arcs, blur, stretch[1], tip, splines, first)
 

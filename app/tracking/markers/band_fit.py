@@ -15,7 +15,7 @@ from app.tracking.cameras.camera import Image
 from app.tracking.markers.band_design import BAND, COLUMNS, PARTIALS, design
 from app.tracking.markers.band_ground import CURVE, SIDE, directions, ground_columns
 from app.tracking.markers.band_normal import MOVES, REST, solve_step
-from app.tracking.markers.band_outline import CELLS, outline
+from app.tracking.markers.band_outline import CELLS, FRAME, outline
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
 
@@ -40,8 +40,8 @@ _SHADING = np.array([0.0, 1.0, 1.0, *[0.15**-2] * 2, *[0.03**-2] * 2])
 _STIFF, _SOFT = 2.0, 25.0
 """Standard deviation of the background curve's second differences [noise]: even, with edges."""
 
-_SIDE_PX, _BEYOND_PX = 9.0, 12.0
-"""What is looked at beside the band and beyond its ends."""
+_SIDE_PX, _HUB_PX, _TIP_PX = 9.0, 6.0, 6.0
+"""What is looked at beside the band and beyond its ends: a highlight moves along the shaft."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,7 +112,7 @@ class BandFitter:
             p_camera: the band's centre in the camera frame, about [m], shape (3,).
             axis_camera: unit vector from hub to tip, shape (3,).
         """
-        arcs, frame = np.empty((2, CELLS)), np.empty(10)
+        arcs, frame = np.empty((2, CELLS)), np.empty(FRAME)
         if not outline(
             p_camera, axis_camera, self._shape, self._model.intrinsics, self._model.distortion,
             arcs, frame,
@@ -131,7 +131,7 @@ class BandFitter:
         v, u = np.mgrid[top:bottom, left:right]
         du, dv = u - frame[0], v - frame[1]
         e, n = du * frame[2] + dv * frame[3], dv * frame[2] - du * frame[3]
-        near = (e > arcs.min() - _BEYOND_PX) & (e < arcs.max() + _BEYOND_PX)
+        near = (e > arcs.min() - _HUB_PX) & (e < arcs.max() + _TIP_PX)
         near &= (n > frame[4] - _SIDE_PX) & (n < frame[6] + _SIDE_PX)
         room = 4.0 * self._blur
         clear = near * ((n > frame[6] + room).astype(np.int8) * 2 + (n < frame[4] - room))
@@ -196,7 +196,7 @@ class BandFitter:
         inside = good & (rows[:, 0, 0] > 0.97)
         if inside.sum() < 6:
             return None
-        paint = patch.colours[inside].mean(axis=0)
+        paint = np.asarray(patch.colours[inside].mean(axis=0), dtype=np.float64)
         residual, right = np.empty_like(patch.colours), np.empty(MOVES)
         information = np.empty((MOVES + BAND, MOVES + BAND))
         if not solve_step(
@@ -212,7 +212,7 @@ class BandFitter:
         wanted[2:] -= self._prior * (stretch - 1.0)
         information[[2, 3], [2, 3]] += self._prior
         try:
-            covariance = np.linalg.inv(information)
+            covariance = np.asarray(np.linalg.inv(information), dtype=np.float64)
         except np.linalg.LinAlgError:
             return None
         change = covariance[:MOVES, :MOVES] @ wanted
@@ -232,14 +232,14 @@ def _smoothness(bend: FloatArray) -> FloatArray:
 def _box(
     frame: FloatArray, arcs: FloatArray, size: tuple[int, ...]
 ) -> tuple[int, int, int, int] | None:
-    """Box of the pixels to look at; None if it leaves the picture."""
-    along = np.array([arcs.min() - _BEYOND_PX, arcs.max() + _BEYOND_PX])
+    """Box of the pixels to look at; None if the band's centre is outside the picture."""
+    along = np.array([arcs.min() - _HUB_PX, arcs.max() + _TIP_PX])
     across = np.array([frame[4] - _SIDE_PX, frame[6] + _SIDE_PX])
     e, n = np.meshgrid(along, across)
     u = frame[0] + e * frame[2] - n * frame[3]
     v = frame[1] + e * frame[3] + n * frame[2]
-    left, right = int(np.floor(u.min())), int(np.ceil(u.max())) + 1
-    top, bottom = int(np.floor(v.min())), int(np.ceil(v.max())) + 1
-    if left < 0 or top < 0 or right > size[1] or bottom > size[0]:
+    if not (0.0 <= frame[0] < size[1] and 0.0 <= frame[1] < size[0]):
         return None
+    left, right = max(0, int(np.floor(u.min()))), min(size[1], int(np.ceil(u.max())) + 1)
+    top, bottom = max(0, int(np.floor(v.min()))), min(size[0], int(np.ceil(v.max())) + 1)
     return left, top, right, bottom

@@ -17,6 +17,8 @@ import numpy as np
 from app.core.compiled import njit
 from app.tracking.optics.distortion import distort_point
 
+FRAME: Final = 12
+
 CELLS: Final = 28
 """Strips across the band, for integration: narrower than half the point spread."""
 
@@ -40,8 +42,9 @@ def outline(
         intrinsics: fx, fy, cx, cy.
         distortion: k1, k2, p1, p2, k3.
         arcs: out, (2, CELLS): e of both ends [px] at the middle of each strip, hub end first.
-        frame: out, (10,): origin u, v; e's u, v; n of the tangents x = -1 and x = 1, each at e = 0
-            and per pixel of e; e per metre along the needle; |sine| of the needle to the ray.
+        frame: out, (FRAME,): origin u, v; e's u, v; n of the tangents x = -1 and x = 1, each at
+            e = 0 and per pixel of e; e per metre along the needle; |sine| of the needle to the ray;
+            n per e² by the lens' distortion, and the e² of the ends, where the tangents are exact.
     """
     radius, half = shape[1], shape[2]
     along = c[0] * a[0] + c[1] * a[1] + c[2] * a[2]
@@ -66,6 +69,12 @@ def outline(
     cosine = np.sqrt(1.0 - sine * sine)
     frame[0], frame[1], frame[2], frame[3] = u0, v0, eu, ev
     frame[8], frame[9] = length / (2.0 * half), gap / np.sqrt(gap * gap + along * along)
+    u, v = _pixel(
+        c[0] - 3.0 * half * a[0], c[1] - 3.0 * half * a[1], c[2] - 3.0 * half * a[2],
+        intrinsics, distortion,
+    )  # fmt: skip
+    far = (u - u0) * eu + (v - v0) * ev
+    frame[10], frame[11] = ((v - v0) * eu - (u - u0) * ev) / (far * far), 0.25 * length * length
     for side in range(2):
         x = -cosine if side == 0 else cosine
         n, e = np.empty(2), np.empty(2)

@@ -1,25 +1,28 @@
 """Marker extraction by the centroid of the band's outline (the default way).
 
-Redness r = R - (G + B)/2 does not see grey and hardly skin: it says where the band is. It does not
-weigh the pixels: one flank of a round band is darker than the other and would count less. The
-weight of a pixel is the share of it that the band covers (see `matting`), one inside, so that the
-centroid is that of the outline, whatever the light. The paint should be matt.
+The strength of the marker's colour (see `colour`) does not see grey and hardly skin: it says where
+the band is. It does not weigh the pixels: one flank of a round band is darker than the other and
+would count less. The weight of a pixel is the share of it that the band covers (see `matting`), one
+inside, so that the centroid is that of the outline, whatever the light. The paint should be matt.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
 
 from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
+from app.tracking.markers.colour import RED, ColourModel
 from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Mask, Miss, MissReason
 from app.tracking.markers.matting import outline_moments
 
 _SQUARE3 = np.ones((3, 3), dtype=np.uint8)
 _SQUARE5 = np.ones((5, 5), dtype=np.uint8)
-_CANDIDATES = 4
-_RED = np.array([[-0.5, -0.5, 1.0]])
+_CANDIDATES = 6
+_NEAR = 24
+_PURITY = 0.35
+"""Least strength over the strongest colour itself, when the whole picture is searched."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +30,7 @@ class OutlineCentroid(Extractor):
     """Red mask in a tracked region, then the centroid of the covered shares.
 
     Attributes:
-        redness: least r of the band [grey levels].
+        colour: of the marker.
         area_min, area_max: of the band [px²].
         region: half width of the tracked region [px].
         noise_grey: standard deviation of the picture's noise, for the covariance.
@@ -35,7 +38,7 @@ class OutlineCentroid(Extractor):
         quality_min: least share of outline pixels that are mixtures of band and background.
     """
 
-    redness: float = 40.0
+    colour: ColourModel = field(default=RED)
     area_min: float = 40.0
     area_max: float = 6000.0
     region: int = 48
@@ -61,10 +64,11 @@ class OutlineCentroid(Extractor):
 
     def mask(self, image: Image) -> Mask:
         """See `Extractor.mask`."""
-        return _threshold(_redness(image), self.redness)
+        strength = _strength(image, self.colour)
+        return _threshold(strength, self.colour.threshold(float(np.percentile(strength, 99.9))))
 
     def _seeds(self, image: Image) -> list[FloatArray]:
-        mask = _threshold(_redness(image[::2, ::2]), self.redness)
+        mask = _pure(image[::2, ::2], self.colour)
         mask = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, _SQUARE3)
         count, _, statistics, centres = cv2.connectedComponentsWithStats(mask)
         areas = 4.0 * statistics[1:count, cv2.CC_STAT_AREA]
@@ -79,7 +83,7 @@ class OutlineCentroid(Extractor):
         right, bottom = min(width, u + self.region + 1), min(height, v + self.region + 1)
         if right - left < 8 or bottom - top < 8:
             return Miss(MissReason.NOTHING_RED)
-        patch = _tight(image, (left, top, right, bottom), centre, self.redness)
+        patch = _tight(image, (left, top, right, bottom), centre, self.colour)
         if isinstance(patch, Miss):
             return patch
         blob, (left, top, right, bottom) = patch
@@ -92,6 +96,8 @@ class OutlineCentroid(Extractor):
         middle = origin + 0.5 * np.array([blob.shape[1], blob.shape[0]])
         if _overexposed(window, blob) > self.overexposed:
             return Miss(MissReason.SATURATED, middle)
+        if not self.colour.is_marker(np.array(cv2.mean(window, blob)[:3])):
+            return Miss(MissReason.NOTHING_RED, middle)
         inside = cv2.erode(blob, _SQUARE3, iterations=2)
         support = cv2.dilate(blob, _SQUARE5)
         area, u, v, uu, uv, vv, quality = outline_moments(window, inside, support, self.noise_grey)
@@ -105,9 +111,18 @@ class OutlineCentroid(Extractor):
         return MarkerFix(origin + np.array([u, v]), covariance, area, quality)
 
 
-def _redness(image: Image) -> Mask:
-    """R - (G + B)/2, at least 0 [grey levels]."""
-    return np.asarray(cv2.transform(np.ascontiguousarray(image), _RED), dtype=np.uint8)
+def _strength(image: Image, colour: ColourModel) -> Mask:
+    """Strength of the marker's colour, at least 0 [grey levels]."""
+    return np.asarray(cv2.transform(np.ascontiguousarray(image), colour.weights[None]), np.uint8)
+
+
+def _pure(image: Image, colour: ColourModel) -> Mask:
+    """Mark where the colour is strong, and strong for its brightness: skin and wood are not."""
+    purity = colour.weights - _PURITY * (colour.weights == 1.0)
+    both = cv2.transform(np.ascontiguousarray(image), np.stack([colour.weights, purity]))
+    strong = cv2.threshold(both[..., 0], colour.strength, 1.0, cv2.THRESH_BINARY)[1]
+    pure = cv2.threshold(both[..., 1], 0.0, 1.0, cv2.THRESH_BINARY)[1]
+    return np.asarray(cv2.bitwise_and(strong, pure), dtype=np.uint8)
 
 
 def _threshold(redness: Mask, limit: float) -> Mask:
@@ -115,11 +130,17 @@ def _threshold(redness: Mask, limit: float) -> Mask:
 
 
 def _tight(
-    image: Image, region: tuple[int, int, int, int], centre: FloatArray, limit: float
+    image: Image, region: tuple[int, int, int, int], centre: FloatArray, colour: ColourModel
 ) -> tuple[Mask, tuple[int, int, int, int]] | Miss:
     """Return the red patch nearest to `centre` in the region, and its box with room around it."""
     left, top, right, bottom = region
-    mask = _threshold(_redness(image[top:bottom, left:right]), limit)
+    strength = _strength(image[top:bottom, left:right], colour)
+    y, x = np.rint(centre).astype(int) - [top, left]
+    near = strength[max(0, y - _NEAR) : max(0, y + _NEAR), max(0, x - _NEAR) : max(0, x + _NEAR)]
+    strongest = float(near.max(initial=0))
+    if strongest < colour.strength:
+        strongest = float(strength.max())
+    mask = _threshold(strength, colour.threshold(strongest))
     count, labels, statistics, centres = cv2.connectedComponentsWithStats(mask)
     if count < 2:
         return Miss(MissReason.NOTHING_RED)

@@ -9,7 +9,8 @@ from app.core.arrays import FloatArray, unit
 from app.tracking.cameras.camera import Image
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.simulated.background_file import kept_or_traced
-from app.tracking.simulated.kernels import sample_pattern, trace_boxes
+from app.tracking.simulated.box_kernels import trace_boxes
+from app.tracking.simulated.sampling import COARSE, sample_pattern
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +49,7 @@ LIGHT_WORLD: FloatArray = np.array([*unit([0.35, 0.75, 0.85]), 0.45, 0.50])
 def paint_background(model: CameraModel, rays: FloatArray, blur_px: float, seed: int) -> Image:
     """Picture of the housing without the needle, uint8 (height, width, 3)."""
     width, height = model.image_size
-    pattern = sample_pattern(blur_px)
+    pattern = sample_pattern(blur_px, COARSE)
     pose = model.T_world_camera
     parts = (rays.tobytes(), pattern.tobytes(), pose.rotation.tobytes(), pose.translation.tobytes())
     traced = kept_or_traced(

@@ -15,7 +15,7 @@ from app.core.files import write_atomically
 
 Traced = NDArray[np.float32]
 
-_SOURCES: Final = ("background.py", "kernels.py")
+_SOURCES: Final = ("background.py", "box_kernels.py", "sampling.py")
 _KEPT: Final = 12
 
 _log = logging.getLogger(__name__)

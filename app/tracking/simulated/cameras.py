@@ -1,6 +1,7 @@
 """Simulated cameras that deliver pictures of the needle, as a real camera would."""
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from typing import Any, Protocol
 
 import numpy as np
@@ -13,8 +14,9 @@ from app.tracking.errors import CameraError
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleProfile, RigProfile
 from app.tracking.simulated.background import LIGHT_WORLD, paint_background
-from app.tracking.simulated.kernels import draw_needle, row_spans, sample_pattern
+from app.tracking.simulated.needle_kernels import draw_needle, row_spans
 from app.tracking.simulated.picture_effects import NoiseTile, PictureEffect, noise
+from app.tracking.simulated.sampling import COARSE, sample_pattern
 from app.tracking.simulated.scene import MarkerScene, Scene
 
 _COLOURS = np.array([[172.0, 170.0, 168.0], [44.0, 26.0, 205.0]])
@@ -30,7 +32,7 @@ class NeedleRenderer:
         self.model = model
         self._shape = needle.shape
         self._fine = sample_pattern(blur_px)
-        self._coarse = sample_pattern(blur_px, 8)
+        self._coarse = sample_pattern(blur_px, COARSE)
         self._rays = _pixel_rays(model)
         farthest = float(np.hypot(*self._fine.T).max())
         self._margin = float(1.2 * farthest / model.intrinsics[:2].min())
@@ -38,6 +40,21 @@ class NeedleRenderer:
         light = model.T_world_camera.rotation.T @ LIGHT_WORLD[:3]
         self._light = np.concatenate([light, LIGHT_WORLD[3:]])
         self._compile()
+
+    def even(self, grey: float) -> "NeedleRenderer":
+        """Return the same camera before a background of one grey."""
+        other = copy(self)
+        other._background = np.full_like(self._background, round(grey))  # noqa: SLF001
+        return other
+
+    def band(self, scene: MarkerScene) -> Image:
+        """Where the band has a share of the pixel, uint8 (height, width): one there, else zero."""
+        pictures = []
+        for green in (0.0, 255.0):
+            image = np.zeros_like(self._background)
+            self._draw(image, scene, np.array([_COLOURS[0], [0.0, green, 0.0]]))
+            pictures.append(image[..., 1])
+        return np.asarray(pictures[0] != pictures[1], dtype=np.uint8)
 
     def render(self, scene: MarkerScene) -> Image:
         """Picture of a scene without noise, uint8 (height, width, 3), writable."""
@@ -51,13 +68,13 @@ class NeedleRenderer:
         pose = self.model.T_world_camera
         self.render(MarkerScene(pose @ np.array([0.0, 0.0, 0.3]), pose.rotation[:, 1]))
 
-    def _draw(self, image: Image, scene: MarkerScene) -> None:
+    def _draw(self, image: Image, scene: MarkerScene, colours: FloatArray = _COLOURS) -> None:
         axis = self.model.T_camera_world.rotate(scene.axis_world)
         centre = self.model.T_camera_world @ scene.p_world
         spans = self._spans(centre, axis)
         draw_needle(
             image, self._rays, spans, self._fine, self._coarse, axis, centre,
-            self._shape, _COLOURS, self._light, self._margin,
+            self._shape, colours, self._light, self._margin,
         )  # fmt: skip
 
     def _spans(self, centre: FloatArray, axis: FloatArray) -> Any:

@@ -1,0 +1,125 @@
+"""Marker extraction by fitting the band's whole picture (see `band_fit`).
+
+The centroid of the outline says where to begin; the fit then weighs every pixel as its noise
+deserves. It needs the needle's axis: without one the centroid is handed out. A fit that leaves
+pixels over, or finds another width or length than the band has, is a band partly hidden, lit by a
+highlight, or none at all. What little misfit is let pass enlarges the covariance.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from app.core.arrays import FloatArray, unit
+from app.tracking.cameras.camera import Image
+from app.tracking.markers.band_fit import BandFit, BandFitter
+from app.tracking.markers.extractor import (
+    Centre,
+    Extractor,
+    Hint,
+    MarkerFix,
+    Mask,
+    Miss,
+    MissReason,
+)
+from app.tracking.markers.outline_centroid import OutlineCentroid
+from app.tracking.markers.silhouette import centroid_shift
+from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.rig import NeedleShape
+
+
+@dataclass(frozen=True)
+class ModelFit(Extractor):
+    """Fit of the band's picture, begun at its centroid.
+
+    Attributes:
+        model: the camera.
+        shape: of the needle.
+        blur_px: standard deviation of the point spread.
+        coarse: finds where to begin.
+        outliers_max: share of the band that may be left out.
+        misfit_max: largest mean square residual of the band [noise variances].
+        stretch_max: relative difference of width or length from the band's.
+        floor_px: standard deviation of what the model does not have: edges behind the outline.
+    """
+
+    model: CameraModel
+    shape: NeedleShape
+    blur_px: float
+    coarse: OutlineCentroid = field(default_factory=OutlineCentroid)
+    outliers_max: float = 0.12
+    misfit_max: float = 2.0
+    stretch_max: float = 0.10
+    floor_px: float = 0.01
+    region: int = field(init=False)
+    fitter: BandFitter = field(init=False)
+
+    def __post_init__(self) -> None:
+        fitter = BandFitter(self.model, self.shape, self.blur_px, self.coarse.noise_grey)
+        object.__setattr__(self, "fitter", fitter)
+        object.__setattr__(self, "region", self.coarse.region)
+
+    def find(self, image: Image, hint: Hint) -> MarkerFix | Miss:
+        """See `Extractor.find`."""
+        found = self.coarse.find(image, hint)
+        if isinstance(found, Miss) or hint.axis_world is None:
+            return found
+        if not np.isfinite(hint.axis_world).all() or not np.any(hint.axis_world):
+            return found
+        return self._fit(image, found, unit(hint.axis_world), hint.p_world)
+
+    def search(self, image: Image) -> tuple[MarkerFix | Miss, ...]:
+        """Outlines' centroids: the fit comes with the axis, in `find`."""
+        return self.coarse.search(image)
+
+    def mask(self, image: Image) -> Mask:
+        """See `Extractor.mask`."""
+        return self.coarse.mask(image)
+
+    def _fit(
+        self, image: Image, found: MarkerFix, axis_world: FloatArray, p_world: FloatArray | None
+    ) -> MarkerFix | Miss:
+        axis = self.model.T_camera_world.rotate(axis_world)
+        start = self._start(found, axis, p_world)
+        if start is None:
+            return Miss(MissReason.WRONG_SHAPE, found.uv)
+        fit = self.fitter.fit(image, start, axis)
+        return Miss(MissReason.WRONG_SHAPE, found.uv) if fit is None else self._judged(fit)
+
+    def _judged(self, fit: BandFit) -> MarkerFix | Miss:
+        if not self.coarse.colour.is_marker(fit.paint):
+            return Miss(MissReason.NOTHING_RED, fit.uv)
+        if fit.outliers > self.outliers_max or fit.misfit > self.misfit_max:
+            return Miss(MissReason.PARTLY_HIDDEN, fit.uv)
+        if np.abs(fit.stretch - 1.0).max() > self.stretch_max:
+            return Miss(MissReason.WRONG_SHAPE, fit.uv)
+        inflation = max(1.0, fit.misfit)
+        covariance = inflation * fit.covariance + self.floor_px**2 * np.eye(2)
+        quality = (1.0 - fit.outliers) / inflation
+        return MarkerFix(fit.uv, covariance, fit.area, quality, Centre.BAND)
+
+    def _start(
+        self, found: MarkerFix, axis: FloatArray, p_world: FloatArray | None
+    ) -> FloatArray | None:
+        """Band's centre in the camera frame by the centroid and its distance [m], shape (3,)."""
+        known = None if p_world is None else self.model.T_camera_world @ p_world
+        ray, ok = self.model.undistort(found.uv)
+        if not ok[0]:
+            return None
+        direction = np.array([ray[0, 0], ray[0, 1], 1.0])
+        if known is not None and known[2] > 4.0 * self.shape.half:
+            depth = float(known[2])
+        else:
+            sine = float(np.linalg.norm(np.cross(axis, unit(direction))))
+            face = 4.0 * self.shape.radius * self.shape.half * max(sine, 0.2)
+            focal = float(np.prod(self.model.intrinsics[:2]))
+            depth = float(np.sqrt(focal * face / max(found.area, 1.0)))
+        p_camera = depth * direction
+        world = self.model.T_world_camera @ p_camera
+        shift = centroid_shift(
+            self.model, self.shape, world, self.model.T_world_camera.rotate(axis)
+        )
+        if shift is None:
+            return None
+        centre, ok = self.model.undistort(found.uv - shift)
+        return np.array([centre[0, 0] * depth, centre[0, 1] * depth, depth]) if ok[0] else None
