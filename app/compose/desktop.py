@@ -168,6 +168,12 @@ def _inspector(tracker: Tracker | PenTracker) -> Callable[[bool, bool], Inspecti
     return Inspector(tracker).look
 
 
+def _touched(tracker: Tracker | PenTracker) -> Callable[[float, float], None] | None:
+    from app.tracking.pen.tracker import PenTracker
+
+    return None if isinstance(tracker, PenTracker) else tracker.touched
+
+
 class DesktopRun:
     """A trainer that runs for the window (`views.services.OpenRun`)."""
 
@@ -189,6 +195,7 @@ class DesktopRun:
             interactive=setup.skill is None and (setup.pen is None or setup.pen.simulated),
             rings=rings(setup.exercise.tolerances),
             inspect=_inspector(self._rig.tracker),
+            touched=_touched(self._rig.tracker),
             board=None if robot is None else robot.link.info(),
             port=setup.port or "",
             clearance=None if robot is None else robot.clearance(),

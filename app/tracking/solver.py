@@ -50,6 +50,7 @@ class FixSolver:
         self._fulcrum = frozen(fulcrum, (3,), "fulcrum")
         self._systematic = systematic_px(rig) ** 2 * np.eye(2)
         self._essential = _essential(self._poses)
+        self._focal = np.concatenate([model.intrinsics[:2] for model in self._models])
         self._single = OneCameraSolver(rig, self._fulcrum, GATE, systematic_px(rig))
         self._error = CalibrationError(rig.calibration) if rig.calibration is not None else None
         self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
@@ -170,8 +171,7 @@ class FixSolver:
         return ""
 
     def _residual_px(self, found: Triangulation) -> float:
-        focal = np.concatenate([model.intrinsics[:2] for model in self._models])
-        return float(np.sqrt(np.mean((found.residual * focal) ** 2)))
+        return float(np.sqrt(np.mean((found.residual * self._focal) ** 2)))
 
     def _unseen(self, time: float) -> NeedleFix:
         return without_point(

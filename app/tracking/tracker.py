@@ -162,6 +162,13 @@ class Tracker:
         self._show(frames, markers)
         return self._without_picture(fix, frames)
 
+    def touched(self, measured: float, known: float) -> None:
+        """Take in a touch of a known place: depth by the cameras and its true one [m].
+
+        Two of them tell a marker that has slipped along the needle.
+        """
+        self._health.monitor.touch(measured, known)
+
     def statistics(self) -> TrackerStatistics:
         """Figures of the last seconds and the health of both cameras."""
         now = self._clock.now()

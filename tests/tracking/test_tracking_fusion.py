@@ -177,6 +177,16 @@ def test_a_needle_known_to_bend_is_measured_where_the_line_alone_would_refuse_it
     assert len(told) == 1
 
 
+def test_two_touches_tell_the_tracker_of_a_slipped_marker(wide):
+    health = FixHealth(0.01, lambda t: None, lambda kind, text: None)
+    solver, axis = FixSolver(wide, FULCRUM), _axis(0.2, 0.1)
+    for known in (0.04, 0.05):
+        health.monitor.touch(known + 0.002, known)
+    for k in range(15):
+        fix = health.look(_fix(wide, solver, FULCRUM + (0.02 + 0.001 * k) * axis, axis), axis)
+    assert fix.discrepancy.cause is Cause.SLIPPED_MARKER
+
+
 def test_a_camera_that_is_bumped_while_it_runs_is_named(wide):
     solver, told = FixSolver(wide, FULCRUM), []
     health = FixHealth(0.01, lambda t: None, lambda kind, text: told.append(text))

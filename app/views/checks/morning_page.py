@@ -29,7 +29,7 @@ from app.session.checks.steps import StepResult, Verdict, morning_check, overall
 from app.session.touch import Touch
 from app.tracking.inspection import Inspection
 from app.views import theme
-from app.views.checks.toucher import Toucher, move_there
+from app.views.checks.toucher import Toucher, move_there, tell_tracker
 from app.views.exercise.run import ExerciseRun
 from app.views.text import tr
 
@@ -130,6 +130,7 @@ class MorningPage(QDialog):
         known = self._known()
         if known is not None:
             self._touch = touch_facts(*known, touch)
+            tell_tracker(self._run(), self._touch)
         self.look()
 
     def _failed(self, reason: str) -> None:

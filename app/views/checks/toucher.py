@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from app.session.checks.facts import TouchFacts
 from app.session.touch import DURATION, Touch, TouchCollector, TouchError
 from app.views.exercise.run import ExerciseRun
 from app.views.text import tr
@@ -83,3 +84,15 @@ def move_there(run: ExerciseRun, point: object) -> None:
     way = np.asarray(point, dtype=np.float64) - run.profile.pantograph.fulcrum
     x, y, _ = unit(way).tolist()
     run.trainer.hand(x, y, float(np.linalg.norm(way)))
+
+
+def tell_tracker(run: ExerciseRun | None, touch: TouchFacts) -> None:
+    """Let the tracker know the depths along the needle: its marker may have slipped."""
+    from app.core.arrays import unit
+
+    if run is None or run.touched is None:
+        return
+    fulcrum = run.profile.pantograph.fulcrum
+    along = unit(touch.p_known - fulcrum)
+    measured, known = ((p - fulcrum) @ along for p in (touch.p_measured, touch.p_known))
+    run.touched(float(measured), float(known))

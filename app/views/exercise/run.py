@@ -79,6 +79,8 @@ class ExerciseRun:
         interactive: whether the mouse moves a simulated hand, with a real robot its depth alone;
             False for a scripted trainee.
         rings: tolerance rings of the pad [m], from the inside.
+        touched: takes the depth [m] that the cameras measured while the tip touched a known place,
+            and the true one; None where no cameras watch a marker.
         inspect: newest pictures of the cameras with what was found in them; asked with (masks,
             epipolar curves), each computed only if wanted; None without cameras.
         board: who is at the other end of the wire; None where nobody tells.
@@ -96,6 +98,7 @@ class ExerciseRun:
     interactive: bool = True
     rings: tuple[float, ...] = field(default_factory=rings)
     inspect: Callable[[bool, bool], Inspection] | None = None
+    touched: Callable[[float, float], None] | None = None
     board: BoardInfo | None = None
     port: str = ""
     clearance: Clearance | None = None
