@@ -70,6 +70,7 @@ def main() -> None:
         print(f"no chest CT in {CHEST}: its pictures stay as they are", file=sys.stderr)
     own_settings("tools.robot_pictures")
     own_settings("tools.camera_pictures")
+    own_settings("tools.calibration_pictures")
     own_settings("tools.eyes_pictures")
     studies()
 

@@ -122,7 +122,10 @@ class ResultPage(QWidget):
         self.parameters.setRowCount(len(left))
         for i, ((name, one), (_, other)) in enumerate(zip(left, right, strict=True)):
             for k, text in enumerate((name, one, other)):
-                self.parameters.setItem(i, k, QTableWidgetItem(text))
+                item = QTableWidgetItem(text)
+                if text.startswith("("):
+                    item.setForeground(QColor(theme.TEXT_DIM))
+                self.parameters.setItem(i, k, item)
         self.notes.setText("\n".join(other_notes(calibration)))
         self.bar.setValue(1000)
 
@@ -178,8 +181,8 @@ class ResultPage(QWidget):
         self._figures.setColumnStretch(1, 1)
         rows.addLayout(self._figures)
         tables = QHBoxLayout()
-        tables.addWidget(self.views, 1)
-        tables.addWidget(self.parameters, 1)
+        tables.addWidget(self.views, 5)
+        tables.addWidget(self.parameters, 6)
         rows.addLayout(tables, 1)
         rows.addWidget(self.notes)
         last = QHBoxLayout()

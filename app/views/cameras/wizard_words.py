@@ -89,7 +89,7 @@ def baseline_sd(calibration: StereoCalibration) -> float:
 
 
 def parameter_rows(mono: MonoResult, camera: CameraCalibration) -> list[tuple[str, str]]:
-    """Each parameter with its standard deviation; those that the views do not support as well.
+    """Each parameter with its standard deviation; in brackets what the views do not support.
 
     Args:
         mono: the camera by itself, which decided on the distortion's coefficients.
@@ -101,22 +101,23 @@ def parameter_rows(mono: MonoResult, camera: CameraCalibration) -> list[tuple[st
     for i, (name, value) in enumerate(zip(PARAMETERS, values, strict=True)):
         sd = max(0.0, camera.covariance[i][i]) ** 0.5
         if name in camera.estimated:
-            digits = 2 if i < 4 else 5
+            digits = 2 if i < 4 else 4
             rows.append(
                 (f"{name} [px]" if i < 4 else name, f"{value:.{digits}f} ± {sd:.{digits}f}")
             )
         elif name in dropped:
             lost = dropped[name]
-            rows.append((name, tr("dropped: {value:.2g} ± {sd:.2g}", value=lost.value, sd=lost.sd)))
+            rows.append((name, f"({lost.value:.1g} ± {lost.sd:.1g})"))
         else:
-            rows.append((name, tr("dropped: not supported")))
+            rows.append((name, tr("(dropped)")))
     return rows
 
 
 def other_notes(calibration: StereoCalibration) -> list[str]:
     """Return notes that neither the table of parameters nor that of pairs tells."""
     told = ("is not significant", "does not fit")
-    return [note for note in calibration.notes if not any(words in note for words in told)]
+    notes = [note for note in calibration.notes if not any(words in note for words in told)]
+    return [tr("In brackets: not significant, so dropped (0 is used)."), *notes]
 
 
 def view_rows(result: StereoResult) -> list[tuple[str, float, Verdict, str]]:
