@@ -1,5 +1,8 @@
 """Two cameras from pairs whose truth is known: corner orders, outliers, swaps, scale."""
 
+from pathlib import Path
+
+import cv2
 import numpy as np
 import pytest
 
@@ -7,10 +10,13 @@ from app.core.progress import Cancelled, Progress
 from app.tracking.calibration.boards import parse_board
 from app.tracking.calibration.checks import check_baseline, check_second_board
 from app.tracking.calibration.mirrored import mirrored_view
+from app.tracking.calibration.pairing import pair_folder
 from app.tracking.calibration.run import StereoResult, calibrate_pairs, calibrate_stereo
+from app.tracking.calibration.sets import stereo_set
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.simulated.board import BoardRenderer
 from tests.tracking.calibration_rig import Rig, small_rig, thesis_rig, usual_rig
 
 NOISE = 0.1
@@ -171,3 +177,20 @@ def test_a_calibration_can_be_cancelled(pairs: tuple[Views, Views]) -> None:
     progress.cancel()
     with pytest.raises(Cancelled):
         calibrate_pairs(*pairs, progress=progress)
+
+
+def test_small_blurred_pictures_are_calibrated_from_disk_to_within_what_is_stated(
+    tmp_path: Path,
+) -> None:
+    rig, rng = small_rig(), np.random.default_rng(1)
+    for i, T in enumerate(rig.poses(9, 21)):
+        for model in (rig.left, rig.right):
+            picture = BoardRenderer(model, rig.board, 2).render(
+                model.T_camera_world @ T, 0.9, 4.0, rng
+            )
+            cv2.imwrite(str(tmp_path / f"{model.name}{i}.png"), picture)
+    found = stereo_set(pair_folder(tmp_path), rig.board, hold_back=0)
+    assert len(found.result.estimate.pairs) >= 7
+    error, sd = twist_error(found.calibration, rig)
+    assert (np.abs(error) < 4.0 * sd).all()
+    assert found.calibration.rms_px < 0.3

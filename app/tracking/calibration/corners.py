@@ -44,7 +44,10 @@ SMALLEST_SQUARE = 5.0
 """Shortest way across a square [px] from which corners can be refined."""
 
 MOST_BLUR = 0.35
-"""Width of the edges over the shortest way across a square beyond which a picture is blurred."""
+"""Width of the edges over the shortest way across a square beyond which a picture is blurred.
+
+Edges up to 4 px, which is what a good camera has, are taken in smaller squares as well, up to 0.55.
+"""
 
 LEAST_COSINE = 0.15
 """Foreshortening beyond which a board is seen on edge: 81 degrees."""
@@ -196,7 +199,7 @@ def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> Boa
             f"the board has more than {board.columns}x{board.rows} inner corners; count them anew",
         )
     sharpness = edge_width(grey, board, homography, seen)
-    if sharpness > MOST_BLUR * square_px:
+    if sharpness > max(MOST_BLUR * square_px, min(4.0, 0.55 * square_px)):
         return Rejection(
             Reason.BLURRED,
             f"the picture is blurred: edges are {sharpness:.1f} px wide, squares "
