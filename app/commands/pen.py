@@ -59,3 +59,44 @@ def print_pen(
 
 def _tip(pen: PenProfile) -> str:
     return "tip measured" if pen.tip.calibrated else "tip by the drawing: `acus pen calibrate`"
+
+
+@app.command("calibrate")
+def calibrate(
+    source: Annotated[
+        str | None,
+        typer.Option(help="usb:0, folder:PATH or video:PATH; default: as remembered."),
+    ] = None,
+    pen: Name = "cube",
+    lens: Annotated[
+        Path | None, typer.Option(help="Calibration of the webcam's lens; default: remembered.")
+    ] = None,
+    seconds: Annotated[float, typer.Option(min=1.0, help="How long to look at most.")] = 60.0,
+    as_json: Annotated[bool, typer.Option("--json", help="JSON instead of text.")] = False,
+) -> None:
+    """Measure the tip: stand it in a dimple before the webcam and rock the pen to every side."""
+    from app.compose.pen_calibration import calibrate_pen
+    from app.tracking.pen.settings import load_settings, save_pen, save_settings, with_source
+
+    settings = load_settings().model_copy(update={"pen": pen})
+    settings = settings if source is None else with_source(settings, source)
+    settings = settings if lens is None else settings.model_copy(update={"calibration": lens})
+    if not as_json:
+        typer.echo("stand the tip in a dimple on the sheet and rock the pen to every side …")
+    found = calibrate_pen(settings, seconds, lambda text: typer.echo(text, err=True))
+    path = save_pen(found.pen)
+    save_settings(settings)
+    if as_json:
+        document = {
+            "tip_mm": found.pen.tip.position_mm,
+            "tip_sd_mm": found.tip.sd_mm,
+            "rms_mm": found.tip.rms * 1e3,
+            "poses": found.tip.poses,
+            "left_out": found.tip.left_out,
+            "axis_sd_deg": found.axis.sd_deg,
+            "file": str(path),
+        }
+        typer.echo(json.dumps(document, indent=2))
+        return
+    typer.echo(found.words)
+    typer.echo(f"kept in {path}")

@@ -76,6 +76,17 @@ def pen_settings(source: str) -> PenSettings:
     return with_source(load_settings(), source)
 
 
+def attached_camera(settings: PenSettings, clock: Clock) -> Camera:
+    """Return the real webcam of the settings, not open yet.
+
+    Raises:
+        CameraError: for a simulated one.
+    """
+    one = OneCamera(source=settings.source)
+    wanted = CameraSettings(size=settings.size, rate_hz=settings.rate_hz, left=one, right=one)
+    return make_camera(wanted, one, clock)
+
+
 def without_force(profile: DeviceProfile) -> DeviceProfile:
     """Return the geometry of a device that pushes nobody."""
     return profile.model_copy(update={"loop": profile.loop.model_copy(update={"renders": ()})})
@@ -136,11 +147,7 @@ class Pen:
         """
         if self.settings.simulated:
             return simulated_webcam(self.settings, self.scene(loop), self.profile, clock, seed)
-        one = OneCamera(source=self.settings.source)
-        wanted = CameraSettings(
-            size=self.settings.size, rate_hz=self.settings.rate_hz, left=one, right=one
-        )
-        return make_camera(wanted, one, clock)
+        return attached_camera(self.settings, clock)
 
     def webcam(self) -> Webcam | None:
         """Return its lens; None if it has to be guessed.

@@ -210,6 +210,23 @@ class RobotDesk(QObject):
         self._conductor.set_robot(RobotChoice(self.port, held, self._pen))
         self.changed.emit()
 
+    def ask_pen(self) -> None:
+        """Ask for the webcam that sees a pen with printed markers, and take the pen."""
+        dialog = QInputDialog(self._window)
+        dialog.setWindowTitle(tr("Pen and webcam"))
+        dialog.setLabelText(tr(
+            "Webcam that sees the pen and its sheet: usb:0, usb:PORT, folder:PATH, video:PATH or "
+            "simulated (docs/pen.md; `acus pen print` prints the pen)"
+        ))  # fmt: skip
+        dialog.setTextValue(self.pen or "usb:0")
+        dialog.textValueSelected.connect(self._take_typed_pen)
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
+
+    def _take_typed_pen(self, text: str) -> None:
+        if text.strip():
+            self.take_pen(text.strip())
+
     def _choose_typed(self, text: str) -> None:
         if text.strip():
             self.choose(text.strip())

@@ -53,6 +53,9 @@ class RobotMenu:
             self.robots.addAction(tr("no other robot is plugged in")).setEnabled(False)
         self.robots.addSeparator()
         self._add(self.robots, tr("Other port…"), self._desk.ask_port)
+        pen = self._add(self.robots, tr("No robot: pen and webcam…"), self._desk.ask_pen)
+        pen.setCheckable(True)
+        pen.setChecked(bool(self._desk.pen))
 
     def _gauge(self, menu: QMenu) -> dict[GaugeMode, QAction]:
         group = QActionGroup(menu)
