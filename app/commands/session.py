@@ -139,10 +139,12 @@ def _trajectory(folder: Path, ids: list[str] | None) -> tuple[str, int]:
 
 def _details(recording: Any, summary: dict[str, Any]) -> dict[str, Any]:
     samples, inputs = recording.samples, recording.inputs
+    radius = samples.tip_radius()
     return summary | {
         "file": str(recording.path),
         "complete": recording.complete,
         "metadata": dict(recording.metadata),
+        "tip_radius_95_mm": None if radius is None else 1e3 * radius,
         "attachments": sorted(recording.attachments),
         "samples": len(samples.time),
         "ticks": len(inputs.values),
@@ -209,6 +211,8 @@ def _print_details(document: dict[str, Any]) -> None:
     typer.echo(f"{'hand':12} {document['metadata'].get('trainee', {}).get('hand', 'not recorded')}")
     if document["calibration"]:
         typer.echo(f"{'calibration':12} {document['calibration']}")
+    if document["tip_radius_95_mm"] is not None:
+        typer.echo(f"{'tip known to':12} ± {document['tip_radius_95_mm']:.1f} mm (95 %), median")
     typer.echo(f"{'score':12} {_total(document['score'])}")
     for row in (document["score"] or {}).get("rows", []):
         value = "-" if row["value"] is None else f"{row['value']:.4g} {row['unit']}"

@@ -53,6 +53,12 @@ class Samples:
     measured: FloatArray
     radius: FloatArray | None = None
 
+    def tip_radius(self) -> float | None:
+        """Median radius round the tip that holds the true one with 95 % [m]; None if not known."""
+        if self.radius is None or not np.isfinite(self.radius).any():
+            return None
+        return float(np.nanmedian(self.radius))
+
 
 class History:
     """Samples of a running attempt, at most one per `SAMPLE_PERIOD`."""

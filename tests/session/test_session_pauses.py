@@ -175,5 +175,6 @@ def test_the_window_sees_the_prediction_and_the_record_the_measurement(bench: Be
     samples = read_recording(result.record).samples
     known = samples.radius[np.isfinite(samples.radius)]
     assert len(known) > 50
+    assert read_recording(result.record).samples.tip_radius() == pytest.approx(np.median(known))
     assert known[-1] == pytest.approx(snapshot.measured_pose.radius, rel=0.01)
     assert result.trajectory.depth[-1] == pytest.approx(snapshot.measured_pose.depth)

@@ -102,6 +102,7 @@ def _facts(painter: QPainter, review: Review, y: float) -> float:
         (tr("Duration"), clock_text(review.duration)),
         (tr("Control scans"), str(review.scans)),
         (tr("Path"), tr("{mm:.1f} mm from entry to target", mm=1e3 * review.placed.length)),
+        (tr("Tip measured to"), radius_text(review.tip_radius)),
         (tr("Recorded with"), f"Acus {review.software}"),
     )
     for name, value in facts:
@@ -109,6 +110,13 @@ def _facts(painter: QPainter, review: Review, y: float) -> float:
         _text(painter, MARGIN + 130.0, y, value, font(9.5))
         y += 15.0
     return y + 16.0
+
+
+def radius_text(radius: float | None) -> str:
+    """Say how well the tip was known [m]."""
+    if radius is None:
+        return tr("not recorded")
+    return tr("± {mm:.1f} mm (95 %), median", mm=1e3 * radius)
 
 
 def _verdict(painter: QPainter, review: Review, y: float) -> float:

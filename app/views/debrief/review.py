@@ -77,6 +77,7 @@ class Review:
         force_limit: of the device [N].
         measured_force: force across the needle that a gauge measured [N], shape (n,), NaN where it
             did not; None if there was none: then the force is the estimate in `curves`.
+        tip_radius: round the tip that holds the true one with 95 %, median [m]; None if not known.
     """
 
     id: str
@@ -97,6 +98,7 @@ class Review:
     tip: FloatArray
     force_limit: float
     measured_force: FloatArray | None = None
+    tip_radius: float | None = None
 
     @property
     def rings(self) -> tuple[float, float]:
@@ -185,6 +187,7 @@ def review(recording: Recording) -> Review:
         tip=np.where(measured[:, None], samples.tip, np.nan),
         force_limit=_force_limit(recording),
         measured_force=samples.measured if np.isfinite(samples.measured).any() else None,
+        tip_radius=samples.tip_radius(),
     )
 
 
