@@ -42,6 +42,7 @@ def stereo_document(found: "StereoSet", checks: "Sequence[Check]") -> dict[str, 
         "created": calibration.created.isoformat(),
         "board": calibration.board,
         "rms_px": calibration.rms_px,
+        "opencv_rms_px": estimate.usual_rms_px,
         "cameras": [
             camera_document(camera) | _alone(mono)
             for camera, mono in zip(
@@ -92,11 +93,7 @@ def mono_lines(found: "MonoSet") -> list[str]:
     result = found.result
     camera = result.calibration
     lines = [_camera_line(camera), *_parameter_lines(camera)]
-    if result.usual_rms_px is not None:
-        lines.append(
-            f"  OpenCV's plain recipe (every view, five coefficients) leaves "
-            f"{result.usual_rms_px:.4f} px on these corners"
-        )
+    lines += _plain_line(result.usual_rms_px)
     if result.held_back_rms_px is not None:
         lines.append(f"  views held back      {result.held_back_rms_px:.4f} px")
     lines += _residual_lines(result.residuals)
@@ -110,6 +107,7 @@ def stereo_lines(found: "StereoSet", checks: "Sequence[Check]") -> list[str]:
     for camera, mono in zip(calibration.cameras, (estimate.left, estimate.right), strict=True):
         lines += [_camera_line(camera), *_parameter_lines(camera)]
         lines.append(f"  by itself {mono.calibration.rms_px:.4f} px")
+        lines += _plain_line(mono.usual_rms_px)
     sd = _sd(calibration.pose.covariance)
     x, y, z = calibration.pose.translation_mm
     lines += [
@@ -118,6 +116,7 @@ def stereo_lines(found: "StereoSet", checks: "Sequence[Check]") -> list[str]:
         + ", ".join(f"{1e3 * value:.3f}" for value in sd[:3])
         + f"; baseline {calibration.baseline * 1e3:.3f} mm",
     ]
+    lines += _plain_line(estimate.usual_rms_px)
     lines += _validation_lines(found)
     lines += [f"  {'agrees' if check.passed else 'CONTRADICTS'}: {check.text}" for check in checks]
     if not checks:
@@ -127,6 +126,12 @@ def stereo_lines(found: "StereoSet", checks: "Sequence[Check]") -> list[str]:
         )
     lines += _residual_lines(found.result.residuals)
     return lines + _refused(found.looked) + [f"  {note}" for note in calibration.notes]
+
+
+def _plain_line(rms_px: float | None) -> list[str]:
+    if rms_px is None:
+        return []
+    return [f"  OpenCV's plain recipe (every view, five coefficients): {rms_px:.4f} px"]
 
 
 def _validation_lines(found: "StereoSet") -> list[str]:

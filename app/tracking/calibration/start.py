@@ -40,6 +40,24 @@ def usual_rms(views: Sequence[BoardView]) -> float | None:
     return float(found) if np.isfinite(found) else None
 
 
+def usual_stereo_rms(pairs: Sequence[tuple[BoardView, BoardView]]) -> float | None:
+    """Reprojection error of OpenCV's plain recipe for two cameras: all pairs, fixed lenses [px]."""
+    both = [(a, b) for a, b in pairs if np.array_equal(a.ids, b.ids)]
+    if not both or {a.image_size for a, _ in both} != {b.image_size for _, b in both}:
+        return None
+    (points, left, size), (_, right, _) = (_arguments([p[side] for p in both]) for side in (0, 1))
+    try:
+        lenses = [
+            cv2.calibrateCamera(points, pixels, size, None, None)[1:3] for pixels in (left, right)
+        ]
+        found = cv2.stereoCalibrate(
+            points, left, right, *lenses[0], *lenses[1], size, flags=cv2.CALIB_FIX_INTRINSIC
+        )[0]
+    except cv2.error:
+        return None
+    return float(found) if np.isfinite(found) else None
+
+
 def _arguments(views: Sequence[BoardView]) -> tuple[list[object], list[object], tuple[int, int]]:
     points: list[object] = [view.points.astype(np.float32) for view in views]
     pixels: list[object] = [view.pixels.astype(np.float32).reshape(-1, 1, 2) for view in views]

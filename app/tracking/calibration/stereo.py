@@ -17,6 +17,7 @@ from app.tracking.calibration.pair_fit import matched_residual, pair_residuals, 
 from app.tracking.calibration.poses import board_pose
 from app.tracking.calibration.remarks import ViewResidual, stereo_remarks
 from app.tracking.calibration.sightings import Sighting, State
+from app.tracking.calibration.start import usual_stereo_rms
 from app.tracking.calibration.validation import ViewPair
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
@@ -37,6 +38,8 @@ class StereoEstimate:
         pairs: used, corner orders matching.
         residuals: of every pair given, in that order.
         mended: names of the pairs whose right picture was numbered the other way round.
+        usual_rms_px: what OpenCV's plain recipe leaves on the same corners: all pairs, lenses as
+            found by themselves; None if it finds nothing, or corners were seen by one camera only.
         notes: lines for people.
     """
 
@@ -46,6 +49,7 @@ class StereoEstimate:
     pairs: tuple[ViewPair, ...]
     residuals: tuple[ViewResidual, ...]
     mended: tuple[str, ...]
+    usual_rms_px: float | None
     notes: tuple[str, ...]
 
     @property
@@ -110,6 +114,7 @@ def estimate_stereo(
         tuple(mended[i] for i in used),
         residuals,
         changed,
+        usual_stereo_rms(mended),
         (*left.notes, *right.notes, *remarks),
     )
 
