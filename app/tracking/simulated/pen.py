@@ -30,7 +30,11 @@ _MARGIN = 0.012
 _PAD = 2
 """White round a marker in its texture, in cells."""
 
+_EDGE = 8
+"""Pixels at a part's rim that its blur spoils."""
+
 Plain = NDArray[np.float32]
+Grey = NDArray[np.uint8]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,6 +67,8 @@ def body_pose(
 class PenRenderer:
     """Draws the sheet and the pen as one camera sees them; no noise, no time.
 
+    The sheet is drawn once, the pen only where it is. Not for two threads at once.
+
     Args:
         model: the camera, with its pose in world.
         body: markers of cube or ring.
@@ -93,21 +99,59 @@ class PenRenderer:
         for marker in base.markers:
             side = marker.side * _SURROUND
             self._draw(self._background, marker, pose, _print(marker, base.dictionary), side)
+        self._empty = self._coarse(self._background)
 
     def render(self, scene: PenScene) -> Image:
         """Picture of a scene without noise, uint8 (height, width, 3), writable."""
-        fine = self._background.copy()
+        picture = self._empty.copy()
         if scene.T_world_body is not None:
-            pose = self.model.T_camera_world @ scene.T_world_body
-            self._shaft(fine, pose.translation, self.model.T_camera_world @ scene.p_tip)
-            for marker in self._body.markers:
-                self._draw(fine, marker, pose, self._prints[marker.id], self._face)
+            self._body_into(picture, scene.T_world_body, scene.p_tip)
+        return np.repeat(picture[..., None], 3, axis=2)
+
+    def _body_into(self, picture: Grey, T_world_body: RigidTransform, p_tip: FloatArray) -> None:
+        """Draw the pen where it is and blur that part; the rest is as without it."""
+        pose, end = self.model.T_camera_world @ T_world_body, self.model.T_camera_world @ p_tip
+        points = pose @ np.concatenate([marker.corners for marker in self._body.markers])
+        part = self._part(np.vstack([points, end]))
+        if part is None:
+            return
+        fine = self._background
+        rows, columns = (slice(p.start * SUPERSAMPLING, p.stop * SUPERSAMPLING) for p in part)
+        kept = fine[rows, columns].copy()
+        self._shaft(fine, pose.translation, end)
+        for marker in self._body.markers:
+            self._draw(fine, marker, pose, self._prints[marker.id], self._face)
+        drawn = self._coarse(fine[rows, columns])
+        self._restore(rows, columns, kept)
+        inner = tuple(
+            slice(_EDGE if p.start > 0 else 0, -_EDGE if p.stop < limit else None)
+            for p, limit in zip(part, picture.shape, strict=True)
+        )
+        picture[part][inner] = drawn[inner]
+
+    def _part(self, p_camera: FloatArray) -> tuple[slice, slice] | None:
+        """Rows and columns of the picture that points and their surroundings take."""
+        uv, ok = self.model.project_camera(p_camera)
+        if not ok.all():
+            return None
         width, height = self.model.image_size
-        picture = cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA)
+        rim = _EDGE + 0.6 * self._face / float(p_camera[:, 2].min()) * self.model.intrinsics[0]
+        low = np.clip(np.floor(uv.min(axis=0) - rim), 0, (width, height)).astype(int)
+        high = np.clip(np.ceil(uv.max(axis=0) + rim), 0, (width, height)).astype(int)
+        if (high - low < 2 * _EDGE + 2).any():
+            return None
+        return slice(low[1], high[1]), slice(low[0], high[0])
+
+    def _restore(self, rows: slice, columns: slice, kept: Plain) -> None:
+        self._background[rows, columns] = kept
+
+    def _coarse(self, fine: Plain) -> Grey:
+        """Bring samples to pixels and blur them."""
+        size = (fine.shape[1] // SUPERSAMPLING, fine.shape[0] // SUPERSAMPLING)
+        picture = cv2.resize(fine, size, interpolation=cv2.INTER_AREA)
         if self._blur > 0.0:
             picture = cv2.GaussianBlur(picture, (0, 0), self._blur)
-        grey = np.clip(picture + 0.5, 0.0, 255.0).astype(np.uint8)
-        return np.repeat(grey[..., None], 3, axis=2)
+        return np.clip(picture + 0.5, 0.0, 255.0).astype(np.uint8)
 
     def _table(self, seed: int) -> Plain:
         width, height = self.model.image_size
