@@ -137,6 +137,7 @@ def world_document(
         "scale": frame.scale,
         "scale_sd": frame.scale_sd,
         "disagreement_mm": frame.disagreement_mm,
+        "fulcrum_sd_mm": frame.watched_sd_mm,
         "remarks": list(frame.remarks),
     }
 
@@ -152,6 +153,10 @@ def world_lines(
     lines.append(f"{'residual':13} {frame.rms_px:.3f} px in {len(frame.by_picture)} pictures")
     if frame.scale is not None:
         lines.append(f"{'scale':13} {frame.scale:.5f} ± {frame.scale_sd:.5f} of the board's size")
+    if frame.watched_sd_mm is not None:
+        lines.append(
+            f"{'fulcrum':13} sure to ± {frame.watched_sd_mm:.2f} mm (standard deviation per axis)"
+        )
     if frame.disagreement_mm > 0.0:
         lines.append(f"{'places':13} agree within {frame.disagreement_mm:.2f} mm")
     lines += [f"{'look at':13} {remark}" for remark in frame.remarks]

@@ -68,7 +68,8 @@ def test_the_cameras_places_are_found_and_kept(acus, history, pictures: Path) ->
     assert history.active().world is not None
     assert set(document) == {
         "id", "T_world_left", "sd_mm", "sd_rad", "camera_centres_mm", "rms_px", "pictures",
-        "refused", "scale", "scale_sd", "disagreement_mm", "remarks", "kept",
+        "refused", "scale", "scale_sd", "disagreement_mm", "fulcrum_sd_mm",
+        "remarks", "kept",
     }  # fmt: skip
 
 

@@ -67,6 +67,8 @@ def test_a_board_without_noise_gives_the_cameras_places_exactly(
         np.testing.assert_allclose(centre, model.centre, atol=1e-8)
     assert world.scale == pytest.approx(1.0, abs=1e-8)
     assert world.rms_px < 1e-6
+    # 0.3 mm, and 0.15° about the board's origin some 80 mm away.
+    assert world.watched_sd_mm == pytest.approx(0.35, abs=0.06)
     assert world.remarks == ()
 
 

@@ -107,7 +107,7 @@ def test_from_pictures_to_a_calibration_in_use(wizard, job, pictures, at_place, 
     used = []
     wizard.used.connect(lambda: used.append(True))
     wizard.save_page.save.click()
-    assert used == [True]
+    assert settle(lambda: used == [True], 10.0)
     assert titles(wizard)[4] == "✔ Save"
     active = job.history.active()
     assert active is not None
@@ -115,23 +115,36 @@ def test_from_pictures_to_a_calibration_in_use(wizard, job, pictures, at_place, 
     assert not wizard.save_page.save.isEnabled()
 
 
-def test_the_history_can_be_undone_and_condemned(wizard, job) -> None:
+def test_the_history_can_be_undone_and_condemned(wizard, job, settle) -> None:
     for name in ("one", "two"):
         job.history.keep(sample(load_rig("wide"), name))
     wizard.show_page(4)
     page = wizard.save_page
+
+    def done(active: str) -> bool:
+        return settle(lambda: not page.running and job.history.active().id == active, 10.0)
+
+    assert settle(lambda: "held back" in page.table.item(0, 1).text(), 10.0)
     page.undo.click()
-    assert job.history.active().id == "one"
+    assert done("one")
     page.table.selectRow(0)
     assert page.chosen() == "two"
     page.use.click()
-    assert job.history.active().id == "two"
+    assert done("two")
     page.table.selectRow(0)
     page.condemn_chosen("camera bumped")
-    assert job.history.active().id == "one"
+    assert done("one")
     assert "camera bumped" in page.table.item(0, 3).text()
     page.condemn_chosen("  ")
+    assert done("one")
     assert "say why" in page.state.text()
+
+
+def test_a_damaged_calibration_is_listed_with_its_reason(wizard, job, settle) -> None:
+    path = job.history.keep(sample(load_rig("wide"), "one"))
+    path.write_text("id: 3\n")
+    wizard.show_page(4)
+    assert settle(lambda: "unreadable" in wizard.save_page.table.item(0, 3).text(), 10.0)
 
 
 def test_a_folder_without_pairs_says_so(wizard, tmp_path: Path) -> None:

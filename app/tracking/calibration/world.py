@@ -45,6 +45,8 @@ class WorldFrame:
         disagreement_mm: largest distance between the left camera's centre by one place and by
             all; 0 with one place.
         centres: of both cameras in world [m], (2, 3).
+        watched_sd_mm: standard deviation per axis (root mean square of the three) that the frame
+            gives a point at the middle of `watched`; None without that.
         remarks: what to look at, one line each.
     """
 
@@ -55,6 +57,7 @@ class WorldFrame:
     scale_sd: float
     disagreement_mm: float
     centres: FloatArray
+    watched_sd_mm: float | None
     remarks: tuple[str, ...]
 
 
@@ -110,6 +113,7 @@ def find_world(
         best.scale_sd if best is not None else 0.0,
         away / MILLIMETRE,
         centres,
+        None if watched is None else _sd_at(watched.mean(axis=0), covariance) / MILLIMETRE,
         remarks_on(placed, centres, watched, away, covariance),
     )
 
@@ -180,6 +184,12 @@ def _spread(
     sd = np.repeat([sd_mm * MILLIMETRE, sd_deg * DEGREE], 3)
     laid = about_board @ np.diag(sd**2) @ about_board.T
     return np.asarray(adjoint @ fit.covariance @ adjoint.T + laid)
+
+
+def _sd_at(p_world: FloatArray, covariance: FloatArray) -> float:
+    """Root mean square over the axes of the deviation that the frame gives a point [m]."""
+    jacobian = np.hstack([np.eye(3), -skew(p_world)])
+    return float(np.sqrt(np.trace(jacobian @ covariance @ jacobian.T) / 3.0))
 
 
 def _joined(

@@ -76,7 +76,7 @@ class CalibrationWizard(QDialog):
     @property
     def running(self) -> bool:
         """Whether a page works."""
-        return self.capture_page.running or self.result_page.running or self.world_page.running
+        return any(page.running for page in self.steps if not isinstance(page, BoardPage))
 
     def show_page(self, number: int) -> None:
         """Go to a page; one that works keeps it."""

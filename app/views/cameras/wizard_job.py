@@ -49,6 +49,7 @@ class CalibrationJob:
     places: tuple[PlacedBoard, ...] = ()
     world: WorldFrame | None = None
     saved: StereoCalibration | None = None
+    _active: StereoCalibration | None = field(default=None, repr=False)
 
     @property
     def pairs(self) -> int:
@@ -88,7 +89,20 @@ class CalibrationJob:
         """
         if self.result is not None:
             return self.result.calibration
-        active = self.history.active()
+        name = self.base_id()
+        if self._active is None or self._active.id != name:
+            self._active = self.history.load(name)
+        return self._active
+
+    def base_id(self) -> str:
+        """Return the id of `base`; reads one small file.
+
+        Raises:
+            CalibrationError: if there is none.
+        """
+        if self.result is not None:
+            return self.result.calibration.id
+        active = next((entry.id for entry in self.history.entries() if entry.active), None)
         if active is None:
             raise CalibrationError("calibrate the cameras first: no calibration is in use")
         return active

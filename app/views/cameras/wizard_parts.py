@@ -3,7 +3,15 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHeaderView,
+    QLabel,
+    QPushButton,
+    QTableWidget,
+    QVBoxLayout,
+    QWidget,
+)
 
 from app.views import theme
 from app.views.exercise.status_items import Verdict
@@ -44,3 +52,20 @@ def tell(line: QLabel, verdict: Verdict, words: str) -> None:
     colour, symbol = verdict.look
     line.setText(f"{symbol} {words}" if words else "")
     line.setStyleSheet(f"color: {colour};")
+
+
+def table(titles: tuple[str, ...], selectable: bool = False) -> QTableWidget:
+    """Return a table to read; `selectable` lets whole rows be chosen, one at a time."""
+    made = QTableWidget(0, len(titles))
+    made.setHorizontalHeaderLabels(titles)
+    made.verticalHeader().setVisible(False)
+    made.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+    mode = QAbstractItemView.SelectionMode
+    made.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+    made.setSelectionMode(mode.SingleSelection if selectable else mode.NoSelection)
+    made.setShowGrid(False)
+    header = made.horizontalHeader()
+    header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+    header.setStretchLastSection(True)
+    header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+    return made

@@ -5,13 +5,10 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QGridLayout,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
     QProgressBar,
-    QTableWidget,
     QTableWidgetItem,
     QWidget,
 )
@@ -20,7 +17,7 @@ from app.tracking.calibration.run import StereoResult
 from app.views import theme
 from app.views.background import Task, run_in_background
 from app.views.cameras.wizard_job import CalibrationJob
-from app.views.cameras.wizard_parts import button, column, label, tell
+from app.views.cameras.wizard_parts import button, column, label, table, tell
 from app.views.cameras.wizard_words import (
     figures,
     other_notes,
@@ -52,8 +49,8 @@ class ResultPage(QWidget):
         self.bar.setFixedHeight(10)
         self.state, self.notes = label(), label(role="dim")
         self._figures = QGridLayout()
-        self.views = _table((tr("Pair"), tr("px"), tr("Remark")))
-        self.parameters = _table((tr("Parameter"), job.names[0], job.names[1]))
+        self.views = table((tr("Pair"), tr("px"), tr("Remark")))
+        self.parameters = table((tr("Parameter"), job.names[0], job.names[1]))
         self._lay_out()
         self.start.clicked.connect(self.begin)
         self.cancel.clicked.connect(self.stop)
@@ -190,20 +187,6 @@ class ResultPage(QWidget):
         last.addWidget(self.cancel)
         last.addStretch(1)
         rows.addLayout(last)
-
-
-def _table(titles: tuple[str, ...]) -> QTableWidget:
-    table = QTableWidget(0, len(titles))
-    table.setHorizontalHeaderLabels(titles)
-    table.verticalHeader().setVisible(False)
-    table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-    table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
-    table.setShowGrid(False)
-    header = table.horizontalHeader()
-    header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-    header.setStretchLastSection(True)
-    header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-    return table
 
 
 def _fill_grid(grid: QGridLayout, rows: list[tuple[str, str]]) -> None:

@@ -7,20 +7,19 @@ from collections.abc import Callable
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QHBoxLayout,
-    QHeaderView,
     QInputDialog,
-    QTableWidget,
     QTableWidgetItem,
     QWidget,
 )
 
 from app.core.errors import AcusError
-from app.tracking.calibration.history import Entry
+from app.core.progress import Progress
+from app.tracking.calibration.history import CalibrationHistory, Entry
 from app.views import theme
+from app.views.background import Task, run_in_background
 from app.views.cameras.wizard_job import CalibrationJob
-from app.views.cameras.wizard_parts import button, column, label, tell
+from app.views.cameras.wizard_parts import button, column, label, table, tell
 from app.views.exercise.status_items import Verdict
 from app.views.text import tr
 
@@ -37,12 +36,14 @@ class SavePage(QWidget):
     def __init__(self, job: CalibrationJob, parent: QWidget) -> None:
         super().__init__(parent)
         self._job = job
+        self._details: dict[str, tuple[str, str, str]] = {}
+        self._task: Task | None = None
         self.state, self._remark = label(), label(role="dim")
         self.save = button(tr("Save and use it"), "primary")
         self.undo, self.redo = button(tr("Undo")), button(tr("Redo"))
         self.use, self.condemn = button(tr("Use this one")), button(tr("Found bad…"), "danger")
-        self.table = QTableWidget(0, 4)
-        self._prepare()
+        titles = (tr("Calibration"), tr("Error"), tr("Place"), tr("State"))
+        self.table = table(titles, selectable=True)
         self._lay_out()
         self._connect()
         self.refresh()
@@ -107,15 +108,48 @@ class SavePage(QWidget):
         if given:
             self.condemn_chosen(reason)
 
+    @property
+    def running(self) -> bool:
+        """Whether files are written or read for the user."""
+        return self._task is not None
+
     def _do(self, work: Callable[[], object]) -> None:
-        try:
-            work()
-        except AcusError as error:
-            self.refresh()
-            tell(self.state, Verdict.BAD, str(error))
+        """Work beside the window: a calibration's file takes some tenths of a second."""
+        if self.running:
             return
+        self._task = run_in_background(self, lambda _: work(), self._done, self._failed)
+        self._enable(())
+        self.save.setEnabled(False)
+
+    def _done(self, _: object) -> None:
+        self._task = None
         self.refresh()
         self.changed.emit()
+
+    def _failed(self, error: Exception) -> None:
+        self._task = None
+        self.refresh()
+        tell(self.state, Verdict.BAD, str(error))
+
+    def _read(self, entries: tuple[Entry, ...]) -> None:
+        """Read what is not known yet of the calibrations, beside the window."""
+        history = self._job.history
+        missing = [entry.id for entry in entries if entry.id not in self._details]
+        if not missing:
+            return
+
+        def read(progress: Progress) -> dict[str, tuple[str, str, str]]:
+            found = {}
+            for i, name in enumerate(missing):
+                progress.report(i / len(missing))
+                found[name] = _details(history, name)
+            return found
+
+        def show(found: dict[str, tuple[str, str, str]]) -> None:
+            self._details |= found
+            self._fill(entries)
+
+        run_in_background(self, read, show, lambda error: self._remark.setText(str(error)))
 
     def _show_history(self) -> None:
         try:
@@ -126,28 +160,24 @@ class SavePage(QWidget):
             self._enable(())
             return
         self._remark.setText(str(self._job.history.folder))
+        self._fill(entries)
+        self._read(entries)
+
+    def _fill(self, entries: tuple[Entry, ...]) -> None:
         self.table.setRowCount(len(entries))
         for row, entry in enumerate(reversed(entries)):
             self._show_entry(row, entry)
         self._enable(entries)
 
     def _show_entry(self, row: int, entry: Entry) -> None:
+        figures, world, problem = self._details.get(entry.id, ("…", "", ""))
         colour, state = theme.TEXT_DIM, ""
         if entry.active:
             colour, state = theme.GOOD, tr("✔ in use")
+        if problem:
+            colour, state = theme.BAD, tr("✖ unreadable: {why}", why=problem)
         if entry.condemned is not None:
             colour, state = theme.BAD, tr("✖ found bad: {why}", why=entry.condemned.reason)
-        try:
-            calibration = self._job.history.load(entry.id)
-        except AcusError as error:
-            figures, world = str(error), ""
-            colour, state = theme.BAD, state or tr("✖ unreadable")
-        else:
-            checked = calibration.validation
-            figures = tr("{px:.2f} px", px=calibration.rms_px)
-            if checked is not None:
-                figures += tr(", {mm:.3f} mm held back", mm=checked.rms_mm)
-            world = tr("placed") if calibration.world is not None else tr("no place")
         for k, text in enumerate((entry.id, figures, world, state)):
             item = QTableWidgetItem(text)
             item.setToolTip(text)
@@ -171,20 +201,6 @@ class SavePage(QWidget):
             self._enable(self._job.history.entries())
         except AcusError:
             self._enable(())
-
-    def _prepare(self) -> None:
-        self.table.setHorizontalHeaderLabels(
-            (tr("Calibration"), tr("Error"), tr("Place"), tr("State"))
-        )
-        self.table.verticalHeader().setVisible(False)
-        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.table.setShowGrid(False)
-        header = self.table.horizontalHeader()
-        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        header.setStretchLastSection(True)
-        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
 
     def _lay_out(self) -> None:
         rows = column(self, tr("Save"))
@@ -214,3 +230,16 @@ class SavePage(QWidget):
         self.use.clicked.connect(self._use)
         self.condemn.clicked.connect(self._ask_why)
         self.table.itemSelectionChanged.connect(self._selected)
+
+
+def _details(history: CalibrationHistory, calibration_id: str) -> tuple[str, str, str]:
+    """Figures, place and problem of a calibration, in words."""
+    try:
+        calibration = history.load(calibration_id)
+    except AcusError as error:
+        return "", "", str(error)
+    checked = calibration.validation
+    figures = tr("{px:.2f} px", px=calibration.rms_px)
+    if checked is not None:
+        figures += tr(", {mm:.3f} mm held back", mm=checked.rms_mm)
+    return figures, tr("placed") if calibration.world is not None else tr("no place"), ""

@@ -140,6 +140,10 @@ def world_lines(calibration: StereoCalibration, world: WorldFrame) -> list[Line]
             "{camera} camera at x {x:.0f}, y {y:.0f}, z {z:.0f} mm", camera=camera.name, x=x, y=y,
             z=z)))  # fmt: skip
     lines.append((Verdict.GOOD, tr("corners within {px:.2f} px", px=world.rms_px)))
+    if world.watched_sd_mm is not None:
+        lines.append((Verdict.GOOD, tr(
+            "at the fulcrum the frame is sure to ± {mm:.2f} mm (standard deviation per axis)",
+            mm=world.watched_sd_mm)))  # fmt: skip
     if world.disagreement_mm > 0.0:
         lines.append((Verdict.GOOD, tr("places agree within {mm:.1f} mm",
                                        mm=world.disagreement_mm)))  # fmt: skip

@@ -121,11 +121,11 @@ class WorldPage(QWidget):
         if self.running or self._job.world is not None:
             return
         try:
-            base = self._job.base()
+            base = self._job.base_id()
         except CalibrationError as error:
             tell(self.state, Verdict.WARNING, str(error))
             return
-        tell(self.state, Verdict.IDLE, tr("for calibration {id}", id=base.id))
+        tell(self.state, Verdict.IDLE, tr("for calibration {id}", id=base))
 
     # --- inside -----------------------------------------------------------------------------------
     def _begin(self, work: Callable[[Progress], PlacedBoard]) -> None:
