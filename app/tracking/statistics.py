@@ -29,6 +29,7 @@ class TrackerStatistics:
         missing: cameras that do not show the marker in the newest fix.
         counts: fixes of each status since the start.
         cameras: health of each camera.
+        discrepancy: why cameras and robot disagree over the last seconds; empty if they do not.
         fault: message of an error inside the tracker; empty without.
         skew: how far apart the two cameras capture; None before a pair came.
     """
@@ -44,6 +45,7 @@ class TrackerStatistics:
     counts: dict[str, int] = field(default_factory=dict)
     cameras: tuple[CameraHealth, ...] = ()
     fault: str = ""
+    discrepancy: str = ""
     skew: Skew | None = None
 
 
@@ -91,6 +93,7 @@ class TrackerMeter:
             cameras=cameras,
             fault=fault,
             skew=skew,
+            discrepancy=newest.discrepancy.words if newest else "",
         )
 
 

@@ -178,6 +178,8 @@ def test_the_camera_that_does_not_see_the_marker_is_named():
     both = statistics(status=FixStatus.OUT_OF_VIEW, missing=("left", "right"))
     assert problem(both) == "marker out of view (both cameras)"
     assert problem(statistics()) == ""
+    assert problem(statistics(discrepancy="the needle bends")) == "the needle bends"
+    assert problem(statistics(status=FixStatus.NOT_YET_VISIBLE)) == "marker still in the tube"
     dead = CameraHealth("left", CameraState.FAILED, 1.0, "gone")
     broken = replace(blind, cameras=(dead,), reason="camera left: gone")
     assert problem(broken) == "camera left: gone"

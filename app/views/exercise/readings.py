@@ -158,6 +158,8 @@ def problem(statistics: TrackerStatistics) -> str:
     if statistics.status is FixStatus.ONE_CAMERA:
         names = ", ".join(camera_name(name) for name in statistics.missing)
         return tr("marker out of view ({cameras})", cameras=names)
+    if statistics.discrepancy:
+        return statistics.discrepancy
     if statistics.status is FixStatus.INCONSISTENT:
         return tr("the cameras disagree")
     return statistics.reason
