@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
+from app.compose.camera_check import aim_of, look
 from app.compose.cameras import real_cameras
 from app.compose.trainer import TrainerSetup, build_rig
 from app.core.clock import SystemClock
@@ -30,9 +31,19 @@ def wide():
 @pytest.fixture(scope="module")
 def settings(wide, tmp_path_factory):
     """Settings of two folders that show an upright needle, tip 50 mm deep, with noise."""
-    folder, rng = tmp_path_factory.mktemp("pictures"), np.random.default_rng(1)
-    down, fulcrum = np.array([0.0, 0.0, -1.0]), np.array([0.0, 0.16056, 0.090])
-    scene = MarkerScene.from_tip(fulcrum + DEPTH * down, down, wide.needle.marker_offset)
+    return _folders(wide, tmp_path_factory.mktemp("upright"), np.array([0.0, 0.0, -1.0]))
+
+
+@pytest.fixture(scope="module")
+def leaning(wide, tmp_path_factory):
+    """As above, leaning to one side and 90 mm deep: off the symmetry and off the optical axes."""
+    axis = np.array([0.3, 0.1, -1.0]) / np.linalg.norm([0.3, 0.1, -1.0])
+    return _folders(wide, tmp_path_factory.mktemp("leaning"), axis, 0.09)
+
+
+def _folders(wide, folder, axis, depth=DEPTH):
+    rng, fulcrum = np.random.default_rng(1), np.array([0.0, 0.16056, 0.090])
+    scene = MarkerScene.from_tip(fulcrum + depth * axis, axis, wide.needle.marker_offset)
     for model in wide.models:
         (folder / model.name).mkdir()
         clean = NeedleRenderer(model, wide.needle, wide.blur_px, 1).render(scene).astype(float)
@@ -101,6 +112,23 @@ def test_a_calibration_of_another_size_or_of_swapped_cameras_is_refused(wide, se
     history.keep(calibration(wide, id="other", cameras=made.cameras[::-1]))
     with pytest.raises(CalibrationError, match="swapped"):
         real_cameras(settings)
+
+
+def test_exchanged_cameras_are_found_by_the_marker_they_see(wide, leaning):
+    CalibrationHistory().keep(calibration(wide))
+    assert "as calibrated" in look(leaning, "", 0.5).order
+    swapped = leaning.model_copy(update={"left": leaning.right, "right": leaning.left})
+    assert "the cameras are swapped" in look(swapped, "", 0.5).order
+
+
+def test_the_cone_of_calibrated_cameras_is_drawn_into_their_pictures(wide, leaning, tmp_path):
+    CalibrationHistory().keep(calibration(wide))
+    aim = aim_of(leaning, "icube")
+    assert aim.basis == "calibration 20261122-091244-3f2a"
+    assert aim.cone.share == 1.0
+    aim.write_pictures(leaning, tmp_path)
+    green = cv2.imread(str(tmp_path / "left.png"))[..., 1].astype(int)
+    assert (green > 200).sum() > 500
 
 
 def test_one_real_camera_is_refused():

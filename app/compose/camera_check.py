@@ -52,6 +52,11 @@ class Aim:
     rig: RigProfile
     basis: str
 
+    @property
+    def image_size(self) -> tuple[int, int]:
+        """Width, height [px] that the outlines count in."""
+        return self.rig.models[0].image_size
+
     def write_pictures(self, settings: CameraSettings, folder: Path) -> None:
         """Write both pictures with the cone's outline as `<name>.png`; simulated ones are grey."""
         images: list[Image] = []
@@ -63,7 +68,10 @@ class Aim:
             pair = checked_cameras(settings, SystemClock(), "the camera settings")
             reports = survey(pair, self.cone.names, SystemClock(), _MOMENT)
             images = [report.image for report in reports if report.image is not None]
-        drawn = [with_outline(i, o) for i, o in zip(images, self.cone.outlines, strict=True)]
+        drawn = [
+            with_outline(image, outline * (np.array(image.shape[1::-1]) / self.image_size))
+            for image, outline in zip(images, self.cone.outlines, strict=True)
+        ]
         write_pictures(folder, dict(zip(self.cone.names, drawn, strict=True)))
 
 

@@ -1,7 +1,8 @@
 """Whether left and right are exchanged: both orders are tried on the marker's pixels.
 
 With the cameras exchanged the two rays of a pixel pair no longer meet. On the plane of symmetry of
-a symmetric rig they still do: one place of the marker may decide nothing, several do.
+a symmetric rig, and on the plane of its two optical axes, they still do: one place of the marker
+may decide nothing, several do.
 """
 
 from __future__ import annotations
@@ -55,7 +56,10 @@ class OrderCheck:
                 f"the pictures fit in neither order ({figures}): calibrate again, a camera was "
                 "moved or another one plugged in"
             )
-        return f"left and right could not be told apart ({figures}): move the needle sideways"
+        return (
+            f"left and right could not be told apart ({figures}): move the needle sideways, and "
+            "deeper or further out"
+        )
 
 
 def check_order(

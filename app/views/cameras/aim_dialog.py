@@ -44,7 +44,6 @@ class AimDialog(QDialog):
         self.previews = tuple(LivePreview(self) for _ in SIDES)
         self.share, self.losses = QLabel(self), QLabel(self)
         self.titles = tuple(QLabel(title, self) for title in (tr("Left"), tr("Right")))
-        self._size = settings.size
         self._lay_out()
         for side, preview in zip(SIDES, self.previews, strict=True):
             preview.open(_opener(services, settings, side, free))
@@ -66,7 +65,7 @@ class AimDialog(QDialog):
     def _show(self, aim: AimPort) -> None:
         cone = aim.cone
         for preview, outline in zip(self.previews, cone.outlines, strict=True):
-            preview.picture.set_outline(outline, self._size)
+            preview.picture.set_outline(outline, aim.image_size)
         whole = cone.share >= ENOUGH
         colour, symbol = theme.VERDICTS["good" if whole else "warning"]
         self.share.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX}px;")

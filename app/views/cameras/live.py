@@ -87,6 +87,11 @@ class AimPort(Protocol):
         """Calibration, or the rig as designed."""
         ...
 
+    @property
+    def image_size(self) -> tuple[int, int]:
+        """Width, height [px] that the outlines count in."""
+        ...
+
 
 class _Opening:
     """A camera that is being opened; who no longer wants it need not wait for it."""
