@@ -66,6 +66,7 @@ def test_everything_well_is_green_and_says_nothing_to_do() -> None:
         (replace(GOOD, residual_px=1.5), "residual", Verdict.WARNING, "1.50 px"),
         (replace(GOOD, residual_px=4.0), "residual", Verdict.BAD, "4.00 px"),
         (replace(GOOD, status="the cameras disagree"), "residual", Verdict.BAD, "disagree"),
+        (replace(GOOD, touch=replace(TOUCH, radius=7 * MM)), "touch", Verdict.WARNING, "± 7.00"),
         (replace(GOOD, touch=None), "touch", Verdict.WAITING, "not touched"),
         (replace(GOOD, touch=replace(TOUCH, p_measured=np.array([0, 3 * MM, 0]))),
          "touch", Verdict.BAD, "3.00 mm off"),

@@ -84,13 +84,13 @@ def touch_all(dialog, around, rows=range(6)) -> None:
 
 def test_touching_every_fiducial_gives_the_students_sentence(dialog):
     made, around = dialog
-    assert made.student.text() == "Screen and needle: not checked"
+    assert made.outcome.student.text() == "Screen and needle: not checked"
     assert not made.buttons["save"].isEnabled()
     touch_all(made, around)
-    assert made.student.text().startswith("Screen and needle agree within ± ")
-    assert "FRE" not in made.student.text()
-    assert "not accuracy" in made.figures.text()
-    assert made.trouble.text() == ""
+    assert made.outcome.student.text().startswith("Screen and needle agree within ± ")
+    assert "FRE" not in made.outcome.student.text()
+    assert "not accuracy" in made.outcome.figures.text()
+    assert made.outcome.trouble.text() == ""
     assert made.buttons["save"].isEnabled()
     assert made.table.item(2, 4).text()
     assert not made.grab().isNull()
@@ -114,8 +114,8 @@ def test_exchanged_fiducials_are_named_and_cannot_be_saved(dialog):
     a, b = made.draft.touched[:2]
     made._do(made.draft.with_touch("A", np.array(b.point_mm) * MM, COVARIANCE))
     made._do(made.draft.with_touch("B", np.array(a.point_mm) * MM, COVARIANCE))
-    assert "were touched in another order" in made.trouble.text()
-    assert made.student.text() == "Screen and needle: not checked"
+    assert "were touched in another order" in made.outcome.trouble.text()
+    assert made.outcome.student.text() == "Screen and needle: not checked"
     assert not made.buttons["save"].isEnabled()
 
 
@@ -131,7 +131,7 @@ def test_a_saved_check_is_found_again(dialog):
 def test_a_pick_without_a_ct_says_so(dialog):
     made, _ = dialog
     made.pick()
-    assert "No CT is shown" in made.trouble.text()
+    assert "No CT is shown" in made.outcome.trouble.text()
 
 
 def test_three_points_are_asked_for_one_by_one():

@@ -178,6 +178,10 @@ def _touch(facts: MorningFacts) -> StepResult:
                           "rest the tip in a known mark and hold still for a second")  # fmt: skip
     distance, radius = touch.distance / MILLIMETRE, touch.radius / MILLIMETRE
     text = f"{touch.name}: {distance:.2f} mm off, measured to ± {radius:.2f} mm (95 %)"
+    if touch.radius > max(touch.tolerance, touch.distance):
+        return StepResult("touch", title, Verdict.WARNING, text,
+                          "the cameras do not measure this point well enough to tell: look at "
+                          "their pictures and rate, touch again")  # fmt: skip
     if touch.distance <= touch.tolerance:
         return StepResult("touch", title, Verdict.GOOD, text)
     limit = f"the limit is {touch.tolerance / MILLIMETRE:.1f} mm"

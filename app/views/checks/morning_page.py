@@ -10,7 +10,6 @@ from PySide6.QtGui import QCloseEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
-    QFrame,
     QGridLayout,
     QHBoxLayout,
     QLabel,
@@ -29,17 +28,12 @@ from app.session.checks.steps import StepResult, Verdict, morning_check, overall
 from app.session.touch import Touch
 from app.tracking.inspection import Inspection
 from app.views import theme
+from app.views.checks.step_row import LOOKS, StepRow, line
 from app.views.checks.toucher import Toucher, move_there, tell_tracker
 from app.views.exercise.run import ExerciseRun
 from app.views.text import tr
 
 PERIOD_MS = 400
-_LOOKS = {
-    Verdict.GOOD: theme.VERDICTS["good"],
-    Verdict.WARNING: theme.VERDICTS["warning"],
-    Verdict.BAD: theme.VERDICTS["bad"],
-    Verdict.WAITING: (theme.TEXT_DIM, "–"),
-}
 
 
 class MorningPage(QDialog):
@@ -68,7 +62,7 @@ class MorningPage(QDialog):
         self._touch: TouchFacts | None = None
         self._failure, self._touching = "", ""
         self.results: tuple[StepResult, ...] = ()
-        self._rows: list[_Row] = []
+        self._rows: list[StepRow] = []
         self.toucher = Toucher(run, self)
         self._verdict, self._day = QLabel(self), QLabel(self)
         self._steps = QGridLayout()
@@ -146,11 +140,11 @@ class MorningPage(QDialog):
     def _show(self, results: tuple[StepResult, ...]) -> None:
         self.results = results
         while len(self._rows) < len(results):
-            self._rows.append(_Row(self._steps, len(self._rows), self))
+            self._rows.append(StepRow(self._steps, len(self._rows), self))
         for i, row in enumerate(self._rows):
             row.show_step(results[i] if i < len(results) else None)
         verdict = overall(results)
-        colour, symbol = _LOOKS[verdict]
+        colour, symbol = LOOKS[verdict]
         words = {
             Verdict.GOOD: tr("Everything is well"),
             Verdict.WARNING: tr("Usable, with remarks"),
@@ -195,10 +189,10 @@ class MorningPage(QDialog):
         column.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
         column.setSpacing(theme.MARGIN)
         column.addLayout(head)
-        column.addWidget(_line(self))
+        column.addWidget(line(self))
         column.addLayout(self._steps)
         column.addStretch(1)
-        column.addWidget(_line(self))
+        column.addWidget(line(self))
         column.addLayout(touch)
         column.addLayout(last)
 
@@ -222,34 +216,3 @@ class MorningPage(QDialog):
         self._timer.stop()
         self.toucher.stop()
         super().closeEvent(event)
-
-
-class _Row:
-    """Symbol, title, and what was found above what to do."""
-
-    def __init__(self, grid: QGridLayout, row: int, parent: QWidget) -> None:
-        self._symbol, self._title = QLabel(parent), QLabel(parent)
-        self._text = QLabel(parent)
-        self._text.setWordWrap(True)
-        self._title.setProperty("role", "heading")
-        for column, label in enumerate((self._symbol, self._title, self._text)):
-            grid.addWidget(label, row, column)
-
-    def show_step(self, step: StepResult | None) -> None:
-        """Show a step; None hides the row."""
-        for label in (self._symbol, self._title, self._text):
-            label.setVisible(step is not None)
-        if step is None:
-            return
-        colour, symbol = _LOOKS[step.verdict]
-        self._symbol.setText(symbol)
-        self._symbol.setStyleSheet(f"color: {colour};")
-        self._title.setText(tr(step.title))
-        self._text.setText(f"{step.found}\n→ {step.todo}" if step.todo else step.found)
-
-
-def _line(parent: QWidget) -> QFrame:
-    line = QFrame(parent)
-    line.setFrameShape(QFrame.Shape.HLine)
-    line.setStyleSheet(f"color: {theme.BORDER};")
-    return line

@@ -6,42 +6,35 @@ from datetime import datetime
 from typing import Protocol
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QComboBox,
     QDialog,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
     QProgressBar,
     QPushButton,
-    QTableWidget,
-    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
 
 from app.core.arrays import FloatArray
-from app.core.confidence import covariance_radius
 from app.core.errors import AcusError
 from app.core.transform import RigidTransform
-from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
 from app.planning.history import History
-from app.planning.registration import words
 from app.planning.registration.check import RegistrationCheck
 from app.planning.registration.draft import CheckDraft
 from app.planning.registration.plate import load_plate, plate_names
-from app.planning.registration.record import RegistrationRecord, Registrations, new_id, points_of
+from app.planning.registration.record import RegistrationRecord, Registrations, new_id
 from app.session.touch import Touch
 from app.views import theme
+from app.views.checks.fiducial_table import FiducialTable
+from app.views.checks.registration_result import RegistrationResult
 from app.views.checks.toucher import Toucher, move_there
 from app.views.exercise.run import ExerciseRun
 from app.views.text import tr
-
-COLUMNS = 5
 
 
 class Surroundings(Protocol):
@@ -79,12 +72,12 @@ class RegistrationDialog(QDialog):
         self._history = History(CheckDraft())
         self._touching = ""
         self.toucher = Toucher(around.run, self)
-        self.plates, self.table = QComboBox(self), QTableWidget(self)
+        self.plates, self.table = QComboBox(self), FiducialTable(self)
         self.plates.addItems(plate_names())
         self.plate = load_plate(self.plates.currentText())
         self.buttons = {name: QPushButton(title, self) for name, title in _BUTTONS.items()}
         self.progress = QProgressBar(self)
-        self.student, self.trouble, self.figures = QLabel(self), QLabel(self), QLabel(self)
+        self.outcome = RegistrationResult(self)
         self._lay_out()
         self._connect()
         self._fill()
@@ -112,12 +105,12 @@ class RegistrationDialog(QDialog):
 
         volume = self._around.volume()
         if volume is None:
-            self._say(tr("No CT is shown: open the CT of the scanned phantom."))
+            self.outcome.say(tr("No CT is shown: open the CT of the scanned phantom."))
             return
         try:
             bead = find_bead(volume, self._around.cursor_mm(), self.plate.bead_diameter_mm)
         except AcusError as error:
-            self._say(str(error))
+            self.outcome.say(str(error))
             return
         self._do(self.draft.with_pick(self.selected, bead.centre_mm))
 
@@ -156,7 +149,7 @@ class RegistrationDialog(QDialog):
         try:
             Registrations.own().save(record)
         except OSError as error:
-            self._say(tr("The check could not be written: {why}", why=error))
+            self.outcome.say(tr("The check could not be written: {why}", why=error))
             return
         self.saved.emit(record)
 
@@ -180,50 +173,15 @@ class RegistrationDialog(QDialog):
     def _fill(self) -> None:
         found = self.draft.check(self.plate)
         check = found if isinstance(found, RegistrationCheck) else None
-        row = max(0, self.table.currentRow())
-        self.table.setRowCount(len(self.plate.names))
-        for i, name in enumerate(self.plate.names):
-            for column, text in enumerate(_cells(self.draft, check, name)):
-                item = QTableWidgetItem(text)
-                if column:
-                    item.setTextAlignment(
-                        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-                    )  # fmt: skip
-                self.table.setItem(i, column, item)
-        self.table.selectRow(min(row, self.table.rowCount() - 1))
-        self._show(found)
+        self.table.show_points(self.plate.names, self.draft, check)
+        self.outcome.show_check(found, *self._target())
         self._refresh()
-
-    def _show(self, found: RegistrationCheck | str) -> None:
-        if isinstance(found, str):
-            self.student.setText(words.NOT_CHECKED.capitalize())
-            self._say(found.capitalize())
-            self.figures.setText("")
-            return
-        p_target, used = self._target()
-        try:
-            agreement = found.agreement(p_target, T_world_patient=used)
-            self.student.setText(words.student_line(agreement).capitalize())
-        except AcusError as error:
-            self.student.setText(words.NOT_CHECKED.capitalize())
-            self._say(str(error))
-        else:
-            self._say("")
-        if troubles := words.troubles(found):
-            self._say("\n".join(troubles))
-        lines = list(words.technician_lines(found))
-        if found.trusted:
-            lines.append(words.target_line(found, p_target))
-        self.figures.setText("\n".join([*lines, *words.MEANING]))
 
     def _target(self) -> tuple[FloatArray, RigidTransform | None]:
         run = self._around.run()
         if run is None:
             return np.array([0.0, 0.16056, 0.03]), None
         return run.placed.p_target, run.placed.T_world_patient
-
-    def _say(self, text: str) -> None:
-        self.trouble.setText(f"▲ {text}" if text else "")
 
     def _refresh(self) -> None:
         run, buttons = self._around.run(), self.buttons
@@ -245,24 +203,6 @@ class RegistrationDialog(QDialog):
             move_there(run, self.plate.place.transform @ self.plate.touch[row])
 
     def _lay_out(self) -> None:
-        self.table.setColumnCount(COLUMNS)
-        self.table.setHorizontalHeaderLabels([
-            tr("Fiducial"), tr("Tip: x  y  z [mm]"), tr("± 95 % [mm]"),
-            tr("CT: L  P  S [mm]"), tr("Residual [mm]"),
-        ])  # fmt: skip
-        self.table.verticalHeader().hide()
-        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-        self.table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
-        header = self.table.horizontalHeader()
-        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        for column in (1, 3):
-            header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
-        self.student.setStyleSheet(f"font-size: {theme.TITLE_PX}px;")
-        self.trouble.setStyleSheet(f"color: {theme.WARNING};")
-        self.figures.setProperty("role", "dim")
-        for label in (self.student, self.trouble, self.figures):
-            label.setWordWrap(True)
         self.progress.setRange(0, 100)
         self.progress.setTextVisible(False)
         self.progress.setFixedHeight(10)
@@ -278,8 +218,7 @@ class RegistrationDialog(QDialog):
         page.addWidget(self.table, 1)
         page.addLayout(self._row("touch", "move", "pick", "forget"))
         page.addWidget(self.progress)
-        for label in (self.student, self.trouble, self.figures):
-            page.addWidget(label)
+        page.addWidget(self.outcome)
         page.addLayout(self._row("undo", "redo", None, "place", "save"))
 
     def _row(self, *names: str | None) -> QHBoxLayout:
@@ -309,36 +248,12 @@ class RegistrationDialog(QDialog):
 
     def _failed(self, reason: str) -> None:
         self._refresh()
-        self._say(reason)
+        self.outcome.say(reason)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Stop measuring."""
         self.toucher.stop()
         super().closeEvent(event)
-
-
-def _cells(draft: CheckDraft, check: RegistrationCheck | None, name: str) -> tuple[str, ...]:
-    touched = next((one for one in draft.touched if one.name == name), None)
-    picked = next((one for one in draft.picked if one.name == name), None)
-    radius = ""
-    if touched is not None:
-        spread = points_of((touched,)).covariances[0]
-        radius = f"{covariance_radius(spread) / MILLIMETRE:.2f}" if spread.any() else "–"
-    residual = ""
-    if check is not None and name in check.world.names:
-        row = check.world.fit.residuals[check.world.names.index(name)]
-        residual = f"{float(np.linalg.norm(row)) / MILLIMETRE:.2f}"
-    return (
-        name,
-        _coordinates(touched.point_mm) if touched is not None else "",
-        radius,
-        _coordinates(picked.point_mm) if picked is not None else "",
-        residual,
-    )
-
-
-def _coordinates(point_mm: tuple[float, float, float]) -> str:
-    return "  ".join(f"{value:.1f}" for value in point_mm)
 
 
 _BUTTONS = {
