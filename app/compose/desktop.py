@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from app.compose.camera_check import Aim
     from app.compose.live_cameras import LiveReader
     from app.compose.trainer import Rig
+    from app.core.arrays import FloatArray
     from app.device.commissioning.bench import Bench
     from app.mechanisms.profile import DeviceProfile
     from app.tracking.cameras.settings import CameraSettings
@@ -174,6 +175,12 @@ def _touched(tracker: Tracker | PenTracker) -> Callable[[float, float], None] | 
     return None if isinstance(tracker, PenTracker) else tracker.touched
 
 
+def _learner(tracker: Tracker | PenTracker) -> Callable[[str, FloatArray], None] | None:
+    from app.tracking.pen.tracker import PenTracker
+
+    return None if isinstance(tracker, PenTracker) else tracker.learn_colour
+
+
 class DesktopRun:
     """A trainer that runs for the window (`views.services.OpenRun`)."""
 
@@ -196,6 +203,7 @@ class DesktopRun:
             rings=rings(setup.exercise.tolerances),
             inspect=_inspector(self._rig.tracker),
             touched=_touched(self._rig.tracker),
+            learn_colour=_learner(self._rig.tracker),
             board=None if robot is None else robot.link.info(),
             port=setup.port or "",
             clearance=None if robot is None else robot.clearance(),

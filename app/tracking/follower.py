@@ -25,6 +25,10 @@ class MarkerFollower:
         self._tracks = (PixelTrack(), PixelTrack())
         self._p_world: FloatArray | None = None
 
+    def use(self, extractors: tuple[Extractor, Extractor]) -> None:
+        """Find the marker by other extractors from the next picture on; any thread may call it."""
+        self._extractors = extractors
+
     def find(self, frames: Pair, axis: FloatArray | None, time: float) -> Markers:
         """Marker in each picture; of several red things the pair that geometry and robot allow."""
         markers: list[Found] = [None, None]

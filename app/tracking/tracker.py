@@ -18,6 +18,7 @@ from app.tracking.follower import MarkerFollower, Markers
 from app.tracking.health import FixHealth
 from app.tracking.hiding import Hiding
 from app.tracking.markers.choice import extractors as default_extractors
+from app.tracking.markers.colour import learn
 from app.tracking.markers.extractor import Extractor, MarkerFix, Miss
 from app.tracking.optics.rig import RigProfile
 from app.tracking.solver import FixSolver, without_point
@@ -168,6 +169,26 @@ class Tracker:
         Two of them tell a marker that has slipped along the needle.
         """
         self._health.monitor.touch(measured, known)
+
+    def learn_colour(self, camera: str, pixel: FloatArray) -> None:
+        """Take what a camera's newest picture shows at a pixel as the marker's colour, in both.
+
+        It holds until the tracker ends.
+
+        Args:
+            camera: name in the rig.
+            pixel: shape (2,), as `TrackedPicture.found` counts.
+
+        Raises:
+            TrackingError: if there is no such picture, or nothing there has a marker's colour.
+        """
+        picture = self._pictures.get(camera)
+        if picture is None:
+            raise TrackingError(
+                f"camera {camera!r} has given no picture; there are {', '.join(self._names)}"
+            )
+        self.extractors = default_extractors(self.rig, colour=learn(picture.image, pixel))
+        self._follower.use(self.extractors)
 
     def statistics(self) -> TrackerStatistics:
         """Figures of the last seconds and the health of both cameras."""

@@ -6,6 +6,7 @@ import pytest
 from app.core.clock import VirtualClock
 from app.core.transform import RigidTransform
 from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.errors import TrackingError
 from app.tracking.inspection import Inspector
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import RigProfile
@@ -104,6 +105,28 @@ def test_an_inspection_shows_marker_curve_mask_and_region(wide, wide_renderers, 
         assert one.mask[row, column] == 1
         assert one.region is not None
         assert one.region[0] < pixel[0] < one.region[2]
+
+
+def test_a_click_teaches_the_marker_s_colour_and_one_beside_it_is_refused(
+    wide, wide_renderers, scene_at
+) -> None:
+    scene = scene_at(0.06, 10.0, 40.0)
+    tracker = Tracker(
+        [_Still(), _Still()], wide, VirtualClock(), lambda _: scene.axis_world,
+        np.array([0.0, 0.16056, 0.090]),
+    )  # fmt: skip
+    with pytest.raises(TrackingError, match="has given no picture"):
+        tracker.learn_colour("left", np.zeros(2))
+    frames = [Frame(renderer.render(scene), 0.0) for renderer in wide_renderers]
+    tracker.process(*frames)
+    before, pixel = tracker.extractors, tracker.pictures()[0].pixel
+    with pytest.raises(TrackingError, match="grey"):
+        tracker.learn_colour("left", pixel + [120.0, 0.0])
+    assert tracker.extractors is before
+    tracker.learn_colour("left", pixel)
+    assert tracker.extractors is not before
+    later = [Frame(renderer.render(scene), 0.1) for renderer in wide_renderers]
+    assert tracker.process(*later).usable
 
 
 def test_an_inspection_says_why_there_is_no_marker(wide) -> None:

@@ -9,6 +9,7 @@ from views_exercise_attempts import placed_plan
 from views_exercise_fakes import FakeTrainer, pose, run, snapshot
 
 from app.core.clock import VirtualClock
+from app.device.errors import LoopError
 from app.session.machine import State
 from app.tracking.inspection import InspectedPicture, Inspection
 from app.tracking.markers.extractor import MarkerFix
@@ -174,6 +175,26 @@ def test_camera_pictures_are_refreshed_at_most_fifteen_times_a_second(desk, qt):
     desk.controller.look()
     assert asked[-1] == (True, True)
     assert not desk.views.tracker.grab().isNull()
+
+
+def test_the_marker_s_colour_is_learned_only_when_asked_for(desk):
+    told = []
+
+    def learn(camera, pixel):
+        told.append(camera)
+        raise LoopError("nothing red there")
+
+    desk.controller.attach(run(desk.trainer, learn_colour=learn))
+    desk.controller._timer.stop()
+    panel, failed = desk.views.tracker, []
+    desk.controller.failed.connect(failed.append)
+    panel.cameras[1].clicked.emit("right", np.zeros(2))
+    assert told == []
+    panel.learn.setChecked(True)
+    panel.cameras[1].clicked.emit("right", np.zeros(2))
+    assert told == ["right"]
+    assert failed == ["nothing red there"]
+    assert not panel.learn.isChecked()
 
 
 def test_a_click_into_a_camera_picture_names_its_pixel(qt):

@@ -6,6 +6,7 @@ from typing import Final
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import Event
@@ -241,6 +242,16 @@ class ExerciseController(QObject):
         self._ending = False
         self._fail(str(error))
 
+    def learn_colour(self, camera: str, pixel: FloatArray) -> None:
+        """Take what a click into a camera's picture shows as the marker's colour."""
+        run = self._run
+        if run is None or run.learn_colour is None:
+            return
+        try:
+            run.learn_colour(camera, pixel)
+        except AcusError as error:
+            self._fail(str(error))
+
     def _move_hand(self, pose: HandPose) -> None:
         if self._run is not None:
             x, y, _ = pose.direction
@@ -258,5 +269,6 @@ class ExerciseController(QObject):
         panel.buttons.scan_requested.connect(self.scan)
         panel.buttons.end_requested.connect(self.end)
         panel.buttons.abort_requested.connect(self.abort)
+        self._views.tracker.colour_clicked.connect(self.learn_colour)
         self._views.bullseye.hand_moved.connect(self._move_hand)
         self._views.bullseye.source.refused.connect(self._fail)

@@ -24,7 +24,8 @@ class Readouts(QWidget):
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setVerticalSpacing(3)
-        self._grid.setColumnStretch(0, 1)
+        # The values take the free room: a text that grows is never cut, not even for one picture.
+        self._grid.setColumnStretch(1, 1)
         for key, (name, help_text) in _rows().items():
             self._add(key, name, help_text)
         row = self._grid.rowCount()

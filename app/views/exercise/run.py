@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
+from app.core.arrays import FloatArray
 from app.core.events import EventQueue
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
@@ -81,6 +82,8 @@ class ExerciseRun:
         rings: tolerance rings of the pad [m], from the inside.
         touched: takes the depth [m] that the cameras measured while the tip touched a known place,
             and the true one; None where no cameras watch a marker.
+        learn_colour: takes a camera's name and a pixel of its picture that shows the marker; raises
+            an `AcusError` where it cannot be one; None where no cameras watch a marker.
         inspect: newest pictures of the cameras with what was found in them; asked with (masks,
             epipolar curves), each computed only if wanted; None without cameras.
         board: who is at the other end of the wire; None where nobody tells.
@@ -99,6 +102,7 @@ class ExerciseRun:
     rings: tuple[float, ...] = field(default_factory=rings)
     inspect: Callable[[bool, bool], Inspection] | None = None
     touched: Callable[[float, float], None] | None = None
+    learn_colour: Callable[[str, FloatArray], None] | None = None
     board: BoardInfo | None = None
     port: str = ""
     clearance: Clearance | None = None

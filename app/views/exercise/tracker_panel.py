@@ -45,10 +45,11 @@ class TrackerPanel(QWidget):
     """Two pictures, one above the other, what is drawn over them, and the figures.
 
     Signals:
-        marker_clicked(str, object): camera and pixel of a click into a picture.
+        colour_clicked(str, object): camera and pixel of a click on the marker, while its colour is
+            being learned; the button is up again then.
     """
 
-    marker_clicked = Signal(str, object)
+    colour_clicked = Signal(str, object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -57,12 +58,13 @@ class TrackerPanel(QWidget):
         self._verdict.setWordWrap(True)
         self._figures = _Figures(self)
         self._buttons: dict[str, QToolButton] = {}
+        self.learn = QToolButton(self)
         self._shown = -1e9
         column = QVBoxLayout(self)
         column.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
         column.setSpacing(4)
         for camera in self.cameras:
-            camera.clicked.connect(self.marker_clicked)
+            camera.clicked.connect(self._clicked)
             column.addWidget(camera, 1)
         column.addLayout(self._switches())
         column.addWidget(self._verdict)
@@ -118,7 +120,18 @@ class TrackerPanel(QWidget):
             self._buttons[name] = button
             row.addWidget(button)
         row.addStretch(1)
+        self.learn.setText(tr("Learn"))
+        self.learn.setToolTip(
+            tr("Learn the marker's colour: press, then click on the marker in a picture")
+        )
+        self.learn.setCheckable(True)
+        row.addWidget(self.learn)
         return row
+
+    def _clicked(self, camera: str, pixel: object) -> None:
+        if self.learn.isChecked():
+            self.learn.setChecked(False)
+            self.colour_clicked.emit(camera, pixel)
 
 
 class _Figures(QWidget):
