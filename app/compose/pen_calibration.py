@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from pathlib import Path
 
 from app.compose.pen import attached_camera
 from app.core.clock import Clock, SystemClock
 from app.mechanisms.profile import load_profile
+from app.tracking.calibration.pictures import list_pictures
+from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.files import read_picture
+from app.tracking.cameras.source import Kind, parse_source
 from app.tracking.errors import PenError
 from app.tracking.pen.calibrating import WANTED, PenCalibration, PoseCollector
 from app.tracking.pen.settings import PenSettings
@@ -34,22 +39,35 @@ def calibrate_pen(
     if settings.simulated:
         raise PenError("a simulated pen has no tip to measure; give --source usb:0")
     time = clock or SystemClock()
-    camera = attached_camera(settings, time)
     pen = settings.profile()
     step = PenStep(pen, settings.webcam(), load_profile("icube").pantograph.fulcrum)
     collector, said = PoseCollector(), ""
-    camera.open()
-    try:
-        end = time.now() + seconds
-        while time.now() < end and len(collector.poses) < WANTED:
-            seen = step.look(camera.read())
-            kept = collector.add(seen)
-            line = seen.fix.reason or f"{len(collector.poses)} of {WANTED} poses"
-            if line != said and (not kept or len(collector.poses) % 10 == 0):
-                said = line
-                tell(line)
-    finally:
-        camera.close()
+    for frame in _frames(settings, seconds, time):
+        seen = step.look(frame)
+        kept = collector.add(seen)
+        line = seen.fix.reason or f"{len(collector.poses)} of {WANTED} poses"
+        if line != said and (not kept or len(collector.poses) % 10 == 0):
+            said = line
+            tell(line)
+        if len(collector.poses) >= WANTED:
+            break
     if step.webcam is not None and step.webcam.guessed:
         tell(step.webcam.words)
     return collector.finish(pen)
+
+
+def _frames(settings: PenSettings, seconds: float, time: Clock) -> Iterator[Frame]:
+    """Pictures of a webcam until the time is over, or all of a folder, once, in their order."""
+    source = parse_source(settings.source)
+    if source.kind is Kind.FOLDER:
+        for number, path in enumerate(list_pictures(Path(source.place))):
+            yield Frame(read_picture(path), number / settings.rate_hz)
+        return
+    camera = attached_camera(settings, time)
+    camera.open()
+    try:
+        end = time.now() + seconds
+        while time.now() < end:
+            yield camera.read()
+    finally:
+        camera.close()

@@ -14,7 +14,10 @@ def test_another_robot_ends_the_run_and_begins_one_on_it(window, patient, servic
     assert settle(lambda: window.runs.run is not None, 10.0)
     window.menus.robot.robots.aboutToShow.emit()
     texts = [action.text() for action in window.menus.robot.robots.actions()]
-    assert texts == ["Simulated robot", "icube A17 on /dev/ttyACM0", "", "Other port…"]
+    assert texts == [
+        "Simulated robot", "icube A17 on /dev/ttyACM0", "", "Other port…",
+        "No robot: pen and webcam…",
+    ]  # fmt: skip
     window.menus.robot.robots.actions()[1].trigger()
     assert services.opened[0].closed.wait(5.0)
     assert settle(lambda: window.runs.run is not None, 10.0)
@@ -59,6 +62,17 @@ def test_a_robot_is_taken_for_once_without_being_remembered(window, patient, ser
     assert services.opened[-1].setup.robot.port == "/tmp/robot"
     window.robot.choose("")
     assert window.robot.port == ""
+
+
+def test_a_pen_takes_the_robot_s_place_until_a_robot_is_chosen(window, patient, services, settle):
+    window.robot.take_pen("usb:0")
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 10.0)
+    chosen = services.opened[-1].setup.robot
+    assert (chosen.pen, chosen.port, chosen.held_arming) == ("usb:0", "", False)
+    window.robot.choose("")
+    assert window.robot.pen == ""
 
 
 def test_holding_can_be_practised_on_the_simulated_robot(window, patient, services, settle):
