@@ -92,6 +92,8 @@ def test_a_board_that_does_not_fit_is_refused_and_the_largest_square_named() -> 
     board = parse_board("charuco:12x9:30mm:22mm:DICT_5X5_100")
     with pytest.raises(CalibrationError, match=r"360 x 270 mm.*A4; squares of at most 19\.5 mm"):
         lay_out(board, PAPERS["A4"])
+    with pytest.raises(CalibrationError, match=r"or take A3$"):
+        lay_out(parse_board("charuco:12x9:25mm:18mm:DICT_5X5_100"), PAPERS["A4"])
     assert lay_out(parse_board("charuco:12x9:19.5mm:14mm:DICT_5X5_100"), PAPERS["A4"]).landscape
     with pytest.raises(CalibrationError, match="'A5'; there are A4, A3, Letter"):
         paper_named("A5")

@@ -71,6 +71,19 @@ def lay_out(board: Board, paper: Paper) -> Sheet:
     Raises:
         CalibrationError: if it fits neither way; names what would.
     """
+    sheet = _placed(board, paper)
+    if sheet is not None:
+        return sheet
+    width, height = (side / MILLIMETRE for side in board.size)
+    others = [name for name, other in PAPERS.items() if _placed(board, other) is not None]
+    raise CalibrationError(
+        f"board {board.spec} measures {width:.0f} x {height:.0f} mm and does not fit on "
+        f"{paper.name}; squares of at most {_largest_square(board, paper):.4g} mm would"
+        + (f", or take {' or '.join(others)}" if others else "")
+    )
+
+
+def _placed(board: Board, paper: Paper) -> Sheet | None:
     width, height = (side / MILLIMETRE for side in board.size)
     across = (True, False) if width > height else (False, True)
     for landscape in across:
@@ -79,11 +92,7 @@ def lay_out(board: Board, paper: Paper) -> Sheet:
         if width <= room[0] + 1e-9 and height <= room[1] + 1e-9:
             x, y = 0.5 * (w - width), EDGE_MM + 0.5 * (room[1] - height)
             return Sheet(paper, landscape, w, h, x, y, (width, height))
-    raise CalibrationError(
-        f"board {board.spec} measures {width:.0f} x {height:.0f} mm and does not fit on "
-        f"{paper.name}; squares of at most {_largest_square(board, paper):.4g} mm would, or take "
-        f"one of {', '.join(PAPERS)} on which it fits"
-    )
+    return None
 
 
 def _size(paper: Paper, landscape: bool) -> tuple[float, float]:
