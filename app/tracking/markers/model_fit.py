@@ -27,6 +27,11 @@ from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
 
+_USUAL_MISFIT, _USUAL_OUTLIERS = 1.08, 0.005
+_MISFIT_PX2, _OUTLIERS_PX2 = 0.25, 1.0
+"""Variance [px²] per unit of misfit and of outliers beyond the usual: measured on bands under fingers
+and highlights (tests/bench/bench_marker.py)."""
+
 
 @dataclass(frozen=True)
 class ModelFit(Extractor):
@@ -47,8 +52,8 @@ class ModelFit(Extractor):
     shape: NeedleShape
     blur_px: float
     coarse: OutlineCentroid = field(default_factory=OutlineCentroid)
-    outliers_max: float = 0.12
-    misfit_max: float = 2.0
+    outliers_max: float = 0.06
+    misfit_max: float = 1.7
     stretch_max: float = 0.10
     floor_px: float = 0.01
     region: int = field(init=False)
@@ -94,7 +99,9 @@ class ModelFit(Extractor):
         if np.abs(fit.stretch - 1.0).max() > self.stretch_max:
             return Miss(MissReason.WRONG_SHAPE, fit.uv)
         inflation = max(1.0, fit.misfit)
-        covariance = inflation * fit.covariance + self.floor_px**2 * np.eye(2)
+        doubt = self.floor_px**2 + _MISFIT_PX2 * max(0.0, fit.misfit - _USUAL_MISFIT)
+        doubt += _OUTLIERS_PX2 * max(0.0, fit.outliers - _USUAL_OUTLIERS)
+        covariance = inflation * fit.covariance + doubt * np.eye(2)
         quality = (1.0 - fit.outliers) / inflation
         return MarkerFix(fit.uv, covariance, fit.area, quality, Centre.BAND)
 

@@ -21,8 +21,8 @@ _SQUARE3 = np.ones((3, 3), dtype=np.uint8)
 _SQUARE5 = np.ones((5, 5), dtype=np.uint8)
 _CANDIDATES = 6
 _NEAR = 24
-_PURITY = 0.35
-"""Least strength over the strongest colour itself, when the whole picture is searched."""
+_PURITY = 0.3
+"""Least strength over the brightest colour of a pixel: skin and wood have less."""
 
 
 @dataclass(frozen=True)
@@ -141,6 +141,7 @@ def _tight(
     if strongest < colour.strength:
         strongest = float(strength.max())
     mask = _threshold(strength, colour.threshold(strongest))
+    mask &= _pure(image[top:bottom, left:right], colour)
     count, labels, statistics, centres = cv2.connectedComponentsWithStats(mask)
     if count < 2:
         return Miss(MissReason.NOTHING_RED)
