@@ -1,9 +1,9 @@
 """Tracker against the thesis' extractor: stereo pairs a second on one core, and error of the tip.
 
 All get the same rendered pictures (640x480 and 1280x720, 4 grey levels of noise). To reach at
-1280x720: 3 ms a pair when following, 12 ms when searching, 5 times the thesis' speed. A pair is: marker in
-both pictures, undistortion, triangulation, covariance, consistency; rendering is not timed. Run as
-`python -m tests.bench.bench_tracker`.
+1280x720: 3 ms a pair when following, 12 ms when searching, 5 times the thesis' speed. A
+pair is: marker in both pictures, undistortion, triangulation, covariance, consistency; rendering is
+not timed. Run as `python -m tests.bench.bench_tracker`.
 """
 
 import os
