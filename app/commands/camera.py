@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 import typer
-
-if TYPE_CHECKING:
-    from app.tracking.cameras.survey import CameraReport
 
 Json = Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")]
 Cameras = Annotated[
@@ -106,6 +103,7 @@ def show(
     as_json: Json = False,
 ) -> None:
     """Look at the cameras: size, rate, repeats, settings, light; are left and right swapped?"""
+    from app.commands.camera_report import report_document, report_lines
     from app.compose.camera_check import look
     from app.tracking.cameras.settings import load_settings, parse_cameras
 
@@ -116,14 +114,14 @@ def show(
     if as_json:
         _print_json(
             {
-                "cameras": [_document(report) for report in found.reports],
+                "cameras": [report_document(report) for report in found.reports],
                 "skew_ms": found.skew_ms,
                 "order": found.order,
             }
         )
         return
     for report in found.reports:
-        for line in _lines(report):
+        for line in report_lines(report):
             typer.echo(line)
     if found.skew_ms is not None:
         typer.echo(f"skew (right after left): {found.skew_ms:.1f} ms")
@@ -221,41 +219,6 @@ def _size(text: str) -> tuple[int, int]:
     if not (x and width.isdecimal() and height.isdecimal()):
         raise CameraError(f"{text!r} is no size of a picture; give for example 640x480")
     return int(width), int(height)
-
-
-def _lines(report: CameraReport) -> list[str]:
-    figures = report.figures
-    times = {True: "the driver's", False: "of the delivery, less the latency"}
-    lines = [
-        f"{report.name}: {report.size[0]}x{report.size[1]}, {figures.rate:.1f} pictures/s, "
-        f"jitter {1e3 * figures.jitter:.1f} ms, {100.0 * figures.repeated_share:.1f} % repeated",
-        f"  brightness {report.brightness:.0f} of 255, "
-        f"{100.0 * report.saturated:.1f} % overexposed",
-    ]
-    if report.driver_time is not None:
-        lines.append(
-            f"  capture times: {times[report.driver_time]}; {1e3 * report.age:.0f} ms to delivery"
-        )
-    lines += [f"  {text}" for text in report.settings]
-    return lines + [f"  ! {text}" for text in report.advice()]
-
-
-def _document(report: CameraReport) -> dict[str, Any]:
-    figures = report.figures
-    return {
-        "name": report.name,
-        "size": list(report.size),
-        "rate_hz": figures.rate,
-        "jitter_ms": 1e3 * figures.jitter,
-        "repeated": figures.repeated,
-        "backwards": figures.backwards,
-        "repeated_share": figures.repeated_share,
-        "brightness": report.brightness,
-        "saturated_share": report.saturated,
-        "driver_time": report.driver_time,
-        "settings": list(report.settings),
-        "advice": list(report.advice()),
-    }
 
 
 def _print_json(document: object) -> None:
