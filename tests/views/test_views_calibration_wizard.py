@@ -107,6 +107,7 @@ def test_from_pictures_to_a_calibration_in_use(wizard, job, pictures, at_place, 
     used = []
     wizard.used.connect(lambda: used.append(True))
     wizard.save_page.save.click()
+    assert not wizard.next.isEnabled()  # the file is being written
     assert settle(lambda: used == [True], 10.0)
     assert titles(wizard)[4] == "✔ Save"
     active = job.history.active()

@@ -162,4 +162,5 @@ class CalibrationWizard(QDialog):
         self.board_page.changed.connect(self._board_changed)
         for page in (self.capture_page, self.result_page, self.world_page):
             page.changed.connect(self._refresh)
+        self.save_page.began.connect(self._refresh)
         self.save_page.changed.connect(self._saved)

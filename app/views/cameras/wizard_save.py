@@ -29,9 +29,11 @@ class SavePage(QWidget):
 
     Signals:
         changed(): another calibration is in use, or one was kept or condemned.
+        began(): files are being written: the page is to stay.
     """
 
     changed = Signal()
+    began = Signal()
 
     def __init__(self, job: CalibrationJob, parent: QWidget) -> None:
         super().__init__(parent)
@@ -120,6 +122,7 @@ class SavePage(QWidget):
         self._task = run_in_background(self, lambda _: work(), self._done, self._failed)
         self._enable(())
         self.save.setEnabled(False)
+        self.began.emit()
 
     def _done(self, _: object) -> None:
         self._task = None
@@ -130,6 +133,7 @@ class SavePage(QWidget):
         self._task = None
         self.refresh()
         tell(self.state, Verdict.BAD, str(error))
+        self.changed.emit()
 
     def _read(self, entries: tuple[Entry, ...]) -> None:
         """Read what is not known yet of the calibrations, beside the window."""
