@@ -6,7 +6,8 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
 from app.tracking.confidence import chi_square_quantile
-from app.tracking.pen.pose import BoardPose, PoseStatus, projection_jacobians
+from app.tracking.pen.pose import BoardPose, PoseStatus
+from app.tracking.pen.projection import projection_jacobians
 from app.tracking.pen.step import PenObservation
 
 _SEEN, _LOST = (80, 200, 80), (60, 60, 220)
