@@ -7,7 +7,7 @@ import numpy as np
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import AcusError
 from app.core.units import MILLIMETRE
-from app.tracking.fix import NeedleFix
+from app.tracking.fix import FixStatus, NeedleFix
 
 DURATION = 1.0
 """A touch lasts this long [s]."""
@@ -55,13 +55,16 @@ class TouchCollector:
     _first: float | None = None
 
     def add(self, fix: NeedleFix) -> None:
-        """Take a fix; one that was seen already is passed over, an unusable one is counted."""
+        """Take a fix; one that was seen already is passed over.
+
+        Only fixes of both cameras measure a touch; others are counted.
+        """
         if not fix.time > self._newest:
             return
         self._newest = fix.time
         if self._first is None:
             self._first = fix.time
-        if fix.usable:
+        if fix.status is FixStatus.VALID and fix.usable:
             self._fixes.append(fix)
         else:
             self._refused += 1

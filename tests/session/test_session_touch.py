@@ -62,6 +62,17 @@ def test_a_marker_that_is_lost_is_said() -> None:
         collector.touch()
 
 
+def test_fixes_of_one_camera_measure_no_touch() -> None:
+    collector = TouchCollector()
+    for i in range(30):
+        status = FixStatus.VALID if i % 2 else FixStatus.ONE_CAMERA
+        far = np.array([0.0, 0.0, 0.0 if i % 2 else 20 * MM])
+        collector.add(fix(i / 15, far, status))
+    touch = collector.touch()
+    assert touch.count == 15
+    assert np.abs(touch.p_world).max() == 0.0
+
+
 def test_a_trembling_hand_widens_the_covariance() -> None:
     rng, collector = np.random.default_rng(2), TouchCollector()
     for i in range(31):
