@@ -6,7 +6,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.session.inputs import LoopInputs
-from app.session.needle import fix_depth, is_usable
+from app.session.measured import fix_depth, is_usable
 from app.session.ports import FixPort, LoopPort
 from app.tracking.motion.choice import depth_filter
 from app.tracking.motion.depth_filter import DepthMotion

@@ -13,9 +13,10 @@ import numpy as np
 
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
+from app.session.measured import across_sigma, is_one_eyed, is_usable, tip_of
 from app.session.ports import DeviceStatePort, FixPort
 from app.tracking.confidence import covariance_radius
-from app.tracking.fusion import DIRECTION_SIGMA, fuse_tip, line_covariance
+from app.tracking.fusion import DIRECTION_SIGMA
 
 ENCODER_LIMIT: Final = 0.1
 """Age of the encoder values [s] from which the pose is not valid: the force is zero by then."""
@@ -149,9 +150,9 @@ def _measured(
     device: DeviceStatePort, fix: FixPort, fulcrum: FloatArray, axis: FloatArray, now: float
 ) -> NeedlePose:
     """Pose with a depth by the cameras, from `fulcrum` [m] along the unit `axis`."""
-    tip = fuse_tip(fix.p_tip_world, fix.covariance, fulcrum, axis, fix.line_variance)
+    tip = tip_of(fix, fulcrum, axis)
     age = _age(fix.time, now)
-    fresh = DepthSource.ONE_CAMERA if _one_eyed(fix) else DepthSource.TRACKED
+    fresh = DepthSource.ONE_CAMERA if is_one_eyed(fix) else DepthSource.TRACKED
     aged = (RATE_SIGMA * age) ** 2 * np.outer(axis, axis)
     both = fix.line_variance is not None
     return NeedlePose(
@@ -166,17 +167,8 @@ def _measured(
         covariance=read_only(tip.covariance + aged),
         snapped=tip.snapped,
         deflection=float(np.linalg.norm(tip.beside)) if both else 0.0,
-        deflection_sigma=_across_sigma(fix, axis, tip.depth),
+        deflection_sigma=across_sigma(fix, axis, tip.depth),
     )
-
-
-def _across_sigma(fix: FixPort, axis: FloatArray, depth: float) -> float:
-    """Return the standard deviation of tip from line, per axis [m]; 0 where it is unknown."""
-    if fix.line_variance is None:
-        return 0.0
-    total = np.asarray(fix.covariance) + line_covariance(axis, depth, fix.line_variance)
-    across = np.eye(3) - np.outer(axis, axis)
-    return float(np.sqrt(max(0.0, 0.5 * np.trace(across @ total @ across))))
 
 
 def tip_covariance(axis: FloatArray, depth: float, depth_variance: float) -> FloatArray:
@@ -206,30 +198,6 @@ def _device_fault(device: DeviceStatePort, axis: FloatArray, now: float) -> str:
             f"the encoder values are {_text_ms(age)} old, the limit is {ENCODER_LIMIT * 1e3:.0f} ms"
         )
     return ""
-
-
-def fix_depth(fix: FixPort, fulcrum: FloatArray, axis: FloatArray) -> tuple[float, float]:
-    """Depth of the tip that a usable fix says [m], and its variance [m²].
-
-    On the present axis, not the distance from P_I: that is never negative, and biased by the noise
-    across the needle when the tip is at the skin.
-    """
-    tip = fuse_tip(fix.p_tip_world, fix.covariance, fulcrum, axis, fix.line_variance)
-    return tip.depth, tip.depth_variance
-
-
-def is_usable(fix: FixPort) -> bool:
-    """Whether a fix is a measurement of the tip and all its numbers are finite."""
-    return bool(
-        fix.usable
-        and np.isfinite(fix.time)
-        and np.isfinite(fix.p_tip_world).all()
-        and np.isfinite(fix.covariance).all()
-    )
-
-
-def _one_eyed(fix: FixPort) -> bool:
-    return str(fix.status) == "one_camera"
 
 
 def _invalid(last: NeedlePose | None, now: float, reason: str, age: float) -> NeedlePose:

@@ -60,6 +60,11 @@ class FixPort(Protocol):
         ...
 
     @property
+    def axis(self) -> FloatArray | None:
+        """Needle's direction by the robot at the capture, unit, shape (3,); None if unknown."""
+        ...
+
+    @property
     def residual_px(self) -> float:
         """Reprojection residual [px]."""
         ...

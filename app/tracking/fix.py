@@ -53,6 +53,8 @@ class NeedleFix:
         line_variance: of the robot's line across itself [m²] while the tip is the cameras' alone;
             None if the line has been used to find it.
         discrepancy: what the last seconds say about why cameras and robot disagree.
+        axis: needle's direction by the robot when the pictures were captured, unit, shape (3,);
+            None where the robot does not give one.
     """
 
     p_tip_world: FloatArray
@@ -71,6 +73,7 @@ class NeedleFix:
     epipolar: float = 0.0
     line_variance: float | None = None
     discrepancy: Discrepancy = AGREED
+    axis: FloatArray | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "p_tip_world", frozen(self.p_tip_world, (3,), "tip"))
@@ -78,6 +81,8 @@ class NeedleFix:
         noise = self.covariance if self.noise_covariance is None else self.noise_covariance
         object.__setattr__(self, "beside", frozen(self.beside, (3,), "beside"))
         object.__setattr__(self, "noise_covariance", frozen(noise, (3, 3), "noise covariance"))
+        if self.axis is not None:
+            object.__setattr__(self, "axis", frozen(self.axis, (3,), "axis"))
 
     @property
     def usable(self) -> bool:

@@ -15,13 +15,14 @@ line agree; its error is then d̂gᵀn + (d̂gᵀ - 1)e, with n the cameras' and
 Where they do not, as with a bent needle, the cameras' point stands by itself.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import log
 from typing import Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only
+from app.core.rotation import skew
 
 DIRECTION_SIGMA: Final = 1.0e-4
 """Standard deviation of the direction [rad]: one encoder count is 0.02° of needle, / √12. What the
@@ -130,4 +131,23 @@ def fuse_tip(
         True,
         beside,
         chi_square,
+    )
+
+
+def turned(tip: FusedTip, fulcrum: FloatArray, then: FloatArray, now: FloatArray) -> FusedTip:
+    """Carry a tip on with its line, from the direction `then` to the direction `now`.
+
+    The line turns about `fulcrum` [m] the short way; a line that has turned round altogether, which
+    no needle does, leaves the tip where it was.
+    """
+    cosine = float(then @ now)
+    if cosine < 0.0:
+        return tip
+    turn = skew(np.cross(then, now))
+    rotation = np.eye(3) + turn + turn @ turn / (1.0 + cosine)
+    return replace(
+        tip,
+        p_tip=read_only(fulcrum + rotation @ (tip.p_tip - fulcrum)),
+        covariance=read_only(rotation @ tip.covariance @ rotation.T),
+        beside=read_only(rotation @ tip.beside),
     )

@@ -111,6 +111,7 @@ class FixSolver:
             beside=_across(found.p_world - self._fulcrum, axis),
             epipolar=self._signed(found),
             line_variance=self._line_variance,
+            axis=axis,
         )
 
     def _signed(self, found: Triangulation) -> float:
@@ -208,6 +209,7 @@ class FixSolver:
             has_point=True,
             reason=found.reason,
             noise_covariance=found.point.covariance,
+            axis=axis,
         )
 
 

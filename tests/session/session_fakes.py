@@ -136,6 +136,7 @@ class FakeFix:
     residual_px: float = 0.2
     has_point: bool = False
     line_variance: float | None = None
+    axis: FloatArray | None = None
 
     @property
     def usable(self) -> bool:

@@ -168,3 +168,30 @@ def test_a_zero_axis_gives_an_invalid_pose() -> None:
 
 def test_hold_is_longer_than_fresh() -> None:
     assert HOLD_LIMIT == 0.2
+
+
+def test_a_needle_that_turns_while_a_fix_is_on_its_way_is_not_taken_for_a_bent_one():
+    depth, line = 0.10, (0.2e-3) ** 2
+    for rate, age in ((0.1, 0.08), (0.3, 0.04), (0.6, 0.08)):
+        then, now = unit(0.2, 0.0), unit(0.2 + rate * age, 0.0)
+        robot = device(axis=now, depth=depth)
+        fix: Any = FakeFix(FULCRUM + depth * then, robot.time - age, line_variance=line, axis=then)
+        pose = fuse(robot, fix, robot.time)
+        assert pose.snapped
+        assert not pose.bends
+        assert pose.deflection < 1e-9
+        np.testing.assert_allclose(pose.p_tip, FULCRUM + depth * now, atol=1e-9)
+
+
+def test_a_bent_needle_turns_with_its_line():
+    depth, then, now = 0.10, np.array([0.0, 0.0, -1.0]), unit(0.1, 0.0)
+    robot = device(axis=now, depth=depth)
+    aside = np.array([0.0, 3e-3, 0.0])
+    fix: Any = FakeFix(
+        FULCRUM + depth * then + aside, robot.time - 0.05, line_variance=(0.2e-3) ** 2, axis=then
+    )
+    pose = fuse(robot, fix, robot.time)
+    assert pose.bends
+    assert not pose.snapped
+    assert pose.deflection == pytest.approx(3e-3)
+    np.testing.assert_allclose(pose.p_tip, FULCRUM + depth * now + aside, atol=1e-9)
