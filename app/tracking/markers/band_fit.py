@@ -6,6 +6,7 @@ is Gauss-Newton's. Pixels that fit badly are left out.
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +15,9 @@ from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.band_design import BAND, COLUMNS, PARTIALS, design
 from app.tracking.markers.band_ground import CURVE, SIDE, directions, ground_columns
-from app.tracking.markers.band_normal import MOVES, REST, solve_step
+from app.tracking.markers.band_normal import MOVES, REST
 from app.tracking.markers.band_outline import CELLS, FRAME, outline
+from app.tracking.markers.band_step import solve_step
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
 
@@ -143,7 +145,7 @@ class BandFitter:
         ground_columns(pixels, sides, found, first, weights)
         colours = window[near]
         usable = (colours < 254).all(axis=1)
-        prior = _smoothness(np.where(uneven, _SOFT, _STIFF))
+        prior = _smoothness(bool(uneven[0]), bool(uneven[1]))
         return _Patch(pixels, colours / self._noise, usable, first, weights, prior)
 
     def _iterate(self, patch: _Patch, frame: FloatArray, arcs: FloatArray) -> BandFit | None:
@@ -219,13 +221,15 @@ class BandFitter:
         return change, covariance[:2, :2], residual, paint, float(wanted @ change)
 
 
-def _smoothness(bend: FloatArray) -> FloatArray:
-    """Prior of the rest's colours, (REST, REST)."""
+@cache
+def _smoothness(*uneven: bool) -> FloatArray:
+    """Prior of the rest's colours, (REST, REST), by whether each side's background has edges."""
     normal = _RIDGE * np.eye(REST)
     for side in range(2):
         start = REST - 2 * SIDE + side * SIDE
-        second = np.diff(np.eye(CURVE), 2, axis=0) / bend[side]
+        second = np.diff(np.eye(CURVE), 2, axis=0) / (_SOFT if uneven[side] else _STIFF)
         normal[start : start + CURVE, start : start + CURVE] += second.T @ second
+    normal.setflags(write=False)
     return normal
 
 

@@ -27,7 +27,7 @@ from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
 
-_USUAL_MISFIT, _USUAL_OUTLIERS = 1.08, 0.005
+_USUAL_MISFIT, _USUAL_OUTLIERS = 1.15, 0.005
 _MISFIT_PX2, _OUTLIERS_PX2 = 0.25, 1.0
 """Variance [px²] per unit of misfit and of outliers beyond the usual: measured on bands under
 fingers and highlights (tests/bench/bench_marker.py)."""
