@@ -21,6 +21,7 @@ from app.tracking.markers.choice import extractors as default_extractors
 from app.tracking.markers.colour import learn
 from app.tracking.markers.extractor import Extractor, MarkerFix, Miss
 from app.tracking.optics.rig import RigProfile
+from app.tracking.rehearsal import rehearse
 from app.tracking.solver import FixSolver, without_point
 from app.tracking.statistics import TrackerMeter, TrackerStatistics
 
@@ -97,6 +98,7 @@ class Tracker:
         self._axis = axis
         self._on_fix = on_fix
         self._names = tuple(model.name for model in rig.models)
+        self._fulcrum = fulcrum
         self._solver = FixSolver(rig, fulcrum)
         self._hiding = Hiding(rig.needle)
         self._continuity = Continuity()
@@ -121,6 +123,7 @@ class Tracker:
         if self._thread is not None:
             return
         self._stop.clear()
+        rehearse(self.rig, self._fulcrum, self.extractors, self._solver)
         self._feed.open()
         self._thread = threading.Thread(target=self._run, name="tracker", daemon=True)
         self._thread.start()
