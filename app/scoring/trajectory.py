@@ -145,10 +145,11 @@ class Trajectory:
                 more than `LAST_SEEN` before it.
         """
         self.insertions()
-        end = int(np.flatnonzero(self.running)[-1])
-        if not self.inserted[end]:
+        body = self.inserted | self.paused  # an attempt may end while it waits for the cameras
+        end = int(np.flatnonzero(self.running | self.paused)[-1])
+        if not body[end]:
             raise MetricUnavailableError("the needle was out of the body at the end")
-        seen = np.flatnonzero(self.depth_valid & self.inserted)
+        seen = np.flatnonzero(self.depth_valid & body)
         if len(seen) == 0:
             raise MetricUnavailableError("the depth of the tip was never measured")
         age = float(self.time[end] - self.time[seen[-1]])

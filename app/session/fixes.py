@@ -27,7 +27,9 @@ class Fixes:
         self._motion = depth_filter()
 
     def take(self, fix: FixPort, fulcrum: FloatArray) -> None:
-        """Look at a fix; one that is not newer than the last is passed over."""
+        """Look at a fix; one that is not newer than the last, or of no time, is passed over."""
+        if not np.isfinite(fix.time):
+            return
         with self._lock:
             if self._newest is not None and not fix.time > self._newest.time:
                 return

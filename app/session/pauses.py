@@ -22,7 +22,10 @@ PAUSED_WORDS: Final = (
     "paused: no camera has seen the marker for a second while the needle is in the body; forces "
     "are off and the clock stands still"
 )
-RESUMED_WORDS: Final = "the cameras see the marker again: the attempt goes on, forces come back"
+RESUMED_WORDS: Final = (
+    "the cameras see the marker again: the attempt goes on, forces come back; a switch that must "
+    "be held has to be pressed again"
+)
 
 _NOT_YET_VISIBLE: Final = "not_yet_visible"
 

@@ -91,6 +91,18 @@ def test_a_needle_that_was_pulled_out_before_the_end_gives_no_result() -> None:
         Attempt().trajectory(phase=phase).final()
 
 
+def test_an_attempt_that_ends_while_it_waits_for_the_cameras_is_not_scored_by_where_it_was() -> (
+    None
+):
+    base = Attempt().trajectory()
+    phase, valid = np.array(base.phase), np.ones(len(base), dtype=bool)
+    phase[-500:], valid[-530:] = Phase.PAUSED, False
+    with pytest.raises(MetricUnavailableError, match=r"last seen 10\.6 s before the end"):
+        Attempt().trajectory(phase=phase, depth_valid=valid).final()
+    valid[-10:] = True  # seen again, not yet long enough to go on
+    assert Attempt().trajectory(phase=phase, depth_valid=valid).final() == len(base) - 1
+
+
 def test_samples_after_the_end_do_not_count() -> None:
     phase = np.array(Attempt().trajectory().phase)
     phase[-100:] = Phase.ENDED

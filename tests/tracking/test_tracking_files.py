@@ -132,6 +132,33 @@ def test_the_feed_says_how_far_apart_two_cameras_capture():
     assert skew.median == pytest.approx(0.008, abs=1e-6)
 
 
+def test_nobody_waits_for_a_camera_that_is_gone():
+    clock = SystemClock()
+    feed = CameraFeed([_Ticking(clock, 0.0), _Gone()], ("a", "b"), clock, True, lambda *_: None)
+    feed.open()
+    for _ in range(4):
+        feed.wait()
+    start = clock.now()
+    pairs = [feed.wait() for _ in range(10)]
+    rate = 10.0 / (clock.now() - start)
+    feed.close()
+    assert all(right is None for _, right in pairs)
+    assert rate > 12.0  # fifty are captured; waiting for the other one leaves six
+
+
+class _Gone(Camera):
+    """Unplugged."""
+
+    def open(self):
+        pass
+
+    def read(self):
+        raise CameraError("it was unplugged")
+
+    def close(self):
+        pass
+
+
 class _Ticking(Camera):
     """Fifty pictures a second at the clock's own multiples, shifted."""
 

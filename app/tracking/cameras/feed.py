@@ -93,11 +93,15 @@ class CameraFeed:
             reader.close()
 
     def wait(self) -> Pair:
-        """Wait for new pictures: for one at most 0.1 s, then for the other a little longer."""
+        """Wait for new pictures: for one at most 0.1 s, then for the other a little longer.
+
+        Nobody waits for a camera that is known to have stopped: the other alone is to be followed
+        at its own rate.
+        """
         with self._arrived:
             self._arrived.wait_for(lambda: self._stopped or any(self._fresh()), _WAIT)
             if any(self._fresh()):
-                self._arrived.wait_for(lambda: self._stopped or all(self._fresh()), _PAIRING)
+                self._arrived.wait_for(lambda: self._stopped or self._complete(), _PAIRING)
             fresh = self._fresh()
             frames = [reader.newest() for reader in self._readers]
         self._watch()
@@ -122,6 +126,10 @@ class CameraFeed:
     def _fresh(self) -> list[bool]:
         newest = [reader.newest() for reader in self._readers]
         return [n is not None and n is not s for n, s in zip(newest, self._seen, strict=True)]
+
+    def _complete(self) -> bool:
+        pairs = zip(self._fresh(), self._states, strict=True)
+        return all(fresh or state in _TROUBLE for fresh, state in pairs)
 
     def _watch(self) -> None:
         for i, health in enumerate(self.health(self._clock.now())):
