@@ -41,6 +41,26 @@ def rotation_log(rotation: ArrayLike) -> FloatArray:
     return v * (2.0 * np.arctan2(norm, w) / norm)
 
 
+def closest_rotation(moments: ArrayLike) -> tuple[FloatArray, float]:
+    """Rotation R that makes trace(R H) largest, shape (3, 3), and how clear that choice is.
+
+    With H = sum of x yᵀ over centred points this is the least squares fit y ≈ R x (Arun, Huang and
+    Blostein 1987; Kabsch 1978), with the sign of Umeyama (1991) that excludes reflections.
+
+    Args:
+        moments: H, shape (3, 3).
+
+    Returns:
+        R, and the gain over the next best rotation relative to the largest singular value: about 0
+        where two rotations serve equally well (points on a line, or mirrored ones).
+    """
+    left, values, right = np.linalg.svd(np.asarray(moments, dtype=np.float64))
+    sign = 1.0 if np.linalg.det(right.T @ left.T) >= 0.0 else -1.0
+    rotation: FloatArray = right.T @ np.diag([1.0, 1.0, sign]) @ left.T  # H = U S Vᵀ, R = V D Uᵀ
+    gap = float(values[1] + sign * values[2])
+    return rotation, gap / float(values[0]) if values[0] > 0.0 else 0.0
+
+
 def _quaternion(r: FloatArray) -> tuple[float, FloatArray]:
     """Scalar and vector part, of length one, sign free."""
     squares = np.array(

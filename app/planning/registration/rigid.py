@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
+from app.core.rotation import closest_rotation
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.planning.registration.errors import DegenerateFiducialsError, RegistrationError
@@ -67,8 +68,7 @@ def rigid_fit(
 ) -> RigidFit:
     """Fit measured ≈ R · reference + t, least squares with weights, R a proper rotation.
 
-    By the singular value decomposition of the cross covariance (Arun, Huang and Blostein 1987;
-    Kabsch 1978), with the sign of Umeyama (1991) that excludes the reflection.
+    See `core.rotation.closest_rotation`.
 
     Args:
         reference: shape (n, 3) [m], n ≥ 3.
@@ -95,15 +95,12 @@ def rigid_fit(
 
 def _rotation(x: FloatArray, y: FloatArray, w: FloatArray) -> FloatArray:
     dx, dy = x - w @ x / len(x), y - w @ y / len(y)
-    left, values, right = np.linalg.svd((dx * w[:, None]).T @ dy)
-    sign = float(np.sign(np.linalg.det(right.T @ left.T)))
-    # What keeps the best rotation apart from the next best; 0 for a mirrored regular body.
-    if values[1] + sign * values[2] <= 1e-9 * values[0]:
+    rotation, gap = closest_rotation((dx * w[:, None]).T @ dy)
+    if gap <= 1e-9:  # 0 for a mirrored regular body
         raise DegenerateFiducialsError(
             "two rotations fit these points equally well: the measured ones look like the mirror "
             "image of the reference; check the order of the points and the signs of the coordinates"
         )
-    rotation: FloatArray = right.T @ np.diag([1.0, 1.0, sign]) @ left.T  # H = U S Vᵀ, R = V D Uᵀ
     return rotation
 
 
