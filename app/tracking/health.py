@@ -56,9 +56,19 @@ class FixHealth:
             return replace(fix, discrepancy=self._verdict)
         self._gather(fix, axis, fix.line_variance)
         bent = self._verdict.cause is Cause.BENT_NEEDLE and abs(fix.epipolar) <= _PICTURES_AGREE
-        if fix.status is FixStatus.INCONSISTENT and bent:
-            fix = replace(fix, status=FixStatus.VALID, reason="")
+        if bent and (fix.usable or fix.status is FixStatus.INCONSISTENT):
+            fix = replace(fix, status=FixStatus.VALID, reason="", covariance=self._of_bent(fix))
         return replace(fix, discrepancy=self._verdict)
+
+    def _of_bent(self, fix: NeedleFix) -> FloatArray:
+        """Covariance of a bent needle's tip [m²], (3, 3).
+
+        The tip is carried on from the band along the robot's direction; a beam that leaves the
+        fulcrum straight leans there by 2 |beside| / depth more, and how it goes on is not known.
+        """
+        depth = max(fix.depth - self._offset, self._offset)
+        lean = 2.0 * self._offset / depth * fix.beside
+        return np.asarray(fix.covariance + np.outer(lean, lean))
 
     def _gather(self, fix: NeedleFix, axis: FloatArray, line_variance: float) -> None:
         force = self._force(fix.time)

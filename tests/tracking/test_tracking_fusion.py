@@ -171,6 +171,8 @@ def test_a_needle_known_to_bend_is_measured_where_the_line_alone_would_refuse_it
         statuses.append(fix.status)
     assert FixStatus.INCONSISTENT in statuses
     assert FixStatus.INCONSISTENT not in statuses[60:]
+    tip = FULCRUM + (depth + 0.01) * axis + 0.4 * (depth + 0.01) ** 2 * side
+    assert np.linalg.norm(fix.p_tip_world - tip) < fix.radius()  # it bends beyond the band, too
     assert fix.discrepancy.cause is Cause.BENT_NEEDLE
     assert told[0][0] == "tracker"
     assert "bends" in told[0][1]

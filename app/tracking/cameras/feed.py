@@ -9,9 +9,9 @@ import numpy as np
 
 from app.core.clock import Clock
 from app.tracking.cameras.camera import Camera, Frame
-from app.tracking.cameras.watch import CameraHealth, CameraReader, CameraState
+from app.tracking.cameras.watch import STALL, CameraHealth, CameraReader, CameraState
 
-_WAIT = 0.1
+_WAIT = 0.05
 """Longest wait [s] for a picture before the cameras' health is looked at."""
 
 _PAIRING = 0.15
@@ -93,7 +93,7 @@ class CameraFeed:
             reader.close()
 
     def wait(self) -> Pair:
-        """Wait for new pictures: for one at most 0.1 s, then for the other a little longer.
+        """Wait for new pictures: for one at most 0.05 s, then for the other a little longer.
 
         Nobody waits for a camera that is known to have stopped: the other alone is to be followed
         at its own rate.
@@ -101,7 +101,7 @@ class CameraFeed:
         with self._arrived:
             self._arrived.wait_for(lambda: self._stopped or any(self._fresh()), _WAIT)
             if any(self._fresh()):
-                self._arrived.wait_for(lambda: self._stopped or self._complete(), _PAIRING)
+                self._arrived.wait_for(lambda: self._stopped or self._complete(), self._patience())
             fresh = self._fresh()
             frames = [reader.newest() for reader in self._readers]
         self._watch()
@@ -126,6 +126,13 @@ class CameraFeed:
     def _fresh(self) -> list[bool]:
         newest = [reader.newest() for reader in self._readers]
         return [n is not None and n is not s for n, s in zip(newest, self._seen, strict=True)]
+
+    def _patience(self) -> float:
+        """How long [s] the other camera is waited for: not past the moment when it has stopped."""
+        now = self._clock.now()
+        pairs = zip(self._readers, self._fresh(), strict=True)
+        age = max((reader.health(now).age for reader, fresh in pairs if not fresh), default=0.0)
+        return min(_PAIRING, max(0.0, STALL - age))
 
     def _complete(self) -> bool:
         pairs = zip(self._fresh(), self._states, strict=True)
