@@ -1,6 +1,7 @@
 """The cameras' fixes on their way to the loop and to the pose."""
 
 import threading
+from typing import Final
 
 import numpy as np
 
@@ -8,8 +9,12 @@ from app.core.arrays import FloatArray
 from app.session.inputs import LoopInputs
 from app.session.measured import fix_depth, is_usable
 from app.session.ports import FixPort, LoopPort
+from app.tracking.fix import FixStatus
 from app.tracking.motion.choice import depth_filter
 from app.tracking.motion.depth_filter import DepthMotion
+
+SILENCE: Final = 0.5
+"""Age of the newest fix [s] from which the cameras count as silent."""
 
 
 class Fixes:
@@ -49,11 +54,18 @@ class Fixes:
         with self._lock:
             return self._motion.at(time)
 
-    def status(self) -> tuple[str, float]:
-        """Status and residual [px] of the newest fix; empty and 0 before the first."""
+    def status(self, now: float) -> tuple[str, float]:
+        """Status and residual [px] of the newest fix; empty and 0 before the first.
+
+        After `SILENCE` without any fix there is no picture, whatever the last one said.
+        """
         with self._lock:
             fix = self._newest
-        return (str(fix.status), float(fix.residual_px)) if fix is not None else ("", 0.0)
+        if fix is None:
+            return "", 0.0
+        if now - fix.time > SILENCE:
+            return FixStatus.NO_PICTURE.value, 0.0
+        return str(fix.status), float(fix.residual_px)
 
     def _tell_loop(self, fix: FixPort, fulcrum: FloatArray) -> None:
         device = self._loop.latest()

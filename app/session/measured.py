@@ -4,6 +4,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.session.ports import FixPort
+from app.tracking.fix import FixStatus
 from app.tracking.fusion import FusedTip, fuse_tip, line_covariance, turned
 
 
@@ -19,7 +20,7 @@ def is_usable(fix: FixPort) -> bool:
 
 def is_one_eyed(fix: FixPort) -> bool:
     """Whether one camera alone has seen the marker."""
-    return str(fix.status) == "one_camera"
+    return str(fix.status) == FixStatus.ONE_CAMERA
 
 
 def tip_of(fix: FixPort, fulcrum: FloatArray, axis: FloatArray) -> FusedTip:

@@ -123,7 +123,7 @@ def observe(
         shift = device.row[slots.TARGET_SHIFT_X : slots.TARGET_SHIFT_X + 3]
         if np.isfinite(shift).all():
             p_target = read_only(placed.p_target + shift)
-    status, residual = fixes.status()
+    status, residual = fixes.status(now)
     away = offset(pose, p_target, placed.axis)
     seen = shown(pose, fixes.motion(moment(pose)))
     seen_away = away if seen is pose else offset(seen, p_target, placed.axis)

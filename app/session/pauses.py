@@ -10,6 +10,7 @@ from typing import Final
 
 from app.session.machine import Event, State
 from app.session.needle import NeedlePose
+from app.tracking.fix import FixStatus
 
 LOST: Final = 1.0
 """Time without a measured depth in the body until the attempt pauses [s]; the 0.2 s for which a
@@ -26,8 +27,6 @@ RESUMED_WORDS: Final = (
     "the cameras see the marker again: the attempt goes on, forces come back; a switch that must "
     "be held has to be pressed again"
 )
-
-_NOT_YET_VISIBLE: Final = "not_yet_visible"
 
 
 class Pauses:
@@ -47,7 +46,7 @@ class Pauses:
             self._back = pose.time if self._back is None else self._back
         else:
             self._back = None
-            if pose.valid and fix_status != _NOT_YET_VISIBLE:
+            if pose.valid and fix_status != FixStatus.NOT_YET_VISIBLE:
                 self._lost = pose.time if self._lost is None else self._lost
             else:
                 self._lost = None

@@ -110,6 +110,17 @@ def test_a_pause_can_be_ended_and_its_forces_stay_off(bench: Bench) -> None:
     assert bench.loop.inbox.values["enabled"] == 0.0
 
 
+def test_cameras_that_fall_silent_are_not_excused_by_what_they_said_last(bench: Bench) -> None:
+    bench.trainer.begin()
+    bench.run(2.0, 0.04)
+    bench.tracker.status = "not_yet_visible"
+    assert bench.run(2.0).state is State.INSERTING
+    bench.tracker.seen = np.inf  # no fix any more
+    snapshot = bench.run(2.0)
+    assert snapshot.fix_status == "no_picture"
+    assert snapshot.state is State.PAUSED
+
+
 def _paused(source: DepthSource, state: State, status: str = "") -> bool:
     pauses = Pauses()
     pauses.look(state, pose(0.0), "valid")

@@ -94,7 +94,7 @@ class OutlineCentroid(Extractor):
 
     def _measure(self, window: Image, blob: Mask, origin: FloatArray) -> MarkerFix | Miss:
         middle = origin + 0.5 * np.array([blob.shape[1], blob.shape[0]])
-        if _overexposed(window, blob) > self.overexposed:
+        if _overexposed(window, blob, self.colour) > self.overexposed:
             return Miss(MissReason.SATURATED, middle)
         if not self.colour.is_marker(np.array(cv2.mean(window, blob)[:3])):
             return Miss(MissReason.NOTHING_RED, middle)
@@ -166,6 +166,7 @@ def _tight(
     return Miss(MissReason.AT_BORDER, centres[which] + [left, top]) if touches else (blob, box)
 
 
-def _overexposed(window: Image, blob: Mask) -> float:
-    saturated = (window[..., 2] >= 254) & (blob > 0)
+def _overexposed(window: Image, blob: Mask, colour: ColourModel) -> float:
+    """Share of the patch in which the marker's strongest colour is at its end."""
+    saturated = (window[..., int(np.argmax(colour.weights))] >= 254) & (blob > 0)
     return float(saturated.sum()) / max(1.0, float(blob.sum()))
