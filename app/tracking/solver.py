@@ -5,8 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen, unit
-from app.core.rotation import skew
-from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.fix import FixStatus, NeedleFix
@@ -15,6 +13,7 @@ from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.one_camera_fix import OneCameraSolver
 from app.tracking.optics.rig import RigProfile
 from app.tracking.stereo.calibration_error import CalibrationError
+from app.tracking.stereo.epipolar import essential_matrix
 from app.tracking.stereo.rays import normalised
 from app.tracking.stereo.triangulation import StereoStatus, Triangulation, Way, triangulate
 
@@ -49,7 +48,7 @@ class FixSolver:
         self._poses = (self._models[0].T_camera_world, self._models[1].T_camera_world)
         self._fulcrum = frozen(fulcrum, (3,), "fulcrum")
         self._systematic = systematic_px(rig) ** 2 * np.eye(2)
-        self._essential = _essential(self._poses)
+        self._essential = essential_matrix(self._poses)
         self._focal = np.concatenate([model.intrinsics[:2] for model in self._models])
         self._single = OneCameraSolver(rig, self._fulcrum, GATE, systematic_px(rig))
         self._error = CalibrationError(rig.calibration) if rig.calibration is not None else None
@@ -224,11 +223,6 @@ def systematic_px(rig: RigProfile) -> float:
 
 def _across(offset: FloatArray, axis: FloatArray) -> FloatArray:
     return np.asarray(offset - (offset @ axis) * axis)
-
-
-def _essential(poses: tuple[RigidTransform, RigidTransform]) -> FloatArray:
-    T_second_first = poses[1] @ poses[0].inverse()
-    return np.asarray(skew(T_second_first.translation) @ T_second_first.rotation)
 
 
 def without_point(

@@ -8,6 +8,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import Clock
 from app.core.events import Event, EventQueue
 from app.core.latest import Latest
+from app.tracking.agreement import EpipolarGate
 from app.tracking.cameras.camera import Camera, Frame, Image
 from app.tracking.cameras.feed import CameraFeed, Pair
 from app.tracking.capture_times import CaptureTimes
@@ -106,7 +107,7 @@ class Tracker:
         self._times = CaptureTimes(self._names, self._put)
         self.rig = rig
         self.extractors = extractors or default_extractors(rig)
-        self._follower = MarkerFollower(self.extractors, self._solver)
+        self._follower = MarkerFollower(self.extractors, self._solver, EpipolarGate(rig))
         self._feed = CameraFeed(cameras, self._names, clock, rig.noise_grey > 0.0, self._put)
         self._meter = TrackerMeter()
         self._pictures: dict[str, TrackedPicture] = {}

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from app.core.clock import VirtualClock
+from app.tracking.agreement import EpipolarGate
 from app.tracking.cameras.camera import Frame
 from app.tracking.fix import FixStatus
 from app.tracking.follower import MarkerFollower
@@ -57,7 +58,7 @@ def _errors(rig, depth, skew, interpolate=True):
     """Distances [m] between fixes and truth over one second; the first pair has no past."""
     extractors = tuple(_Exact(rig, i, depth) for i in (0, 1))
     solver = FixSolver(rig, FULCRUM)
-    follower, errors = MarkerFollower(extractors, solver), []
+    follower, errors = MarkerFollower(extractors, solver, EpipolarGate(rig)), []
     for k in range(31):
         times = (k * PERIOD, k * PERIOD + skew)
         for extractor, time in zip(extractors, times, strict=True):

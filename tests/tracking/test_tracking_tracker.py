@@ -7,12 +7,17 @@ import numpy as np
 import pytest
 
 from app.core.clock import SystemClock, VirtualClock
+from app.tracking.agreement import EpipolarGate
 from app.tracking.cameras.camera import Camera, Frame
 from app.tracking.errors import CameraError, TrackingError
 from app.tracking.fix import FixStatus
+from app.tracking.follower import MarkerFollower
+from app.tracking.inspection import Inspector
+from app.tracking.markers.extractor import Centre, MarkerFix, MissReason
 from app.tracking.simulated.cameras import SimulatedCamera
 from app.tracking.simulated.picture_effects import NoiseTile, noise
 from app.tracking.simulated.scene import MarkerScene
+from app.tracking.solver import FixSolver
 from app.tracking.tracker import Tracker
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
@@ -148,6 +153,92 @@ def test_of_two_red_things_the_one_on_the_needle_is_taken(wide, wide_renderers, 
     fix = tracker.process(*(Frame(image, 0.0) for image in images))
     assert fix.status is FixStatus.VALID
     assert np.linalg.norm(fix.p_tip_world - needle.tip(0.0)) < 0.3e-3
+
+
+def _red(image, top, left):
+    image[top : top + 25, left : left + 12] = (40, 25, 190)
+
+
+def _find(wide, tracker, images, times=(0.0, 0.0), axis=None):
+    gate = EpipolarGate(wide)
+    follower = MarkerFollower(tracker.extractors, FixSolver(wide, FULCRUM), gate)
+    frames = tuple(Frame(image, time) for image, time in zip(images, times, strict=True))
+    return follower.find(frames, axis, min(times))
+
+
+def test_of_two_red_things_the_one_on_the_epipolar_line_is_taken_even_without_an_axis(
+    wide, wide_renderers, needle
+):
+    tracker, _ = _stepped(wide, wide_renderers, needle)
+    scene = needle.at(0.0)
+    images = [renderer.render(scene) for renderer in wide_renderers]
+    for i, (top, left) in enumerate([(60, 500), (400, 80)]):
+        _red(images[i], top, left)
+    searched = tracker.extractors[0].search(images[0])
+    assert sum(isinstance(one, MarkerFix) for one in searched) == 2
+    found = _find(wide, tracker, images)
+    for marker, model in zip(found, wide.models, strict=True):
+        assert isinstance(marker, MarkerFix)
+        assert np.linalg.norm(marker.uv - model.pixel(scene.p_world)) < 1.5
+
+
+def test_red_things_off_each_others_epipolar_line_are_no_marker_and_it_is_said(
+    wide, wide_renderers, needle
+):
+    needle.visible = False
+    tracker, _ = _stepped(wide, wide_renderers, needle)
+    images = [renderer.render(needle.at(0.0)) for renderer in wide_renderers]
+    _red(images[0], 60, 500)
+    _red(images[1], 400, 80)
+    fix = tracker.process(*(Frame(image, 0.0) for image in images))
+    assert fix.status is FixStatus.OUT_OF_VIEW
+    for picture in tracker.pictures():
+        assert picture.found.reason is MissReason.OFF_EPIPOLAR
+    shown = Inspector(tracker).look()
+    assert [one.why for one in shown.pictures] == [MissReason.OFF_EPIPOLAR.words] * 2
+
+
+def test_a_followed_marker_goes_on_when_the_other_picture_shows_only_something_else_red(
+    wide, wide_renderers, needle
+):
+    tracker, _ = _stepped(wide, wide_renderers, needle)
+    images = [renderer.render(needle.at(0.0)) for renderer in wide_renderers]
+    assert tracker.process(*(Frame(image, 0.0) for image in images)).status is FixStatus.VALID
+    needle.visible = False
+    images[1] = wide_renderers[1].render(needle.at(0.0))
+    _red(images[1], 400, 80)
+    fix = tracker.process(*(Frame(image, 0.033) for image in images))
+    assert fix.status is FixStatus.ONE_CAMERA
+    assert fix.usable
+    assert tracker.pictures()[1].found.reason is MissReason.OFF_EPIPOLAR
+
+
+def test_a_marker_that_moves_between_the_captures_is_not_taken_for_two_things(wide, wide_renderers):
+    needle = _Needle(wide.needle.marker_offset, speed=0.2, tilt=0.6, azimuth=1.5)
+    tracker, _ = _stepped(wide, wide_renderers, needle)
+    times = (0.0, 0.033)
+    images = [r.render(needle.at(t)) for r, t in zip(wide_renderers, times, strict=True)]
+    found = _find(wide, tracker, images, times)
+    assert all(isinstance(one, MarkerFix) for one in found)
+    gate = EpipolarGate(wide)
+    (moved,) = gate.pairings([found[0]], [found[1]], 0.033)
+    (still,) = gate.pairings([found[0]], [found[1]], 0.0)
+    assert moved.agrees
+    assert still.apart > moved.apart
+
+
+def test_noise_is_refused_by_the_epipolar_gate_as_seldom_as_its_sigma_says(wide, scene_at):
+    gate, rng = EpipolarGate(wide), np.random.default_rng(4)
+    scene, apart = scene_at(0.06, 20.0, 30.0), []
+    for _ in range(1500):
+        fixes = []
+        for model in wide.models:
+            spread = np.array([[0.2, 0.05], [0.05, 0.1]])
+            total = spread + wide.systematic_px**2 * np.eye(2)
+            uv = rng.multivariate_normal(model.pixel(scene.p_world), total)
+            fixes.append(MarkerFix(uv, spread, 400.0, 1.0, Centre.BAND))
+        apart.append(gate.pairings([fixes[0]], [fixes[1]], 0.0)[0].apart)
+    assert np.mean(np.square(apart)) == pytest.approx(1.0, abs=0.12)
 
 
 def test_a_step_without_any_picture_is_an_error(wide, wide_renderers, needle):

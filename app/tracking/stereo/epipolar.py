@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
+from app.core.rotation import skew
+from app.core.transform import RigidTransform
 from app.tracking.optics.camera_model import CameraModel
 
 NEAR = 0.02
@@ -47,6 +49,12 @@ def epipolar_curve(
     first, final = times[max(0, inside[0] - 1)], times[min(_COARSE - 1, inside[-1] + 1)]
     pixels, ok = _picture(direction, baseline / length, np.linspace(first, final, _FINE), shown_in)
     return pixels[ok]
+
+
+def essential_matrix(T_camera_world: tuple[RigidTransform, RigidTransform]) -> FloatArray:
+    """E = [t]ₓ R of T_second_first, shape (3, 3): x₂ᵀ E x₁ = 0 for what both cameras show."""
+    T_second_first = T_camera_world[1] @ T_camera_world[0].inverse()
+    return np.asarray(skew(T_second_first.translation) @ T_second_first.rotation)
 
 
 def distance_to_curve(pixel: ArrayLike, curve: FloatArray) -> float | None:
