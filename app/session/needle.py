@@ -103,8 +103,12 @@ class NeedlePose:
 
     @property
     def bends(self) -> bool:
-        """Whether the tip is off the line by more than chance, with 99 %."""
-        return self.deflection > 3.0 * self.deflection_sigma > 0.0
+        """Whether the cameras see the tip beside the robot's line, beyond `fusion.GATE`.
+
+        At a lower limit a straight needle would be called bent every few seconds, and one that a
+        moved camera shows a little beside its line all the time.
+        """
+        return not self.snapped and self.deflection > 3.0 * self.deflection_sigma > 0.0
 
     @property
     def measured(self) -> bool:

@@ -195,3 +195,13 @@ def test_a_bent_needle_turns_with_its_line():
     assert not pose.snapped
     assert pose.deflection == pytest.approx(3e-3)
     np.testing.assert_allclose(pose.p_tip, FULCRUM + depth * now + aside, atol=1e-9)
+
+
+def test_a_straight_needle_is_not_called_bent_now_and_then() -> None:
+    rng, line, robot = np.random.default_rng(0), (0.2e-3) ** 2, device(depth=0.06)
+    axis = np.asarray(robot.axis)
+    across = np.eye(3) - np.outer(axis, axis)
+    for _ in range(1000):
+        tip = FULCRUM + 0.06 * axis + across @ rng.normal(0.0, 0.2e-3, 3)
+        fix: Any = FakeFix(tip, robot.time - 0.02, line_variance=line, axis=axis)
+        assert not fuse(robot, fix, robot.time).bends
