@@ -114,6 +114,18 @@ def test_a_calibration_of_another_size_or_of_swapped_cameras_is_refused(wide, se
         real_cameras(settings)
 
 
+def test_a_calibration_that_was_found_bad_is_refused_though_the_settings_name_its_file(
+    wide, settings
+):
+    history = CalibrationHistory()
+    path = history.keep(calibration(wide))
+    settings = settings.model_copy(update={"calibration": path})
+    assert real_cameras(settings).rig.calibration is not None
+    history.condemn("20261122-091244-3f2a", "a camera was bumped")
+    with pytest.raises(CalibrationError, match=r"found bad \(a camera was bumped\)"):
+        real_cameras(settings)
+
+
 def test_exchanged_cameras_are_found_by_the_marker_they_see(wide, leaning):
     CalibrationHistory().keep(calibration(wide))
     assert "as calibrated" in look(leaning, "", 0.5).order

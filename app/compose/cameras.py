@@ -9,11 +9,12 @@ from app.core.clock import Clock, SystemClock
 from app.tracking.calibration.applies import require_cameras
 from app.tracking.calibration.formats.own import load_calibration
 from app.tracking.calibration.history import CalibrationHistory
+from app.tracking.calibration.history_file import condemned_ids
 from app.tracking.cameras.camera import Camera
 from app.tracking.cameras.checked import CheckedCamera
 from app.tracking.cameras.factory import make_camera
 from app.tracking.cameras.settings import CameraSettings
-from app.tracking.errors import RigError
+from app.tracking.errors import CalibrationError, RigError
 from app.tracking.optics.calibration import StereoCalibration
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import simulated_cameras
@@ -40,7 +41,7 @@ def real_cameras(settings: CameraSettings, clock: Clock | None = None) -> Attach
 
     Raises:
         CameraError: if the sources do not go together.
-        CalibrationError: if the calibration is of other cameras or another size.
+        CalibrationError: if the calibration is of other cameras or another size, or was found bad.
         RigError: if there is no calibration, or it has no world frame.
     """
     settings.check()
@@ -50,6 +51,7 @@ def real_cameras(settings: CameraSettings, clock: Clock | None = None) -> Attach
             "the cameras are not calibrated: run `acus calibrate stereo` and `acus calibrate "
             "world`, or choose the calibration in the window's menu Cameras"
         )
+    _require_good(calibration)
     rig = load_rig(settings.rig)
     names = [camera.name for camera in rig.cameras]
     require_cameras(calibration, names, [settings.size] * 2)
@@ -115,6 +117,16 @@ def calibration_of(settings: CameraSettings) -> StereoCalibration | None:
     if settings.calibration is not None:
         return load_calibration(settings.calibration)
     return CalibrationHistory().active()
+
+
+def _require_good(calibration: StereoCalibration) -> None:
+    """Refuse one that was found bad: the settings may name its file all the same."""
+    reason = condemned_ids().get(calibration.id)
+    if reason is not None:
+        raise CalibrationError(
+            f"calibration {calibration.id} was found bad ({reason}); calibrate again, or choose "
+            "another one in the camera settings"
+        )
 
 
 def at_rate(rig: RigProfile, rate_hz: float) -> RigProfile:

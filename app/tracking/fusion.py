@@ -39,7 +39,8 @@ class FusedTip:
     """The needle's tip from both sources.
 
     Attributes:
-        p_tip: on the line if `snapped`, else the cameras' own [m], shape (3,), read-only.
+        p_tip: on the line if `snapped`, but as one camera and the line gave it where they did,
+            else the cameras' own [m], shape (3,), read-only.
         covariance: of it [m²], shape (3, 3), read-only.
         depth: beyond the line's point, along it [m].
         depth_variance: of it [m²].
@@ -84,7 +85,8 @@ def fuse_tip(
         fulcrum: point of the line that it turns about, P_I [m], shape (3,).
         axis: unit direction of the line, hub to tip.
         line_variance: of the line across itself, per axis [m²]; None if the tip has been found
-            with the line's help already (by one camera): the line must not count twice.
+            with the line's help already (by one camera): the line must not count twice. Such a
+            tip is not moved: its error is known in some directions far better than the line.
     """
     offset = np.asarray(p_tip - fulcrum, dtype=np.float64)
     along = np.outer(axis, axis)
@@ -93,7 +95,7 @@ def fuse_tip(
     if line_variance is None:
         variance = max(0.0, float(axis @ covariance @ axis))
         return FusedTip(
-            read_only(fulcrum + foot * axis),
+            read_only(np.array(p_tip, dtype=np.float64)),
             read_only(np.array(covariance)),
             foot,
             variance,

@@ -7,8 +7,9 @@ from app.tracking.discrepancy import Cause, DiscrepancyMonitor, Evidence
 from app.tracking.fix import FixStatus
 from app.tracking.fusion import DIRECTION_SIGMA, fuse_tip, line_covariance
 from app.tracking.health import FixHealth
+from app.tracking.markers.extractor import Centre
 from app.tracking.markers.silhouette import centroid_shift
-from app.tracking.solver import FixSolver, Sighting
+from app.tracking.solver import FixSolver, Sighting, systematic_px
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 LINE = (0.2e-3) ** 2
@@ -61,12 +62,37 @@ def test_a_tip_on_the_line_stays_and_one_far_off_it_is_not_snapped():
             np.testing.assert_array_equal(fused.p_tip, tip + distance * side)
 
 
-def test_a_tip_that_was_found_with_the_line_is_only_projected():
+def test_a_tip_that_was_found_with_the_line_stays_as_it_was_found():
     axis = _axis(0.3, 0.5)
-    covariance = _skew_covariance()
-    fused = fuse_tip(FULCRUM + 0.04 * axis, covariance, FULCRUM, axis, None)
+    covariance, side = _skew_covariance(), np.linalg.svd(axis[None])[2][1]
+    tip = FULCRUM + 0.04 * axis + 1e-4 * side
+    fused = fuse_tip(tip, covariance, FULCRUM, axis, None)
+    np.testing.assert_array_equal(fused.p_tip, tip)
     np.testing.assert_array_equal(fused.covariance, covariance)
+    assert fused.depth == pytest.approx(0.04)
     assert fused.depth_variance == pytest.approx(axis @ covariance @ axis)
+
+
+@pytest.mark.parametrize("lost", [0, 1])
+def test_with_one_camera_lost_the_ellipsoid_holds_the_fused_tip_as_often_as_it_says(wide, lost):
+    rng, solver = np.random.default_rng(2), FixSolver(wide, FULCRUM)
+    picture = np.hypot(0.05, systematic_px(wide))
+    inside = []
+    for _ in range(600):
+        axis, depth = _axis(rng.uniform(0.0, 0.4), rng.uniform(0.0, 6.28)), rng.uniform(0.04, 0.08)
+        across = np.eye(3) - np.outer(axis, axis)
+        line = wide.line_sd_mm * 1e-3
+        band = FULCRUM + depth * axis + across @ rng.normal(0.0, line, 3)
+        pair = [
+            Sighting(m.pixel(band) + rng.normal(0.0, picture, 2), 0.05**2 * np.eye(2), Centre.BAND)
+            for m in wide.models
+        ]
+        pair[lost] = None
+        fix = solver.solve(tuple(pair), axis, 0.0)
+        fused = fuse_tip(fix.p_tip_world, fix.covariance, FULCRUM, axis, fix.line_variance)
+        error = fused.p_tip - band - wide.needle.marker_offset * axis
+        inside.append(error @ np.linalg.solve(fused.covariance, error) < 7.815)
+    assert 0.92 < np.mean(inside) < 0.98
 
 
 def test_the_line_knows_nothing_of_the_depth_and_less_of_the_place_the_deeper_it_is():
