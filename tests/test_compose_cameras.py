@@ -143,6 +143,13 @@ def test_the_cone_of_calibrated_cameras_is_drawn_into_their_pictures(wide, leani
     assert (green > 200).sum() > 500
 
 
+def test_the_cone_of_uncalibrated_cameras_is_not_taken_for_seen(leaning):
+    aim = aim_of(leaning, "icube")
+    assert aim.assumed
+    assert "not calibrated" in aim.basis
+    assert not aim_of(CameraSettings(), "icube").assumed
+
+
 def test_one_real_camera_is_refused():
     with pytest.raises(CameraError, match="one camera is real and one simulated"):
         parse_cameras("left=usb:1-1")

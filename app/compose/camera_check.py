@@ -46,11 +46,19 @@ class Look:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Aim:
-    """The cone in both pictures, and whose cameras they are: calibrated, or as designed."""
+    """The cone in both pictures, and whose cameras they are: calibrated, or as designed.
+
+    Attributes:
+        cone: the cone in both pictures.
+        rig: cameras it was computed for.
+        basis: calibration, or the rig as designed.
+        assumed: whether real cameras are taken to stand as designed: no picture was asked.
+    """
 
     cone: ViewCone
     rig: RigProfile
     basis: str
+    assumed: bool = False
 
     @property
     def image_size(self) -> tuple[int, int]:
@@ -130,13 +138,13 @@ def aim_of(settings: CameraSettings, device: str, reach: Mapping[str, float] | N
     """
     rig = load_rig(settings.rig)
     fulcrum = load_profile(device).pantograph.fulcrum
-    basis = f"rig {rig.name} as designed"
+    basis, assumed = f"rig {rig.name} as designed", False
     calibration = None if settings.simulated else calibration_of(settings)
     if calibration is not None and calibration.world is not None:
         names = [camera.name for camera in rig.cameras]
         require_cameras(calibration, names, [settings.size] * 2)
         rig, basis = rig.calibrated(calibration), f"calibration {calibration.id}"
     elif not settings.simulated:
-        basis += "; the cameras are not calibrated with a world frame yet"
+        basis, assumed = f"{basis}; the cameras are not calibrated with a world frame yet", True
     wanted = parse(rig.range.model_dump() | dict(reach or {}), RangeProfile, "range")
-    return Aim(view_cone(rig.models, rig.needle, wanted, fulcrum), rig, basis)
+    return Aim(view_cone(rig.models, rig.needle, wanted, fulcrum), rig, basis, assumed)

@@ -18,8 +18,8 @@ from app.views.text import tr
 NOTE_MS = 6000
 """A note that something worked is shown this long."""
 
-REFUSAL, ROBOT = "refusal", "robot"
-"""Topics: the user's last change was refused; no robot can be had."""
+REFUSAL, ROBOT, PAUSE = "refusal", "robot", "pause"
+"""Topics: the user's last change was refused; no robot can be had; the attempt waits."""
 
 LONGEST = 260
 """Characters shown in the bar; the rest stands in the details."""

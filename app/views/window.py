@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QSize, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
 from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
 
 from app import __version__
 from app.core.errors import AcusError
+from app.core.events import Event
 from app.exercises.schema import Exercise
 from app.imaging.window import WindowLevel
+from app.session.pauses import PAUSED_WORDS
 from app.session.result import AttemptResult
 from app.views.cameras.desk import CamerasDesk
 from app.views.checks.desk import ChecksDesk
@@ -20,7 +22,7 @@ from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.sessions import SessionsPage
 from app.views.menus import Menus
-from app.views.message_bar import REFUSAL, ROBOT, MessageBar
+from app.views.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar
 from app.views.notices import Notices
 from app.views.open_ct import OpenCt
 from app.views.patient import Patient
@@ -37,6 +39,7 @@ from app.views.text import disclaimer, tr
 from app.views.workspace import Workspace
 
 SMALLEST = (1180, 700)
+PREFERRED = (1400, 900)
 
 PAINTED_MS = 50
 """This long after it is shown the window is painted, and heavy parts may load."""
@@ -237,6 +240,7 @@ class MainWindow(QMainWindow):
         controller.began.connect(lambda _: self.menus.bullseye.setChecked(True))
         controller.began.connect(lambda _: self.workspace.show_exercise())
         controller.finished.connect(self._finished)
+        controller.event_seen.connect(self._tell_pause)
         self.workspace.exercise_panel.exercise_chosen.connect(self.begin_exercise)
         self.start_page.exercise_chosen.connect(self.begin_exercise)
         self.start_page.open_wanted.connect(self.open_ct.ask)
@@ -247,10 +251,18 @@ class MainWindow(QMainWindow):
         self.debrief_page.sessions_requested.connect(self.show_sessions)
         self.sessions_page.closed.connect(self.show_workspace)
 
+    def _tell_pause(self, event: Event) -> None:
+        """Say on every page that the attempt waits, until it goes on or ends."""
+        if event.kind == "pause" and event.message == PAUSED_WORDS:
+            self.message_bar.show_until(PAUSE, event.message)
+        elif event.kind in ("pause", "state", "abort"):
+            self.message_bar.forget(PAUSE)
+
     # --- remembered ---------------------------------------------------------------------------
     def _restore(self) -> None:
         self.setMinimumSize(*SMALLEST)
-        self.resize(1400, 900)
+        wanted, available = QSize(*PREFERRED), self.screen().availableGeometry().size()
+        self.resize(wanted.boundedTo(available))
         geometry = self.settings.value("window/geometry")
         if geometry is not None:
             self.restoreGeometry(geometry)

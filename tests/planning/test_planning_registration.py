@@ -309,3 +309,12 @@ def test_a_saved_check_gives_the_same_figures(tmp_path: Path) -> None:
 def test_an_unknown_plate_names_the_valid_ones() -> None:
     with pytest.raises(ConfigurationError, match="stepped-plate"):
         load_plate("square")
+
+
+def test_a_list_of_points_that_is_no_text_or_not_there_is_named_once(tmp_path):
+    picture = tmp_path / "left01.jpg"
+    picture.write_bytes(b"\xff\xd8\xff\xe0")
+    with pytest.raises(RegistrationError, match="is no text; give a CSV file"):
+        read_points(picture)
+    with pytest.raises(RegistrationError, match=r"No such file or directory$"):
+        read_points(tmp_path / "nope.csv")

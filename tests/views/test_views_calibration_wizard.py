@@ -1,12 +1,16 @@
 """The calibration wizard on rendered pictures, from the board to the history."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
 import pytest
 from board_pictures import board_picture
 from calibration_samples import sample
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QMessageBox
 
 from app.core.transform import RigidTransform
 from app.tracking.calibration.boards import BoardKind, parse_board
@@ -71,7 +75,7 @@ def wizard(application, job, destroy):
     destroy(dialog)
     dialog.show()
     yield dialog
-    dialog.close()
+    dialog.done(0)
 
 
 def titles(wizard: CalibrationWizard) -> list[str]:
@@ -114,6 +118,27 @@ def test_from_pictures_to_a_calibration_in_use(wizard, job, pictures, at_place, 
     assert active is not None
     assert active.world is not None
     assert not wizard.save_page.save.isEnabled()
+
+
+@pytest.mark.parametrize(
+    ("answer", "stays"),
+    [(QMessageBox.StandardButton.Cancel, True), (QMessageBox.StandardButton.Discard, False)],
+)
+def test_escape_does_not_throw_an_unsaved_result_away_unasked(
+    wizard, job, monkeypatch, answer, stays
+) -> None:
+    asked = []
+    monkeypatch.setattr(QMessageBox, "question", lambda *_: asked.append(True) or answer)
+    job.set_result(SimpleNamespace(calibration=sample(load_rig("wide"))))
+    QTest.keyClick(wizard, Qt.Key.Key_Escape)
+    assert asked == [True]
+    assert wizard.isVisible() == stays
+
+
+def test_without_anything_to_lose_the_wizard_closes_unasked(wizard, monkeypatch) -> None:
+    monkeypatch.delattr(QMessageBox, "question")
+    QTest.keyClick(wizard, Qt.Key.Key_Escape)
+    assert not wizard.isVisible()
 
 
 def test_the_history_can_be_undone_and_condemned(wizard, job, settle) -> None:
@@ -242,7 +267,7 @@ def test_live_cameras_are_searched_and_let_go(application, job, cameras, destroy
     assert all(camera.closed for camera in cameras)
     assert len(job.views) >= 2
     assert job.refused == ()
-    dialog.close()
+    dialog.done(0)
 
 
 def test_cameras_that_do_not_open_are_told(application, job, destroy, settle) -> None:

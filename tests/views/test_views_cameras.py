@@ -72,6 +72,18 @@ def test_aiming_lets_the_run_go_shows_the_cone_and_gives_the_cameras_back(
     assert len(services.opened) == 2
 
 
+def test_a_cone_that_nobody_measured_is_not_told_as_seen(running, services, settle, monkeypatch):
+    found = services.aim(None, "icube", None)
+    found.assumed, found.cone.share = True, 1.0
+    monkeypatch.setattr(services, "aim", lambda *_: found)
+    running.menus.cameras.aim.trigger()
+    dialog = running.cameras.dialog
+    assert settle(lambda: "would see 100 %" in dialog.share.text(), 10.0)
+    assert dialog.share.text().startswith("▲")
+    assert dialog.titles[0].text() == "Left: would see 100 %"
+    dialog.reject()
+
+
 def test_a_camera_that_stops_is_said_below_its_darkened_picture(running, services, settle):
     running.cameras.aim()
     preview = running.cameras.dialog.previews[1]

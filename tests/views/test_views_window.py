@@ -9,9 +9,11 @@ from PySide6.QtWidgets import QLabel, QMessageBox, QWidget
 from window_rig import plan
 
 from app.core.disclaimer import DISCLAIMER
+from app.core.events import Event
 from app.imaging import scanning
 from app.imaging.orthogonal import View
 from app.imaging.series import Listing
+from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS
 from app.views.grid import FIVE
 from app.views.needle_overlay import NeedleOverlay
 from app.views.series_dialog import SeriesDialog
@@ -136,6 +138,22 @@ def test_a_click_beside_the_patient_in_3d_is_told(window, patient):
     window.workspace.scene.clicked.emit(np.array([500.0, 0.0, 140.0]), np.array([0.0, 1.0, 0.0]))
     assert window.editor.edit.draft.entry_mm is None
     assert "body" in window.message_bar.text
+
+
+def test_a_pause_is_said_on_every_page_until_the_attempt_goes_on(window):
+    seen = window.conductor.controller.event_seen
+    seen.emit(Event(1.0, "state", "paused", {}))
+    seen.emit(Event(1.0, "pause", PAUSED_WORDS, {}))
+    assert window.message_bar.text == PAUSED_WORDS
+    assert not window.message_bar.isHidden()
+    seen.emit(Event(2.0, "pause", RESUMED_WORDS, {}))
+    assert window.message_bar.isHidden()
+
+
+def test_a_first_window_is_no_larger_than_the_screen(window):
+    screen, least = window.screen().availableGeometry(), window.minimumSize()
+    assert window.width() <= max(screen.width(), least.width())
+    assert window.height() <= max(screen.height(), least.height())
 
 
 def test_window_and_level_are_remembered(services, window, patient, destroy):

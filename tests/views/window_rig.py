@@ -132,7 +132,9 @@ class FakeServices:
             outlines=outlines,
             losses=lambda: ("right loses everything at -30 to 25 mm depth",),
         )
-        return SimpleNamespace(cone=cone, basis="calibration c1", image_size=(640, 480))
+        return SimpleNamespace(
+            cone=cone, basis="calibration c1", assumed=False, image_size=(640, 480)
+        )
 
     def exercises(self):
         return tuple(library().exercises)

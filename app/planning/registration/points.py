@@ -74,8 +74,12 @@ _Row = tuple[str, list[float], float]
 def _from_csv(path: Path) -> list[_Row]:
     try:
         text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise RegistrationError(f"cannot read {path}: {error}") from error
+    except OSError as error:
+        raise RegistrationError(f"cannot read {path}: {error.strerror or error}") from error
+    except UnicodeDecodeError as error:
+        raise RegistrationError(
+            f"{path} is no text; give a CSV file with the header name,x_mm,y_mm,z_mm, or YAML"
+        ) from error
     reader = csv.DictReader(io.StringIO(text), skipinitialspace=True)
     missing = [k for k in ("name", "x_mm", "y_mm", "z_mm") if k not in (reader.fieldnames or ())]
     if missing:

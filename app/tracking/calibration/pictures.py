@@ -29,8 +29,10 @@ def list_pictures(folder: Path, pattern: str = "*") -> list[Path]:
         path for path in folder.glob(pattern) if path.is_file() and path.suffix.lower() in SUFFIXES
     )
     if not found:
+        named = "" if pattern == "*" else f" named {pattern}"
         raise CalibrationError(
-            f"no picture {pattern} in {folder}; files {', '.join(SUFFIXES)} are read"
+            f"no picture{named} in {folder}; choose the folder of the pictures "
+            f"({', '.join(SUFFIXES)} are read)"
         )
     return found
 

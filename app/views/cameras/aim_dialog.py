@@ -66,16 +66,23 @@ class AimDialog(QDialog):
         cone = aim.cone
         for preview, outline in zip(self.previews, cone.outlines, strict=True):
             preview.picture.set_outline(outline, aim.image_size)
-        whole = cone.share >= ENOUGH
-        colour, symbol = theme.VERDICTS["good" if whole else "warning"]
+        good = cone.share >= ENOUGH and not aim.assumed
+        colour, symbol = theme.VERDICTS["good" if good else "warning"]
         self.share.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX}px;")
-        self.share.setText(tr(
-            "{symbol} Both cameras see {share:.0f} % of the needle's cone", symbol=symbol,
-            share=100.0 * cone.share,
-        ))  # fmt: skip
+        words = (
+            tr("{symbol} Standing as designed, both cameras would see {share:.0f} % of the cone")
+            if aim.assumed
+            else tr("{symbol} Both cameras see {share:.0f} % of the needle's cone")
+        )
+        self.share.setText(words.format(symbol=symbol, share=100.0 * cone.share))
         names = (tr("Left"), tr("Right"))
         for title, name, share in zip(self.titles, names, cone.shares, strict=True):
-            title.setText(tr("{name}: sees {share:.0f} %", name=name, share=100.0 * share))
+            sees = (
+                tr("{name}: would see {share:.0f} %")
+                if aim.assumed
+                else tr("{name}: sees {share:.0f} %")
+            )
+            title.setText(sees.format(name=name, share=100.0 * share))
         lines = [tr("Cone of: {basis}.", basis=aim.basis), *cone.losses()]
         self.losses.setText("\n".join(lines))
 
@@ -87,8 +94,8 @@ class AimDialog(QDialog):
     def _lay_out(self) -> None:
         words = QLabel(tr(
             "The green line surrounds every place the marker can be at. It should lie within both "
-            "pictures. The line follows from the calibration: after moving a camera, calibrate "
-            "again."
+            "pictures. The line follows from the calibration, not from the picture: after moving a "
+            "camera, calibrate again."
         ))  # fmt: skip
         for label in (words, self.losses, self.share):
             label.setWordWrap(True)

@@ -88,6 +88,11 @@ class AimPort(Protocol):
         ...
 
     @property
+    def assumed(self) -> bool:
+        """Whether real cameras are taken to stand as designed, never measured."""
+        ...
+
+    @property
     def image_size(self) -> tuple[int, int]:
         """Width, height [px] that the outlines count in."""
         ...

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QListWidget,
     QListWidgetItem,
+    QMessageBox,
     QStackedWidget,
     QVBoxLayout,
     QWidget,
@@ -90,6 +91,11 @@ class CalibrationWizard(QDialog):
             page.enter()
         self._refresh()
 
+    def reject(self) -> None:
+        """Close by Escape or by the window's cross; what is not kept yet is asked about."""
+        if not (self.running or self.job.unsaved) or self._may_go():
+            super().reject()
+
     def done(self, code: int) -> None:
         """Close by any way: what works is stopped, the cameras are let go."""
         self.capture_page.end()
@@ -129,9 +135,20 @@ class CalibrationWizard(QDialog):
     def _go_on(self) -> None:
         here = self.pages.currentIndex()
         if here == len(self.steps) - 1:
-            self.accept()
+            self.reject()
         else:
             self.show_page(here + 1)
+
+    def _may_go(self) -> bool:
+        buttons = QMessageBox.StandardButton
+        answer = QMessageBox.question(
+            self,
+            tr("Unsaved calibration"),
+            tr("Pictures and calibration are not saved and will be lost. Close all the same?"),
+            buttons.Discard | buttons.Cancel,
+            buttons.Cancel,
+        )
+        return answer == buttons.Discard
 
     def _board_changed(self) -> None:
         self.capture_page.forget()

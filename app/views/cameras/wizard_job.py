@@ -56,6 +56,12 @@ class CalibrationJob:
         """Number of views that both cameras have."""
         return sum(None not in views for views in self.views)
 
+    @property
+    def unsaved(self) -> bool:
+        """Whether there is work that closing would lose: views or a result, and nothing kept."""
+        work = self.views or self.result is not None or self.world is not None
+        return bool(work) and self.saved is None
+
     def set_board(self, board: Board) -> None:
         """Take another board: views of the old one count no more."""
         if board != self.board:

@@ -72,7 +72,7 @@ def figures(calibration: StereoCalibration) -> list[tuple[str, str]]:
         )
         rows.append((tr("Pairs held back"), words))
         rows.append((tr("Lengths in them"), tr(
-            "{scale:.4f} ± {sd:.4f} times the true ones", scale=checked.scale,
+            "{scale:.5f} ± {sd:.5f} times the true ones", scale=checked.scale,
             sd=checked.scale_sd)))  # fmt: skip
     return rows
 

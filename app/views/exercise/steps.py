@@ -54,8 +54,11 @@ class Steps(QWidget):
         aborted = self._state is State.ABORTED
         here = self._state is not None and i == self._reached
         done = self._state is not None and (i < self._reached or self._state is State.ENDED)
+        paused = here and self._state is State.PAUSED
         colour = theme.BAD if here and aborted else theme.ACCENT if here or done else theme.BORDER
+        colour = theme.WARNING if paused else colour
         sign = "✖" if here and aborted else "✔" if done else "●" if here else ""
+        sign = "Ⅱ" if paused else sign
         centre = QPointF(box.center().x(), 14)
         painter.setPen(QPen(QColor(colour), 2.5))
         painter.setBrush(QColor(theme.BACKGROUND))
@@ -67,6 +70,7 @@ class Steps(QWidget):
         painter.setFont(_font(painter, theme.SMALL_PX, here))
         painter.setPen(QColor(theme.TEXT if here else theme.TEXT_DIM))
         name = state_word(State.ABORTED) if here and aborted else state_word(state)
+        name = tr("Paused") if paused else name
         top = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
         painter.drawText(box.adjusted(0, 26, 0, 0), top, name)
 

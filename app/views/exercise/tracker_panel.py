@@ -105,7 +105,7 @@ class TrackerPanel(QWidget):
         row.setSpacing(4)
         for name, title, help_ in (
             ("mask", tr("Mask"), tr("Pixels that count as the marker's colour")),
-            ("epipolar", tr("Epipolar"), tr(
+            ("epipolar", tr("Lines"), tr(
                 "Where the marker may lie by what the other camera shows; it should pass through "
                 "the marker")),
             ("region", tr("Region"), tr("Where the marker is looked for in the next picture")),
