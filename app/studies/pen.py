@@ -19,8 +19,9 @@ from app.tracking.optics.rig import CameraProfile
 from app.tracking.pen.board import Marker, MarkerBoard
 from app.tracking.pen.body import PenProfile, TipProfile, load_pen
 from app.tracking.pen.detector import MarkerSighting
+from app.tracking.pen.locator import BoardLocator
 from app.tracking.pen.needle import PenTip, solve_needle
-from app.tracking.pen.pose import BoardLocator, PoseStatus
+from app.tracking.pen.pose import PoseStatus
 from app.tracking.pen.step import PenStep
 from app.tracking.pen.webcam import Webcam
 from app.tracking.simulated.pen import PenRenderer, PenScene, body_pose

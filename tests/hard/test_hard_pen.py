@@ -11,7 +11,8 @@ from app.tracking.fix import FixStatus
 from app.tracking.pen.board import MarkerBoard
 from app.tracking.pen.detector import MarkerSighting
 from app.tracking.pen.edges import measure_squares
-from app.tracking.pen.pose import BoardLocator, PoseStatus
+from app.tracking.pen.locator import BoardLocator
+from app.tracking.pen.pose import PoseStatus
 from app.tracking.simulated.pen import PenScene
 from tests.tracking.pen_rig import (
     BASE,

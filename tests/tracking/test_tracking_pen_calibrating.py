@@ -12,7 +12,8 @@ from app.tracking.confidence import chi_square_quantile
 from app.tracking.errors import CameraError, PenError
 from app.tracking.pen.calibrating import PoseCollector, relative_pose
 from app.tracking.pen.drawing import draw_observation
-from app.tracking.pen.pose import BoardLocator, PoseStatus
+from app.tracking.pen.locator import BoardLocator
+from app.tracking.pen.pose import PoseStatus
 from app.tracking.pen.settings import PenSettings, load_settings, save_pen, save_settings
 from app.tracking.simulated.pen import body_pose
 

@@ -90,7 +90,7 @@ def measure_squares(grey: Grey, corners: FloatArray) -> list[Square | None]:
     lines = _lines(corners)
     for number, reach in enumerate(_REACHES):
         _fit(grey, lines, np.minimum(reach, np.maximum(_CELL * lines.width, 1.0)), number)
-    return [_square(lines, slice(i, i + 4)) for i in range(0, 4 * len(corners), 4)]
+    return _squares(lines)
 
 
 def _lines(corners: FloatArray) -> _Lines:
@@ -185,39 +185,48 @@ def _regress(lines: _Lines, steps: FloatArray) -> None:
     lines.good &= (used >= 0.6 * _SAMPLES) & (np.abs(lines.offset) < 3.0) & (np.abs(slope) < 0.2)
 
 
-def _square(lines: _Lines, edges: slice) -> Square | None:
+def _squares(lines: _Lines) -> list[Square | None]:
     """Intersect neighbouring lines; J carries offset and slope of all four to the corners."""
-    if not lines.good[edges].all():
-        return None
-    direction = lines.along[edges] + lines.slope[edges, None] * lines.normal[edges]
+    direction = lines.along + lines.slope[:, None] * lines.normal
     direction /= np.linalg.norm(direction, axis=1)[:, None]
     normals = np.column_stack([direction[:, 1], -direction[:, 0]])
-    middle = (
-        lines.start[edges]
-        + 0.5 * lines.length[edges, None] * lines.along[edges]
-        + lines.offset[edges, None] * lines.normal[edges]
-    )
+    middle = lines.start + 0.5 * lines.length[:, None] * lines.along
+    middle += lines.offset[:, None] * lines.normal
     offsets = (normals * middle).sum(axis=1)
-    corners, jacobian = np.empty((4, 2)), np.zeros((8, 8))
+    # Corner i of a square lies where edge i - 1 meets edge i.
+    before = np.arange(len(offsets)).reshape(-1, 4)[:, [3, 0, 1, 2]].ravel()
+    (a, b), (c, d) = normals[before].T, normals.T
+    determinant = a * d - b * c
+    good = (lines.good & (np.abs(determinant) >= _PARALLEL)).reshape(-1, 4).all(axis=1)
+    scale = 1.0 / np.where(np.abs(determinant) >= _PARALLEL, determinant, 1.0)
+    by_before, by_own = np.column_stack([d, -c]), np.column_stack([-b, a])
+    by_before, by_own = by_before * scale[:, None], by_own * scale[:, None]
+    corners = by_before * offsets[before, None] + by_own * offsets[:, None]
+    place_before = ((corners - middle[before]) * lines.along[before]).sum(axis=1)
+    place_own = ((corners - middle) * lines.along).sum(axis=1)
+    jacobian = np.zeros((len(good), 4, 2, 4, 2))  # square, corner, xy, edge, offset or slope
     for i in range(4):
-        pair = [i - 1 if i else 3, i]
-        if abs(np.linalg.det(normals[pair])) < _PARALLEL:
-            return None
-        inverse = np.linalg.inv(normals[pair])
-        corners[i] = inverse @ offsets[pair]
-        for column, k in enumerate(pair):
-            place = (corners[i] - middle[k]) @ lines.along[edges][k]
-            jacobian[2 * i : 2 * i + 2, 2 * k] = inverse[:, column]
-            jacobian[2 * i : 2 * i + 2, 2 * k + 1] = inverse[:, column] * place
-    covariance = (jacobian * _line_variances(lines, edges)) @ jacobian.T
-    return Square(read_only(corners), read_only(covariance))
+        own = slice(i, None, 4)
+        jacobian[:, i, :, i - 1, 0] = by_before[own]
+        jacobian[:, i, :, i - 1, 1] = by_before[own] * place_before[own, None]
+        jacobian[:, i, :, i, 0] = by_own[own]
+        jacobian[:, i, :, i, 1] = by_own[own] * place_own[own, None]
+    jacobian = jacobian.reshape(-1, 8, 8)
+    covariances = (jacobian * _line_variances(lines)[:, None, :]) @ jacobian.transpose(0, 2, 1)
+    return [
+        Square(read_only(square), read_only(covariance)) if fine else None
+        for square, covariance, fine in zip(
+            corners.reshape(-1, 4, 2), covariances, good, strict=True
+        )
+    ]
 
 
-def _line_variances(lines: _Lines, edges: slice) -> FloatArray:
-    """Variances of offset and slope of four edges, their scatter pooled, shape (8,)."""
-    scatter = max(float(lines.scatter[edges].mean()), _FLOOR**2)
-    pixels = lines.length[edges] * (1.0 - 2.0 * _ENDS)
-    shared = np.maximum(1.0, _CORRELATION * lines.used[edges] / np.maximum(pixels, 1.0))
-    offset = scatter * shared / lines.used[edges] + lines.level_share[edges]
-    slope = scatter * shared / lines.spread[edges]
-    return np.column_stack([offset, slope]).ravel()
+def _line_variances(lines: _Lines) -> FloatArray:
+    """Variances of offset and slope of four edges, their scatter pooled, shape (squares, 8)."""
+    pooled = np.maximum(lines.scatter.reshape(-1, 4).mean(axis=1), _FLOOR**2)
+    scatter = np.repeat(pooled, 4)
+    pixels = lines.length * (1.0 - 2.0 * _ENDS)
+    shared = np.maximum(1.0, _CORRELATION * lines.used / np.maximum(pixels, 1.0))
+    offset = scatter * shared / np.maximum(lines.used, 1.0) + lines.level_share
+    slope = scatter * shared / lines.spread
+    return np.stack([offset, slope], axis=-1).reshape(-1, 8)

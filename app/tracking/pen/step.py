@@ -12,8 +12,9 @@ from app.tracking.optics.camera_model import CameraModel
 from app.tracking.pen.board import all_ids
 from app.tracking.pen.body import PenProfile
 from app.tracking.pen.detector import MarkerDetector, Sightings
+from app.tracking.pen.locator import DECISIVE, BoardLocator
 from app.tracking.pen.needle import PenNeedle, PenTip, solve_needle
-from app.tracking.pen.pose import DECISIVE, BoardLocator, BoardPose, PoseStatus
+from app.tracking.pen.pose import BoardPose, PoseStatus
 from app.tracking.pen.webcam import Webcam, guessed_webcam
 
 HOLE = 0.005

@@ -1,0 +1,113 @@
+"""All corners of a board in one picture against a pose: weighted residual, and its minimum."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.transform import RigidTransform
+from app.tracking.optics.camera_model import CameraModel
+from app.tracking.pen.projection import parameter_jacobians, projection_jacobians, skews
+
+_STEPS = 12
+_CONVERGED = 1e-6
+"""Decrease of chi-square still to be expected, below which a pose is as good as it gets."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BoardProblem:
+    """All corners of a board in one picture: points (n, 3) [m], pixels (n, 2), and weights."""
+
+    model: CameraModel
+    points: FloatArray
+    pixels: FloatArray
+    covariances: FloatArray  # (markers, 8, 8) [px²]
+    build_sd: float
+
+    def evaluate(self, T: RigidTransform) -> tuple[FloatArray, FloatArray, FloatArray] | None:
+        """Whitened residual (2n,), whitened Jacobian (2n, 6) and bare residual; None outside."""
+        p_camera = T @ self.points
+        uv, ok = self.model.project_camera(p_camera)
+        if not ok.all():
+            return None
+        by_point = projection_jacobians(self.model, p_camera)
+        jacobian = np.concatenate([by_point, -by_point @ skews(p_camera)], axis=2)
+        residual = (self.pixels - uv).reshape(-1, 8)
+        whiten = self._whitening(by_point)
+        white = np.einsum("mij,mj->mi", whiten, residual).ravel()
+        slopes = np.einsum("mij,mjk->mik", whiten, jacobian.reshape(-1, 8, 6)).reshape(-1, 6)
+        return white, slopes, residual.ravel()
+
+    def by_parameters(self, T: RigidTransform) -> FloatArray:
+        """Whitened derivative of the pixels with the camera's parameters, (2n, 9)."""
+        p_camera = T @ self.points
+        by_point = projection_jacobians(self.model, p_camera)
+        slopes = parameter_jacobians(self.model, p_camera).reshape(-1, 8, 9)
+        return np.einsum("mij,mjk->mik", self._whitening(by_point), slopes).reshape(-1, 9)
+
+    def _whitening(self, by_point: FloatArray) -> FloatArray:
+        """Inverse Cholesky factors of the corners' covariance with what the print adds."""
+        built = self.build_sd**2 * by_point @ by_point.transpose(0, 2, 1)
+        total = self.covariances.copy()
+        for k in range(4):
+            total[:, 2 * k : 2 * k + 2, 2 * k : 2 * k + 2] += built[k::4]
+        return np.linalg.inv(np.linalg.cholesky(total))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Minimum:
+    """A pose that fits best among its neighbours.
+
+    Attributes:
+        pose: T_camera_board.
+        cost: chi-square of the residual.
+        normal: normal matrix of the twist, shape (6, 6).
+        slopes: whitened Jacobian, shape (2n, 6).
+        residual_px: root mean square of the residual per axis [px].
+    """
+
+    pose: RigidTransform
+    cost: float
+    normal: FloatArray
+    slopes: FloatArray
+    residual_px: float
+
+
+def refine(problem: BoardProblem, pose: RigidTransform) -> Minimum | None:
+    """Levenberg-Marquardt on the twist; None if it runs out of the picture or is singular."""
+    found = problem.evaluate(pose)
+    if found is None:
+        return None
+    damping = 1e-6
+    for _ in range(_STEPS):
+        white, slopes, _ = found
+        normal, gradient = slopes.T @ slopes, slopes.T @ white
+        if not np.isfinite(normal).all():
+            return None
+        damped = normal + damping * np.diag(np.diag(normal))
+        try:
+            step = np.linalg.solve(damped, gradient)
+        except np.linalg.LinAlgError:
+            return None
+        if step @ gradient < _CONVERGED:
+            break
+        if np.linalg.norm(step[3:]) > 1.0:
+            damping = max(10.0 * damping, 1e-3)
+            continue
+        tried = RigidTransform.exp(step) @ pose
+        after = problem.evaluate(tried)
+        if after is None or after[0] @ after[0] > white @ white:
+            damping = max(10.0 * damping, 1e-3)
+            continue
+        pose, found, damping = tried, after, 0.1 * damping
+    white, slopes, bare = found
+    normal = slopes.T @ slopes
+    if np.linalg.cond(normal) > 1e15:
+        return None
+    rms = float(np.sqrt(np.mean(bare**2)))
+    return Minimum(pose, float(white @ white), normal, slopes, rms)
+
+
+def angle_between(first: RigidTransform, second: RigidTransform) -> float:
+    """Angle between two poses' rotations [rad]."""
+    return float(np.linalg.norm((first @ second.inverse()).log()[3:]))
