@@ -11,6 +11,12 @@ from app.tracking.cameras.camera import Image
 from app.tracking.pen.board import aruco_dictionary
 from app.tracking.pen.edges import Grey, measure_squares
 
+Region = tuple[slice, slice]
+"""Rows and columns of a picture."""
+
+_HALVED_FROM = 960
+"""Width [px] from which a whole picture is searched at half its resolution."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MarkerSighting:
@@ -45,6 +51,11 @@ class Sightings:
     mirrored: bool = False
 
 
+def grey_of(image: Image) -> Grey:
+    """Brightness of a picture, uint8 (height, width); a grey one is handed back."""
+    return image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+
+
 class MarkerDetector:
     """Finds the markers of one dictionary; not for two threads at once.
 
@@ -65,19 +76,27 @@ class MarkerDetector:
         self._detector = cv2.aruco.ArucoDetector(aruco_dictionary(dictionary), parameters)
 
     def find(
-        self, image: Image, wanted: set[int], many: frozenset[int] = frozenset(), enough: int = 8
+        self,
+        image: Image,
+        wanted: set[int],
+        many: frozenset[int] = frozenset(),
+        enough: int = 8,
+        region: Region | None = None,
     ) -> Sightings:
         """Return the markers of the wanted ids; an empty result also says if mirroring helps.
 
         Args:
-            image: blue, green, red.
+            image: blue, green, red, or grey.
             wanted: ids to look for.
             many: ids of which about `enough`, spread over their order, are measured: more of one
                 sheet cost time and gain little.
             enough: see `many`.
+            region: where to look; None looks everywhere.
         """
-        grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
-        squares = self._squares(grey, wanted)
+        grey = grey_of(image)
+        squares = self._squares(grey, wanted, region)
+        if not squares and region is not None:
+            return Sightings(())
         if not squares:
             flipped = self._squares(np.ascontiguousarray(grey[:, ::-1]), wanted)
             return Sightings((), mirrored=len(flipped) >= 2)
@@ -99,12 +118,21 @@ class MarkerDetector:
                 markers.append(MarkerSighting(number, square.corners, square.covariance))
         return Sightings(tuple(markers), doubles, tuple(sorted(unmeasured)))
 
-    def _squares(self, grey: Grey, wanted: set[int]) -> list[tuple[int, FloatArray]]:
-        corners, ids, _ = self._detector.detectMarkers(grey)
+    def _squares(
+        self, grey: Grey, wanted: set[int], region: Region | None = None
+    ) -> list[tuple[int, FloatArray]]:
+        part, scale, shift = grey, 1.0, np.zeros(2)
+        if region is not None:
+            part = np.ascontiguousarray(grey[region])
+            shift = np.array([region[1].start, region[0].start], dtype=np.float64)
+        elif grey.shape[1] >= _HALVED_FROM:
+            part = cv2.resize(grey, None, fx=0.5, fy=0.5, interpolation=cv2.INTER_AREA)
+            scale, shift = 2.0, np.full(2, 0.5)
+        corners, ids, _ = self._detector.detectMarkers(part)
         if ids is None:
             return []
         return [
-            (int(number), np.asarray(found, dtype=np.float64).reshape(4, 2))
+            (int(number), scale * np.asarray(found, dtype=np.float64).reshape(4, 2) + shift)
             for number, found in zip(np.ravel(ids), corners, strict=True)
             if int(number) in wanted
         ]

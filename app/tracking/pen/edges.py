@@ -211,8 +211,8 @@ def _squares(lines: _Lines) -> list[Square | None]:
         jacobian[:, i, :, i - 1, 1] = by_before[own] * place_before[own, None]
         jacobian[:, i, :, i, 0] = by_own[own]
         jacobian[:, i, :, i, 1] = by_own[own] * place_own[own, None]
-    jacobian = jacobian.reshape(-1, 8, 8)
-    covariances = (jacobian * _line_variances(lines)[:, None, :]) @ jacobian.transpose(0, 2, 1)
+    by_lines = jacobian.reshape(-1, 8, 8)
+    covariances = (by_lines * _line_variances(lines)[:, None, :]) @ by_lines.transpose(0, 2, 1)
     return [
         Square(read_only(square), read_only(covariance)) if fine else None
         for square, covariance, fine in zip(

@@ -29,6 +29,9 @@ _SAME = 0.01
 _BESIDE = 0.05
 """Angle [rad] from a known minimum within which a start would only lead there."""
 
+_ONE_PLANE = 0.99
+"""Cosine between two faces' normals above which they are one plane."""
+
 _GATE = 1e-6
 """Probability with which a good picture is refused by the check of its residual."""
 
@@ -63,23 +66,29 @@ class BoardLocator:
     def follow(
         self, model: CameraModel, sightings: Sequence[MarkerSighting], last: BoardPose
     ) -> BoardPose | None:
-        """Pose near a known one that shows the same markers, at a fraction of `locate`'s cost.
+        """Pose near a known one, at a fraction of `locate`'s cost.
 
-        The other minimum is not looked for: `last.lead` says how far it was behind.
+        The other minimum is not looked for. With the same markers `last.lead` says how far it was
+        behind; markers in two planes have no other that explains them.
 
         Returns:
-            None where only `locate` can tell: other markers, or a residual too large.
+            None where only `locate` can tell: another marker alone, or a residual too large.
         """
         pairs = self._pairs(sightings)
-        if _ids(pairs) != last.ids or last.status is not PoseStatus.FOUND:
+        if not pairs or last.status is not PoseStatus.FOUND:
             return None
+        ids, lead = _ids(pairs), last.lead
+        if ids != last.ids:
+            if all(marker.normal @ pairs[0][0].normal > _ONE_PLANE for marker, _ in pairs):
+                return None
+            lead = float("inf")
         problem = self._problem(model, pairs)
         found = refine(problem, last.T_camera_board)
         if found is None or not _fronts_seen(found.pose, pairs):
             return None
         if found.cost > chi_square_quantile(1.0 - _GATE, 2 * len(problem.points) - 6):
             return None
-        return _found(problem, found, last.ids, last.tilt_apart, 1.0, last.lead)
+        return _found(problem, found, ids, last.tilt_apart, 1.0, lead)
 
     def _pairs(self, sightings: Sequence[MarkerSighting]) -> list[tuple[Marker, MarkerSighting]]:
         found = [(self.board.find(s.id), s) for s in sightings]

@@ -10,8 +10,26 @@ from app.tracking.optics.camera_model import CameraModel
 from app.tracking.pen.projection import parameter_jacobians, projection_jacobians, skews
 
 _STEPS = 12
-_CONVERGED = 1e-6
+_ROUNDS = 3
+_CONVERGED = 1e-9
 """Decrease of chi-square still to be expected, below which a pose is as good as it gets."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Evaluated:
+    """A pose held against the corners.
+
+    Attributes:
+        white: whitened residual, shape (2n,).
+        slopes: whitened Jacobian by the twist, shape (2n, 6).
+        bare: residual [px], shape (2n,).
+        whiten: inverse Cholesky factors of the corners' covariances, shape (markers, 8, 8).
+    """
+
+    white: FloatArray
+    slopes: FloatArray
+    bare: FloatArray
+    whiten: FloatArray
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,8 +42,13 @@ class BoardProblem:
     covariances: FloatArray  # (markers, 8, 8) [px²]
     build_sd: float
 
-    def evaluate(self, T: RigidTransform) -> tuple[FloatArray, FloatArray, FloatArray] | None:
-        """Whitened residual (2n,), whitened Jacobian (2n, 6) and bare residual; None outside."""
+    def evaluate(self, T: RigidTransform, whiten: FloatArray | None = None) -> Evaluated | None:
+        """Whitened residual and Jacobian at a pose; None outside of the picture.
+
+        Args:
+            T: T_camera_board.
+            whiten: `Evaluated.whiten` of a pose nearby, which saves its computation.
+        """
         p_camera = T @ self.points
         uv, ok = self.model.project_camera(p_camera)
         if not ok.all():
@@ -33,10 +56,11 @@ class BoardProblem:
         by_point = projection_jacobians(self.model, p_camera)
         jacobian = np.concatenate([by_point, -by_point @ skews(p_camera)], axis=2)
         residual = (self.pixels - uv).reshape(-1, 8)
-        whiten = self._whitening(by_point)
+        if whiten is None:
+            whiten = self._whitening(by_point)
         white = np.einsum("mij,mj->mi", whiten, residual).ravel()
         slopes = np.einsum("mij,mjk->mik", whiten, jacobian.reshape(-1, 8, 6)).reshape(-1, 6)
-        return white, slopes, residual.ravel()
+        return Evaluated(white, slopes, residual.ravel(), whiten)
 
     def by_parameters(self, T: RigidTransform) -> FloatArray:
         """Whitened derivative of the pixels with the camera's parameters, (2n, 9)."""
@@ -74,38 +98,51 @@ class Minimum:
 
 
 def refine(problem: BoardProblem, pose: RigidTransform) -> Minimum | None:
-    """Levenberg-Marquardt on the twist; None if it runs out of the picture or is singular."""
+    """Levenberg-Marquardt on the twist; None if it runs out of the picture or is singular.
+
+    The weights are those of the start until it has converged, then those of the pose found.
+    """
     found = problem.evaluate(pose)
+    for _ in range(_ROUNDS):
+        if found is None:
+            return None
+        start = pose
+        pose = _descend(problem, pose, found)
+        if pose is start:
+            break
+        found = problem.evaluate(pose)
     if found is None:
         return None
+    normal = found.slopes.T @ found.slopes
+    if not np.isfinite(normal).all() or np.linalg.cond(normal) > 1e15:
+        return None
+    rms = float(np.sqrt(np.mean(found.bare**2)))
+    return Minimum(pose, float(found.white @ found.white), normal, found.slopes, rms)
+
+
+def _descend(problem: BoardProblem, pose: RigidTransform, found: Evaluated) -> RigidTransform:
+    """Pose of least cost from `pose` on, with the weights of `found`; the same one if it is."""
     damping = 1e-6
     for _ in range(_STEPS):
-        white, slopes, _ = found
-        normal, gradient = slopes.T @ slopes, slopes.T @ white
+        normal, gradient = found.slopes.T @ found.slopes, found.slopes.T @ found.white
         if not np.isfinite(normal).all():
-            return None
-        damped = normal + damping * np.diag(np.diag(normal))
+            break
         try:
-            step = np.linalg.solve(damped, gradient)
+            step = np.linalg.solve(normal + damping * np.diag(np.diag(normal)), gradient)
         except np.linalg.LinAlgError:
-            return None
+            break
         if step @ gradient < _CONVERGED:
             break
         if np.linalg.norm(step[3:]) > 1.0:
             damping = max(10.0 * damping, 1e-3)
             continue
         tried = RigidTransform.exp(step) @ pose
-        after = problem.evaluate(tried)
-        if after is None or after[0] @ after[0] > white @ white:
+        after = problem.evaluate(tried, found.whiten)
+        if after is None or after.white @ after.white > found.white @ found.white:
             damping = max(10.0 * damping, 1e-3)
             continue
         pose, found, damping = tried, after, 0.1 * damping
-    white, slopes, bare = found
-    normal = slopes.T @ slopes
-    if np.linalg.cond(normal) > 1e15:
-        return None
-    rms = float(np.sqrt(np.mean(bare**2)))
-    return Minimum(pose, float(white @ white), normal, slopes, rms)
+    return pose
 
 
 def angle_between(first: RigidTransform, second: RigidTransform) -> float:

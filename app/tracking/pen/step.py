@@ -11,7 +11,8 @@ from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.pen.board import all_ids
 from app.tracking.pen.body import PenProfile
-from app.tracking.pen.detector import MarkerDetector, Sightings
+from app.tracking.pen.detector import MarkerDetector, Sightings, grey_of
+from app.tracking.pen.following import BoardFollower, Memory
 from app.tracking.pen.locator import DECISIVE, BoardLocator
 from app.tracking.pen.needle import PenNeedle, PenTip, solve_needle
 from app.tracking.pen.pose import BoardPose, PoseStatus
@@ -47,7 +48,10 @@ class PenObservation:
 
 
 class PenStep:
-    """Everything that is known about pen, sheet and lens; no memory but the guessed lens.
+    """Everything that is known about pen, sheet and lens, and where they were in the last picture.
+
+    Pictures are taken in the order of their times; the memory only saves time, and one that is half
+    a second old, or of another order, is dropped. Not for two threads at once.
 
     Args:
         pen: profile.
@@ -64,8 +68,10 @@ class PenStep:
         body, base = pen.body.board(), pen.base.board()
         self._wanted = all_ids((body, base))
         self._sheet = frozenset(marker.id for marker in base.markers)
-        self._body = BoardLocator(body, pen.systematic_px)
-        self._base = BoardLocator(base, pen.systematic_px)
+        self._own = {marker.id for marker in body.markers}
+        self._body = BoardFollower(BoardLocator(body, pen.systematic_px))
+        self._base = BoardFollower(BoardLocator(base, pen.systematic_px))
+        self._memory = Memory()
         self._detector = MarkerDetector(body.dictionary)
 
     def look(self, frame: Frame) -> PenObservation:
@@ -78,12 +84,10 @@ class PenStep:
         webcam = self.webcam or guessed_webcam((width, height))
         webcam.require_size((width, height))
         self.webcam, model = webcam, webcam.model
-        sightings = self._detector.find(frame.image, self._wanted, self._sheet)
-        body = self._body.locate(model, sightings.markers)
-        base = self._base.locate(model, sightings.markers)
+        sightings, body, base = self._poses(frame, model)
         if body.either and base.status is PoseStatus.FOUND:
             body = self._through_the_entry(body, base, webcam)
-        status, reason = _status(sightings, body, base, self._body.board.name, self._ids())
+        status, reason = _status(sightings, body, base, self._body.board.name, self._own)
         if status is not FixStatus.VALID:
             return self._without(frame.time, status, reason, sightings, body, base, model)
         needle = solve_needle(body, base, self.T_world_base, self.tip, webcam.parameter_covariance)
@@ -95,6 +99,26 @@ class PenStep:
             float(np.hypot(body.residual_px, base.residual_px)), depth, variance, has_point=True,
         )  # fmt: skip
         return PenObservation(fix, sightings, body, base, model, needle, beside, beside_sd)
+
+    def _poses(self, frame: Frame, model: CameraModel) -> tuple[Sightings, BoardPose, BoardPose]:
+        """Find both boards: round the last find if that will do, in the whole picture if not."""
+        grey, memory = grey_of(frame.image), self._memory
+        region = memory.region(frame.time, grey)
+        if region is not None and memory.base is not None:
+            found = self._detector.find(grey, self._own, region=region)
+            body = self._body.locate(model, found.markers)
+            if (body.status is PoseStatus.FOUND or body.either) and not found.doubles:
+                memory.keep(grey, model, self._body.board, body, full=False)
+                return memory.with_sheet(found), body, memory.base
+        if memory.fresh:
+            self._body.forget()
+            self._base.forget()
+        found = self._detector.find(grey, self._wanted, self._sheet)
+        body = self._body.locate(model, found.markers)
+        base = self._base.locate(model, found.markers)
+        memory.keep_sheet(grey, found, self._own, base)
+        memory.keep(grey, model, self._body.board, body, full=True)
+        return found, body, base
 
     def _through_the_entry(self, body: BoardPose, base: BoardPose, webcam: Webcam) -> BoardPose:
         """Of two poses that look the same the one whose shaft goes through the hole, if one does.
@@ -117,9 +141,6 @@ class PenStep:
             and needles[best].axis[2] < 0.0
         )
         return body.either[best] if certain else body
-
-    def _ids(self) -> set[int]:
-        return {marker.id for marker in self._body.board.markers}
 
     def _without(
         self,

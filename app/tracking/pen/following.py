@@ -1,0 +1,141 @@
+"""What one picture tells about where to look in the next one.
+
+While both are followed, markers are searched for in a region round the cube only, its pose
+is refined from the last one, and the sheet's pose is kept as long as the webcam stands still. At
+least every `FULL_EVERY` pictures, and whenever any of this fails, the whole picture is searched: so
+a second cube, a moved sheet or a wrong one of two poses is seen within a third of a second.
+"""
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.tracking.optics.camera_model import CameraModel
+from app.tracking.pen.board import MarkerBoard
+from app.tracking.pen.detector import MarkerSighting, Region, Sightings
+from app.tracking.pen.edges import Grey
+from app.tracking.pen.locator import DECISIVE, BoardLocator
+from app.tracking.pen.pose import BoardPose, PoseStatus
+from app.tracking.pen.problem import angle_between
+from app.tracking.pen.stillness import STILL_PX, Stillness
+
+FULL_EVERY = 10
+"""Pictures of which at least one is searched as a whole."""
+
+_OLD = 0.5
+"""Time [s] between two pictures from which the first says nothing about the second."""
+
+_CERTAIN = 8.0 * DECISIVE
+"""Lead of the better of two poses with which the other one need not be looked for each time."""
+
+_TURN = 0.35
+"""Turn [rad] since both poses were compared, from which they are compared again."""
+
+_MARGIN = 0.6
+"""Rim of the region, in lengths of the cube's picture."""
+
+
+class BoardFollower:
+    """Pose of one board from picture to picture; not for two threads at once.
+
+    Args:
+        locator: of the board.
+    """
+
+    def __init__(self, locator: BoardLocator) -> None:
+        self.board = locator.board
+        self._locator = locator
+        self._last: BoardPose | None = None
+        self._compared: BoardPose | None = None
+
+    def forget(self) -> None:
+        """Begin anew."""
+        self._last = self._compared = None
+
+    def locate(self, model: CameraModel, markers: tuple[MarkerSighting, ...]) -> BoardPose:
+        """Pose in the next picture; as `BoardLocator.locate` finds it."""
+        found = self._near(model, markers)
+        if found is None:
+            found = self._locator.locate(model, markers)
+            certain = found.status is PoseStatus.FOUND and found.lead > _CERTAIN
+            self._compared = found if certain else None
+        self._last = found
+        return found
+
+    def _near(self, model: CameraModel, markers: tuple[MarkerSighting, ...]) -> BoardPose | None:
+        if self._last is None or self._compared is None:
+            return None
+        found = self._locator.follow(model, markers, self._last)
+        if found is None:
+            return None
+        turn = angle_between(found.T_camera_board, self._compared.T_camera_board)
+        return found if turn < _TURN else None
+
+
+class Memory:
+    """What is kept of the last pictures."""
+
+    def __init__(self) -> None:
+        self._time = -np.inf
+        self._since_full = 0
+        self._region: Region | None = None
+        self._still: Stillness | None = None
+        self._sheet: tuple[MarkerSighting, ...] = ()
+        self.base: BoardPose | None = None
+
+    def region(self, time: float, grey: Grey) -> Region | None:
+        """Where to look for the cube; None if the whole picture has to be searched."""
+        known = 0.0 < time - self._time < _OLD
+        self._time = time
+        if not known:
+            self._region = None
+        if self._region is None or self._still is None:
+            return None
+        if self._since_full + 1 >= FULL_EVERY or self._still.moved(grey) > STILL_PX:
+            return None
+        return self._region
+
+    @property
+    def fresh(self) -> bool:
+        """Whether nothing is known."""
+        return self._region is None
+
+    def with_sheet(self, found: Sightings) -> Sightings:
+        """Sightings of the cube, and those of the sheet as they were."""
+        return Sightings(found.markers + self._sheet, found.doubles, found.unmeasured)
+
+    def keep(
+        self, grey: Grey, model: CameraModel, board: MarkerBoard, body: BoardPose, full: bool
+    ) -> None:
+        """Take what a picture said of the cube; `full`: the whole picture was searched."""
+        self._since_full = 0 if full else self._since_full + 1
+        self._region = _region_of(grey, model, board, body)
+
+    def keep_sheet(self, grey: Grey, found: Sightings, own: set[int], base: BoardPose) -> None:
+        """Take what a whole picture said of the sheet."""
+        self._sheet = tuple(marker for marker in found.markers if marker.id not in own)
+        self.base, self._still = base, None
+        if base.status is PoseStatus.FOUND:
+            corners = np.concatenate([marker.corners for marker in self._sheet])
+            self._still = Stillness(grey, corners)
+
+
+def _region_of(
+    grey: Grey, model: CameraModel, board: MarkerBoard, body: BoardPose
+) -> Region | None:
+    """Rows and columns that all of the cube's faces take, with a rim for its motion."""
+    if body.either:
+        body = body.either[0]
+    if body.status is not PoseStatus.FOUND:
+        return None
+    corners: FloatArray = np.concatenate([marker.corners for marker in board.markers])
+    uv, ok = model.project_camera(body.T_camera_board @ corners)
+    if not ok.all():
+        return None
+    low, high = uv.min(axis=0), uv.max(axis=0)
+    rim = _MARGIN * float((high - low).max())
+    limit = np.array(grey.shape[::-1])
+    first = np.clip(np.floor(low - rim), 0, limit).astype(int)
+    last = np.clip(np.ceil(high + rim), 0, limit).astype(int)
+    if (last - first < 16).any():
+        return None
+    return slice(int(first[1]), int(last[1])), slice(int(first[0]), int(last[0]))
