@@ -47,12 +47,18 @@ def mono(
     board: BoardSpec = DEFAULT,
     hold_back: HoldBack = None,
     window: Window = None,
+    out: Out = None,
     as_json: AsJson = False,
 ) -> None:
-    """Calibrate one camera, or each of two whose names stand in the pictures' names."""
+    """Calibrate one camera, or each of two whose names stand in the pictures' names.
+
+    With --out one camera's lens is written, as `acus pen calibrate --lens` and `pen.yaml` take it.
+    """
     from app.commands.calibrate import with_progress
     from app.commands.calibrate_report import mono_document, mono_lines
+    from app.core.errors import ConfigurationError
     from app.tracking.calibration.boards import parse_board
+    from app.tracking.calibration.formats.own import save_camera
     from app.tracking.calibration.pairing import cameras_of
     from app.tracking.calibration.pictures import list_pictures
     from app.tracking.calibration.sets import mono_set
@@ -69,7 +75,15 @@ def mono(
             for i, (name, paths) in enumerate(groups.items())
         ]
 
+    if out is not None and len(groups) != 1:
+        raise ConfigurationError(
+            f"--out takes the lens of one camera; these pictures are of {', '.join(groups)}: "
+            "give a folder for each, or use `acus calibrate stereo`"
+        )
     found = with_progress(work, as_json)
+    if out is not None:
+        save_camera(out, found[0].result.calibration)
+        typer.echo(f"wrote {out}", err=True)
     if as_json:
         document = {"board": known.spec, "cameras": [mono_document(one) for one in found]}
         typer.echo(json.dumps(document, indent=2))

@@ -72,10 +72,22 @@ def calibrate(
         Path | None, typer.Option(help="Calibration of the webcam's lens; default: remembered.")
     ] = None,
     seconds: Annotated[float, typer.Option(min=1.0, help="How long to look at most.")] = 60.0,
+    roll: Annotated[
+        str | None,
+        typer.Option(
+            metavar="SOURCE",
+            help="Then measure the shaft: the webcam again, or pictures of the pen being rolled "
+            "about itself in a groove (usb:0, folder:PATH).",
+        ),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="JSON instead of text.")] = False,
 ) -> None:
-    """Measure the tip: stand it in a dimple before the webcam and rock the pen to every side."""
-    from app.compose.pen_calibration import calibrate_pen
+    """Measure the tip: stand it in a dimple before the webcam and rock the pen to every side.
+
+    With --roll the shaft's direction is measured too: lay the pen into a groove and roll it by a
+    quarter turn or more. Without, the shaft is taken to run through the middle of the cube.
+    """
+    from app.compose.pen_calibration import calibrate_pen, measure_shaft
     from app.tracking.pen.settings import load_settings, save_pen, save_settings, with_source
 
     settings = load_settings().model_copy(update={"pen": pen})
@@ -83,7 +95,14 @@ def calibrate(
     settings = settings if lens is None else settings.model_copy(update={"calibration": lens})
     if not as_json:
         typer.echo("stand the tip in a dimple on the sheet and rock the pen to every side …")
-    found = calibrate_pen(settings, seconds, lambda text: typer.echo(text, err=True))
+
+    def tell(text: str) -> None:
+        typer.echo(text, err=True)
+
+    found = calibrate_pen(settings, seconds, tell)
+    if roll is not None:
+        tell("now lay the pen into a groove and roll it about itself by a quarter turn or more …")
+        found = measure_shaft(with_source(settings, roll), found, seconds, tell)
     path = save_pen(found.pen)
     save_settings(settings)
     if as_json:
@@ -94,6 +113,7 @@ def calibrate(
             "poses": found.tip.poses,
             "left_out": found.tip.left_out,
             "axis_sd_deg": found.axis.sd_deg,
+            "axis_by": found.axis.source,
             "file": str(path),
         }
         typer.echo(json.dumps(document, indent=2))

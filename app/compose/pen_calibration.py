@@ -38,10 +38,46 @@ def calibrate_pen(
     """
     if settings.simulated:
         raise PenError("a simulated pen has no tip to measure; give --source usb:0")
-    time = clock or SystemClock()
-    pen = settings.profile()
-    step = PenStep(pen, settings.webcam(), load_profile("icube").pantograph.fulcrum)
-    collector, said = PoseCollector(), ""
+    pen, collector = settings.profile(), PoseCollector()
+    _collect(settings, collector, seconds, tell, clock)
+    return collector.finish(pen)
+
+
+def measure_shaft(
+    settings: PenSettings,
+    found: PenCalibration,
+    seconds: float,
+    tell: Callable[[str], None],
+    clock: Clock | None = None,
+) -> PenCalibration:
+    """Look at the pen being rolled about itself; return the calibration with the shaft measured.
+
+    Args:
+        settings: source of these pictures, and pen.
+        found: tip, as rocking gave it.
+        seconds: at most.
+        tell: takes a line now and then.
+        clock: for the time.
+
+    Raises:
+        PenError: if the pictures do not tell the shaft; says what to do.
+        CameraError: if the webcam cannot be used.
+    """
+    collector = PoseCollector()
+    _collect(settings, collector, seconds, tell, clock)
+    return collector.finish_rolling(found)
+
+
+def _collect(
+    settings: PenSettings,
+    collector: PoseCollector,
+    seconds: float,
+    tell: Callable[[str], None],
+    clock: Clock | None,
+) -> None:
+    time, said = clock or SystemClock(), ""
+    fulcrum = load_profile("icube").pantograph.fulcrum
+    step = PenStep(settings.profile(), settings.webcam(), fulcrum)
     for frame in _frames(settings, seconds, time):
         seen = step.look(frame)
         kept = collector.add(seen)
@@ -53,7 +89,6 @@ def calibrate_pen(
             break
     if step.webcam is not None and step.webcam.guessed:
         tell(step.webcam.words)
-    return collector.finish(pen)
 
 
 def _frames(settings: PenSettings, seconds: float, time: Clock) -> Iterator[Frame]:

@@ -39,8 +39,10 @@ def test_a_simulated_pen_an_unknown_one_and_a_source_that_cannot_be_read_are_ref
         acus("calibrate", "--source", "phone")
 
 
-def test_pictures_of_a_rocked_pen_give_its_tip(tmp_path):
+def test_pictures_of_a_rocked_and_rolled_pen_give_its_tip_and_its_shaft(tmp_path):
     model, tip = camera(), np.array([0.001, -0.001, 0.172])
+    shaft = tip / np.linalg.norm(tip) + np.array([0.02, -0.01, 0.0])  # not through the middle
+    shaft /= np.linalg.norm(shaft)
     draw, rng, folder = renderer(model), np.random.default_rng(4), tmp_path / "pictures"
     folder.mkdir()
     for k in range(36):
@@ -50,10 +52,25 @@ def test_pictures_of_a_rocked_pen_give_its_tip(tmp_path):
         cv2.imwrite(str(folder / f"{k:03d}.png"), picture(draw, PenScene(pose, ENTRY), k).image)
     lens = tmp_path / "lens.yaml"
     lens.write_text(webcam(model).calibration.model_dump_json(), encoding="utf-8")
-    found = acus("calibrate", "--source", f"folder:{folder}", "--lens", str(lens), "--json")
+    rolled = tmp_path / "rolled"
+    rolled.mkdir()
+    lying = np.array([0.25, 0.1, -0.963])
+    for k in range(24):
+        shift = ENTRY + np.array([0.001 * k, 0.0, 0.0])
+        pose = body_pose(shift, lying / np.linalg.norm(lying), tip, shaft, 0.09 * k)
+        cv2.imwrite(str(rolled / f"{k:03d}.png"), picture(draw, PenScene(pose, shift), k).image)
+    found = acus(
+        "calibrate", "--source", f"folder:{folder}", "--lens", str(lens), "--json",
+        "--roll", f"folder:{rolled}",
+    )  # fmt: skip
     document = json.loads(found.stdout)
     assert (
         np.linalg.norm(np.array(document["tip_mm"]) - 1e3 * tip) < 3.0 * document["tip_sd_mm"] + 0.3
     )
     assert document["tip_sd_mm"] < 1.5
     assert load_settings().profile().tip.calibrated
+    assert document["axis_by"] == "rolling"
+    measured = np.array(load_settings().profile().tip.axis)
+    error = np.degrees(np.linalg.norm(np.cross(measured, shaft)))
+    assert error < 3.0 * document["axis_sd_deg"] + 0.1
+    assert error < 0.5

@@ -14,6 +14,7 @@ from app.tracking.pen.pivot import (
     MeasuredPose,
     TipCalibration,
     axis_by_mount,
+    axis_by_rolling,
     pivot,
 )
 from app.tracking.pen.pose import PoseStatus
@@ -85,6 +86,15 @@ class PoseCollector:
         tip = pivot(self.poses)
         axis = axis_by_mount(tip)
         return PenCalibration(with_tip(pen, tip, axis), tip, axis)
+
+    def finish_rolling(self, found: PenCalibration) -> PenCalibration:
+        """Return a calibration with the shaft as these poses of a rolled pen tell it.
+
+        Raises:
+            PenError: if they do not; says what to do.
+        """
+        axis = axis_by_rolling(self.poses, found.tip.p_tip)
+        return PenCalibration(with_tip(found.pen, found.tip, axis), found.tip, axis)
 
 
 def relative_pose(seen: PenObservation) -> MeasuredPose:

@@ -8,12 +8,18 @@ from app.core.configuration import load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
 from app.tracking.errors import CalibrationError
-from app.tracking.optics.calibration import StereoCalibration
+from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
 
 _HEAD = """\
 # Calibration of two cameras. Lengths in mm, angles in rad, pictures in px (pixel 0, 0 is the
 # centre of the upper left pixel). pose takes points of the left camera to the right one;
 # world takes points of the left camera to the robot's frame.
+"""
+
+
+_HEAD_OF_ONE = """\
+# Calibration of one camera. Pictures in px (pixel 0, 0 is the centre of the upper left pixel);
+# covariance of fx, fy, cx, cy, k1, k2, p1, p2, k3.
 """
 
 
@@ -28,6 +34,22 @@ def save_calibration(path: Path, calibration: StereoCalibration) -> None:
     except OSError as error:
         raise CalibrationError(
             f"calibration {calibration.id} cannot be written to {path}: "
+            f"{error.strerror or error}; choose another place"
+        ) from error
+
+
+def save_camera(path: Path, camera: CameraCalibration) -> None:
+    """Write the lens of one camera, whole or not at all.
+
+    Raises:
+        CalibrationError: if the file cannot be written.
+    """
+    text = yaml.safe_dump(camera.model_dump(mode="json"), sort_keys=False, allow_unicode=True)
+    try:
+        write_atomically(path, _HEAD_OF_ONE + text)
+    except OSError as error:
+        raise CalibrationError(
+            f"the lens of {camera.name} cannot be written to {path}: "
             f"{error.strerror or error}; choose another place"
         ) from error
 
