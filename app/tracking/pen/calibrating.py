@@ -9,15 +9,9 @@ from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.pen.body import PenProfile, TipProfile
-from app.tracking.pen.pivot import (
-    AxisCalibration,
-    MeasuredPose,
-    TipCalibration,
-    axis_by_mount,
-    axis_by_rolling,
-    pivot,
-)
+from app.tracking.pen.pivot import MeasuredPose, TipCalibration, pivot
 from app.tracking.pen.pose import PoseStatus
+from app.tracking.pen.shaft import AxisCalibration, axis_by_mount, axis_by_rolling
 from app.tracking.pen.step import PenObservation
 
 WANTED = 80
