@@ -1,10 +1,12 @@
 """Keeps pictures whose capture time runs backwards away from the tracks."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from math import isfinite
 from typing import Final
 
 from app.tracking.cameras.camera import Frame
+from app.tracking.fix import FixStatus, NeedleFix
 
 PATIENCE: Final = 15
 """So many pictures in a row with an earlier time are a clock that was set back: it is followed."""
@@ -52,3 +54,16 @@ class CaptureTimes:
             self._last[i], self._refused[i] = frame.time, 0
             return frame
         return None
+
+
+def without_picture(
+    fix: NeedleFix, frames: tuple[Frame | None, Frame | None], names: Sequence[str]
+) -> NeedleFix:
+    """Return a fix that says which camera gave no picture, if one did not."""
+    absent = [name for name, frame in zip(names, frames, strict=True) if frame is None]
+    if not absent:
+        return fix
+    reason = f"no picture from the {absent[0]} camera"
+    if fix.usable:
+        return replace(fix, reason=f"{reason}: depth by the other one and the needle's line")
+    return replace(fix, status=FixStatus.NO_PICTURE, reason=reason)

@@ -7,11 +7,13 @@ other. A single one means little; over the last seconds each cause leaves its ow
   by the same amount wherever the needle is;
 - a bent needle: the pictures agree, and the band is beside the line the more, the deeper it is and
   the harder the hand pushes sideways, along that force;
+- a robot or cameras turned: the axis by two bands on the shaft leans to the robot's by the same
+  rotation all the time (only rigs with two bands tell that);
 - a slipped marker: all of that is in order, but the tip is not where it touches a known place.
 """
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Final
 
@@ -38,6 +40,9 @@ EXPLAINED: Final = 0.5
 SPREAD: Final = 15.0 * MILLIMETRE
 """Range of depths [m] below which a growth with depth cannot be told from a constant."""
 
+TURN_LIMIT: Final = 3.0
+"""Mean turn of the axis, in standard deviations of one fix, from which something is turned."""
+
 SLIP_LIMIT: Final = 0.5 * MILLIMETRE
 """Mean axial error at touches [m] from which the marker has slipped."""
 
@@ -52,6 +57,7 @@ class Cause(StrEnum):
     BENT_NEEDLE = "bent_needle"
     SLIPPED_MARKER = "slipped_marker"
     BUMPED_CAMERA = "bumped_camera"
+    TURNED = "turned"  # the axis by two bands is not the robot's
     UNCLEAR = "unclear"  # they disagree, and no cause explains how
 
 
@@ -64,12 +70,15 @@ class Discrepancy:
         beside: root mean square distance of the band from the line [m].
         size: of the cause: deflection at the deepest, shift or slip [m].
         words: one line for people; empty for none.
+        turn: angle from the robot's axis to that by two bands, of the mean rotation [rad]; 0 where
+            the rig has one band.
     """
 
     cause: Cause = Cause.NONE
     beside: float = 0.0
     size: float = 0.0
     words: str = ""
+    turn: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,6 +91,9 @@ class Evidence:
         sigma: standard deviation that this should have, per axis [m].
         epipolar: signed residual of the pictures, in standard deviations.
         force: by the hand on the needle, across it [N], shape (3,), world; zero where unknown.
+        turn: rotation from the robot's axis to that by two bands [rad], shape (3,), world; None
+            where both are not seen.
+        turn_sigma: standard deviation that this should have about either normal [rad].
     """
 
     depth: float
@@ -89,6 +101,8 @@ class Evidence:
     sigma: float
     epipolar: float
     force: FloatArray
+    turn: FloatArray | None = None
+    turn_sigma: float = 0.0
 
 
 class DiscrepancyMonitor:
@@ -101,7 +115,8 @@ class DiscrepancyMonitor:
     def add(self, evidence: Evidence) -> None:
         """Take in one fix; numbers that are not finite are passed over."""
         numbers = (evidence.depth, *evidence.beside, evidence.sigma, evidence.epipolar)
-        if np.isfinite(numbers).all() and np.isfinite(evidence.force).all():
+        turn = (*(evidence.turn if evidence.turn is not None else ()), evidence.turn_sigma)
+        if np.isfinite([*numbers, *evidence.force, *turn]).all():
             self._evidence.append(evidence)
 
     def touch(self, measured: float, known: float) -> None:
@@ -118,6 +133,7 @@ class DiscrepancyMonitor:
         """Say what the evidence so far means."""
         if len(self._evidence) >= ENOUGH:
             found = self._beside()
+            found = self._turned(found)
             if found.cause is not Cause.NONE:
                 return found
         else:
@@ -128,6 +144,17 @@ class DiscrepancyMonitor:
             if abs(slip) > max(SLIP_LIMIT, 3.0 * scatter):
                 return Discrepancy(Cause.SLIPPED_MARKER, found.beside, abs(slip), _slipped(slip))
         return found
+
+    def _turned(self, found: Discrepancy) -> Discrepancy:
+        """Add the turn of the axis, as the cause where there is no other."""
+        both = [(e.turn, e.turn_sigma) for e in self._evidence if e.turn is not None]
+        if len(both) < ENOUGH:
+            return found
+        turn = float(np.linalg.norm(np.mean([turn for turn, _ in both], axis=0)))
+        sigma = float(np.median([sigma for _, sigma in both]))
+        if found.cause is Cause.NONE and turn > TURN_LIMIT * sigma:
+            return replace(found, cause=Cause.TURNED, turn=turn, words=_lean(turn))
+        return replace(found, turn=turn)
 
     def _beside(self) -> Discrepancy:
         evidence = list(self._evidence)
@@ -175,6 +202,13 @@ _BUMPED: Final = (
 
 def _bent(size: float) -> str:
     return f"the needle bends: up to {size / MILLIMETRE:.1f} mm off its line at the band"
+
+
+def _lean(turn: float) -> str:
+    return (
+        f"the cameras see the needle turned by {np.degrees(turn):.1f}° from the robot's direction: "
+        "home the robot again, then run the morning check"
+    )
 
 
 def _unclear(rms: float) -> str:

@@ -55,6 +55,10 @@ class NeedleFix:
         discrepancy: what the last seconds say about why cameras and robot disagree.
         axis: needle's direction by the robot when the pictures were captured, unit, shape (3,);
             None where the robot does not give one.
+        axis_world: needle's direction, hub to tip, by the cameras: from the second band to the
+            first; unit, shape (3,). None unless both cameras see both bands.
+        axis_covariance: of it, shape (3, 3), with the calibration's share: no length, so none along
+            itself. None without `axis_world`.
     """
 
     p_tip_world: FloatArray
@@ -74,6 +78,8 @@ class NeedleFix:
     line_variance: float | None = None
     discrepancy: Discrepancy = AGREED
     axis: FloatArray | None = None
+    axis_world: FloatArray | None = None
+    axis_covariance: FloatArray | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "p_tip_world", frozen(self.p_tip_world, (3,), "tip"))
@@ -83,6 +89,11 @@ class NeedleFix:
         object.__setattr__(self, "noise_covariance", frozen(noise, (3, 3), "noise covariance"))
         if self.axis is not None:
             object.__setattr__(self, "axis", frozen(self.axis, (3,), "axis"))
+        if self.axis_world is not None:
+            object.__setattr__(self, "axis_world", frozen(self.axis_world, (3,), "axis"))
+        if self.axis_covariance is not None:
+            spread = frozen(self.axis_covariance, (3, 3), "axis covariance")
+            object.__setattr__(self, "axis_covariance", spread)
 
     @property
     def usable(self) -> bool:
@@ -99,3 +110,16 @@ class NeedleFix:
     def radius(self, probability: float = 0.95) -> float:
         """Radius [m] round the tip that holds the true one with at least `probability`."""
         return covariance_radius(self.covariance, probability)
+
+
+def without_point(
+    status: FixStatus,
+    pixels: tuple[FloatArray | None, FloatArray | None],
+    time: float,
+    missing: tuple[str, ...] = (),
+    reason: str = "",
+) -> NeedleFix:
+    """Return a fix that says why there is none."""
+    return NeedleFix(
+        np.zeros(3), np.zeros((3, 3)), time, status, pixels, 0.0, missing=missing, reason=reason
+    )

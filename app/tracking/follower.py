@@ -3,26 +3,34 @@
 from app.core.arrays import FloatArray
 from app.tracking.agreement import EpipolarGate, Pairing
 from app.tracking.cameras.feed import Pair
-from app.tracking.fix import FixStatus
+from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix, Miss, MissReason
 from app.tracking.solver import FixSolver, Sighting
-from app.tracking.track import PixelTrack
+from app.tracking.track import Found, Markers, PixelTrack, sightings_at
 
-_SYNCHRONOUS = 0.5e-3
-"""Capture times [s] this close count as the same."""
-
-Found = MarkerFix | Miss | None
-"""Marker in a picture, or why there is none; None without a picture."""
-
-Markers = tuple[Found, Found]
+_PLACED = 2e-3
+"""By how much [m] two bands found by their outlines may differ from their distance."""
 
 
 class MarkerFollower:
-    """Looks where the marker should be, and everywhere when it is lost."""
+    """Looks where the marker should be, and everywhere when it is lost.
+
+    Args:
+        extractors: of both cameras.
+        solver: of the rig.
+        gate: of the rig.
+        distance: from a second band on the shaft to the marker [m]; None where there is none. With
+            one a search begins with nothing less than both: alone, either looks like the other.
+    """
 
     def __init__(
-        self, extractors: tuple[Extractor, Extractor], solver: FixSolver, gate: EpipolarGate
+        self,
+        extractors: tuple[Extractor, Extractor],
+        solver: FixSolver,
+        gate: EpipolarGate,
+        distance: float | None = None,
     ) -> None:
+        self._distance = distance
         self._extractors = extractors
         self._solver = solver
         self._gate = gate
@@ -54,15 +62,7 @@ class MarkerFollower:
         self, frames: Pair, markers: Markers, time: float
     ) -> tuple[Sighting | None, Sighting | None]:
         """Bring both pixels to `time` [s], the earlier capture, by interpolating the other."""
-        sightings: list[Sighting | None] = []
-        for frame, marker, track in zip(frames, markers, self._tracks, strict=True):
-            if frame is None or not isinstance(marker, MarkerFix):
-                sightings.append(None)
-            elif frame.time - time > _SYNCHRONOUS:
-                sightings.append(track.at(time))
-            else:
-                sightings.append(Sighting.of(marker))
-        return sightings[0], sightings[1]
+        return sightings_at(frames, markers, self._tracks, time)
 
     def remember(self, p_world: FloatArray | None) -> None:
         """Keep the band's centre [m], shape (3,), for the next pictures, or None."""
@@ -89,7 +89,7 @@ class MarkerFollower:
             pairings = self._pairings(candidates, frames)
         agreeing = [pair for pair in pairings if pair.agrees]
         if agreeing:
-            return self._chosen(agreeing, frames, axis, time)
+            return self._chosen(agreeing, markers, frames, axis, time)
         if pairings and not pairings[0].hopeless:  # a bumped camera: the solver says how far off
             return [pairings[0].first, pairings[0].second]
         best = [found[0] if found else None for found in candidates]
@@ -99,9 +99,11 @@ class MarkerFollower:
                 for one, marker in zip(best, markers, strict=True)
             ]
         return [
-            self._closer(i, frames, one, None, axis) if isinstance(one, MarkerFix) else one
-            for i, one in enumerate(best)
-        ]
+            one if not isinstance(one, MarkerFix)
+            else _either(one) if self._distance is not None and one is not marker
+            else self._closer(i, frames, one, None, axis)
+            for i, (one, marker) in enumerate(zip(best, markers, strict=True))
+        ]  # fmt: skip
 
     def _pairings(self, candidates: list[list[Found]], frames: Pair) -> list[Pairing]:
         firsts, seconds = (
@@ -111,15 +113,26 @@ class MarkerFollower:
         return self._gate.pairings(firsts, seconds, times[-1] - times[0]) if times else []
 
     def _chosen(
-        self, agreeing: list[Pairing], frames: Pair, axis: FloatArray | None, time: float
+        self,
+        agreeing: list[Pairing],
+        markers: list[Found],
+        frames: Pair,
+        axis: FloatArray | None,
+        time: float,
     ) -> list[Found]:
         """Of the pairings that the epipolar geometry allows the one that the robot allows."""
         best = agreeing[0]
         if axis is None:
             return [best.first, best.second]
-        for pair in agreeing:
-            sightings = (Sighting.of(pair.first), Sighting.of(pair.second))
-            fix = self._solver.solve(sightings, axis, time)
+        solved = ((pair, self._solved(pair, axis, time)) for pair in agreeing)
+        if self._distance is not None:
+            every = list(solved)
+            allowed = [one for one in every if one[1].status is FixStatus.VALID]
+            first = self._first_band(allowed or every, markers, self._distance)
+            if first is None:
+                return [_either(best.first), _either(best.second)]
+            best, solved = first[0], (one for one in [first])
+        for pair, fix in solved:
             if fix.status is FixStatus.VALID:
                 p_world = self._solver.band(fix, axis)
                 return [
@@ -127,6 +140,22 @@ class MarkerFollower:
                     for i, one in enumerate((pair.first, pair.second))
                 ]
         return [best.first, best.second]  # a moving pair needs its track
+
+    def _solved(self, pair: Pairing, axis: FloatArray, time: float) -> NeedleFix:
+        return self._solver.solve((Sighting.of(pair.first), Sighting.of(pair.second)), axis, time)
+
+    def _first_band(
+        self, solved: list[tuple[Pairing, NeedleFix]], markers: list[Found], distance: float
+    ) -> tuple[Pairing, NeedleFix] | None:
+        """Return the band that has the other one behind it, or is followed; None without."""
+        for pair, fix in solved:
+            if pair.first is markers[0] or pair.second is markers[1]:
+                return pair, fix
+        for pair, fix in solved:
+            behind = [fix.depth - other.depth - distance for _, other in solved if other.has_point]
+            if fix.has_point and min((abs(gap) for gap in behind), default=1.0) < _PLACED:
+                return pair, fix
+        return None
 
     def _closer(
         self,
@@ -147,6 +176,10 @@ class MarkerFollower:
         if frame is None:
             return []
         return [*self._extractors[camera].search(frame.image)] or [Miss(MissReason.NOTHING_RED)]
+
+
+def _either(found: MarkerFix) -> Miss:
+    return Miss(MissReason.ONE_OF_TWO, found.uv)
 
 
 def _unpaired(found: MarkerFix) -> Miss:

@@ -10,6 +10,7 @@ from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.tracking.discrepancy import Cause, Discrepancy, DiscrepancyMonitor, Evidence
 from app.tracking.fix import FixStatus, NeedleFix
+from app.tracking.fusion import DIRECTION_SIGMA
 
 LARGEST_BEND: Final = 8.0 * MILLIMETRE
 """A band further beside the line than this [m] is no bent needle's."""
@@ -75,7 +76,14 @@ class FixHealth:
         sideways = np.zeros(3) if force is None else force - (force @ axis) * axis
         sigma = np.sqrt(line_variance + float(np.trace(fix.covariance)) / 3.0)
         self.monitor.add(
-            Evidence(fix.depth - self._offset, fix.beside, float(sigma), fix.epipolar, sideways)
+            Evidence(
+                fix.depth - self._offset,
+                fix.beside,
+                float(sigma),
+                fix.epipolar,
+                sideways,
+                *_turn(fix, axis),
+            )
         )
         self._count += 1
         if self._count % _EVERY:
@@ -83,6 +91,14 @@ class FixHealth:
         before, self._verdict = self._verdict.cause, self.monitor.verdict()
         if self._verdict.cause is not before and self._verdict.words:
             self._report("tracker", self._verdict.words)
+
+
+def _turn(fix: NeedleFix, axis: FloatArray) -> tuple[FloatArray | None, float]:
+    """Rotation [rad] from the robot's axis to the cameras' own, and its standard deviation."""
+    if fix.axis_world is None or fix.axis_covariance is None:
+        return None, 0.0
+    variance = 0.5 * float(np.trace(fix.axis_covariance)) + DIRECTION_SIGMA**2
+    return np.cross(axis, fix.axis_world), float(np.sqrt(variance))
 
 
 def _near(fix: NeedleFix) -> bool:

@@ -8,7 +8,8 @@ from app.core.arrays import FloatArray
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.markers.extractor import Mask, Miss
 from app.tracking.stereo.epipolar import epipolar_curve
-from app.tracking.tracker import TrackedPicture, Tracker
+from app.tracking.tracked_picture import TrackedPicture
+from app.tracking.tracker import Tracker
 
 Region = tuple[float, float, float, float]
 """Left, top, right, bottom [px]."""

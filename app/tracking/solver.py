@@ -7,7 +7,7 @@ import numpy as np
 from app.core.arrays import FloatArray, frozen, unit
 from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
-from app.tracking.fix import FixStatus, NeedleFix
+from app.tracking.fix import FixStatus, NeedleFix, without_point
 from app.tracking.markers.extractor import Centre, MarkerFix
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.one_camera_fix import OneCameraSolver
@@ -76,6 +76,25 @@ class FixSolver:
             return self._one_eyed((first, second), unit(axis), time)
         return self._solve((first, second), unit(axis), time)
 
+    def triangulated(
+        self,
+        sightings: tuple[Sighting | MarkerFix, Sighting | MarkerFix],
+        axis: FloatArray | None,
+    ) -> Triangulation | None:
+        """Point of two sightings, without the robot's line; None without one.
+
+        With the axis outlines are moved to the band's centre; without it they are taken for it.
+        """
+        first, second = (Sighting(one.uv, one.covariance, one.centre) for one in sightings)
+        found = self._triangulate((first, second), (np.zeros(2), np.zeros(2)))
+        if axis is not None and found is not None and found.status is StereoStatus.FOUND:
+            found = self._corrected((first, second), found.p_world, axis)
+        return found if found is not None and found.status is StereoStatus.FOUND else None
+
+    def agrees(self, found: Triangulation) -> bool:
+        """Whether both pictures show one point, within their noise."""
+        return found.chi_square <= _RESIDUAL_LIMIT
+
     def band(self, fix: NeedleFix, axis: FloatArray | None) -> FloatArray | None:
         """Centre of the band of a fix [m], shape (3,), where it has a point that counts."""
         if axis is None or not fix.usable:
@@ -101,7 +120,7 @@ class FixSolver:
             time,
             FixStatus.INCONSISTENT if reason else FixStatus.VALID,
             pixels,
-            self._residual_px(found),
+            self.residual_px(found),
             float((tip - self._fulcrum) @ axis),
             float(axis @ covariance @ axis),
             has_point=True,
@@ -157,7 +176,7 @@ class FixSolver:
 
     def _contradiction(self, found: Triangulation, covariance: FloatArray, axis: FloatArray) -> str:
         """Why the point cannot be the marker; empty if it can."""
-        residual = self._residual_px(found)
+        residual = self.residual_px(found)
         beside = _across(found.p_world - self._fulcrum, axis)
         across = np.eye(3) - np.outer(axis, axis)
         spread = across @ covariance @ across + self._line_variance * np.eye(3)
@@ -170,7 +189,8 @@ class FixSolver:
             return f"the marker seems {distance:.1f} mm beside the needle's line"
         return ""
 
-    def _residual_px(self, found: Triangulation) -> float:
+    def residual_px(self, found: Triangulation) -> float:
+        """Root mean square of the reprojection error of a point [px]."""
         return float(np.sqrt(np.mean((found.residual * self._focal) ** 2)))
 
     def _unseen(self, time: float) -> NeedleFix:
@@ -223,16 +243,3 @@ def systematic_px(rig: RigProfile) -> float:
 
 def _across(offset: FloatArray, axis: FloatArray) -> FloatArray:
     return np.asarray(offset - (offset @ axis) * axis)
-
-
-def without_point(
-    status: FixStatus,
-    pixels: tuple[FloatArray | None, FloatArray | None],
-    time: float,
-    missing: tuple[str, ...] = (),
-    reason: str = "",
-) -> NeedleFix:
-    """Return a fix that says why there is none."""
-    return NeedleFix(
-        np.zeros(3), np.zeros((3, 3)), time, status, pixels, 0.0, missing=missing, reason=reason
-    )

@@ -1,10 +1,21 @@
 """The marker's way through one camera's pictures: memory for prediction and interpolation."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.tracking.markers.extractor import MarkerFix
+from app.tracking.cameras.feed import Pair
+from app.tracking.markers.extractor import MarkerFix, Miss
 from app.tracking.solver import Sighting
+
+_SYNCHRONOUS = 0.5e-3
+"""Capture times [s] this close count as the same."""
+
+Found = MarkerFix | Miss | None
+"""Marker in a picture, or why there is none; None without a picture."""
+
+Markers = tuple[Found, Found]
 
 _GAP = 0.1
 """Longest time [s] between two pictures over which positions are interpolated or predicted."""
@@ -69,6 +80,21 @@ class PixelTrack:
         uv = (1.0 - share) * first.uv + share * last.uv
         covariance = (1.0 - share) ** 2 * first.covariance + share**2 * last.covariance
         return Sighting(uv, covariance, last.centre)
+
+
+def sightings_at(
+    frames: Pair, markers: Markers, tracks: Sequence[PixelTrack], time: float
+) -> tuple[Sighting | None, Sighting | None]:
+    """Bring the finds of both pictures to `time` [s], the earlier capture, by their tracks."""
+    sightings: list[Sighting | None] = []
+    for frame, marker, track in zip(frames, markers, tracks, strict=True):
+        if frame is None or not isinstance(marker, MarkerFix):
+            sightings.append(None)
+        elif frame.time - time > _SYNCHRONOUS:
+            sightings.append(track.at(time))
+        else:
+            sightings.append(Sighting.of(marker))
+    return sightings[0], sightings[1]
 
 
 def _moved(marker: MarkerFix, dt: float) -> Sighting:

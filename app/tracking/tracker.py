@@ -2,29 +2,31 @@
 
 import threading
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
 
 from app.core.arrays import FloatArray
 from app.core.clock import Clock
 from app.core.events import Event, EventQueue
 from app.core.latest import Latest
 from app.tracking.agreement import EpipolarGate
-from app.tracking.cameras.camera import Camera, Frame, Image
+from app.tracking.cameras.camera import Camera, Frame
 from app.tracking.cameras.feed import CameraFeed, Pair
-from app.tracking.capture_times import CaptureTimes
+from app.tracking.capture_times import CaptureTimes, without_picture
 from app.tracking.continuity import Continuity
 from app.tracking.errors import TrackingError
-from app.tracking.fix import FixStatus, NeedleFix
-from app.tracking.follower import MarkerFollower, Markers
+from app.tracking.fix import FixStatus, NeedleFix, without_point
+from app.tracking.follower import MarkerFollower
 from app.tracking.health import FixHealth
 from app.tracking.hiding import Hiding
 from app.tracking.markers.choice import extractors as default_extractors
 from app.tracking.markers.colour import learn
-from app.tracking.markers.extractor import Extractor, MarkerFix, Miss
+from app.tracking.markers.extractor import Extractor
 from app.tracking.optics.rig import RigProfile
 from app.tracking.rehearsal import rehearse
-from app.tracking.solver import FixSolver, without_point
+from app.tracking.solver import FixSolver
 from app.tracking.statistics import TrackerMeter, TrackerStatistics
+from app.tracking.track import Markers
+from app.tracking.tracked_picture import TrackedPicture
+from app.tracking.two_bands import TwoBands
 
 _PAUSE = 0.1
 """Time [s] to wait after an error inside the tracker."""
@@ -35,28 +37,6 @@ Axis = Callable[[float], FloatArray | None]
 
 def _unknown(_time: float) -> FloatArray | None:
     return None
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class TrackedPicture:
-    """Newest picture of a camera and where the marker is in it.
-
-    Attributes:
-        name: of the camera.
-        image: read-only.
-        time: of its capture [s].
-        found: the marker, or why there is none.
-    """
-
-    name: str
-    image: Image
-    time: float
-    found: MarkerFix | Miss | None
-
-    @property
-    def pixel(self) -> FloatArray | None:
-        """Where the marker is [px], shape (2,), or None."""
-        return self.found.uv if isinstance(self.found, MarkerFix) else None
 
 
 class Tracker:
@@ -107,7 +87,9 @@ class Tracker:
         self._times = CaptureTimes(self._names, self._put)
         self.rig = rig
         self.extractors = extractors or default_extractors(rig)
-        self._follower = MarkerFollower(self.extractors, self._solver, EpipolarGate(rig))
+        gate, distance = EpipolarGate(rig), rig.needle.band_distance
+        self._follower = MarkerFollower(self.extractors, self._solver, gate, distance)
+        self._bands = TwoBands(rig, fulcrum, self._solver, gate) if distance is not None else None
         self._feed = CameraFeed(cameras, self._names, clock, rig.noise_grey > 0.0, self._put)
         self._meter = TrackerMeter()
         self._pictures: dict[str, TrackedPicture] = {}
@@ -157,15 +139,27 @@ class Tracker:
             )
         time = min(times)
         axis = self._axis(time)
-        markers = self._follower.find(frames, axis, time)
-        sightings = self._follower.sightings(frames, markers, time)
-        fix = self._health.look(self._solver.solve(sightings, axis, time), axis)
+        fix, markers = self._measured(frames, axis, time)
+        fix = self._health.look(fix, axis)
         fix = self._hiding.look(self._continuity.look(fix))
         if fix.status is FixStatus.INCONSISTENT:
             self._follower.doubt()
         self._follower.remember(self._solver.band(fix, axis))
         self._show(frames, markers)
-        return self._without_picture(fix, frames)
+        return without_picture(fix, frames, self._names)
+
+    def _measured(
+        self, frames: Pair, axis: FloatArray | None, time: float
+    ) -> tuple[NeedleFix, Markers]:
+        if axis is None and self._bands is not None:
+            return self._bands.alone(frames, time, self.extractors)
+        markers = self._follower.find(frames, axis, time)
+        left, right = self._follower.sightings(frames, markers, time)
+        fix = self._solver.solve((left, right), axis, time)
+        if self._bands is not None and left is not None and right is not None and fix.has_point:
+            first = self._solver.triangulated((left, right), fix.axis)
+            fix = self._bands.beside(fix, first, frames)
+        return fix, markers
 
     def touched(self, measured: float, known: float) -> None:
         """Take in a touch of a known place: depth by the cameras and its true one [m].
@@ -191,8 +185,11 @@ class Tracker:
             raise TrackingError(
                 f"camera {camera!r} has given no picture; there are {', '.join(self._names)}"
             )
-        self.extractors = default_extractors(self.rig, colour=learn(picture.image, pixel))
+        colour = learn(picture.image, pixel)
+        self.extractors = default_extractors(self.rig, colour=colour)
         self._follower.use(self.extractors)
+        if self._bands is not None:
+            self._bands.use(colour)
 
     def statistics(self) -> TrackerStatistics:
         """Figures of the last seconds and the health of both cameras."""
@@ -207,15 +204,6 @@ class Tracker:
         """Newest picture of each camera with the found marker, read-only; empty before one came."""
         pictures = dict(self._pictures)
         return tuple(pictures[name] for name in self._names if name in pictures)
-
-    def _without_picture(self, fix: NeedleFix, frames: Pair) -> NeedleFix:
-        absent = [name for name, f in zip(self._names, frames, strict=True) if f is None]
-        if not absent:
-            return fix
-        reason = f"no picture from the {absent[0]} camera"
-        if fix.usable:
-            return replace(fix, reason=f"{reason}: depth by the other one and the needle's line")
-        return replace(fix, status=FixStatus.NO_PICTURE, reason=reason)
 
     def _show(self, frames: Pair, markers: Markers) -> None:
         for name, frame, marker in zip(self._names, frames, markers, strict=True):

@@ -13,7 +13,7 @@ from app.device.errors import LoopError
 from app.session.machine import State
 from app.tracking.inspection import InspectedPicture, Inspection
 from app.tracking.markers.extractor import MarkerFix
-from app.tracking.tracker import TrackedPicture
+from app.tracking.tracked_picture import TrackedPicture
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.camera_view import CameraView
 from app.views.exercise.controller import ExerciseController, ExerciseViews

@@ -32,6 +32,7 @@ class MissReason(StrEnum):
     AT_BORDER = "at_border"
     PARTLY_HIDDEN = "partly_hidden"
     OFF_EPIPOLAR = "off_epipolar"
+    ONE_OF_TWO = "one_of_two"
     NOT_YET_VISIBLE = "not_yet_visible"
 
     @property
@@ -49,6 +50,7 @@ _WORDS = {
     MissReason.AT_BORDER: "the marker is cut by the picture's border",
     MissReason.PARTLY_HIDDEN: "the marker is partly hidden",
     MissReason.OFF_EPIPOLAR: "the two pictures do not show the same point",
+    MissReason.ONE_OF_TWO: "one band alone: which of the two cannot be told; show both",
     MissReason.NOT_YET_VISIBLE: "the marker is still inside the tube",
 }
 

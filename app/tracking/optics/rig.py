@@ -79,6 +79,8 @@ class NeedleProfile(Strict):
         marker_offset_mm: centre of the band behind the tip.
         hidden_mm: from where to where the band's centre stands beyond the fulcrum while the tube
             hides it; None for a rig that sees it everywhere.
+        second_marker_offset_mm: centre of a second band, like the first, behind the tip; further
+            back than the first. Two bands give the needle's axis too. None for one band.
     """
 
     length_mm: float = Field(gt=0.0)
@@ -88,6 +90,7 @@ class NeedleProfile(Strict):
     marker_length_mm: float = Field(gt=0.0)
     marker_diameter_mm: float = Field(gt=0.0)
     hidden_mm: tuple[float, float] | None = None
+    second_marker_offset_mm: float | None = None
 
     @model_validator(mode="after")
     def _ordered(self) -> Self:
@@ -96,12 +99,26 @@ class NeedleProfile(Strict):
                 f"hidden_mm {list(self.hidden_mm)} must name the smaller depth first, or be left "
                 "out where nothing hides the band"
             )
+        second = self.second_marker_offset_mm
+        least = self.marker_offset_mm + 1.5 * self.marker_length_mm
+        if second is not None and not least <= second < self.length_mm:
+            raise ValueError(
+                f"second_marker_offset_mm {second} must lie between {least} (half a band's length "
+                f"of bare shaft behind the first) and the needle's length of {self.length_mm}"
+            )
         return self
 
     @property
     def marker_offset(self) -> float:
         """Distance from the band's centre to the tip [m]."""
         return self.marker_offset_mm * MILLIMETRE
+
+    @property
+    def band_distance(self) -> float | None:
+        """Distance between the centres of both bands [m]; None for one band."""
+        if self.second_marker_offset_mm is None:
+            return None
+        return (self.second_marker_offset_mm - self.marker_offset_mm) * MILLIMETRE
 
     @cached_property
     def shape(self) -> "NeedleShape":
@@ -177,6 +194,17 @@ class RigProfile(Strict):
             return self.calibration.models()
         first, second = (camera.model() for camera in self.cameras)
         return first, second
+
+    def of_second_band(self) -> "RigProfile | None":
+        """Return this rig with the second band as its only one; None if there is none."""
+        offset = self.needle.second_marker_offset_mm
+        if offset is None:
+            return None
+        needle = self.needle.model_dump() | {"second_marker_offset_mm": None}
+        changed = {"needle": needle | {"marker_offset_mm": offset}}
+        return RigProfile.model_validate(
+            self.model_dump() | changed | {"calibration": self.calibration}
+        )
 
     def calibrated(self, calibration: StereoCalibration) -> "RigProfile":
         """Return this rig with measured cameras, for every use and for the record.

@@ -5,7 +5,7 @@ import numpy as np
 from app.tracking.inspection import InspectedPicture, Inspection
 from app.tracking.pen.drawing import draw_observation
 from app.tracking.pen.tracker import PenTracker
-from app.tracking.tracker import TrackedPicture
+from app.tracking.tracked_picture import TrackedPicture
 
 
 class PenInspector:

@@ -31,6 +31,7 @@ class NeedleRenderer:
     ) -> None:
         self.model = model
         self._shape = needle.shape
+        self._behind = needle.band_distance
         self._fine = sample_pattern(blur_px)
         self._coarse = sample_pattern(blur_px, COARSE)
         self._rays = _pixel_rays(model)
@@ -61,7 +62,28 @@ class NeedleRenderer:
         image = self._background.copy()
         if scene.visible:
             self._draw(image, scene)
+            if self._behind is not None:
+                self._draw_second(image, scene, self._behind)
         return image
+
+    def _draw_second(self, image: Image, scene: MarkerScene, behind: float) -> None:
+        """Draw the piece of the needle round its second band anew, with the band there.
+
+        Where both bands lie behind each other, seen along the needle, the second is in front.
+        """
+        shape = self._shape
+        axis = self.model.T_camera_world.rotate(scene.axis_world)
+        centre = self.model.T_camera_world @ scene.p_world - behind * axis
+        moved = shape._replace(tip=shape.tip + behind, hub=shape.hub + behind)
+        reach = shape.half + shape.radius
+        spans = self._spans(centre, axis, np.linspace(-reach, reach, 9))
+        for row in np.flatnonzero(spans[:, 0] < spans[:, 1]):
+            columns = slice(*spans[row])
+            image[row, columns] = self._background[row, columns]
+        draw_needle(
+            image, self._rays, spans, self._fine, self._coarse, axis, centre,
+            moved, _COLOURS, self._light, self._margin,
+        )  # fmt: skip
 
     def _compile(self) -> None:
         """Draw once, so that the kernels are ready before the first picture is due."""
@@ -71,20 +93,20 @@ class NeedleRenderer:
     def _draw(self, image: Image, scene: MarkerScene, colours: FloatArray = _COLOURS) -> None:
         axis = self.model.T_camera_world.rotate(scene.axis_world)
         centre = self.model.T_camera_world @ scene.p_world
-        spans = self._spans(centre, axis)
+        along = np.linspace(self._shape.hub - 1e-3, self._shape.tip + 1e-3, 42)
+        spans = self._spans(centre, axis, along)
         draw_needle(
             image, self._rays, spans, self._fine, self._coarse, axis, centre,
             self._shape, colours, self._light, self._margin,
         )  # fmt: skip
 
-    def _spans(self, centre: FloatArray, axis: FloatArray) -> Any:
-        """Columns of each row that the needle may touch.
+    def _spans(self, centre: FloatArray, axis: FloatArray, along: FloatArray) -> Any:
+        """Columns of each row that the needle may touch between positions `along` its axis [m].
 
         Pieces of 5 mm with an end behind the camera or beyond the fold are left out: the fold lies
         much further outside the image than such a piece is long.
         """
         width, height = self.model.image_size
-        along = np.linspace(self._shape.hub - 1e-3, self._shape.tip + 1e-3, 42)
         points = centre + along[:, None] * axis
         uv, ok = self.model.project_camera(points)
         nearest = points[ok, 2].min(initial=np.inf)

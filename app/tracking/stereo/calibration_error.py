@@ -61,6 +61,19 @@ class CalibrationError:
         self._last[cameras] = (np.array(p_world), spread)
         return spread
 
+    def joint(self, points: FloatArray, covariances: FloatArray) -> FloatArray:
+        """Covariance of several points together by the calibration [m²], shape (3 n, 3 n).
+
+        Points near each other are wrong by nearly the same: their difference is far more certain.
+
+        Args:
+            points: that both cameras saw [m], shape (n, 3).
+            covariances: of their normalised coordinates, shape (n, 2, 2, 2).
+        """
+        pairs = zip(points, covariances, strict=True)
+        gain = np.vstack([self._gain(p_world, seen, (0, 1), None) for p_world, seen in pairs])
+        return np.asarray(gain @ self._spread @ gain.T)
+
     def _gain(
         self,
         p_world: FloatArray,
