@@ -1,11 +1,13 @@
 """The named ways of finding the marker, and what the rig's geometry tells them."""
 
+from dataclasses import replace
 from enum import StrEnum
 
 import numpy as np
 
 from app.core.units import MILLIMETRE
 from app.tracking.markers.colour import RED, ColourModel
+from app.tracking.markers.ellipse import EllipseMarker
 from app.tracking.markers.extractor import Extractor
 from app.tracking.markers.model_fit import ModelFit
 from app.tracking.markers.outline_centroid import OutlineCentroid
@@ -24,6 +26,7 @@ class ExtractorName(StrEnum):
 
     THESIS = "thesis"  # the laboratory's published detection, for comparison
     OUTLINE_CENTROID = "outline_centroid"  # mask, then the centroid of the covered shares
+    ELLIPSE = "ellipse"  # contour on rays, then the centre of an ellipse through it
     MODEL_FIT = "model_fit"  # least squares of the band's whole picture
 
 
@@ -60,7 +63,9 @@ def extractor(
     )
     if name is ExtractorName.OUTLINE_CENTROID:
         return outline
-    return ModelFit(model, shape, blur_px, outline)
+    if name is ExtractorName.ELLIPSE:
+        return EllipseMarker(replace(outline, rough=True))
+    return ModelFit(model, shape, blur_px, replace(outline, rough=True))
 
 
 def extractors(

@@ -2,7 +2,7 @@
 
 The strength of the marker's colour (see `colour`) does not see grey and hardly skin: it says where
 the band is. It does not weigh the pixels: one flank of a round band is darker than the other and
-would count less. The weight of a pixel is the share of it that the band covers (see `matting`), one
+would count less. The weight of a pixel is the share of it that the band covers (see `rim`), one
 inside, so that the centroid is that of the outline, whatever the light. The paint should be matt.
 """
 
@@ -15,10 +15,9 @@ from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.colour import RED, ColourModel
 from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Mask, Miss, MissReason
-from app.tracking.markers.matting import outline_moments
+from app.tracking.markers.rim import outline_moments
 
 _SQUARE3 = np.ones((3, 3), dtype=np.uint8)
-_SQUARE5 = np.ones((5, 5), dtype=np.uint8)
 _CANDIDATES = 6
 _NEAR = 24
 _PURITY = 0.3
@@ -36,6 +35,7 @@ class OutlineCentroid(Extractor):
         noise_grey: standard deviation of the picture's noise, for the covariance.
         overexposed: largest share of the band with a colour at its end, at which it is refused.
         quality_min: least share of outline pixels that are mixtures of band and background.
+        rough: whether a place to begin a fit at will do: half the work, twice the error.
     """
 
     colour: ColourModel = field(default=RED)
@@ -45,6 +45,7 @@ class OutlineCentroid(Extractor):
     noise_grey: float = 4.0
     overexposed: float = 0.25
     quality_min: float = 0.6
+    rough: bool = False
 
     def find(self, image: Image, hint: Hint) -> MarkerFix | Miss:
         """See `Extractor.find`."""
@@ -98,9 +99,7 @@ class OutlineCentroid(Extractor):
             return Miss(MissReason.SATURATED, middle)
         if not self.colour.is_marker(np.array(cv2.mean(window, blob)[:3])):
             return Miss(MissReason.NOTHING_RED, middle)
-        inside = cv2.erode(blob, _SQUARE3, iterations=2)
-        support = cv2.dilate(blob, _SQUARE5)
-        area, u, v, uu, uv, vv, quality = outline_moments(window, inside, support, self.noise_grey)
+        area, u, v, uu, uv, vv, quality = outline_moments(window, blob, self.noise_grey, self.rough)
         if area < self.area_min:
             return Miss(MissReason.TOO_SMALL, middle)
         if area > self.area_max:
