@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.core.units import MILLIMETRE
-from app.studies import depth_motion, stereo
+from app.studies import depth_motion, marker, stereo
 from app.studies.runner import run
 from app.tracking.optics.rig import load_rig
 from app.tracking.stereo.triangulation import Way
@@ -55,3 +55,14 @@ def test_the_default_filter_is_calm_at_rest_and_close_in_motion():
     assert strokes < 0.4 * errors["newest fix"][0]
     assert steady < 0.05 * errors["newest fix"][3]
     assert strokes < errors["one euro, 5 Hz"][0]
+
+
+def test_the_study_of_the_marker_orders_the_ways_and_none_is_below_the_bound(monkeypatch):
+    monkeypatch.setattr(marker, "_SCENES", 5)
+    result = run("marker", repeats=1)
+    assert result.failures == ()
+    error = {p.way: p.error for p in result.points if p.setting == "even grey"}
+    assert error["model_fit"] < error["outline_centroid"] < error["ellipse"] < error["thesis"]
+    rows = result.findings.sheets[0].rows
+    assert {row[1] for row in rows} == {"Cramér-Rao bound", *error}
+    assert all(row[4] > 0.7 for row in rows)
