@@ -2,7 +2,8 @@
 
 from typing import Final
 
-from app.session.needle import HOLD_LIMIT, DepthSource, NeedlePose
+from app.core.staleness import TRACKER_HOLD
+from app.session.needle import DepthSource, NeedlePose
 
 STEADY: Final = 1.0
 """Time for which the depth is measured without a break before a loss is told again [s]."""
@@ -31,7 +32,7 @@ class DepthNews:
         if pose.depth_source is DepthSource.MODEL and was_measured and not self._lost:
             self._lost = True
             return (
-                f"the cameras have not seen the needle for {HOLD_LIMIT * 1e3:.0f} ms: from now on "
+                f"the cameras have not seen the needle for {TRACKER_HOLD * 1e3:.0f} ms: from now on "
                 "the depth is the model's, not measured"
             )
         return ""

@@ -13,19 +13,11 @@ import numpy as np
 
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
+from app.core.staleness import ENCODER_ZERO, TRACKER_FRESH, TRACKER_HOLD
 from app.session.measured import across_sigma, is_one_eyed, is_usable, tip_of
 from app.session.ports import DeviceStatePort, FixPort
 from app.tracking.confidence import covariance_radius
 from app.tracking.fusion import DIRECTION_SIGMA
-
-ENCODER_LIMIT: Final = 0.1
-"""Age of the encoder values [s] from which the pose is not valid: the force is zero by then."""
-
-FRESH_LIMIT: Final = 0.1
-"""Age of a fix [s] up to which the depth counts as tracked (camera period and latency)."""
-
-HOLD_LIMIT: Final = 0.2
-"""Age of a fix [s] up to which its depth is held; then the model's depth takes over."""
 
 ORIENTATION_SIGMA: Final = DIRECTION_SIGMA
 """Standard deviation of the direction [rad]."""
@@ -52,7 +44,7 @@ class DepthSource(StrEnum):
 
 
 FROM_CAMERAS: Final = (DepthSource.TRACKED, DepthSource.ONE_CAMERA, DepthSource.HELD)
-"""Depths that the cameras vouch for: of now, or bridged for at most `HOLD_LIMIT`."""
+"""Depths that the cameras vouch for: of now, or bridged for at most `TRACKER_HOLD`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -134,7 +126,7 @@ def fuse(
         return _invalid(last, now, fault, _age(encoder_time(device), now))
     axis = axis / np.linalg.norm(axis)
     fulcrum = np.asarray(device.tip) - device.depth * np.asarray(device.axis)
-    if fix is not None and is_usable(fix) and _age(fix.time, now) <= HOLD_LIMIT:
+    if fix is not None and is_usable(fix) and _age(fix.time, now) <= TRACKER_HOLD:
         return _measured(device, fix, fulcrum, axis, now)
     depth = float(device.depth)
     return NeedlePose(
@@ -166,7 +158,7 @@ def _measured(
         time=now,
         orientation_age=_age(encoder_time(device), now),
         depth_age=age,
-        depth_source=fresh if age <= FRESH_LIMIT else DepthSource.HELD,
+        depth_source=fresh if age <= TRACKER_FRESH else DepthSource.HELD,
         valid=True,
         covariance=read_only(tip.covariance + aged),
         snapped=tip.snapped,
@@ -197,9 +189,9 @@ def _device_fault(device: DeviceStatePort, axis: FloatArray, now: float) -> str:
     if not (np.isfinite(device.tip).all() and np.isfinite(device.depth)):
         return "the robot gives no needle position"
     age = now - encoder_time(device)
-    if not np.isfinite(age) or age > ENCODER_LIMIT:
+    if not np.isfinite(age) or age > ENCODER_ZERO:
         return (
-            f"the encoder values are {_text_ms(age)} old, the limit is {ENCODER_LIMIT * 1e3:.0f} ms"
+            f"the encoder values are {_text_ms(age)} old, the limit is {ENCODER_ZERO * 1e3:.0f} ms"
         )
     return ""
 

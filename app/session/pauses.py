@@ -20,8 +20,8 @@ BACK: Final = 0.5
 """Time of measured depth until it goes on [s]."""
 
 PAUSED_WORDS: Final = (
-    "paused: no camera has seen the marker for a second while the needle is in the body; forces "
-    "are off and the clock stands still"
+    "paused: for a second no picture has told how deep the needle is in the body; forces are off "
+    "and the clock stands still; show the marker to the cameras, or let the computer catch up"
 )
 RESUMED_WORDS: Final = (
     "the cameras see the marker again: the attempt goes on, forces come back; a switch that must "

@@ -10,11 +10,12 @@ from dataclasses import replace
 import numpy as np
 
 from app.tracking.fix import FixStatus, NeedleFix
+from app.tracking.motion.depth_filter import FASTEST
 
 MEMORY = 1.0
 """Time [s] without a depth after which one camera alone is not believed any more."""
 
-SPEED = 0.5
+SPEED = FASTEST
 """Fastest change of depth [m/s] that is believed."""
 
 SIGMAS = 4.0

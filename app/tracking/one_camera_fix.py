@@ -9,7 +9,7 @@ from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.rig import RigProfile
-from app.tracking.stereo.calibration_error import CalibrationError
+from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty
 from app.tracking.stereo.one_camera import LEAST_ANGLE, LinePoint, RayStatus, point_on_line
 from app.tracking.stereo.rays import normalised
 
@@ -42,7 +42,9 @@ class OneCameraSolver:
         self._fulcrum = fulcrum
         self._systematic = systematic_px**2 * np.eye(2)
         self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
-        self._error = CalibrationError(rig.calibration) if rig.calibration is not None else None
+        self._error = (
+            CalibrationUncertainty(rig.calibration) if rig.calibration is not None else None
+        )
         self._limit = chi_square_quantile(1.0 - gate, 1)
 
     def solve(

@@ -8,17 +8,15 @@ from app.core.arrays import FloatArray, frozen, unit
 from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.fix import FixStatus, NeedleFix, without_point
+from app.tracking.fusion import GATE
 from app.tracking.markers.extractor import Centre, MarkerFix
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.one_camera_fix import OneCameraSolver
 from app.tracking.optics.rig import RigProfile
-from app.tracking.stereo.calibration_error import CalibrationError
+from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty
 from app.tracking.stereo.epipolar import essential_matrix
 from app.tracking.stereo.rays import normalised
 from app.tracking.stereo.triangulation import StereoStatus, Triangulation, Way, triangulate
-
-GATE = 1e-5
-"""Probability with which a good fix is refused by the consistency check."""
 
 _GROSS_PX = 2.0
 _LINE_LIMIT = chi_square_quantile(1.0 - GATE, 2)
@@ -51,7 +49,9 @@ class FixSolver:
         self._essential = essential_matrix(self._poses)
         self._focal = np.concatenate([model.intrinsics[:2] for model in self._models])
         self._single = OneCameraSolver(rig, self._fulcrum, GATE, systematic_px(rig))
-        self._error = CalibrationError(rig.calibration) if rig.calibration is not None else None
+        self._error = (
+            CalibrationUncertainty(rig.calibration) if rig.calibration is not None else None
+        )
         self._line_variance = (rig.line_sd_mm * MILLIMETRE) ** 2
 
     def solve(

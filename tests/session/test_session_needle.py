@@ -9,10 +9,9 @@ from hypothesis import strategies as st
 from session_fakes import FULCRUM, FakeFix, row
 
 from app.core import state_vector as sv
+from app.core.staleness import ENCODER_ZERO, TRACKER_HOLD
 from app.device.state import DeviceState
 from app.session.needle import (
-    ENCODER_LIMIT,
-    HOLD_LIMIT,
     MODEL_SIGMA,
     ORIENTATION_SIGMA,
     RATE_SIGMA,
@@ -104,8 +103,8 @@ def test_without_any_fix_the_model_is_said_to_be_the_source() -> None:
 
 
 def test_encoders_older_than_their_limit_make_the_pose_invalid() -> None:
-    fresh = fuse(device(10.0), None, 10.0 + 0.99 * ENCODER_LIMIT)
-    stale = fuse(device(10.0), None, 10.0 + 1.01 * ENCODER_LIMIT, fresh)
+    fresh = fuse(device(10.0), None, 10.0 + 0.99 * ENCODER_ZERO)
+    stale = fuse(device(10.0), None, 10.0 + 1.01 * ENCODER_ZERO, fresh)
     assert fresh.valid
     assert not stale.valid
     assert "encoder" in stale.reason
@@ -167,7 +166,7 @@ def test_a_zero_axis_gives_an_invalid_pose() -> None:
 
 
 def test_hold_is_longer_than_fresh() -> None:
-    assert HOLD_LIMIT == 0.2
+    assert TRACKER_HOLD == 0.2
 
 
 def test_a_needle_that_turns_while_a_fix_is_on_its_way_is_not_taken_for_a_bent_one():

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from app.core import staleness
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
@@ -144,15 +145,15 @@ class Kinematics:
 
     Attributes:
         geometry: lengths of the mechanism.
-        fresh: age up to which a fix counts as tracked [s]: three frames at 30 Hz.
+        fresh: age up to which a fix counts as tracked [s].
         hold: age up to which the last fix is held [s]; beyond, L_out = C - L_in.
         blend: time over which the lever changes between the two [s].
         l_out_min: smallest L_out [m], so that the lever stays defined.
     """
 
     geometry: Geometry
-    fresh: float = 0.1
-    hold: float = 0.2
+    fresh: float = staleness.TRACKER_FRESH
+    hold: float = staleness.TRACKER_HOLD
     blend: float = 0.1
     l_out_min: float = 0.005
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from app.core import staleness
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
@@ -207,9 +208,9 @@ class Safety:
     torque_limit: float
     tilt_limit: float
     slew: float
-    fade_from: float = 0.020
-    fade_to: float = 0.100
-    heartbeat: float = 1.0
+    fade_from: float = staleness.ENCODER_FADE
+    fade_to: float = staleness.ENCODER_ZERO
+    heartbeat: float = staleness.HEARTBEAT
     arming: float = 1.0
     tilt_margin: float = 0.035
     check_force: float = 0.3

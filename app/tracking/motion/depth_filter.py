@@ -5,7 +5,9 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Final
 
-GAP: Final = 0.2
+from app.core.staleness import TRACKER_HOLD
+
+GAP: Final = TRACKER_HOLD
 """Time [s] without a fix after which a filter forgets: the pose then has no measured depth."""
 
 FASTEST: Final = 0.5

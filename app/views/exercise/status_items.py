@@ -5,6 +5,13 @@ from enum import StrEnum
 from math import inf
 from typing import Final
 
+from app.core.staleness import (
+    ENCODER_FADE,
+    ENCODER_ZERO,
+    HEARTBEAT,
+    TRACKER_FRESH,
+    TRACKER_HOLD,
+)
 from app.views import theme
 from app.views.text import tr
 
@@ -14,11 +21,6 @@ MISSED_WINDOW: Final = 10.0
 """The share of missed deadlines is that of so many last seconds."""
 MISSED_WARNING: Final = 0.001
 MISSED_BAD: Final = 0.05
-ENCODER_FADE: Final = 0.02
-ENCODER_ZERO: Final = 0.1
-TRACKER_FRESH: Final = 0.1
-TRACKER_HOLD: Final = 0.2
-HEARTBEAT_LIMIT: Final = 1.0
 SHARE_WARNING: Final = 0.9
 
 
@@ -130,7 +132,7 @@ def depth_item(source: str, age: float) -> StatusItem:
 
 def heartbeat_item(age: float) -> StatusItem:
     """Return the age [s] of this window's sign of life to the loop."""
-    verdict = _by_age(age, 0.5 * HEARTBEAT_LIMIT, HEARTBEAT_LIMIT)
+    verdict = _by_age(age, 0.5 * HEARTBEAT, HEARTBEAT)
     return StatusItem(verdict, tr("Heartbeat"), age_text(age), tr(
         "The window's sign of life to the robot. After 1 s without one the force goes to zero. If "
         "it stops, the window is frozen: wait, or end the program."

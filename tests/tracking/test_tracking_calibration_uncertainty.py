@@ -14,7 +14,7 @@ from app.tracking.optics.calibration import (
     StereoCalibration,
 )
 from app.tracking.solver import FixSolver, Sighting
-from app.tracking.stereo.calibration_error import CalibrationError, pixel_by_parameters
+from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty, pixel_by_parameters
 from app.tracking.stereo.rays import normalised
 from app.tracking.stereo.triangulation import triangulate
 
@@ -107,7 +107,7 @@ def test_the_spread_of_points_over_possible_calibrations_is_the_stated_one(wide,
     point = FULCRUM + np.array(place)
     pixels = [model.pixel(point) for model in calibration.models()]
     found, covariances = _found(calibration, pixels)
-    predicted = CalibrationError(calibration).covariance(found.p_world, covariances)
+    predicted = CalibrationUncertainty(calibration).covariance(found.p_world, covariances)
     rng = np.random.default_rng(7)
     points = [_found(_perturbed(calibration, rng), pixels)[0].p_world for _ in range(1500)]
     errors = np.array(points) - point
@@ -137,7 +137,7 @@ def test_a_fix_carries_the_calibrations_error_beside_its_noise(wide):
 
 
 def test_a_calibration_without_uncertainty_adds_nothing(wide):
-    error = CalibrationError(_calibration(wide, scale=0.0))
+    error = CalibrationUncertainty(_calibration(wide, scale=0.0))
     added = error.covariance(FULCRUM, np.array([1e-8 * np.eye(2)] * 2))
     np.testing.assert_array_equal(added, np.zeros((3, 3)))
 
@@ -146,7 +146,7 @@ def test_the_world_frame_alone_moves_the_point_as_a_rigid_body(wide):
     calibration = _calibration(wide, scale=0.0)
     twist = np.diag(WORLD_SD**2)
     world = PoseCalibration.of(calibration.world.transform, twist)
-    error = CalibrationError(calibration.model_copy(update={"world": world}))
+    error = CalibrationUncertainty(calibration.model_copy(update={"world": world}))
     point = FULCRUM + np.array([0.01, 0.02, -0.03])
     lever = np.hstack([np.eye(3), np.cross(np.eye(3), point)])
     np.testing.assert_allclose(

@@ -27,7 +27,7 @@ _REUSED = 2e-3
 """How far [m] a point may move before its sensitivities are computed anew: they change by 1 %."""
 
 
-class CalibrationError:
+class CalibrationUncertainty:
     """Covariance of triangulated points from that of a calibration; remembers the last place."""
 
     def __init__(self, calibration: StereoCalibration) -> None:
