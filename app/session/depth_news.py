@@ -32,7 +32,7 @@ class DepthNews:
         if pose.depth_source is DepthSource.MODEL and was_measured and not self._lost:
             self._lost = True
             return (
-                f"the cameras have not seen the needle for {TRACKER_HOLD * 1e3:.0f} ms: from now on "
-                "the depth is the model's, not measured"
+                f"the cameras have not seen the needle for {TRACKER_HOLD * 1e3:.0f} ms: from now "
+                "on the depth is the model's, not measured"
             )
         return ""
