@@ -16,7 +16,7 @@ from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Miss
 from app.tracking.markers.pair import ShaftAxis, fits, shaft_axis, tell_apart
 from app.tracking.optics.rig import RigProfile
 from app.tracking.solver import FixSolver
-from app.tracking.stereo.calibration_error import CalibrationError
+from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty
 from app.tracking.stereo.triangulation import Triangulation
 from app.tracking.track import Found, Markers, PixelTrack, sightings_at
 
@@ -47,7 +47,9 @@ class TwoBands:
         self._solvers = (solver, FixSolver(self._second, fulcrum))
         self._gate = gate
         self._fulcrum = fulcrum
-        self._error = CalibrationError(rig.calibration) if rig.calibration is not None else None
+        self._error = (
+            CalibrationUncertainty(rig.calibration) if rig.calibration is not None else None
+        )
         self._tracks = tuple((PixelTrack(), PixelTrack()) for _ in range(2))
         self._towards = _DOWN
         self.use(RED)
