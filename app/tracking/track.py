@@ -29,15 +29,17 @@ _FARTHEST = 60.0
 
 
 class PixelTrack:
-    """The last two finds of one camera."""
+    """The last two finds of one camera, and the one before for the prediction."""
 
     def __init__(self) -> None:
         self._fixes: list[tuple[float, MarkerFix]] = []
+        self._before: tuple[float, MarkerFix] | None = None
         self._doubted = False
 
     def add(self, time: float, marker: MarkerFix | None) -> None:
         """Remember a find; a picture without the marker, or not newer, begins a new track."""
         earlier = [entry for entry in self._fixes[-1:] if entry[0] < time]
+        self._before = self._fixes[0] if earlier and len(self._fixes) == 2 else None
         self._fixes = [] if marker is None else [*earlier, (time, marker)]
         self._doubted = False
 
@@ -50,7 +52,11 @@ class PixelTrack:
         self._doubted = True
 
     def predict(self, time: float) -> FloatArray | None:
-        """Pixel where the marker should be at `time` [s], at constant speed; None if lost."""
+        """Pixel where the marker should be at `time` [s]; None if lost.
+
+        At constant acceleration by three finds, at constant speed by two: a hand's acceleration
+        between two pictures is some tenths of a pixel, which would cost the fit another step.
+        """
         if not self._fixes or self._doubted:
             return None
         last_time, last = self._fixes[-1]
@@ -59,7 +65,13 @@ class PixelTrack:
         if len(self._fixes) < 2 or last_time - self._fixes[0][0] > _GAP:
             return last.uv
         first_time, first = self._fixes[0]
-        step = (last.uv - first.uv) * (time - last_time) / max(last_time - first_time, 1e-6)
+        ahead, span = time - last_time, max(last_time - first_time, 1e-6)
+        speed = (last.uv - first.uv) / span
+        if self._before is not None and 0.0 < first_time - self._before[0] <= _GAP:
+            earlier = first_time - self._before[0]
+            change = speed - (first.uv - self._before[1].uv) / earlier
+            speed = speed + change * (ahead + span) / (earlier + span)
+        step = speed * ahead
         return np.asarray(last.uv + np.clip(step, -_FARTHEST, _FARTHEST))
 
     def at(self, time: float) -> Sighting | None:

@@ -72,27 +72,31 @@ def quadratic_spline(t: float, count: int, weights: Any) -> int:
 @njit
 def design(
     pixels: Any,
+    shift: Any,
     frame: Any,
     arcs: Any,
     shape: Any,
     blur: float,
     stretch: Any,
     rows: Any,
+    seen: Any,
 ) -> None:
-    """Fill the rows of the pixels.
+    """Fill the rows of the pixels that see more than the background.
 
     Args:
-        pixels: u, v from the frame's origin, moved back by the shift being fitted, (m, 2).
+        pixels: u, v from the frame's origin, (m, 2).
+        shift: how far the band is from there [px], (2,).
         frame: see `band_outline.outline`.
         arcs: likewise.
         shape: a `rig.NeedleShape`.
         blur: standard deviation of the point spread [px].
         stretch: width and length of the band over those of the outline, (2,).
-        rows: out, (m, PARTIALS, COLUMNS).
+        rows: out, (m, PARTIALS, COLUMNS); untouched where nothing but background is seen.
+        seen: out, whether the row is filled, (m,).
     """
     profile, splines = np.zeros((CELLS, BAND)), np.empty((CELLS, 3))
     first = np.empty(CELLS, dtype=np.int64)
-    low, high = np.inf, -np.inf
+    low, high, inner_low, inner_high = np.inf, -np.inf, -np.inf, np.inf
     for j in range(CELLS):
         x = (2 * j + 1.0) / CELLS - 1.0
         depth = math.sqrt(1.0 - x * x)
@@ -103,32 +107,41 @@ def design(
         profile[j, 6] = 1.0 - 2.0 * double_sine * double_sine
         first[j] = quadratic_spline(0.5 * (x + 1.0), SPLINES, splines[j])
         low, high = min(low, arcs[0, j], arcs[1, j]), max(high, arcs[0, j], arcs[1, j])
-    end = stretch[1] * np.mean(arcs[1])
-    low, high, reach = stretch[1] * low, stretch[1] * high, _FAR * blur
+        inner_low, inner_high = max(inner_low, arcs[0, j]), min(inner_high, arcs[1, j])
+    end, reach = stretch[1] * np.mean(arcs[1]), _FAR * blur
+    low, high = stretch[1] * low, stretch[1] * high
+    inner_low, inner_high = stretch[1] * inner_low + reach, stretch[1] * inner_high - reach
     edges = np.empty((3, CELLS + 1))
     # a cone's outline: the tangents from its apex to the ellipse of its base
     lean = shape[0] / shape[5] * math.sqrt(1.0 - frame[9] * frame[9]) / frame[9]
     taper = 1.0 / (shape[5] * math.sqrt(max(0.1, 1.0 - lean * lean)))
     for i in range(pixels.shape[0]):
         row = rows[i]
-        row[:] = 0.0
-        e = pixels[i, 0] * frame[2] + pixels[i, 1] * frame[3]
-        n = pixels[i, 1] * frame[2] - pixels[i, 0] * frame[3]
+        seen[i] = False
+        du, dv = pixels[i, 0] - shift[0], pixels[i, 1] - shift[1]
+        e, n = du * frame[2] + dv * frame[3], dv * frame[2] - du * frame[3]
         left, right = frame[4] + frame[5] * e, frame[6] + frame[7] * e
         bow = frame[10] * (e * e - frame[11])
         middle, width = 0.5 * (left + right) + bow, 0.5 * (right - left)
         if low - reach < e < high + reach:
             a, b = _across(n, middle, width, blur, stretch[0], edges)
-            _band(row, e, a, b, edges, arcs, blur, stretch[1], profile)
+            if a < b:
+                row[:], seen[i] = 0.0, True
+            if inner_low < e < inner_high:
+                _within(row, a, b, edges, profile)
+            else:
+                _band(row, e, a, b, edges, arcs, blur, stretch[1], profile)
         for tip in range(2):
             if (e < high - reach * 2.0) if tip else (e > low + reach * 2.0):
                 continue
             radius = shape[0]
             if tip:
                 h = (end - e) / blur  # where on the point the pixel looks, on average
-                seen = e + blur * _bell(h) / max(_step(-h), 1e-3)
-                radius *= min(1.0, max(0.05, taper * (shape[3] - seen / frame[8])))
+                at = e + blur * _bell(h) / max(_step(-h), 1e-3)
+                radius *= min(1.0, max(0.05, taper * (shape[3] - at / frame[8])))
             a, b = _across(n, middle, width * radius / shape[1], blur, stretch[0], edges)
+            if a < b and not seen[i]:
+                row[:], seen[i] = 0.0, True
             _shaft(row, e, a, b, edges, arcs, blur, stretch[1], tip, splines, first)
 
 
@@ -151,6 +164,20 @@ def _across(n: float, middle: float, width: float, blur: float, stretch: float, 
 
 
 @njit
+def _within(row: Any, a: int, b: int, edges: Any, profile: Any) -> None:
+    """Like `_band`, far from both of the band's ends."""
+    for j in range(a, b):
+        share = edges[0, j + 1] - edges[0, j]
+        by_n = edges[1, j + 1] - edges[1, j]
+        by_width = edges[2, j + 1] - edges[2, j]
+        for k in range(BAND):
+            p = profile[j, k]
+            row[0, k] += p * share
+            row[1, k] += p * by_n
+            row[3, k] += p * by_width
+
+
+@njit
 def _band(
     row: Any,
     e: float,
@@ -165,6 +192,8 @@ def _band(
     """Add the band's columns of one pixel and their derivatives."""
     for j in range(a, b):
         h1, h2 = (stretch * arcs[0, j] - e) / blur, (stretch * arcs[1, j] - e) / blur
+        if h1 >= _FAR or h2 <= -_FAR:
+            continue
         along = _step(h2) - _step(h1)
         k1, k2 = _bell(h1) / blur, _bell(h2) / blur
         across = edges[0, j + 1] - edges[0, j]

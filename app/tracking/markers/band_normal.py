@@ -48,6 +48,7 @@ def _entries(row: Any, free: float, first: int, weights: Any, index: Any, value:
 @njit
 def colour_equations(
     rows: Any,
+    seen: Any,
     first: Any,
     weights: Any,
     colours: Any,
@@ -60,11 +61,12 @@ def colour_equations(
 
     Args:
         rows: see `band_design.design`.
+        seen: likewise.
         first: see `band_ground.ground_columns`.
         weights: likewise.
         colours: of the pixels, (m, 3).
         good: which count, (m,).
-        normal: in and out, (REST, REST).
+        normal: in and out, lower triangle, (REST, REST).
         cross: out, rest with band and colours, (REST, BAND + 3).
         shared: out, band with band and colours, (BAND, BAND + 3).
     """
@@ -74,6 +76,9 @@ def colour_equations(
     for i in range(rows.shape[0]):
         if not good[i]:
             continue
+        if not seen[i]:
+            _ground_only(first[i], weights[i], colours[i], normal, cross)
+            continue
         row = rows[i, 0]
         count = _entries(row, 1.0 - covered(row), first[i], weights[i], index, value)
         for k in range(BAND):
@@ -82,7 +87,7 @@ def colour_equations(
             right[BAND + c] = colours[i, c]
         for p in range(count):
             a, x = index[p], value[p]
-            for q in range(count):
+            for q in range(p + 1):
                 normal[a, index[q]] += x * value[q]
             for k in range(BAND + 3):
                 cross[a, k] += x * right[k]
@@ -93,15 +98,30 @@ def colour_equations(
 
 
 @njit
+def _ground_only(first: int, weights: Any, colour: Any, normal: Any, cross: Any) -> None:
+    """Add a pixel of the background alone."""
+    start, slope = _SHAFTS + first, _SLOPES + (SIDE if first >= SIDE else 0)
+    for p in range(4):
+        a, x = (slope if p == 3 else start + p), weights[p]
+        for q in range(min(p, 2) + 1):
+            normal[a, start + q] += x * weights[q]
+        for c in range(3):
+            cross[a, BAND + c] += x * colour[c]
+    normal[slope, slope] += weights[3] * weights[3]
+
+
+@njit
 def move_equations(
     rows: Any,
+    seen: Any,
     first: Any,
     weights: Any,
     colours: Any,
     good: Any,
-    band: Any,
+    paint: Any,
+    shading: Any,
     rest: Any,
-    residual: Any,
+    squares: Any,
     cross: Any,
     moves: Any,
     right: Any,
@@ -110,59 +130,67 @@ def move_equations(
 
     Args:
         rows: as above.
+        seen: as above.
         first: as above.
         weights: as above.
         colours: as above.
         good: as above.
-        band: coefficients, (BAND, 3).
+        paint: mean colour of the band, (3,).
+        shading: of the band: its coefficients are those of the paint times these, (BAND,).
         rest: coefficients, (REST, 3).
-        residual: out, colours minus the model, (m, 3).
-        cross: out, rest with the derivatives by n, e, width and length, (3, REST, MOVES).
-        moves: out, derivatives with derivatives and with the band, (3, MOVES, MOVES + BAND).
+        squares: out, mean square over the colours of the difference from the model, (m,).
+        cross: out, rest with the derivatives by n, e, width and length of each colour,
+            (REST, 3 * MOVES).
+        moves: out, derivatives with derivatives and with the band, (MOVES, MOVES + BAND).
         right: out, derivatives with the residual, (MOVES,).
     """
     index, value = np.empty(COLUMNS + 4, np.int64), np.empty(COLUMNS + 4)
-    slope = np.empty((MOVES, 3))
-    ground = np.empty(3)
+    slope, ground, residual = np.empty(3 * MOVES), np.empty(3), np.empty(3)
     cross[:], moves[:], right[:] = 0.0, 0.0, 0.0
     for i in range(rows.shape[0]):
-        row = rows[i, 0]
-        free = 1.0 - covered(row)
-        count = _entries(row, free, first[i], weights[i], index, value)
-        start = _SHAFTS + first[i]
-        slopes = _SLOPES + (SIDE if first[i] >= SIDE else 0)
+        start, slopes = _SHAFTS + first[i], _SLOPES + (SIDE if first[i] >= SIDE else 0)
         for c in range(3):
             ground[c] = weights[i, 3] * rest[slopes, c]
             for k in range(3):
                 ground[c] += weights[i, k] * rest[start + k, c]
-            model = 0.0
+        row, count, free = rows[i, 0], 0, 1.0
+        light = 0.0
+        if seen[i]:
+            free = 1.0 - covered(row)
+            count = _entries(row, 0.0, first[i], weights[i], index, value)
             for k in range(BAND):
-                model += row[k] * band[k, c]
+                light += row[k] * shading[k]
+        squares[i] = 0.0
+        for c in range(3):
+            model = light * paint[c] + free * ground[c]
             for p in range(count):
                 model += value[p] * rest[index[p], c]
-            residual[i, c] = colours[i, c] - model
-        if not good[i] or (row[0] == 0.0 and free > 0.9999):
+            residual[c] = colours[i, c] - model
+            squares[i] += residual[c] * residual[c] / 3.0
+        if not seen[i] or not good[i] or (row[0] == 0.0 and free > 0.9999):
             continue
         for m in range(MOVES):
             change = rows[i, 1 + m]
-            lost = covered(change)
+            lost, light = covered(change), 0.0
+            for k in range(BAND):
+                light += change[k] * shading[k]
             for c in range(3):
-                total = -lost * ground[c]
-                for k in range(BAND):
-                    total += change[k] * band[k, c]
-                for k in range(BAND, COLUMNS):
-                    if change[k] != 0.0:
-                        total += change[k] * rest[k - BAND, c]
-                slope[m, c] = total
-        for c in range(3):
-            for m in range(MOVES):
-                x = slope[m, c]
-                if x == 0.0:
-                    continue
-                right[m] += x * residual[i, c]
-                for q in range(MOVES):
-                    moves[c, m, q] += x * slope[q, c]
-                for k in range(BAND):
-                    moves[c, m, MOVES + k] += x * row[k]
+                total = light * paint[c] - lost * ground[c]
                 for p in range(count):
-                    cross[c, index[p], m] += x * value[p]
+                    total += change[BAND + index[p]] * rest[index[p], c]
+                slope[c * MOVES + m] = total
+        count = _entries(row, free, first[i], weights[i], index, value)
+        for p in range(count):
+            a, x = index[p], value[p]
+            for q in range(3 * MOVES):
+                cross[a, q] += x * slope[q]
+        for m in range(MOVES):
+            painted = 0.0
+            for c in range(3):
+                x = slope[c * MOVES + m]
+                right[m] += x * residual[c]
+                painted += x * paint[c]
+                for q in range(MOVES):
+                    moves[m, q] += x * slope[c * MOVES + q]
+            for k in range(BAND):
+                moves[m, MOVES + k] += painted * row[k]

@@ -13,6 +13,7 @@ from app.tracking.markers.cholesky import factorise, finish, halve
 @njit
 def solve_step(
     rows: Any,
+    seen: Any,
     first: Any,
     weights: Any,
     colours: Any,
@@ -22,28 +23,29 @@ def solve_step(
     shading_prior: Any,
     information: Any,
     right: Any,
-    residual: Any,
+    squares: Any,
 ) -> bool:
     """Solve for the colours, then set up the step in n, e, width and length.
 
     Args:
         rows: see `band_design.design`.
+        seen: likewise.
         first: see `band_ground.ground_columns`.
         weights: as above.
         colours: as above.
         good: as above.
         paint: mean colour of the band, (3,).
-        prior: of the rest's coefficients, (REST, REST); overwritten.
+        prior: of the rest's coefficients, lower triangle, (REST, REST); overwritten.
         shading_prior: of the band's, relative to the paint, (BAND,).
         information: out, of moves and shading, the rest eliminated, (MOVES + BAND, same).
         right: out, gradient by the moves, (MOVES,).
-        residual: out, (m, 3).
+        squares: out, mean square over the colours of the pixels' residuals, (m,).
 
     Returns:
         False if the pixels do not determine the colours.
     """
     cross, shared = np.empty((REST, BAND + 3)), np.empty((BAND, BAND + 3))
-    colour_equations(rows, first, weights, colours, good, prior, cross, shared)
+    colour_equations(rows, seen, first, weights, colours, good, prior, cross, shared)
     if not factorise(prior):
         return False
     halve(prior, cross)
@@ -64,40 +66,38 @@ def solve_step(
         return False
     halve(matrix, shading)
     finish(matrix, shading)
-    band, rest = np.empty((BAND, 3)), np.empty((REST, 3))
-    for c in range(3):
+    rest = np.empty((REST, 3))
+    for a in range(REST):
+        light = 0.0
         for k in range(BAND):
-            band[k, c] = shading[k, 0] * paint[c]
-        for a in range(REST):
-            rest[a, c] = cross[a, BAND + c]
-            for k in range(BAND):
-                rest[a, c] -= cross[a, k] * band[k, c]
+            light += cross[a, k] * shading[k, 0]
+        for c in range(3):
+            rest[a, c] = cross[a, BAND + c] - light * paint[c]
     finish(prior, rest)
-    crosses, moves = np.empty((3, REST, MOVES)), np.empty((3, MOVES, MOVES + BAND))
-    move_equations(rows, first, weights, colours, good, band, rest, residual, crosses, moves, right)
-    information[:] = 0.0
-    both = np.empty((REST, MOVES + BAND))
-    for c in range(3):
-        halve(prior, crosses[c])
-        for a in range(REST):
-            for m in range(MOVES):
-                both[a, m] = crosses[c, a, m]
-            for k in range(BAND):
-                both[a, MOVES + k] = paint[c] * cross[a, k]
-        for p in range(MOVES + BAND):
-            for q in range(p, MOVES + BAND):
-                total = 0.0
-                for a in range(REST):
-                    total -= both[a, p] * both[a, q]
-                if q < MOVES:
-                    total += moves[c, p, q]
-                elif p < MOVES:
-                    total += paint[c] * moves[c, p, q]
-                else:
-                    total += paint[c] ** 2 * shared[p - MOVES, q - MOVES]
-                information[p, q] += total
-                if q > p:
-                    information[q, p] += total
+    crosses, moves = np.empty((REST, 3 * MOVES)), np.empty((MOVES, MOVES + BAND))
+    move_equations(
+        rows, seen, first, weights, colours, good, paint, shading[:, 0], rest, squares,
+        crosses, moves, right,
+    )  # fmt: skip
+    halve(prior, crosses)
+    for p in range(MOVES):
+        for q in range(MOVES + BAND):
+            information[p, q] = moves[p, q]
     for k in range(BAND):
+        for q in range(BAND):
+            information[MOVES + k, MOVES + q] = strength * free[k, q]
         information[MOVES + k, MOVES + k] += shading_prior[k]
+    for a in range(REST):
+        for p in range(MOVES):
+            painted = 0.0
+            for c in range(3):
+                x = crosses[a, c * MOVES + p]
+                painted += paint[c] * x
+                for q in range(MOVES):
+                    information[p, q] -= x * crosses[a, c * MOVES + q]
+            for k in range(BAND):
+                information[p, MOVES + k] -= painted * cross[a, k]
+    for p in range(MOVES):
+        for q in range(MOVES, MOVES + BAND):
+            information[q, p] = information[p, q]
     return True

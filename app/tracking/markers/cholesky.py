@@ -11,17 +11,17 @@ from app.core.compiled import njit
 def factorise(matrix: Any) -> bool:
     """Replace the lower triangle by Cholesky's factor; False if it is not positive definite."""
     size = matrix.shape[0]
-    for i in range(size):
-        for j in range(i + 1):
-            total = matrix[i, j]
-            for k in range(j):
-                total -= matrix[i, k] * matrix[j, k]
-            if i == j:
-                if not total > 0.0:
-                    return False
-                matrix[i, i] = np.sqrt(total)
-            else:
-                matrix[i, j] = total / matrix[j, j]
+    column = np.empty(size)
+    for j in range(size):
+        if not matrix[j, j] > 0.0:
+            return False
+        matrix[j, j] = np.sqrt(matrix[j, j])
+        for i in range(j + 1, size):
+            x = matrix[i, j] / matrix[j, j]
+            matrix[i, j] = column[i] = x
+            if x != 0.0:
+                for k in range(j + 1, i + 1):
+                    matrix[i, k] -= x * column[k]
     return True
 
 

@@ -32,6 +32,9 @@ _MISFIT_PX2, _OUTLIERS_PX2 = 0.25, 1.0
 """Variance [px²] per unit of misfit and of outliers beyond the usual: measured on bands under
 fingers and highlights (tests/bench/bench_marker.py)."""
 
+_AGREES_PX = 1.0
+"""How far the patch's mean pixel may be from the prediction: it is off by half a pixel itself."""
+
 
 @dataclass(frozen=True)
 class ModelFit(Extractor):
@@ -66,6 +69,8 @@ class ModelFit(Extractor):
 
     def find(self, image: Image, hint: Hint) -> MarkerFix | Miss:
         """See `Extractor.find`."""
+        if (followed := self._followed(image, hint)) is not None:
+            return followed
         found = self.coarse.find(image, hint)
         if isinstance(found, Miss) or hint.axis_world is None:
             return found
@@ -80,6 +85,32 @@ class ModelFit(Extractor):
     def mask(self, image: Image) -> Mask:
         """See `Extractor.mask`."""
         return self.coarse.mask(image)
+
+    def _followed(self, image: Image, hint: Hint) -> MarkerFix | None:
+        """Fit begun at the prediction; None if that is not known or gives no marker.
+
+        The mean pixel of the patch only has to agree with the prediction; where it does not, the
+        fit begins there. What a fit does not take is looked at again from the centroid.
+        """
+        if hint.p_world is None or hint.axis_world is None or not hint.finite:
+            return None
+        if not np.isfinite(hint.axis_world).all() or not np.any(hint.axis_world):
+            return None
+        rough = self.coarse.rough(image, hint.uv)
+        depth = float((self.model.T_camera_world @ hint.p_world)[2])
+        if rough is None or not depth > 4.0 * self.shape.half:
+            return None
+        uv = hint.uv if np.abs(rough - hint.uv).max() < _AGREES_PX else rough
+        ray, ok = self.model.undistort(uv)
+        if not ok[0]:
+            return None
+        start = depth * np.array([ray[0, 0], ray[0, 1], 1.0])
+        axis = self.model.T_camera_world.rotate(unit(hint.axis_world))
+        fit = self.fitter.fit(image, start, axis)
+        if fit is None or not self.coarse.area_min <= fit.area <= self.coarse.area_max:
+            return None
+        judged = self._judged(fit)
+        return judged if isinstance(judged, MarkerFix) else None
 
     def _fit(
         self, image: Image, found: MarkerFix, axis_world: FloatArray, p_world: FloatArray | None

@@ -11,17 +11,26 @@ from dataclasses import dataclass, field
 import cv2
 import numpy as np
 
-from app.core.arrays import FloatArray
+from app.core.arrays import FloatArray, read_only
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.colour import RED, ColourModel
+from app.tracking.markers.colour_patch import mark_half, nearest_patch
 from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Mask, Miss, MissReason
 from app.tracking.markers.rim import outline_moments
 
 _SQUARE3 = np.ones((3, 3), dtype=np.uint8)
 _CANDIDATES = 6
-_NEAR = 24
-_PURITY = 0.3
-"""Least strength over the brightest colour of a pixel: skin and wood have less."""
+_ROOM = 7
+"""What is looked at round a patch [px]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Patch:
+    """A patch of the marker's colour: mask of its box with room, the box, and its mean pixel."""
+
+    mask: Mask
+    box: tuple[int, int, int, int]
+    centre: FloatArray
 
 
 @dataclass(frozen=True)
@@ -68,30 +77,62 @@ class OutlineCentroid(Extractor):
         strength = _strength(image, self.colour)
         return _threshold(strength, self.colour.threshold(float(np.percentile(strength, 99.9))))
 
+    def rough(self, image: Image, centre: FloatArray) -> FloatArray | None:
+        """Mean pixel of the patch nearest to a pixel, within a pixel or so the band's, shape (2,).
+
+        None if there is none, or it reaches the picture's border.
+        """
+        patch = self._patch(image, centre)
+        return None if isinstance(patch, Miss) else patch.centre
+
     def _seeds(self, image: Image) -> list[FloatArray]:
-        mask = _pure(image[::2, ::2], self.colour)
+        height, width = image.shape[:2]
+        mask = np.empty(((height + 1) // 2, (width + 1) // 2), dtype=np.uint8)
+        box = np.empty(4, dtype=np.int64)
+        least = float(np.floor(self.colour.strength)) + 0.5
+        if not mark_half(read_only(image[:]), self.colour.weights, least, mask, box):
+            return []
+        left, top = np.maximum(box[:2] - 2, 0)
+        mask = mask[top : box[3] + 2, left : box[2] + 2]
         mask = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, _SQUARE3)
         count, _, statistics, centres = cv2.connectedComponentsWithStats(mask)
         areas = 4.0 * statistics[1:count, cv2.CC_STAT_AREA]
         fitting = np.flatnonzero((areas > 0.5 * self.area_min) & (areas < 1.5 * self.area_max))
         largest = fitting[np.argsort(-areas[fitting])][:_CANDIDATES]
-        return [2.0 * centres[1 + i] for i in largest]
+        return [2.0 * (centres[1 + i] + [left, top]) for i in largest]
 
     def _in_region(self, image: Image, centre: FloatArray) -> MarkerFix | Miss:
+        patch = self._patch(image, centre)
+        if isinstance(patch, Miss):
+            return patch
+        left, top, right, bottom = patch.box
+        window = image[top:bottom, left:right]
+        return self._measure(window, patch.mask, np.array([left, top], dtype=np.float64))
+
+    def _patch(self, image: Image, centre: FloatArray) -> _Patch | Miss:
+        """Patch nearest to `centre` in the region round it, with room."""
         height, width = image.shape[:2]
-        u, v = np.clip(np.rint(centre), -1e6, 1e6).astype(int)
+        u, v = (round(min(1e6, max(-1e6, float(x)))) for x in centre)
         left, top = max(0, u - self.region), max(0, v - self.region)
         right, bottom = min(width, u + self.region + 1), min(height, v + self.region + 1)
         if right - left < 8 or bottom - top < 8:
             return Miss(MissReason.NOTHING_RED)
-        patch = _tight(image, (left, top, right, bottom), centre, self.colour)
-        if isinstance(patch, Miss):
-            return patch
-        blob, (left, top, right, bottom) = patch
-        if left == 0 or top == 0 or right == width or bottom == height:
-            return Miss(MissReason.AT_BORDER, centre)
-        window = image[top:bottom, left:right]
-        return self._measure(window, blob, np.array([left, top], dtype=np.float64))
+        labels, inner = np.empty((bottom - top, right - left), np.int32), np.empty(4, np.int64)
+        middle = np.empty(2)
+        label = nearest_patch(
+            read_only(image[:]), np.array([left, top, right, bottom]), float(centre[0]),
+            float(centre[1]), self.colour.weights, self.colour.strength, self.colour.share,
+            labels, inner, middle,
+        )  # fmt: skip
+        if label == 0:
+            return Miss(MissReason.NOTHING_RED)
+        x, y, w, h = (int(value) for value in inner)
+        box = (left + x - _ROOM, top + y - _ROOM, left + x + w + _ROOM, top + y + h + _ROOM)
+        if box[0] <= 0 or box[1] <= 0 or box[2] >= width or box[3] >= height:
+            return Miss(MissReason.AT_BORDER, middle)
+        mask = np.zeros((h + 2 * _ROOM, w + 2 * _ROOM), dtype=np.uint8)
+        mask[_ROOM:-_ROOM, _ROOM:-_ROOM] = labels[y : y + h, x : x + w] == label
+        return _Patch(mask, box, middle)
 
     def _measure(self, window: Image, blob: Mask, origin: FloatArray) -> MarkerFix | Miss:
         middle = origin + 0.5 * np.array([blob.shape[1], blob.shape[0]])
@@ -115,54 +156,8 @@ def _strength(image: Image, colour: ColourModel) -> Mask:
     return np.asarray(cv2.transform(np.ascontiguousarray(image), colour.weights[None]), np.uint8)
 
 
-def _pure(image: Image, colour: ColourModel) -> Mask:
-    """Mark where the colour is strong, and strong for its brightness: skin and wood are not."""
-    purity = colour.weights - _PURITY * (colour.weights == 1.0)
-    both = cv2.transform(np.ascontiguousarray(image), np.stack([colour.weights, purity]))
-    strong = cv2.threshold(both[..., 0], colour.strength, 1.0, cv2.THRESH_BINARY)[1]
-    pure = cv2.threshold(both[..., 1], 0.0, 1.0, cv2.THRESH_BINARY)[1]
-    return np.asarray(cv2.bitwise_and(strong, pure), dtype=np.uint8)
-
-
 def _threshold(redness: Mask, limit: float) -> Mask:
     return (redness > limit).astype(np.uint8)
-
-
-def _tight(
-    image: Image, region: tuple[int, int, int, int], centre: FloatArray, colour: ColourModel
-) -> tuple[Mask, tuple[int, int, int, int]] | Miss:
-    """Return the red patch nearest to `centre` in the region, and its box with room around it."""
-    left, top, right, bottom = region
-    strength = _strength(image[top:bottom, left:right], colour)
-    y, x = np.rint(centre).astype(int) - [top, left]
-    near = strength[max(0, y - _NEAR) : max(0, y + _NEAR), max(0, x - _NEAR) : max(0, x + _NEAR)]
-    strongest = float(near.max(initial=0))
-    if strongest < colour.strength:
-        strongest = float(strength.max())
-    mask = _threshold(strength, colour.threshold(strongest))
-    mask &= _pure(image[top:bottom, left:right], colour)
-    count, labels, statistics, centres = cv2.connectedComponentsWithStats(mask)
-    if count < 2:
-        return Miss(MissReason.NOTHING_RED)
-    areas = statistics[1:, cv2.CC_STAT_AREA]
-    distance = np.hypot(*(centres[1:] + np.array([left, top]) - centre).T)
-    distance[areas < max(6.0, 0.2 * areas.max())] = np.inf  # specks
-    which = 1 + int(np.argmin(distance))
-    x, y, w, h = statistics[which, :4]
-    room = 7
-    box = (
-        max(0, left + x - room),
-        max(0, top + y - room),
-        min(image.shape[1], left + x + w + room),
-        min(image.shape[0], top + y + h + room),
-    )
-    blob = np.zeros((box[3] - box[1], box[2] - box[0]), dtype=np.uint8)
-    rows, columns = top + y - box[1], left + x - box[0]
-    blob[rows : rows + h, columns : columns + w] = labels[y : y + h, x : x + w] == which
-    touches = (left + x == 0 or top + y == 0) or (
-        left + x + w == image.shape[1] or top + y + h == image.shape[0]
-    )
-    return Miss(MissReason.AT_BORDER, centres[which] + [left, top]) if touches else (blob, box)
 
 
 def _overexposed(window: Image, blob: Mask, colour: ColourModel) -> float:

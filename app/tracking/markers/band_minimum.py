@@ -1,0 +1,198 @@
+"""The least squares of the band's picture, from its pixels to the minimum (compiled)."""
+
+from typing import Any, Final
+
+import numpy as np
+
+from app.core.compiled import njit
+from app.tracking.markers.band_design import BAND, COLUMNS, PARTIALS, design
+from app.tracking.markers.band_ground import directions, ground_columns
+from app.tracking.markers.band_normal import MOVES
+from app.tracking.markers.band_pixels import gather
+from app.tracking.markers.band_step import solve_step
+from app.tracking.markers.cholesky import factorise, finish, halve
+
+_STEPS: Final = 4
+_DONE_PX: Final = 0.02
+_NEAR_PX: Final = 0.15
+"""A step this small ends at the least squares' minimum, to a thousandth of a pixel."""
+
+_FARTHEST_PX: Final = 8.0
+_FEW: Final = 0.01
+"""Share of pixels that may be left out without another step."""
+
+_OUTLIER: Final = 9.0
+"""Mean square residual of a pixel's colours [noise variances] beyond which it does not count."""
+
+_CLEAR: Final = 4.0
+"""From the needle's outline to what is background only [standard deviations of the blur]."""
+
+RESULT: Final = 14
+
+
+@njit
+def minimise(
+    image: Any,
+    box: Any,
+    frame: Any,
+    arcs: Any,
+    shape: Any,
+    blur: float,
+    noise: float,
+    stretch_prior: float,
+    priors: Any,
+    shading_prior: Any,
+    result: Any,
+) -> bool:
+    """Fit the band near its outline; False if there is nothing to fit.
+
+    Args:
+        image: uint8 (H, W, 3).
+        box: see `band_pixels.surroundings`.
+        frame: see `band_outline.outline`.
+        arcs: likewise.
+        shape: a `rig.NeedleShape`.
+        blur: standard deviation of the point spread [px].
+        noise: standard deviation of a grey value.
+        stretch_prior: of width and length, inverse square of the relative standard deviation.
+        priors: of the rest's colours by whether either side's background has edges,
+            (2, 2, REST, REST).
+        shading_prior: see `band_step.solve_step`.
+        result: out, shift u and v [px], its covariance row by row [px²], width and length over
+            the expected, misfit, outliers, area [px²] and paint; see `band_fit.BandFit`.
+    """
+    height, width = box[3] - box[1], box[2] - box[0]
+    if height <= 0 or width <= 0:
+        return False
+    most = height * width
+    pixels, colours, usable = np.empty((most, 2)), np.empty((most, 3)), np.empty(most, np.bool_)
+    sides, clear = np.empty(most, np.int64), np.empty((height, width), np.int8)
+    m = gather(
+        image, box, frame, arcs, _CLEAR * blur, pixels, colours, usable, sides, clear
+    )  # fmt: skip
+    found, uneven = np.empty((2, 2)), np.empty(2, np.bool_)
+    window = image[box[1] : box[3], box[0] : box[2]]
+    directions(window, clear, noise, found, uneven)
+    pixels, colours, usable = pixels[:m], colours[:m] / noise, usable[:m]
+    first, weights = np.zeros(m, np.int64), np.empty((m, 4))
+    ground_columns(pixels, sides[:m], found, first, weights)
+    prior = priors[int(uneven[0]), int(uneven[1])]
+    rows, seen = np.empty((m, PARTIALS, COLUMNS)), np.empty(m, np.bool_)
+    squares, good = np.empty(m), usable.copy()
+    shift, stretch, change = np.zeros(2), np.ones(2), np.empty(MOVES)
+    covariance, paint, gain = np.empty((2, 2)), np.empty(3), 0.0
+    for step in range(_STEPS):
+        design(pixels, shift, frame, arcs, shape, blur, stretch, rows, seen)
+        if not _paint(rows, seen, colours, good, paint):
+            return False
+        information = np.empty((MOVES + BAND, MOVES + BAND))
+        right = np.empty(MOVES)
+        if not solve_step(
+            rows, seen, first, weights, colours, good, paint, prior.copy(), shading_prior,
+            information, right, squares,
+        ):  # fmt: skip
+            return False
+        # derivatives are by n and e of the pixel: the band moved by +u is the pixel moved by -u
+        _turn(information, right, frame)
+        for k in range(2):
+            right[2 + k] -= stretch_prior * (stretch[k] - 1.0)
+            information[2 + k, 2 + k] += stretch_prior
+        if not _solve(information, right, change, covariance):
+            return False
+        gain = 0.0
+        for k in range(MOVES):
+            gain += right[k] * change[k]
+        farthest, stretched = 0.0, 0.0
+        for k in range(2):
+            shift[k] += change[k]
+            stretch[k] += change[2 + k]
+            farthest = max(farthest, abs(shift[k]))
+            stretched = max(stretched, abs(stretch[k] - 1.0))
+        if not (farthest < _FARTHEST_PX and stretched < 0.4 and np.isfinite(gain)):
+            return False
+        moved = max(abs(change[0]), abs(change[1]))
+        if moved < _DONE_PX and step > 0:
+            break
+        if moved < _NEAR_PX:
+            before, after = 0, 0
+            for i in range(m):
+                before += good[i]
+                good[i] = usable[i] and squares[i] < _OUTLIER
+                after += good[i]
+            if step > 0 or after > (1.0 - _FEW) * before:
+                break
+    result[0], result[1], result[6], result[7] = shift[0], shift[1], stretch[0], stretch[1]
+    for k in range(4):
+        result[2 + k] = covariance[k // 2, k % 2]
+    for c in range(3):
+        result[11 + c] = paint[c] * noise
+    return _quality(rows, seen, squares, good, gain, result)
+
+
+@njit
+def _paint(rows: Any, seen: Any, colours: Any, good: Any, paint: Any) -> bool:
+    """Mean colour of the pixels that the band fills; False if there are hardly any."""
+    count = 0
+    paint[:] = 0.0
+    for i in range(rows.shape[0]):
+        if seen[i] and good[i] and rows[i, 0, 0] > 0.97:
+            count += 1
+            for c in range(3):
+                paint[c] += colours[i, c]
+    paint /= max(count, 1)
+    return count >= 6
+
+
+@njit
+def _turn(information: Any, right: Any, frame: Any) -> None:
+    """From moves of the pixel by (n, e) to moves of the band by (u, v), in place."""
+    size = information.shape[0]
+    x, y = frame[3], frame[2]
+    for k in range(size):
+        by_n, by_e = information[k, 0], information[k, 1]
+        information[k, 0], information[k, 1] = x * by_n - y * by_e, -y * by_n - x * by_e
+    for k in range(size):
+        by_n, by_e = information[0, k], information[1, k]
+        information[0, k], information[1, k] = x * by_n - y * by_e, -y * by_n - x * by_e
+    by_n, by_e = right[0], right[1]
+    right[0], right[1] = x * by_n - y * by_e, -y * by_n - x * by_e
+
+
+@njit
+def _solve(information: Any, right: Any, change: Any, covariance: Any) -> bool:
+    """Step of the moves, and the covariance of the first two; overwrites `information`."""
+    size = information.shape[0]
+    inverse = np.zeros((size, MOVES))
+    for k in range(MOVES):
+        inverse[k, k] = 1.0
+    if not factorise(information):
+        return False
+    halve(information, inverse)
+    finish(information, inverse)
+    for p in range(MOVES):
+        change[p] = 0.0
+        for q in range(MOVES):
+            change[p] += inverse[p, q] * right[q]
+    covariance[:] = inverse[:2, :2]
+    return True
+
+
+@njit
+def _quality(rows: Any, seen: Any, squares: Any, good: Any, gain: float, result: Any) -> bool:
+    """Write misfit, outliers and area; False where too few of the band's pixels count."""
+    total, count, area, kept = 0.0, 0, 0.0, 0.0
+    for i in range(rows.shape[0]):
+        if not seen[i]:
+            continue
+        share = rows[i, 0, 0]
+        area += share
+        if good[i]:
+            kept += share
+            if share > 0.05:
+                count += 1
+                total += squares[i]
+    if count < 20:
+        return False
+    result[8] = (3.0 * total - gain) / (3.0 * count)  # the last step takes that much off
+    result[9], result[10] = 1.0 - kept / area, area
+    return True

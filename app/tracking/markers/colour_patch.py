@@ -1,0 +1,158 @@
+"""Patches of the marker's colour in a picture (compiled).
+
+A pixel is marked where the colour is strong, and strong for its brightness (see `colour`): skin and
+wood are not. What is marked and touches, corners too, is one patch.
+"""
+
+import math
+from typing import Any, Final
+
+import numpy as np
+
+from app.core.compiled import njit
+
+_NEAR: Final = 24
+"""Where the strongest pixel is looked for that sets the threshold [px], half width."""
+
+_PURITY: Final = 0.3
+"""Least strength over the brightest colour of a pixel: skin and wood have less."""
+
+_SPECK: Final = 6.0
+_SPECK_SHARE: Final = 0.2
+"""Least area of a patch [px²], and over that of the largest."""
+
+
+@njit
+def _strength(image: Any, v: int, u: int, weights: Any) -> float:
+    return weights[0] * image[v, u, 0] + weights[1] * image[v, u, 1] + weights[2] * image[v, u, 2]
+
+
+@njit
+def _is_pure(image: Any, v: int, u: int, weights: Any, strength: float) -> bool:
+    """Whether the strength is enough for the brightness of the marker's main colours."""
+    bright = 0.0
+    for k in range(3):
+        if weights[k] == 1.0:
+            bright += image[v, u, k]
+    return strength - _PURITY * bright >= 0.5
+
+
+@njit
+def mark_half(image: Any, weights: Any, least: float, mask: Any, box: Any) -> bool:
+    """Mark every second pixel of every second row; False if there is none to mark.
+
+    Args:
+        image: uint8 (H, W, 3).
+        weights: see `colour.ColourModel.weights`.
+        least: strength of a pixel [grey levels].
+        mask: out, uint8 ((H + 1) // 2, (W + 1) // 2).
+        box: out, left, top, right, bottom of what is marked [px of the mask], the last two
+            exclusive.
+    """
+    height, width = mask.shape
+    box[0], box[1], box[2], box[3] = width, height, 0, 0
+    for v in range(height):
+        for u in range(width):
+            strength = _strength(image, 2 * v, 2 * u, weights)
+            mask[v, u] = 0
+            if strength >= least and _is_pure(image, 2 * v, 2 * u, weights, strength):
+                mask[v, u] = 1
+                box[0], box[1] = min(box[0], u), min(box[1], v)
+                box[2], box[3] = max(box[2], u + 1), max(box[3], v + 1)
+    return box[2] > box[0]
+
+
+@njit
+def nearest_patch(
+    image: Any,
+    region: Any,
+    u: float,
+    v: float,
+    weights: Any,
+    least: float,
+    share: float,
+    labels: Any,
+    box: Any,
+    centre: Any,
+) -> int:
+    """Label of the patch nearest to a pixel in a region; 0 if there is none.
+
+    Args:
+        image: uint8 (H, W, 3).
+        region: left, top, right, bottom [px]; the last two exclusive.
+        u: column of the pixel, in the picture.
+        v: its row.
+        weights: see `colour.ColourModel.weights`.
+        least: strength of a pixel [grey levels].
+        share: of the strongest pixel nearby that a pixel must have.
+        labels: out, int32, of the region's size: the patches' numbers, 0 outside them.
+        box: out, left, top, width, height of the patch in the region [px].
+        centre: out, mean pixel of the patch in the picture, (2,).
+    """
+    left, top = region[0], region[1]
+    height, width = region[3] - top, region[2] - left
+    strengths = np.empty((height, width))
+    near, all_over = 0.0, 0.0
+    x, y = round(u) - left, round(v) - top
+    for j in range(height):
+        for i in range(width):
+            strength = min(255.0, max(0.0, _strength(image, top + j, left + i, weights)))
+            strengths[j, i] = strength
+            all_over = max(all_over, strength)
+            if -_NEAR <= j - y < _NEAR and -_NEAR <= i - x < _NEAR:
+                near = max(near, strength)
+    strongest = near if near >= least else all_over
+    limit = max(math.floor(least) + 0.5, share * strongest)
+    for j in range(height):
+        for i in range(width):
+            strength = strengths[j, i]
+            pure = strength >= limit and _is_pure(image, top + j, left + i, weights, strength)
+            labels[j, i] = -1 if pure else 0
+    stack = np.empty((height * width, 2), np.int32)
+    count, largest, best, nearest = 0, 0, 0, np.inf
+    for attempt in range(2):  # the largest says what is a speck
+        if attempt:
+            for j in range(height):
+                for i in range(width):
+                    labels[j, i] = -1 if labels[j, i] else 0
+            count = 0
+        for j in range(height):
+            for i in range(width):
+                if labels[j, i] != -1:
+                    continue
+                count += 1
+                area, low, high, first, last, su, sv = _flood(labels, j, i, count, stack)
+                if not attempt:
+                    largest = max(largest, area)
+                    continue
+                mu, mv = left + su / area, top + sv / area
+                distance = math.hypot(mu - u, mv - v)
+                if area >= max(_SPECK, _SPECK_SHARE * largest) and distance < nearest:
+                    best, nearest = count, distance
+                    box[0], box[1], box[2], box[3] = first, low, last - first + 1, high - low + 1
+                    centre[0], centre[1] = mu, mv
+    return best
+
+
+@njit
+def _flood(labels: Any, j: int, i: int, label: int, stack: Any) -> Any:
+    """Label a patch; returns its area, rows, columns, and the sums of columns and of rows."""
+    height, width = labels.shape
+    low, high, first, last = j, j, i, i
+    area, su, sv, waiting = 0, 0.0, 0.0, 1
+    stack[0, 0], stack[0, 1] = j, i
+    labels[j, i] = label
+    while waiting > 0:
+        waiting -= 1
+        b, a = stack[waiting, 0], stack[waiting, 1]
+        area += 1
+        su += a
+        sv += b
+        low, high, first, last = min(low, b), max(high, b), min(first, a), max(last, a)
+        for q in range(max(0, b - 1), min(height, b + 2)):
+            for p in range(max(0, a - 1), min(width, a + 2)):
+                if labels[q, p] == -1:
+                    labels[q, p] = label
+                    stack[waiting, 0], stack[waiting, 1] = q, p
+                    waiting += 1
+    return area, low, high, first, last, su, sv
