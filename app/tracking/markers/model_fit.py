@@ -32,9 +32,9 @@ _MISFIT_PX2, _OUTLIERS_PX2 = 0.25, 1.0
 """Variance [px²] per unit of misfit and of outliers beyond the usual: measured on bands under
 fingers and highlights (tests/bench/bench_marker.py)."""
 
-_AGREES_PX = 3.0
-"""How far the patch's mean pixel may be from the prediction: by 1.5 px it is off itself on a band
-16 px wide, as the darker flank is not strong enough; from 3 px off the fit still comes home."""
+_AGREES_PX, _CLOSE_PX = 2.5, 1.0
+"""How far the prediction may be from the patch's mean pixel, which is off itself by 1.5 px on a
+band 16 px wide (the darker flank is not strong enough), and from what the fit makes of it."""
 
 
 @dataclass(frozen=True)
@@ -90,8 +90,8 @@ class ModelFit(Extractor):
     def _followed(self, image: Image, hint: Hint) -> MarkerFix | None:
         """Fit begun at the prediction; None if that is not known or gives no marker.
 
-        The mean pixel of the patch only has to agree with the prediction; otherwise the fit
-        begins there. What a fit does not take is looked at again from the centroid.
+        The mean pixel of the patch only has to agree with the prediction. What a fit does not
+        take, or moves far, is looked at again from the centroid.
         """
         if hint.p_world is None or hint.axis_world is None or not hint.finite:
             return None
@@ -101,14 +101,17 @@ class ModelFit(Extractor):
         depth = float((self.model.T_camera_world @ hint.p_world)[2])
         if rough is None or not depth > 4.0 * self.shape.half:
             return None
-        uv = hint.uv if np.abs(rough - hint.uv).max() < _AGREES_PX else rough
-        ray, ok = self.model.undistort(uv)
+        if not np.abs(rough - hint.uv).max() < _AGREES_PX:
+            return None
+        ray, ok = self.model.undistort(hint.uv)
         if not ok[0]:
             return None
         start = depth * np.array([ray[0, 0], ray[0, 1], 1.0])
         axis = self.model.T_camera_world.rotate(unit(hint.axis_world))
         fit = self.fitter.fit(image, start, axis)
         if fit is None or not self.coarse.area_min <= fit.area <= self.coarse.area_max:
+            return None
+        if not np.abs(fit.uv - hint.uv).max() < _CLOSE_PX:
             return None
         judged = self._judged(fit)
         return judged if isinstance(judged, MarkerFix) else None
