@@ -97,11 +97,11 @@ class ModelFit(Extractor):
             return None
         if not np.isfinite(hint.axis_world).all() or not np.any(hint.axis_world):
             return None
-        rough = self.coarse.rough(image, hint.uv)
+        middle = self.coarse.patch_centre(image, hint.uv)
         depth = float((self.model.T_camera_world @ hint.p_world)[2])
-        if rough is None or not depth > 4.0 * self.shape.half:
+        if middle is None or not depth > 4.0 * self.shape.half:
             return None
-        if not np.abs(rough - hint.uv).max() < _AGREES_PX:
+        if not np.abs(middle - hint.uv).max() < _AGREES_PX:
             return None
         ray, ok = self.model.undistort(hint.uv)
         if not ok[0]:

@@ -77,8 +77,8 @@ class OutlineCentroid(Extractor):
         strength = _strength(image, self.colour)
         return _threshold(strength, self.colour.threshold(float(np.percentile(strength, 99.9))))
 
-    def rough(self, image: Image, centre: FloatArray) -> FloatArray | None:
-        """Mean pixel of the patch nearest to a pixel, within a pixel or so the band's, shape (2,).
+    def patch_centre(self, image: Image, centre: FloatArray) -> FloatArray | None:
+        """Mean pixel of the patch nearest to a pixel, shape (2,): the band's within 2 px or so.
 
         None if there is none, or it reaches the picture's border.
         """
