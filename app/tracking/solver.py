@@ -18,6 +18,11 @@ from app.tracking.stereo.epipolar import essential_matrix
 from app.tracking.stereo.rays import normalised
 from app.tracking.stereo.triangulation import StereoStatus, Triangulation, Way, triangulate
 
+OUTLINE_PX = 0.1
+"""What edges of the background do to an outline's centroid, standard deviation per axis [px], and
+no covariance of it says: with it the ellipsoid of 95 % held the truth in 95 % of 300 pairs over
+rig `wide`."""
+
 _GROSS_PX = 2.0
 _LINE_LIMIT = chi_square_quantile(1.0 - GATE, 2)
 _RESIDUAL_LIMIT = chi_square_quantile(1.0 - GATE, 1)
@@ -33,8 +38,9 @@ class Sighting:
 
     @classmethod
     def of(cls, marker: MarkerFix) -> "Sighting":
-        """Take them from an extractor's find."""
-        return cls(marker.uv, marker.covariance, marker.centre)
+        """Take them from an extractor's find; an outline's covariance grows by its edges' share."""
+        edges = OUTLINE_PX**2 if marker.centre is Centre.OUTLINE else 0.0
+        return cls(marker.uv, marker.covariance + edges * np.eye(2), marker.centre)
 
 
 class FixSolver:

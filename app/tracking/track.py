@@ -90,8 +90,8 @@ class PixelTrack:
             return _moved(first, time - first_time)
         share = (time - first_time) / span
         uv = (1.0 - share) * first.uv + share * last.uv
-        covariance = (1.0 - share) ** 2 * first.covariance + share**2 * last.covariance
-        return Sighting(uv, covariance, last.centre)
+        before, after = Sighting.of(first).covariance, Sighting.of(last).covariance
+        return Sighting(uv, (1.0 - share) ** 2 * before + share**2 * after, last.centre)
 
 
 def sightings_at(
@@ -112,4 +112,4 @@ def sightings_at(
 def _moved(marker: MarkerFix, dt: float) -> Sighting:
     """Return what a find says `dt` [s] away from its capture, at an unknown speed."""
     spread = (_UNKNOWN_SPEED * dt) ** 2 * np.eye(2)
-    return Sighting(marker.uv, marker.covariance + spread, marker.centre)
+    return Sighting(marker.uv, Sighting.of(marker).covariance + spread, marker.centre)

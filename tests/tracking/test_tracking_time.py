@@ -8,7 +8,7 @@ from app.tracking.agreement import EpipolarGate
 from app.tracking.cameras.camera import Frame
 from app.tracking.fix import FixStatus
 from app.tracking.follower import MarkerFollower
-from app.tracking.markers.extractor import Extractor, MarkerFix
+from app.tracking.markers.extractor import Centre, Extractor, MarkerFix
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.motion.choice import FilterName, depth_filter
 from app.tracking.solver import FixSolver
@@ -90,7 +90,8 @@ def test_without_interpolation_the_same_motion_is_off_by_more_than_half_a_millim
 
 
 def test_a_find_that_cannot_be_brought_to_the_time_says_how_unsure_it_is():
-    track, marker = PixelTrack(), MarkerFix(np.array([100.0, 50.0]), 1e-4 * np.eye(2), 400.0, 1.0)
+    track, spread = PixelTrack(), 1e-4 * np.eye(2)
+    marker = MarkerFix(np.array([100.0, 50.0]), spread, 400.0, 1.0, Centre.BAND)
     track.add(1.0, marker)
     for dt in (0.0, 0.01, 0.03):
         seen = track.at(1.0 - dt)
