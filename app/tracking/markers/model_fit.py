@@ -121,7 +121,7 @@ class ModelFit(Extractor):
             return None
         if not np.abs(fit.uv - hint.uv).max() < _CLOSE_PX:
             return None
-        judged = self._judged(fit)
+        judged = self._judged(fit, start, axis)
         return judged if isinstance(judged, MarkerFix) else None
 
     def _fit(
