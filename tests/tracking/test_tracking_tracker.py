@@ -94,13 +94,23 @@ def test_the_tip_is_within_its_figure_over_the_whole_range(wide, wide_renderers)
     assert valid >= 38
 
 
-def test_the_stated_radius_is_of_the_size_of_the_error(wide, wide_renderers, needle):
-    tracker, cameras = _stepped(wide, wide_renderers, needle)
-    fixes = [tracker.process(cameras[0].read(), cameras[1].read()) for _ in range(20)]
-    errors = np.array([np.linalg.norm(fix.p_tip_world - needle.tip(0)) for fix in fixes])
-    radius = fixes[0].radius()
-    assert (errors < radius).mean() >= 0.9
-    assert radius < 0.3e-3
+def test_the_stated_radius_is_of_the_size_of_the_error(wide, wide_renderers):
+    # over places: what the background does to the fit is the same in all pictures of one place
+    rng, tile = np.random.default_rng(6), NoiseTile.make((640, 480), 4.0, 9)
+    errors, radii = [], []
+    for _ in range(40):
+        tilt, azimuth = np.deg2rad(rng.uniform(0, 39)), rng.uniform(0, 6.28)
+        depth = rng.uniform(-0.03, 0.12)
+        needle = _Needle(wide.needle.marker_offset, depth, 0.0, tilt, azimuth)
+        tracker, _ = _stepped(wide, wide_renderers, needle)
+        frames = [Frame(noise(r.render(needle.at(0.0)), tile, rng), 0.0) for r in wide_renderers]
+        fix = tracker.process(*frames)
+        if fix.status is FixStatus.VALID:
+            errors.append(np.linalg.norm(fix.p_tip_world - needle.tip(0.0)))
+            radii.append(fix.radius())
+    assert len(errors) >= 38
+    assert (np.array(errors) < radii).mean() >= 0.9
+    assert np.median(radii) < 0.1e-3
 
 
 def test_skewed_cameras_are_brought_to_one_time(wide, wide_renderers):
