@@ -1,6 +1,7 @@
 """A trainer on pictures that are not simulated, and what keeps one from being built."""
 
 from datetime import UTC, datetime
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
@@ -8,13 +9,20 @@ import pytest
 
 from app.compose.camera_check import aim_of, look
 from app.compose.cameras import real_cameras
+from app.compose.desktop import _learner
 from app.compose.trainer import TrainerSetup, build_rig
 from app.core.clock import SystemClock
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of, plan_of
 from app.tracking.calibration.history import CalibrationHistory
-from app.tracking.cameras.settings import CameraSettings, parse_cameras
+from app.tracking.cameras.settings import (
+    CameraSettings,
+    load_settings,
+    parse_cameras,
+    save_settings,
+)
 from app.tracking.errors import CalibrationError, CameraError, RigError
+from app.tracking.markers.colour import RED, ColourModel
 from app.tracking.optics.calibration import CameraCalibration, PoseCalibration, StereoCalibration
 from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.cameras import NeedleRenderer
@@ -93,6 +101,33 @@ def test_a_trainer_measures_the_depth_with_cameras_and_its_record_says_which(
         "name": "wide", "simulated": "no", "left": "folder", "right": "folder",
         "calibration": "20261122-091244-3f2a",
     }  # fmt: skip
+
+
+def test_a_learned_colour_is_looked_for_from_the_next_start_on(wide, settings, tmp_path):
+    CalibrationHistory().keep(calibration(wide))
+    blue = ColourModel(bgr=(200.0, 40.0, 30.0))
+    assert real_cameras(settings).colour == RED
+    save_settings(settings)
+    clicks = []
+
+    def learned(camera, pixel):
+        clicks.append(camera)
+        return blue
+
+    tracker = SimpleNamespace(learn_colour=learned)
+    _learner(tracker, None)("left", np.zeros(2))
+    assert load_settings().marker_colour is None
+    _learner(tracker, settings)("left", np.zeros(2))
+    assert clicks == ["left", "left"]
+    exercise = load_exercise("first-insertion")
+    placed = placed_plan_of(exercise, device_of(exercise), plan_of(exercise))
+    rig = build_rig(
+        TrainerSetup(exercise, placed, "ct-1", None, 1, tmp_path, cameras=load_settings())
+    )
+    try:
+        assert [one.coarse.colour for one in rig.stereo.extractors] == [blue, blue]
+    finally:
+        rig.close()
 
 
 def test_without_a_calibration_or_its_world_frame_it_is_said_what_to_do(wide, settings):

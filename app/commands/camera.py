@@ -63,6 +63,9 @@ def use(
     calibration: Annotated[
         str, typer.Option(help="File of a calibration; `active` for the one in use.")
     ] = "",
+    forget_colour: Annotated[
+        bool, typer.Option("--forget-colour", help="Forget the marker's learned colour.")
+    ] = False,
 ) -> None:
     """Choose the cameras of the trainer and remember them; only what is given changes.
 
@@ -90,6 +93,8 @@ def use(
         document["left"]["exposure_ms"] = document["right"]["exposure_ms"] = exposure_ms
     if calibration:
         document["calibration"] = None if calibration == "active" else calibration
+    if forget_colour:
+        document["marker_colour"] = None
     settings = parse(document, CameraSettings, "acus camera use")
     typer.echo(f"left {settings.left.source}, right {settings.right.source}")
     typer.echo(f"saved in {save_settings(settings)}")
@@ -103,7 +108,7 @@ def show(
     as_json: Json = False,
 ) -> None:
     """Look at the cameras: size, rate, repeats, settings, light; are left and right swapped?"""
-    from app.commands.camera_report import report_document, report_lines
+    from app.commands.camera_report import colour_line, report_document, report_lines
     from app.compose.camera_check import look
     from app.tracking.cameras.settings import load_settings, parse_cameras
 
@@ -117,6 +122,7 @@ def show(
                 "cameras": [report_document(report) for report in found.reports],
                 "skew_ms": found.skew_ms,
                 "order": found.order,
+                "marker_colour": settings.model_dump(mode="json")["marker_colour"],
             }
         )
         return
@@ -127,6 +133,7 @@ def show(
         typer.echo(f"skew (right after left): {found.skew_ms:.1f} ms")
     if found.order:
         typer.echo(found.order)
+    typer.echo(colour_line(settings))
 
 
 def aim(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 if TYPE_CHECKING:
+    from app.tracking.cameras.settings import CameraSettings
     from app.tracking.cameras.survey import CameraReport
 
 
@@ -30,6 +31,18 @@ def report_lines(report: CameraReport) -> list[str]:
         )
     lines += [f"  {text}" for text in report.settings]
     return lines + [f"  ! {text}" for text in report.advice()]
+
+
+def colour_line(settings: CameraSettings) -> str:
+    """Return which colour of the marker is looked for, for people."""
+    colour = settings.marker_colour
+    if colour is None:
+        return "marker's colour: the usual red (the tracker panel's Learn takes another)"
+    blue, green, red = colour.bgr
+    return (
+        f"marker's colour: learned, red {red:.0f} green {green:.0f} blue {blue:.0f}, within "
+        f"{colour.angle_deg:.0f}° (`acus camera use --forget-colour` goes back to the usual red)"
+    )
 
 
 def report_document(report: CameraReport) -> dict[str, Any]:

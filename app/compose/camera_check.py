@@ -23,6 +23,7 @@ from app.tracking.cameras.source import parse_source
 from app.tracking.cameras.survey import CameraReport, survey
 from app.tracking.errors import CameraError
 from app.tracking.markers.choice import extractors
+from app.tracking.markers.colour import RED
 from app.tracking.markers.extractor import MarkerFix
 from app.tracking.optics.rig import RangeProfile, RigProfile, load_rig
 from app.tracking.optics.view_cone import ViewCone, view_cone
@@ -113,7 +114,7 @@ def _order(settings: CameraSettings, rig: RigProfile, frames: Sequence[tuple[Fra
     calibration = calibration_of(settings)
     if calibration is None:
         return "left and right are not checked: there is no calibration yet (`acus calibrate`)"
-    finders = extractors(rig)
+    finders = extractors(rig, colour=settings.marker_colour or RED)
     pixels: list[tuple[FloatArray, FloatArray]] = []
     for left, right in frames[:: max(1, len(frames) // 20)]:
         found = [f.search(p.image)[:1] for f, p in zip(finders, (left, right), strict=True)]

@@ -15,6 +15,7 @@ from app.tracking.cameras.checked import CheckedCamera
 from app.tracking.cameras.factory import make_camera
 from app.tracking.cameras.settings import CameraSettings
 from app.tracking.errors import CalibrationError, RigError
+from app.tracking.markers.colour import RED, ColourModel
 from app.tracking.optics.calibration import StereoCalibration
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import simulated_cameras
@@ -29,11 +30,13 @@ class AttachedCameras:
         cameras: left, right.
         rig: with its calibration, if there is one.
         metadata: for the record of an attempt.
+        colour: of the marker: learned earlier by these cameras, or the usual red.
     """
 
     cameras: tuple[Camera, Camera]
     rig: RigProfile
     metadata: dict[str, str]
+    colour: ColourModel = RED
 
 
 def real_cameras(settings: CameraSettings, clock: Clock | None = None) -> AttachedCameras:
@@ -63,7 +66,8 @@ def real_cameras(settings: CameraSettings, clock: Clock | None = None) -> Attach
         "left": settings.left.origin.kind.value,
         "right": settings.right.origin.kind.value,
     }
-    return AttachedCameras((left, right), rig, metadata | calibration_record(rig))
+    record = metadata | calibration_record(rig)
+    return AttachedCameras((left, right), rig, record, settings.marker_colour or RED)
 
 
 def simulated_on(

@@ -175,10 +175,22 @@ def _touched(tracker: Tracker | PenTracker) -> Callable[[float, float], None] | 
     return None if isinstance(tracker, PenTracker) else tracker.touched
 
 
-def _learner(tracker: Tracker | PenTracker) -> Callable[[str, FloatArray], None] | None:
+def _learner(
+    tracker: Tracker | PenTracker, cameras: CameraSettings | None
+) -> Callable[[str, FloatArray], None] | None:
+    """Learn the marker's colour from a click, for the next start too."""
+    from app.tracking.cameras.settings import keep_colour
     from app.tracking.pen.tracker import PenTracker
 
-    return None if isinstance(tracker, PenTracker) else tracker.learn_colour
+    if isinstance(tracker, PenTracker):
+        return None
+
+    def learn(camera: str, pixel: FloatArray) -> None:
+        colour = tracker.learn_colour(camera, pixel)
+        if cameras is not None:
+            keep_colour(cameras, colour)
+
+    return learn
 
 
 class DesktopRun:
@@ -203,7 +215,7 @@ class DesktopRun:
             rings=rings(setup.exercise.tolerances),
             inspect=_inspector(self._rig.tracker),
             touched=_touched(self._rig.tracker),
-            learn_colour=_learner(self._rig.tracker),
+            learn_colour=_learner(self._rig.tracker, setup.cameras),
             board=None if robot is None else robot.link.info(),
             port=setup.port or "",
             clearance=None if robot is None else robot.clearance(),

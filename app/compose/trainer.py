@@ -176,6 +176,7 @@ def _build_rig(
         fulcrum=profile.pantograph.fulcrum,
         on_fix=lambda fix: trainer.on_fix(fix),
         force=felt_force(loop),
+        colour=cameras.colour,
     )
     trainer = Trainer(
         loop,

@@ -18,7 +18,7 @@ from app.tracking.follower import MarkerFollower
 from app.tracking.health import FixHealth
 from app.tracking.hiding import Hiding
 from app.tracking.markers.choice import extractors as default_extractors
-from app.tracking.markers.colour import learn
+from app.tracking.markers.colour import RED, ColourModel, learn
 from app.tracking.markers.extractor import Extractor
 from app.tracking.optics.rig import RigProfile
 from app.tracking.rehearsal import rehearse
@@ -52,6 +52,7 @@ class Tracker:
         events: takes an event of kind `camera` when a camera stops, freezes, fails or recovers,
             and of kind `fault` when the tracker itself fails.
         extractors: how the marker is found in each picture; by default `markers.choice.DEFAULT`.
+        colour: of the marker, for the default extractors.
         force: of the robot on the needle at a time [N], shape (3,), to tell a needle that bends
             under it; None while it is not known.
 
@@ -70,6 +71,7 @@ class Tracker:
         events: EventQueue | None = None,
         extractors: tuple[Extractor, Extractor] | None = None,
         force: Axis = _unknown,
+        colour: ColourModel = RED,
     ) -> None:
         if len(cameras) != 2:
             raise TrackingError(f"the tracker needs two cameras, got {len(cameras)}")
@@ -86,13 +88,15 @@ class Tracker:
         self._health = FixHealth(rig.needle.marker_offset, force, self._put)
         self._times = CaptureTimes(self._names, self._put)
         self.rig = rig
-        self.extractors = extractors or default_extractors(rig)
+        self.extractors = extractors or default_extractors(rig, colour=colour)
         gate, distance = EpipolarGate(rig), rig.needle.band_distance
         self._follower = MarkerFollower(self.extractors, self._solver, gate, distance)
         self._bands = TwoBands(rig, fulcrum, self._solver, gate) if distance is not None else None
         self._feed = CameraFeed(cameras, self._names, clock, rig.noise_grey > 0.0, self._put)
         self._meter = TrackerMeter()
         self._pictures: dict[str, TrackedPicture] = {}
+        if self._bands is not None:
+            self._bands.use(colour)
         self._thread: threading.Thread | None = None
         self._stop = threading.Event()
         self._fault = ""
@@ -168,10 +172,10 @@ class Tracker:
         """
         self._health.monitor.touch(measured, known)
 
-    def learn_colour(self, camera: str, pixel: FloatArray) -> None:
+    def learn_colour(self, camera: str, pixel: FloatArray) -> ColourModel:
         """Take what a camera's newest picture shows at a pixel as the marker's colour, in both.
 
-        It holds until the tracker ends.
+        It holds until the tracker ends; whoever keeps it for the next one takes what is returned.
 
         Args:
             camera: name in the rig.
@@ -190,6 +194,7 @@ class Tracker:
         self._follower.use(self.extractors)
         if self._bands is not None:
             self._bands.use(colour)
+        return colour
 
     def statistics(self) -> TrackerStatistics:
         """Figures of the last seconds and the health of both cameras."""

@@ -7,7 +7,13 @@ import numpy as np
 import pytest
 
 from app.__main__ import main
-from app.tracking.cameras.settings import load_settings
+from app.tracking.cameras.settings import (
+    CameraSettings,
+    keep_colour,
+    load_settings,
+    parse_cameras,
+)
+from app.tracking.markers.colour import ColourModel
 
 
 @pytest.fixture
@@ -79,6 +85,30 @@ def test_show_says_what_two_folders_deliver(monkeypatch, capsys, folders):
     assert abs(shown["skew_ms"]) < 40.0
     assert "no calibration yet" in shown["order"]
     assert (folders / "out" / "right.png").is_file()
+
+
+def test_a_learned_colour_is_kept_with_its_cameras_shown_and_forgotten(
+    monkeypatch, capsys, folders
+):
+    blue = ColourModel(bgr=(200.0, 40.0, 30.0), angle_deg=12.0)
+    sources = ("--left", f"folder:{folders}/left", "--right", f"folder:{folders}/right")
+    assert run(monkeypatch, capsys, "camera", "use", *sources, "--size", "64x48")[0] == 0
+    assert keep_colour(CameraSettings(), blue) is None  # simulated: theirs is always red
+    once = parse_cameras(f"left=folder:{folders}/right,right=folder:{folders}/left")
+    assert keep_colour(once, blue) is None
+    assert load_settings().marker_colour is None
+    assert keep_colour(load_settings(), blue).is_file()
+    assert load_settings().marker_colour == blue
+
+    show = ("camera", "show", "--seconds", "0.3")
+    assert "learned, red 30 green 40 blue 200" in run(monkeypatch, capsys, *show)[1]
+    shown = json.loads(run(monkeypatch, capsys, *show, "--json")[1])
+    assert shown["marker_colour"]["angle_deg"] == 12.0
+    assert parse_cameras(f"right=usb:0,left=folder:{folders}/left").marker_colour is None
+
+    assert run(monkeypatch, capsys, "camera", "use", "--forget-colour")[0] == 0
+    assert load_settings().marker_colour is None
+    assert "the usual red" in run(monkeypatch, capsys, *show)[1]
 
 
 def test_pictures_of_another_size_are_refused_by_name(monkeypatch, capsys, folders):

@@ -14,6 +14,7 @@ from app.core.files import write_atomically
 from app.core.units import MILLISECOND
 from app.tracking.cameras.source import Kind, Source, parse_source
 from app.tracking.errors import CameraError
+from app.tracking.markers.colour import ColourModel
 
 SIDES: Final = ("left", "right")
 
@@ -64,6 +65,7 @@ class CameraSettings(Strict):
         rate_hz: pictures per second that are asked for.
         left, right: as the rig has them.
         calibration: file of one to use; None takes the active one of the history.
+        marker_colour: learned by a click on the marker; None takes the usual red.
     """
 
     rig: str = "wide"
@@ -72,6 +74,7 @@ class CameraSettings(Strict):
     left: OneCamera = Field(default_factory=OneCamera)
     right: OneCamera = Field(default_factory=OneCamera)
     calibration: Path | None = None
+    marker_colour: ColourModel | None = None
 
     @property
     def cameras(self) -> tuple[OneCamera, OneCamera]:
@@ -154,11 +157,13 @@ def with_sources(settings: CameraSettings, sources: dict[str, str]) -> CameraSet
         CameraError: if the sources cannot be read or do not go together.
     """
     sides = {side: getattr(settings, side) for side in SIDES}
+    colour = settings.marker_colour
     for side, text in sources.items():
         source = str(parse_source(text))
         if sides[side].source != source:  # what was measured is of another camera
             sides[side] = OneCamera(source=source)
-    changed = settings.model_copy(update=sides)
+            colour = None
+    changed = settings.model_copy(update=sides | {"marker_colour": colour})
     changed.check()
     return changed
 
@@ -172,6 +177,28 @@ def with_latency(settings: CameraSettings, side: str, median: float, sd: float) 
         }
     )
     return settings.model_copy(update={side: camera})
+
+
+def with_colour(settings: CameraSettings, colour: ColourModel | None) -> CameraSettings:
+    """Return the settings with a learned colour of the marker; None forgets it."""
+    return settings.model_copy(update={"marker_colour": colour})
+
+
+def keep_colour(used: CameraSettings, colour: ColourModel) -> Path | None:
+    """Remember a learned colour with the cameras that it was learned by; return where.
+
+    Cameras that are not the remembered ones (chosen for this once, or simulated) leave the
+    settings as they are: None.
+
+    Args:
+        used: settings of the cameras that run.
+        colour: of the marker.
+    """
+    settings = load_settings()
+    same = [camera.source for camera in used.cameras] == [c.source for c in settings.cameras]
+    if used.simulated or not same:
+        return None
+    return save_settings(with_colour(settings, colour))
 
 
 def _sides(text: str) -> dict[str, str]:

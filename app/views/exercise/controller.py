@@ -249,7 +249,7 @@ class ExerciseController(QObject):
             return
         try:
             run.learn_colour(camera, pixel)
-        except AcusError as error:
+        except (AcusError, OSError) as error:
             self._fail(str(error))
 
     def _move_hand(self, pose: HandPose) -> None:
