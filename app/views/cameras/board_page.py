@@ -7,7 +7,6 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QMarginsF, QPointF, Q
 from PySide6.QtGui import (
     QColor,
     QFont,
-    QGuiApplication,
     QPageLayout,
     QPageSize,
     QPainter,
@@ -15,6 +14,7 @@ from PySide6.QtGui import (
     QPdfWriter,
     QPen,
 )
+from PySide6.QtWidgets import QApplication
 
 from app import __version__
 from app.core.files import write_atomically
@@ -40,7 +40,8 @@ def write_board(path: Path, board: Board, paper: Paper) -> Sheet:
     """
     sheet = lay_out(board, paper)
     # Text needs an application; the platform without a display is enough.
-    application = QGuiApplication.instance() or QGuiApplication(["acus", "-platform", "offscreen"])
+    # A QApplication, not a QGuiApplication: the process may open a window later.
+    application = QApplication.instance() or QApplication(["acus", "-platform", "offscreen"])
     try:
         write_atomically(path, board_bytes(board, sheet))
     except OSError as error:

@@ -7,7 +7,6 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, QLineF, QMarginsF, QP
 from PySide6.QtGui import (
     QColor,
     QFont,
-    QGuiApplication,
     QPageLayout,
     QPageSize,
     QPainter,
@@ -15,6 +14,7 @@ from PySide6.QtGui import (
     QPen,
     QPolygonF,
 )
+from PySide6.QtWidgets import QApplication
 
 from app import __version__
 from app.core.files import write_atomically
@@ -46,7 +46,8 @@ def write_pen(path: Path, pen: PenProfile, paper: Paper) -> tuple[Page, Page]:
     """
     pages = (body_page(pen.body, paper), base_page(pen.base, paper))
     # Text needs an application; the platform without a display is enough.
-    application = QGuiApplication.instance() or QGuiApplication(["acus", "-platform", "offscreen"])
+    # A QApplication, not a QGuiApplication: the process may open a window later.
+    application = QApplication.instance() or QApplication(["acus", "-platform", "offscreen"])
     try:
         write_atomically(path, pen_bytes(pen, pages, paper))
     except OSError as error:
