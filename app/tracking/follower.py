@@ -81,7 +81,8 @@ class MarkerFollower:
             for i, marker in enumerate(markers)
         ]
         pairings = self._pairings(candidates, frames)
-        if pairings and not pairings[0].agrees:  # the one that is followed may be the wrong one
+        followed = any(isinstance(marker, MarkerFix) for marker in markers)
+        if pairings and not pairings[0].agrees and followed:  # what is followed may be wrong
             candidates = [
                 [*one, *self._candidates(i, frames)] if isinstance(markers[i], MarkerFix) else one
                 for i, one in enumerate(candidates)
@@ -91,7 +92,10 @@ class MarkerFollower:
         if agreeing:
             return self._chosen(agreeing, markers, frames, axis, time)
         if pairings and not pairings[0].hopeless:  # a bumped camera: the solver says how far off
-            return [pairings[0].first, pairings[0].second]
+            near = pairings[:1]  # or outlines far from their bands' centres, which the axis tells
+            if self._distance is None:
+                return self._chosen(near, markers, frames, axis, time)
+            return [near[0].first, near[0].second]
         best = [found[0] if found else None for found in candidates]
         if pairings:  # the marker that is followed goes on; what has no partner is none
             return [
@@ -169,7 +173,9 @@ class MarkerFollower:
         frame = frames[camera]
         if frame is None or axis is None or found.centre is Centre.BAND:
             return found
-        return self._extractors[camera].find(frame.image, Hint(found.uv, p_world, axis))
+        uv = None if p_world is None else self._solver.pixel(camera, p_world)
+        hint = Hint(found.uv if uv is None else uv, p_world, axis)
+        return self._extractors[camera].find(frame.image, hint)
 
     def _candidates(self, camera: int, frames: Pair) -> list[Found]:
         frame = frames[camera]

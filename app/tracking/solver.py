@@ -107,6 +107,10 @@ class FixSolver:
             return None
         return np.asarray(fix.p_tip_world - self._rig.needle.marker_offset * unit(axis))
 
+    def pixel(self, camera: int, p_world: FloatArray) -> FloatArray | None:
+        """Where a camera sees a point [px], shape (2,); None if it does not."""
+        return self._models[camera].pixel(p_world)
+
     def _solve(
         self, sightings: tuple[Sighting, Sighting], axis: FloatArray, time: float
     ) -> NeedleFix:

@@ -7,14 +7,15 @@ import numpy as np
 import pytest
 
 from app.core.clock import SystemClock, VirtualClock
-from app.tracking.agreement import EpipolarGate
+from app.tracking.agreement import SIGMAS, EpipolarGate
 from app.tracking.cameras.camera import Camera, Frame
 from app.tracking.errors import CameraError, TrackingError
 from app.tracking.fix import FixStatus
 from app.tracking.follower import MarkerFollower
 from app.tracking.inspection import Inspector
+from app.tracking.markers.choice import extractors
 from app.tracking.markers.extractor import Centre, MarkerFix, MissReason
-from app.tracking.simulated.cameras import SimulatedCamera
+from app.tracking.simulated.cameras import NeedleRenderer, SimulatedCamera
 from app.tracking.simulated.picture_effects import NoiseTile, noise
 from app.tracking.simulated.scene import MarkerScene
 from app.tracking.solver import FixSolver
@@ -92,6 +93,33 @@ def test_the_tip_is_within_its_figure_over_the_whole_range(wide, wide_renderers)
         assert abs(fix.depth - needle.depth) < 0.5e-3
     assert np.sqrt(np.mean(np.square(errors))) < 0.15e-3
     assert valid >= 38
+
+
+def test_a_search_fits_the_band_whose_outlines_lie_off_each_others_epipolar_line(wide):
+    # where the needle leans, outlines of large pictures miss the line by more than the gate allows
+    larger = [
+        camera.model_dump()
+        | {
+            "image_size": (1280, 720),
+            "focal_px": tuple(1.5 * focal for focal in camera.focal_px),
+            "centre_px": (639.5, 359.5),
+        }
+        for camera in wide.cameras
+    ]
+    rig = type(wide).model_validate(wide.model_dump() | {"cameras": larger})
+    renderers = [NeedleRenderer(m, rig.needle, rig.blur_px, i) for i, m in enumerate(rig.models)]
+    rng, tile = np.random.default_rng(4), NoiseTile.make((1280, 720), rig.noise_grey, 3)
+    gate, outlines, apart = EpipolarGate(rig), extractors(rig), []
+    for azimuth in np.linspace(0.0, 5.0, 6):
+        needle = _Needle(rig.needle.marker_offset, 0.06, 0.0, 0.6, azimuth)
+        tracker, _ = _stepped(rig, renderers, needle)
+        frames = [Frame(noise(r.render(needle.at(0.0)), tile, rng), 0.0) for r in renderers]
+        left, right = (o.search(f.image)[:1] for o, f in zip(outlines, frames, strict=True))
+        apart.append(gate.pairings([*left], [*right], 0.0)[0].apart)
+        fix = tracker.process(*frames)
+        assert fix.status is FixStatus.VALID
+        assert all(picture.found.centre is Centre.BAND for picture in tracker.pictures())
+    assert max(apart) > SIGMAS
 
 
 def test_the_stated_radius_is_of_the_size_of_the_error(wide, wide_renderers):

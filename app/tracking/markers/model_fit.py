@@ -40,9 +40,10 @@ over the workspace of rig `wide` (a third each clean, under fingers, under highl
 of 95 % held the truth in 95 % of each kind, and of the pairs with large and small covariance alike;
 tests/bench/bench_marker.py measures it on other pairs."""
 
-_AGREES_PX, _CLOSE_PX = 2.5, 1.0
-"""How far the prediction may be from the patch's mean pixel, which is off itself by 1.5 px on a
-band 16 px wide (the darker flank is not strong enough), and from what the fit makes of it."""
+_AGREES_PX, _AGREES, _CLOSE_PX = 2.5, 0.3, 1.0
+"""How far the prediction may be from the patch's mean pixel [px, or of half the band's length], and
+from what the fit makes of it [px]. The mean pixel is off itself by 1.5 px on a band 16 px wide (the
+darker flank is not strong enough), by 0.28 of half the length where an end faces the camera."""
 
 
 @dataclass(frozen=True)
@@ -109,13 +110,14 @@ class ModelFit(Extractor):
         depth = float((self.model.T_camera_world @ hint.p_world)[2])
         if middle is None or not depth > 4.0 * self.shape.half:
             return None
-        if not np.abs(middle - hint.uv).max() < _AGREES_PX:
-            return None
         ray, ok = self.model.undistort(hint.uv)
         if not ok[0]:
             return None
         start = depth * np.array([ray[0, 0], ray[0, 1], 1.0])
         axis = self.model.T_camera_world.rotate(unit(hint.axis_world))
+        room = max(_AGREES_PX, _AGREES * float(self._half_px(start, axis)[1]))
+        if not np.abs(middle - hint.uv).max() < room:
+            return None
         fit = self.fitter.fit(image, start, axis)
         if fit is None or not self.coarse.area_min <= fit.area <= self.coarse.area_max:
             return None
