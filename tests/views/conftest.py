@@ -14,6 +14,7 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 sys.path.insert(0, str(Path(__file__).parent))
 sys.path.insert(0, str(Path(__file__).parents[1] / "views_exercise"))
 
+from modal_dialogs import forbid
 from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from window_rig import FakeServices
@@ -34,6 +35,11 @@ def application() -> QApplication:
     app = existing if isinstance(existing, QApplication) else QApplication([])
     apply_theme(app)
     return app
+
+
+@pytest.fixture(autouse=True)
+def nothing_waits_for_a_person(monkeypatch: pytest.MonkeyPatch) -> None:
+    forbid(monkeypatch)
 
 
 @pytest.fixture(autouse=True)

@@ -178,6 +178,7 @@ def test_calibrating_lets_the_run_go_searches_both_pictures_and_gives_the_camera
     assert settle(lambda: dialog.capture_page.search is not None, 10.0)
     assert settle(lambda: "no ChArUco board" in dialog.capture_page.state.text(), 10.0)
     assert len(services.lives) == 2
+    dialog.capture_page.stop.click()
     dialog.reject()
     assert settle(lambda: running.runs.run is not None, 10.0)
     assert all(live.closed.wait(5.0) for live in services.lives)
