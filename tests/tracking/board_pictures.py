@@ -16,10 +16,11 @@ def board_picture(
     *,
     blur: float = 0.6,
     seed: int = 0,
+    supersample: int = 3,
 ) -> NDArray[np.uint8]:
     """Picture of a board, blurred [px], with noise of 2 levels."""
     rng = np.random.default_rng(seed)
-    return BoardRenderer(model, board).render(T_camera_board, blur, 2.0, rng)
+    return BoardRenderer(model, board, supersample).render(T_camera_board, blur, 2.0, rng)
 
 
 def board_pose(

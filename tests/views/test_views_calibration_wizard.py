@@ -50,7 +50,9 @@ def pictures(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder, board = tmp_path_factory.mktemp("pairs"), parse_board(SPEC)
     for k, T_world_board in enumerate(poses()):
         for model in load_rig("wide").models:
-            image = board_picture(board, model, model.T_camera_world @ T_world_board, seed=k)
+            image = board_picture(
+                board, model, model.T_camera_world @ T_world_board, seed=k, supersample=2
+            )
             cv2.imwrite(str(folder / f"{model.name}{k:02}.png"), image)
     return folder
 
