@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from app.core import paths
-from app.core.loading import ONE_AT_A_TIME, load_modules
+from app.core.loading import load_modules, turn
 from app.core.progress import Progress
 from app.device.errors import LoopError
 from app.exercises.library import library
@@ -103,19 +103,21 @@ class Desktop:
 
     def open_camera(self, settings: CameraSettings, side: str, progress: Progress) -> LiveReader:
         """Open one camera; called beside the window, may take seconds."""
-        with ONE_AT_A_TIME:
+        with turn(progress):
             from app.compose.live_cameras import open_live
+        progress.report(0.5, "asking the camera for its first picture")
         return open_live(settings, side)
 
     def aim(self, settings: CameraSettings, device: str, progress: Progress) -> Aim:
         """Return what the cameras see of the needle's cone; called beside the window."""
-        with ONE_AT_A_TIME:  # kernels of the distortion
+        with turn(progress):  # kernels of the distortion
             from app.compose.camera_check import aim_of
+        progress.report(0.5, "computing what the cameras see of the needle's cone")
         return aim_of(settings, device)
 
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""
-        with ONE_AT_A_TIME:  # kernels and OpenCV: behind the window, not before it
+        with turn(progress):  # kernels and OpenCV: behind the window, not before it
             from app.compose.pen import pen_settings
             from app.compose.trainer import TrainerSetup, build_rig
         progress.report(0.1, "compiling the loop")

@@ -2,7 +2,8 @@
 
 import threading
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from importlib import import_module
 from typing import Final
 
@@ -19,6 +20,35 @@ already holds the lock of the module.
 
 _TURN: Final = 1e-3
 """A released lock goes to whoever asks first; this long [s] the loader does not ask again."""
+
+
+_LOOK: Final = 0.1
+"""How often [s] who waits for a turn says so and may be cancelled."""
+
+
+@contextmanager
+def turn(progress: Progress) -> Iterator[None]:
+    """Hold `ONE_AT_A_TIME`; as long as somebody else loads, say so and how long already.
+
+    A first start compiles kernels while it imports them: whoever waits for that must be told, and
+    must be able to give up.
+
+    Raises:
+        Cancelled: if `progress` was cancelled before the turn came.
+    """
+    begin = time.monotonic()
+    progress.report(0.0)
+    while not ONE_AT_A_TIME.acquire(timeout=_LOOK):
+        waited = time.monotonic() - begin
+        progress.report(
+            0.0,
+            f"waiting {waited:.0f} s for the program to load (the first start after an "
+            "installation compiles, for a minute or two)",
+        )
+    try:
+        yield
+    finally:
+        ONE_AT_A_TIME.release()
 
 
 def load_modules(names: Iterable[str], progress: Progress) -> None:

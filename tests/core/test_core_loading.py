@@ -3,7 +3,7 @@ import threading
 
 import pytest
 
-from app.core.loading import load_modules
+from app.core.loading import ONE_AT_A_TIME, load_modules, turn
 from app.core.progress import Cancelled, Progress
 
 
@@ -56,3 +56,45 @@ def test_threads_that_load_parts_of_one_package_do_not_lock_each_other_out(packa
         thread.join(10.0)
     assert not failures
     assert not any(thread.is_alive() for thread in threads)
+
+
+def test_who_waits_for_another_to_load_is_told_so_and_then_has_the_turn():
+    held, free, told = threading.Event(), threading.Event(), []
+
+    def hold():
+        with ONE_AT_A_TIME:
+            held.set()
+            free.wait(10.0)
+
+    def listen(_, text):
+        told.append(text)
+        if text:
+            free.set()
+
+    thread = threading.Thread(target=hold)
+    thread.start()
+    assert held.wait(10.0)
+    with turn(Progress(listen)):
+        assert free.is_set()
+    thread.join(10.0)
+    assert "first start" in told[-1]
+    assert ONE_AT_A_TIME.acquire(blocking=False)
+    ONE_AT_A_TIME.release()
+
+
+def test_who_waits_for_another_to_load_may_give_up():
+    held, free, progress = threading.Event(), threading.Event(), Progress()
+
+    def hold():
+        with ONE_AT_A_TIME:
+            held.set()
+            free.wait(10.0)
+
+    thread = threading.Thread(target=hold)
+    thread.start()
+    assert held.wait(10.0)
+    threading.Timer(0.15, progress.cancel).start()
+    with pytest.raises(Cancelled), turn(progress):
+        pytest.fail("it was not its turn")
+    free.set()
+    thread.join(10.0)

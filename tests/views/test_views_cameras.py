@@ -1,5 +1,7 @@
 """The menu Cameras: chosen, set up, aimed, measured; a run's cameras are let go first."""
 
+import time
+
 import pytest
 from PySide6.QtWidgets import QApplication
 from window_rig import plan
@@ -190,3 +192,26 @@ def test_without_real_cameras_a_calibration_is_made_from_folders(window):
     assert not dialog.capture_page.live.isEnabled()
     assert dialog.capture_page.folder.isEnabled()
     dialog.reject()
+
+
+@pytest.mark.parametrize("which", ["aim", "latency"])
+def test_what_a_first_start_waits_for_is_said_in_the_dialog_and_cancel_ends_it(
+    running, services, settle, monkeypatch, which
+):
+    def wait_long(*arguments):
+        for _ in range(1000):
+            arguments[-1].report(0.0, "waiting 12 s for the program to load")
+            time.sleep(0.01)
+
+    monkeypatch.setattr(services, "open_camera", wait_long)
+    monkeypatch.setattr(services, "aim", wait_long)
+    cameras = running.cameras
+    cameras.aim() if which == "aim" else cameras.measure_latency("left")
+    dialog = cameras.dialog
+    previews = dialog.previews if which == "aim" else (dialog.preview,)
+    assert settle(lambda: "waiting 12 s" in previews[0].note.text(), 10.0)
+    row = dialog.waiting.layout().itemAt(0).widget()
+    assert "waiting 12 s" in row._text.text()
+    row.cancel.click()
+    assert settle(lambda: cameras.dialog is None, 10.0)
+    assert settle(lambda: running.runs.run is not None, 10.0)

@@ -12,6 +12,7 @@ from app.tracking.cameras.settings import SIDES, CameraSettings
 from app.views import theme
 from app.views.background import run_in_background
 from app.views.cameras.live import AimPort, LiveCamera, LivePreview
+from app.views.progress_strip import ProgressStrip
 from app.views.text import tr
 
 if TYPE_CHECKING:
@@ -43,13 +44,15 @@ class AimDialog(QDialog):
         self.setWindowTitle(tr("Aim the cameras"))
         self.previews = tuple(LivePreview(self) for _ in SIDES)
         self.share, self.losses = QLabel(self), QLabel(self)
+        self.waiting = ProgressStrip(self)
         self.titles = tuple(QLabel(title, self) for title in (tr("Left"), tr("Right")))
         self._lay_out()
         for side, preview in zip(SIDES, self.previews, strict=True):
             preview.open(_opener(services, settings, side, free))
         run_in_background(
-            self, lambda progress: services.aim(settings, device, progress), self._show, self._fail
-        )
+            self, lambda progress: services.aim(settings, device, progress), self._show, self._fail,
+            self.reject, title=tr("Computing the cone"), indicator=self.waiting,
+        )  # fmt: skip
 
     def closed(self) -> Callable[[], object]:
         """Return what waits until the cameras are closed; for other threads."""
@@ -111,6 +114,7 @@ class AimDialog(QDialog):
         buttons.rejected.connect(self.reject)
         column = QVBoxLayout(self)
         column.setSpacing(theme.MARGIN)
+        column.addWidget(self.waiting)
         column.addWidget(self.share)
         column.addLayout(pair, 1)
         column.addWidget(self.losses)

@@ -24,6 +24,7 @@ from app.views import theme
 from app.views.background import run_in_background
 from app.views.cameras.blink_patch import BlinkPatch
 from app.views.cameras.live import LiveCamera, LivePreview
+from app.views.progress_strip import ProgressStrip
 from app.views.text import tr
 
 if TYPE_CHECKING:
@@ -66,6 +67,7 @@ class LatencyDialog(QDialog):
         self._side, self._seconds, self._rate = side, seconds, settings.rate_hz
         self.patch, self.preview = BlinkPatch(self), LivePreview(self)
         self.bar, self.outcome = QProgressBar(self), QLabel(self)
+        self.waiting = ProgressStrip(self)
         self.start = QPushButton(tr("Start"))
         self.keep = QPushButton(tr("Keep"))
         self.latency: Latency | None = None
@@ -76,7 +78,8 @@ class LatencyDialog(QDialog):
             return services.open_camera(settings, side, progress)
 
         self.preview.opened.connect(lambda _: self.start.setEnabled(True))
-        self.preview.open(operation)
+        self.preview.cancelled.connect(self.reject)
+        self.preview.open(operation, self.waiting)
 
     def begin(self) -> None:
         """Blink, and keep the light of every picture."""
@@ -168,6 +171,7 @@ class LatencyDialog(QDialog):
         column = QVBoxLayout(self)
         column.setSpacing(theme.MARGIN)
         column.addWidget(words)
+        column.addWidget(self.waiting)
         column.addLayout(pair, 1)
         column.addWidget(self.bar)
         column.addWidget(self.outcome)

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from app.core.progress import Progress
 from app.views import theme
-from app.views.background import run_in_background
+from app.views.background import Indicator, Task, run_in_background
 from app.views.cameras.picture import PictureView
 from app.views.text import tr
 
@@ -140,9 +140,11 @@ class LivePreview(QWidget):
 
     Signals:
         opened(object): the `LiveCamera` that delivers now.
+        cancelled(): the user did not wait for it.
     """
 
     opened = Signal(object)
+    cancelled = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -152,6 +154,7 @@ class LivePreview(QWidget):
         self.camera: LiveCamera | None = None
         self._opening: _Opening | None = None
         self._last: _Opening | None = None
+        self._task: Task | None = None
         self._timer = QTimer(self, interval=POLL_MS)
         self._timer.timeout.connect(self._look)
         column = QVBoxLayout(self)
@@ -159,8 +162,17 @@ class LivePreview(QWidget):
         column.addWidget(self.picture, 1)
         column.addWidget(self.note)
 
-    def open(self, open_camera: Callable[[Progress], LiveCamera]) -> None:
-        """Show another camera; `open_camera` runs beside the window."""
+    def open(
+        self,
+        open_camera: Callable[[Progress], LiveCamera],
+        indicator: Indicator | None = None,
+    ) -> None:
+        """Show another camera; `open_camera` runs beside the window.
+
+        Args:
+            open_camera: what it reports is told below the picture.
+            indicator: shows the waiting as well, with a button to cancel it.
+        """
         self.stop()
         before = self._last
         opening = _Opening(open_camera)
@@ -172,14 +184,19 @@ class LivePreview(QWidget):
                 before.ended.wait(6.0)  # one port is opened once
             return opening.run(progress)
 
-        run_in_background(
+        task = run_in_background(
             self, operation, lambda camera: self._take(opening, camera),
-            lambda error: self._refuse(opening, error),
+            lambda error: self._refuse(opening, error), self.cancelled.emit,
+            title=tr("Opening the camera") if indicator is not None else "", indicator=indicator,
         )  # fmt: skip
+        self._task = task
+        task.progressed.connect(lambda _, text: self._tell_opening(opening, text))
 
     def stop(self) -> None:
-        """Show nothing; the camera is closed beside the window."""
+        """Show nothing; the camera is closed beside the window, one that is not open is not."""
         self._timer.stop()
+        if self._task is not None:
+            self._task.cancel()
         opening, self._opening, self.camera = self._opening, None, None
         if opening is not None:
             opening.stop()
@@ -195,6 +212,10 @@ class LivePreview(QWidget):
         colour, symbol = theme.VERDICTS["bad"] if bad else (theme.TEXT_DIM, "")
         self.note.setStyleSheet(f"color: {colour};")
         self.note.setText(f"{symbol} {text}".strip())
+
+    def _tell_opening(self, opening: _Opening, text: str) -> None:
+        if opening is self._opening and self.camera is None and text:
+            self.say(tr("opening the camera: {what}", what=text))
 
     def _take(self, opening: _Opening, camera: LiveCamera) -> None:
         if opening is self._opening:

@@ -93,7 +93,7 @@ class CalibrationWizard(QDialog):
 
     def reject(self) -> None:
         """Close by Escape or by the window's cross; what is not kept yet is asked about."""
-        if not (self.running or self.job.unsaved) or self._may_go():
+        if not (self.job.unsaved or self.capture_page.found) or self._may_go():
             super().reject()
 
     def done(self, code: int) -> None:

@@ -14,7 +14,7 @@ from app.tracking.calibration.collector import ViewCollector
 from app.tracking.calibration.views import BoardView
 from app.views.background import run_in_background
 from app.views.cameras.camera_pair import OpenCamera, OpenPair, PairOpening
-from app.views.cameras.capture import FolderShots, LiveShots, Search
+from app.views.cameras.capture import FolderShots, LiveShots, Search, Shot
 from app.views.cameras.coverage_view import CoverageView
 from app.views.cameras.wizard_job import CalibrationJob, Views
 from app.views.cameras.wizard_parts import button, column, label, tell
@@ -23,8 +23,6 @@ from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.tracking.calibration.collector import Offer
-    from app.views.cameras.camera_pair import OpenCamera, OpenPair, PairOpening
-from app.views.cameras.capture import Shot
 
 POLL_MS: Final = 40
 LEAST_PAIRS: Final = 5
@@ -79,6 +77,11 @@ class CapturePage(QWidget):
     def running(self) -> bool:
         """Whether pictures are searched."""
         return self.search is not None or self._opening
+
+    @property
+    def found(self) -> bool:
+        """Whether the search that goes on has found what closing would lose."""
+        return self.search is not None and bool(self.search.collector.kept or not self._live)
 
     def begin_live(self) -> None:
         """Open the cameras beside the window, then search their pictures."""
