@@ -183,7 +183,7 @@ class Conductor(QObject):
             start, end = point - SIGHT_MM * direction, point + SIGHT_MM * direction
             skin = skin_entry(self.patient.body, start, end)
         except AcusError as error:
-            self.failed.emit(error)
+            self._editor.refused.emit(error)
             return
         self._editor.place(Tool.ENTRY, as_point(skin), True)
         self._workspace.viewing.set_cursor(skin)

@@ -1,7 +1,7 @@
 """Errors and notes at the top of the window: they stop nothing and go when closed.
 
-Notes go by themselves after a while; what was refused goes with the next change that works, and
-what kept the robot away goes when a robot is there.
+Notes go by themselves after a while. What belongs to a state stands as long as the state does
+(`message_topics` says which): another message covers it, and it is back when that one goes.
 """
 
 from __future__ import annotations
@@ -33,8 +33,9 @@ class MessageBar(QWidget):
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self._details = ""
         self._topic = ""
+        self._standing: dict[str, Exception | str] = {}
         self._note = QTimer(self, interval=NOTE_MS, singleShot=True)
-        self._note.timeout.connect(self.hide)
+        self._note.timeout.connect(self._uncover)
         self._symbol, self._text = QLabel(self), QLabel(self)
         self._text.setWordWrap(True)
         self._text.setTextFormat(Qt.TextFormat.PlainText)
@@ -44,7 +45,7 @@ class MessageBar(QWidget):
         self._close.setText("✕")
         self._close.setAccessibleName(tr("Close message"))
         self._more.clicked.connect(self.show_details)
-        self._close.clicked.connect(self.hide)
+        self._close.clicked.connect(self.dismiss)
         row = QHBoxLayout(self)
         row.setContentsMargins(theme.MARGIN, 0, theme.SPACING, 0)
         row.addWidget(self._symbol)
@@ -79,13 +80,27 @@ class MessageBar(QWidget):
             topic: what it is about, e.g. `REFUSAL`.
             error: what happened.
         """
+        self._standing.pop(topic, None)  # the newest stands last
+        self._standing[topic] = error
         self.show_error(error)
         self._topic = topic
 
     def forget(self, topic: str) -> None:
-        """Hide the message if it is about a topic: it is true no more."""
+        """Take a topic's message away: it is true no more."""
+        self._standing.pop(topic, None)
         if self._topic == topic:
-            self.hide()
+            self._uncover()
+
+    def dismiss(self) -> None:
+        """Take away what is shown; what it covered is shown again."""
+        self.forget(self._topic)
+
+    def clear(self) -> None:
+        """Take everything away, but for an attempt that waits."""
+        for topic in [topic for topic in self._standing if topic != PAUSE]:
+            del self._standing[topic]
+        if self._topic != PAUSE:
+            self._uncover()
 
     def show_details(self) -> None:
         """Open a window with the whole message and where it comes from."""
@@ -93,6 +108,15 @@ class MessageBar(QWidget):
         box.setDetailedText(self._details)
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         box.open()
+
+    def _uncover(self) -> None:
+        """Show the newest message that is still true, or nothing."""
+        if self._standing:
+            self.show_until(*list(self._standing.items())[-1])
+        else:
+            self._note.stop()
+            self._topic = ""
+            self.hide()
 
     def _show(self, verdict: str, text: str, details: str) -> None:
         self._note.stop()

@@ -10,10 +10,8 @@ from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLay
 
 from app import __version__
 from app.core.errors import AcusError
-from app.core.events import Event
 from app.exercises.schema import Exercise
 from app.imaging.window import WindowLevel
-from app.session.pauses import PAUSED_WORDS
 from app.session.result import AttemptResult
 from app.views.cameras.desk import CamerasDesk
 from app.views.checks.desk import ChecksDesk
@@ -22,7 +20,8 @@ from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.sessions import SessionsPage
 from app.views.menus import Menus
-from app.views.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar
+from app.views.message_bar import MessageBar
+from app.views.message_topics import MessageTopics
 from app.views.notices import Notices
 from app.views.open_ct import OpenCt
 from app.views.patient import Patient
@@ -160,6 +159,7 @@ class MainWindow(QMainWindow):
     # --- what happens -------------------------------------------------------------------------
     def show_patient(self, patient: Patient) -> None:
         """Show a patient that was opened."""
+        self.message_bar.clear()  # what went wrong before is over
         if self.conductor.exercise is None and self.exercises:
             self._take_first_exercise()
         self.conductor.set_patient(patient)
@@ -202,31 +202,13 @@ class MainWindow(QMainWindow):
         self.workspace.exercise_panel.buttons.watch(self)
 
     def _connect(self) -> None:
-        bar, conductor = self.message_bar, self.conductor
-        for failure in (
-            self.open_ct.failed,
-            conductor.failed,
-            self.plan_files.failed,
-            self.debrief.failed,
-            conductor.controller.failed,
-            self.robot.failed,
-            self.cameras.failed,
-            self.checks.failed,
-        ):
-            failure.connect(bar.show_error)
-        self.plan_files.noted.connect(bar.show_note)
-        self.checks.noted.connect(bar.show_note)
-        self.debrief.saved.connect(lambda path: bar.show_note(tr("Saved {name}", name=path)))
-        self.editor.refused.connect(lambda error: bar.show_until(REFUSAL, error))
-        self.editor.changed.connect(lambda: bar.forget(REFUSAL))
-        self.runs.failed.connect(lambda error: bar.show_until(ROBOT, error))
-        self.runs.ready.connect(lambda _: bar.forget(ROBOT))
+        conductor = self.conductor
+        self.topics = MessageTopics(self)
         self.runs.ready.connect(lambda _: self.checks.forget())
         self.open_ct.opened.connect(
             lambda patient: self.plan_files.after_question(lambda: self.show_patient(patient))
         )
         conductor.patient_changed.connect(self._refresh)
-        conductor.patient_changed.connect(bar.hide)  # what went wrong before is over
         self.editor.changed.connect(self._refresh)
         self._connect_pages()
         panel = self.workspace.plan_panel
@@ -240,7 +222,6 @@ class MainWindow(QMainWindow):
         controller.began.connect(lambda _: self.menus.bullseye.setChecked(True))
         controller.began.connect(lambda _: self.workspace.show_exercise())
         controller.finished.connect(self._finished)
-        controller.event_seen.connect(self._tell_pause)
         self.workspace.exercise_panel.exercise_chosen.connect(self.begin_exercise)
         self.start_page.exercise_chosen.connect(self.begin_exercise)
         self.start_page.open_wanted.connect(self.open_ct.ask)
@@ -250,13 +231,6 @@ class MainWindow(QMainWindow):
         self.debrief_page.retry_requested.connect(self.show_workspace)
         self.debrief_page.sessions_requested.connect(self.show_sessions)
         self.sessions_page.closed.connect(self.show_workspace)
-
-    def _tell_pause(self, event: Event) -> None:
-        """Say on every page that the attempt waits, until it goes on or ends."""
-        if event.kind == "pause" and event.message == PAUSED_WORDS:
-            self.message_bar.show_until(PAUSE, event.message)
-        elif event.kind in ("pause", "state", "abort"):
-            self.message_bar.forget(PAUSE)
 
     # --- remembered ---------------------------------------------------------------------------
     def _restore(self) -> None:

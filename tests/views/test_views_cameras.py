@@ -57,6 +57,33 @@ def test_the_cameras_stay_while_an_attempt_runs(running):
     assert running.cameras.real
 
 
+def test_what_was_refused_in_an_attempt_goes_when_the_attempt_is_over(running):
+    running.runs.run.trainer.state = State.INSERTING
+    running.cameras.use_real(False)
+    assert "An attempt is running" in running.message_bar.text
+    running.runs.run.trainer.state = State.READY
+    running.cameras.use_real(False)
+    assert running.message_bar.isHidden()
+
+
+def test_what_kept_the_cameras_away_goes_with_the_choice_of_others(window, services, settle):
+    services.refuses = "no camera at usb:1-1; none is plugged in"
+    save_settings(REAL)
+    window.cameras.use_real(True)
+    window.runs.failed.emit(CameraError(services.refuses))
+    assert "none is plugged in" in window.message_bar.text
+    window.cameras.use_real(False)
+    assert window.message_bar.isHidden()
+
+
+def test_asking_for_real_cameras_where_none_are_chosen_is_over_once_they_are(window, services):
+    window.cameras.aim()
+    assert "Only simulated cameras are chosen" in window.message_bar.text
+    window.cameras.set_up()
+    assert window.message_bar.isHidden()
+    window.cameras.dialog.reject()
+
+
 def test_aiming_lets_the_run_go_shows_the_cone_and_gives_the_cameras_back(
     running, services, settle
 ):

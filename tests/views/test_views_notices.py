@@ -6,7 +6,7 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QMainWindow, QWidget
 
 from app.imaging.orthogonal import View
-from app.views.message_bar import REFUSAL, ROBOT, MessageBar
+from app.views.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar
 from app.views.notices import Notices
 from app.views.slices.pane import SlicePane
 from app.views.slices.presets import default_window
@@ -85,6 +85,36 @@ def test_what_kept_the_robot_away_goes_when_it_is_there_and_nothing_else_does(wi
     window.bar.show_error("cannot write")
     window.bar.forget(ROBOT)
     assert not window.bar.isHidden()
+
+
+def test_what_covers_a_message_that_is_still_true_gives_it_back(window):
+    window.bar.show_until(ROBOT, "/dev/ttyACM0: no board answers")
+    window.bar.show_note("Saved plan.mrk.json")
+    window.bar._note.timeout.emit()
+    assert window.bar.text == "/dev/ttyACM0: no board answers"
+    window.bar.show_until(REFUSAL, "too far from the skin")
+    window.bar.forget(ROBOT)
+    assert window.bar.text == "too far from the skin"
+    window.bar.forget(REFUSAL)
+    assert window.bar.isHidden()
+
+
+def test_a_message_that_was_closed_is_not_shown_again(window):
+    window.bar.show_until(ROBOT, "/dev/ttyACM0: no board answers")
+    window.bar._close.click()
+    assert window.bar.isHidden()
+    window.bar.show_note("Saved")
+    window.bar._note.timeout.emit()
+    assert window.bar.isHidden()
+
+
+def test_another_patient_clears_the_bar_but_for_an_attempt_that_waits(window):
+    window.bar.show_until(PAUSE, "paused")
+    window.bar.show_until(ROBOT, "/dev/ttyACM0: no board answers")
+    window.bar.clear()
+    assert window.bar.text == "paused"
+    window.bar.forget(PAUSE)
+    assert window.bar.isHidden()
 
 
 @pytest.mark.parametrize("refused", [True, False])

@@ -47,10 +47,12 @@ class CamerasDesk(QObject):
 
     Signals:
         failed(object): an error to show.
+        accepted(): what the user wants is not refused: what was refused before is over.
         changed(): other cameras were chosen.
     """
 
     failed = Signal(object)
+    accepted = Signal()
     changed = Signal()
 
     def __init__(
@@ -101,10 +103,10 @@ class CamerasDesk(QObject):
             self.changed.emit()
             return
         if wanted and self.chosen.simulated:
-            if self._unreadable is not None:
-                self.failed.emit(self._unreadable)
             self.changed.emit()
             self.set_up()  # there is nothing to use yet
+            if self._unreadable is not None:
+                self.failed.emit(self._unreadable)
             return
         self._taken = None
         self._remembered.setValue(_USED, wanted)
@@ -236,6 +238,7 @@ class CamerasDesk(QObject):
     def _refused_in_attempt(self) -> bool:
         run = self._conductor.controller.run
         if run is None or run.trainer.snapshot().state not in RUNNING:
+            self.accepted.emit()
             return False
         self.failed.emit(tr("An attempt is running: end it first, then change the cameras."))
         return True

@@ -61,7 +61,7 @@ class ChecksDesk(QObject):
         self.record: RegistrationRecord | None = None
         self._check: RegistrationCheck | None = None
         self._looked = False
-        conductor.controller.extra_items = self.items
+        conductor.controller.add_items(self.items)
         conductor.patient_changed.connect(self.forget)
 
     # --- what the dialog needs ----------------------------------------------------------------

@@ -1,7 +1,6 @@
 """Between trainer and widgets: pulls, shows, passes on. It judges nothing and stores nothing."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Final
 
 from PySide6.QtCore import QObject, QTimer, Signal
@@ -10,48 +9,22 @@ from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import Event
-from app.session.machine import RUNNING
 from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
 from app.views.background import run_in_background
-from app.views.exercise.bullseye import Bullseye
-from app.views.exercise.enable_words import enabling
-from app.views.exercise.energy import energy_figures
-from app.views.exercise.felt import force_limit
+from app.views.exercise.display import ExerciseDisplay, ExerciseViews
 from app.views.exercise.hand import HandPose
-from app.views.exercise.loop_rates import LoopRates
-from app.views.exercise.messages import MessageList
-from app.views.exercise.panel import ExercisePanel
-from app.views.exercise.readings import figures, hand_pose, pad_view, status_items, tracker_figures
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.status import StatusStrip
 from app.views.exercise.status_items import StatusItem
-from app.views.exercise.tracker_panel import TrackerPanel
+
+__all__ = ["PERIOD_MS", "ExerciseController", "ExerciseViews"]
 
 PERIOD_MS: Final = 25
 """The window looks at the trainer this often: 40 Hz."""
 
-STATUS_PERIOD: Final = 0.25
-"""The status strip is refreshed this often [s]: words that flicker cannot be read."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class ExerciseViews:
-    """The widgets that the controller feeds."""
-
-    bullseye: Bullseye
-    panel: ExercisePanel
-    status: StatusStrip
-    tracker: TrackerPanel
-    messages: MessageList
-
 
 class ExerciseController(QObject):
     """Feeds the exercise's widgets from a trainer, and the trainer from them.
-
-    Attributes:
-        rates: of the loop [Hz], and the share of deadlines it missed of late, at the last look.
-        extra_items: further lines of the status strip, by whoever else watches; none by default.
 
     Signals:
         needle_moved(NeedlePose): at every look, while the pose is valid.
@@ -60,6 +33,7 @@ class ExerciseController(QObject):
         began(str): session id of an attempt that began.
         finished(AttemptResult): an attempt ended or was aborted, once each.
         failed(str): something that the user asked for did not work, in one line.
+        worked(): something that the user asked for did.
     """
 
     needle_moved = Signal(object)
@@ -68,6 +42,7 @@ class ExerciseController(QObject):
     began = Signal(str)
     finished = Signal(object)
     failed = Signal(str)
+    worked = Signal()
 
     def __init__(
         self, views: ExerciseViews, clock: Clock | None = None, parent: QObject | None = None
@@ -78,11 +53,8 @@ class ExerciseController(QObject):
         self._run: ExerciseRun | None = None
         self._seen: AttemptResult | None = None
         self._ending = False
-        self._beat = 0.0
-        self._status_time = -1.0
-        self.rates = (0.0, 0.0)
-        self.extra_items: Callable[[Snapshot], tuple[StatusItem, ...]] = lambda _: ()
-        self._rates = LoopRates()
+        self._beat, self._blind = 0.0, ""
+        self._display = ExerciseDisplay(views)
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.look)
         self._connect()
@@ -93,7 +65,7 @@ class ExerciseController(QObject):
         self.detach()
         self._run, self._seen = run, run.trainer.result
         self._beat = self._clock.now()
-        self._rates = LoopRates()
+        self._display.begin()
         self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
         self._views.panel.set_ready(True)
         self._views.panel.enable.set_wanted(run.held_arming)
@@ -121,6 +93,15 @@ class ExerciseController(QObject):
         """The run being served."""
         return self._run
 
+    @property
+    def rates(self) -> tuple[float, float]:
+        """Rate of the loop [Hz], and the share of deadlines it missed of late, at the last look."""
+        return self._display.rates
+
+    def add_items(self, items: Callable[[Snapshot], tuple[StatusItem, ...]]) -> None:
+        """Let somebody else who watches put further lines into the status strip."""
+        self._display.extra_items = items
+
     # --- one look ---------------------------------------------------------------------------------
     def look(self) -> None:
         """Send a heartbeat, take the newest snapshot, show it, pass it on."""
@@ -133,37 +114,23 @@ class ExerciseController(QObject):
         try:
             snapshot = run.trainer.snapshot()
         except AcusError as error:
-            self._fail(str(error))
+            self._go_blind(str(error))
             return
+        if self._blind:
+            self._blind = ""
+            self.worked.emit()
         self._drain(run)
-        self._show(run, snapshot, now, late)
+        self._display.show(run, snapshot, now, late)
         self.snapshot_taken.emit(snapshot)
         if snapshot.pose.valid:
             self.needle_moved.emit(snapshot.pose)
         self._look_for_result(run)
 
-    def _show(self, run: ExerciseRun, snapshot: Snapshot, now: float, late: float) -> None:
-        limit = force_limit(snapshot, run.profile.limits.hand_force)
-        views = self._views
-        views.panel.show_figures(figures(snapshot, limit))
-        views.bullseye.source.set_locked(snapshot.state in RUNNING)
-        views.panel.energy.show_energy(energy_figures(snapshot))
-        views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
-        hand = hand_pose(snapshot) if views.bullseye.hand is None else None
-        if hand is not None:
-            views.bullseye.take_hand(hand)
-        view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
-        if view is not None:
-            views.bullseye.show_view(view)
-        rate, missing = self.rates = self._rates.read(snapshot, now)
-        if views.tracker.due(now):
-            wanted = views.tracker.overlays
-            seen = run.inspect(wanted.mask, wanted.epipolar) if run.inspect is not None else None
-            views.tracker.show_tracker(seen, tracker_figures(snapshot), now)
-        if now - self._status_time >= STATUS_PERIOD:
-            self._status_time = now
-            items = status_items(snapshot, rate, missing, late)
-            views.status.show_items((*self.extra_items(snapshot), *items))
+    def _go_blind(self, why: str) -> None:
+        """Say once why there is no snapshot; the next look tries again."""
+        if why != self._blind:
+            self._blind = why
+            self._fail(why)
 
     def _drain(self, run: ExerciseRun) -> None:
         for event in run.trainer.events.drain():
@@ -204,6 +171,8 @@ class ExerciseController(QObject):
                 self._run.trainer.scan()
             except AcusError as error:
                 self._fail(str(error))
+                return
+            self.worked.emit()
 
     def end(self) -> None:
         """End the attempt; scoring and writing go on beside the window."""
@@ -251,6 +220,8 @@ class ExerciseController(QObject):
             run.learn_colour(camera, pixel)
         except (AcusError, OSError) as error:
             self._fail(str(error))
+            return
+        self.worked.emit()
 
     def _move_hand(self, pose: HandPose) -> None:
         if self._run is not None:

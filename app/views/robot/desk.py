@@ -33,10 +33,12 @@ class RobotDesk(QObject):
 
     Signals:
         failed(object): an error to show.
+        accepted(): what the user wants is not refused: what was refused before is over.
         changed(): another robot, key or mode was chosen.
     """
 
     failed = Signal(object)
+    accepted = Signal()
     changed = Signal()
 
     def __init__(
@@ -252,6 +254,7 @@ class RobotDesk(QObject):
     def _refused_in_attempt(self) -> bool:
         run = self._conductor.controller.run
         if run is None or run.trainer.snapshot().state not in RUNNING:
+            self.accepted.emit()
             return False
         self.failed.emit(tr("An attempt is running: end it first, then change the robot."))
         return True

@@ -1,0 +1,98 @@
+"""What the exercise's widgets show of one look at the trainer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+from app.session.machine import RUNNING
+from app.session.snapshot import Snapshot
+from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.enable_words import enabling
+from app.views.exercise.energy import energy_figures
+from app.views.exercise.felt import force_limit
+from app.views.exercise.loop_rates import LoopRates
+from app.views.exercise.messages import MessageList
+from app.views.exercise.panel import ExercisePanel
+from app.views.exercise.readings import figures, hand_pose, pad_view, status_items, tracker_figures
+from app.views.exercise.run import ExerciseRun
+from app.views.exercise.status import StatusStrip
+from app.views.exercise.status_items import StatusItem
+from app.views.exercise.tracker_panel import TrackerPanel
+
+STATUS_PERIOD: Final = 0.25
+"""The status strip is refreshed this often [s]: words that flicker cannot be read."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExerciseViews:
+    """The widgets that the controller feeds."""
+
+    bullseye: Bullseye
+    panel: ExercisePanel
+    status: StatusStrip
+    tracker: TrackerPanel
+    messages: MessageList
+
+
+class ExerciseDisplay:
+    """Fills the widgets.
+
+    Attributes:
+        rates: of the loop [Hz], and the share of deadlines it missed of late, at the last look.
+        extra_items: further lines of the status strip, by whoever else watches; none by default.
+    """
+
+    def __init__(self, views: ExerciseViews) -> None:
+        self._views = views
+        self._status_time = -1.0
+        self.rates = (0.0, 0.0)
+        self.extra_items: Callable[[Snapshot], tuple[StatusItem, ...]] = lambda _: ()
+        self._rates = LoopRates()
+
+    def begin(self) -> None:
+        """Begin with another trainer."""
+        self._rates = LoopRates()
+
+    def show(self, run: ExerciseRun, snapshot: Snapshot, now: float, late: float) -> None:
+        """Show a snapshot.
+
+        Args:
+            run: whose it is.
+            snapshot: of its trainer.
+            now: time of the look [s].
+            late: since the look before [s].
+        """
+        limit = force_limit(snapshot, run.profile.limits.hand_force)
+        self._show_panel(snapshot, limit)
+        self._show_pad(run, snapshot, limit)
+        rate, missing = self.rates = self._rates.read(snapshot, now)
+        self._show_tracker(run, snapshot, now)
+        if now - self._status_time >= STATUS_PERIOD:
+            self._status_time = now
+            items = status_items(snapshot, rate, missing, late)
+            self._views.status.show_items((*self.extra_items(snapshot), *items))
+
+    def _show_panel(self, snapshot: Snapshot, limit: float) -> None:
+        views = self._views
+        views.panel.show_figures(figures(snapshot, limit))
+        views.bullseye.source.set_locked(snapshot.state in RUNNING)
+        views.panel.energy.show_energy(energy_figures(snapshot))
+        views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
+
+    def _show_pad(self, run: ExerciseRun, snapshot: Snapshot, limit: float) -> None:
+        bullseye = self._views.bullseye
+        hand = hand_pose(snapshot) if bullseye.hand is None else None
+        if hand is not None:
+            bullseye.take_hand(hand)
+        view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
+        if view is not None:
+            bullseye.show_view(view)
+
+    def _show_tracker(self, run: ExerciseRun, snapshot: Snapshot, now: float) -> None:
+        tracker = self._views.tracker
+        if tracker.due(now):
+            wanted = tracker.overlays
+            seen = run.inspect(wanted.mask, wanted.epipolar) if run.inspect is not None else None
+            tracker.show_tracker(seen, tracker_figures(snapshot), now)
