@@ -19,7 +19,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.compiled import njit
-from app.tracking.markers.band_outline import CELLS
+from app.tracking.markers.band_outline import CELLS, tapers_at_once
 
 BAND: Final = 7
 SPLINES: Final = 9
@@ -108,13 +108,10 @@ def design(
         first[j] = quadratic_spline(0.5 * (x + 1.0), SPLINES, splines[j])
         low, high = min(low, arcs[0, j], arcs[1, j]), max(high, arcs[0, j], arcs[1, j])
         inner_low, inner_high = max(inner_low, arcs[0, j]), min(inner_high, arcs[1, j])
-    end, reach = stretch[1] * np.mean(arcs[1]), _FAR * blur
+    reach = _FAR * blur
     low, high = stretch[1] * low, stretch[1] * high
     inner_low, inner_high = stretch[1] * inner_low + reach, stretch[1] * inner_high - reach
-    edges = np.empty((3, CELLS + 1))
-    # a cone's outline: the tangents from its apex to the ellipse of its base
-    lean = shape[0] / shape[5] * math.sqrt(1.0 - frame[9] * frame[9]) / frame[9]
-    taper = 1.0 / (shape[5] * math.sqrt(max(0.1, 1.0 - lean * lean)))
+    edges, cone = np.empty((3, CELLS + 1)), tapers_at_once(shape)
     for i in range(pixels.shape[0]):
         row = rows[i]
         seen[i] = False
@@ -134,12 +131,14 @@ def design(
         for tip in range(2):
             if (e < high - reach * 2.0) if tip else (e > low + reach * 2.0):
                 continue
-            radius = shape[0]
+            slim = shape[0] / shape[1]
             if tip:
-                h = (end - e) / blur  # where on the point the pixel looks, on average
-                at = e + blur * _bell(h) / max(_step(-h), 1e-3)
-                radius *= min(1.0, max(0.05, taper * (shape[3] - at / frame[8])))
-            a, b = _across(n, middle, width * radius / shape[1], blur, stretch[0], edges)
+                j = int(0.5 * CELLS * ((n - middle) / (stretch[0] * width) + 1.0))
+                h = (stretch[1] * arcs[1, min(CELLS - 1, max(0, j))] - e) / blur
+                at = e + blur * _bell(h) / max(_step(-h), 1e-3)  # where it looks, on average
+                taper = max(0.05, (frame[8] - at) / frame[9])
+                slim = taper if cone else min(slim, taper)
+            a, b = _across(n, middle, width * slim, blur, stretch[0], edges)
             if a < b and not seen[i]:
                 row[:], seen[i] = 0.0, True
             _shaft(row, e, a, b, edges, arcs, blur, stretch[1], tip, splines, first)
@@ -229,7 +228,7 @@ def _shaft(
     start = BAND + tip * SPLINES
     sign = -1.0 if tip else 1.0
     for j in range(a, b):
-        h = (stretch * arcs[tip, j] - e) / blur
+        h = (stretch * arcs[2 + tip, j] - e) / blur
         along = _step(sign * h)
         if along == 0.0:
             continue
@@ -239,7 +238,7 @@ def _shaft(
         by_n = (edges[1, j + 1] - edges[1, j]) * along
         by_e = -bell * across
         by_width = (edges[2, j + 1] - edges[2, j]) * along
-        by_length = bell * arcs[tip, j] * across
+        by_length = bell * arcs[2 + tip, j] * across
         for k in range(3):
             p, column = splines[j, k], start + first[j] + k
             row[0, column] += p * share

@@ -8,8 +8,17 @@ across.
 
 An end that faces the camera shows its face where the shaft does not hide it: there the arc is that
 of the shaft's circle, and beside a shaft that is thinner than the band the far half of the end.
+
+Shaft and point begin where the strips of their own width meet the end, which are others than the
+band's: those of the point run together in its apex. A line through the apex's picture meets the
+end's circle, of the needle's radius r there, at the angle ψ from the direction to the camera with
+
+    X = sin ψ · √(1 - κ²) / (1 - κ cos ψ),   κ = (r / length of the point) · cot(angle to the ray)
+
+X from -1 to 1 between the tangents from the apex; for a cylinder κ = 0 and X = sin ψ.
 """
 
+import math
 from typing import Any, Final
 
 import numpy as np
@@ -18,6 +27,8 @@ from app.core.compiled import njit
 from app.tracking.optics.distortion import distort_point
 
 FRAME: Final = 12
+
+ARCS: Final = 4
 
 CELLS: Final = 28
 """Strips across the band, for integration: narrower than half the point spread."""
@@ -41,10 +52,12 @@ def outline(
         shape: a `rig.NeedleShape`.
         intrinsics: fx, fy, cx, cy.
         distortion: k1, k2, p1, p2, k3.
-        arcs: out, (2, CELLS): e of both ends [px] at the middle of each strip, hub end first.
+        arcs: out, (ARCS, CELLS): e of both ends [px] at the middle of each of the band's strips,
+            hub end first; the same of the strips of the shaft that leaves them.
         frame: out, (FRAME,): origin u, v; e's u, v; n of the tangents x = -1 and x = 1, each at
-            e = 0 and per pixel of e; e per metre along the needle; |sine| of the needle to the ray;
-            n per e² by the lens' distortion, and the e² of the ends, where the tangents are exact.
+            e = 0 and per pixel of e; e of the apex, and what e before it makes the point as wide
+            as the band; n per e² by the lens' distortion, and the e² of the ends, where the
+            tangents are exact.
     """
     radius, half = shape[1], shape[2]
     along = c[0] * a[0] + c[1] * a[1] + c[2] * a[2]
@@ -68,7 +81,14 @@ def outline(
     sine = radius / gap
     cosine = np.sqrt(1.0 - sine * sine)
     frame[0], frame[1], frame[2], frame[3] = u0, v0, eu, ev
-    frame[8], frame[9] = length / (2.0 * half), gap / np.sqrt(gap * gap + along * along)
+    lean = _lean(shape, (along + half) / gap)
+    reach = np.empty(2)
+    for k in range(2):
+        s = shape[3] - k * shape[5]
+        u, v = _pixel(c[0] + s * a[0], c[1] + s * a[1], c[2] + s * a[2], intrinsics, distortion)
+        reach[k] = (u - u0) * eu + (v - v0) * ev
+    frame[8] = reach[0]
+    frame[9] = (reach[0] - reach[1]) * math.sqrt(1.0 - lean * lean) * radius / shape[0]
     u, v = _pixel(
         c[0] - 3.0 * half * a[0], c[1] - 3.0 * half * a[1], c[2] - 3.0 * half * a[2],
         intrinsics, distortion,
@@ -112,4 +132,46 @@ def outline(
                 distortion,
             )
             arcs[end, j] = (u - u0) * eu + (v - v0) * ev
+        cone = end == 1 and tapers_at_once(shape)
+        thick = shape[0] * min(1.0, (shape[3] - s) / shape[5])
+        for j in range(CELLS):
+            x = (2 * j + 1.0) / CELLS - 1.0
+            wide = thick
+            if thick < radius and not faces:
+                x, wide = x * thick / radius, radius  # the band's own edge hides the shaft
+                x, depth = cosine * x, np.sqrt(1.0 - x * x)
+            else:
+                x, depth = _on_circle(x, lean if cone else 0.0)
+            u, v = _pixel(
+                c[0] + s * a[0] + wide * (x * tx + depth * fx),
+                c[1] + s * a[1] + wide * (x * ty + depth * fy),
+                c[2] + s * a[2] + wide * (x * tz + depth * fz),
+                intrinsics,
+                distortion,
+            )
+            arcs[2 + end, j] = (u - u0) * eu + (v - v0) * ev
     return True
+
+
+@njit
+def tapers_at_once(shape: Any) -> bool:
+    """Whether the point begins where the band ends, or before."""
+    return shape[3] - shape[5] < 1.02 * shape[2]
+
+
+@njit
+def _lean(shape: Any, cotangent: float) -> float:
+    """κ of the point: how much wider or narrower its tangents are than its base.
+
+    `cotangent` is that of the angle to the ray, below 0 where the tip points to the camera. Short
+    of 1, where the camera looks at the point so steeply that it sees no tangents.
+    """
+    return min(0.95, max(-0.95, shape[0] / shape[5] * cotangent))
+
+
+@njit
+def _on_circle(x: float, lean: float) -> Any:
+    """Sine and cosine of ψ where the point's strip X meets the circle of its base."""
+    root = math.sqrt(1.0 - lean * lean)
+    psi = math.asin(x / math.hypot(root, x * lean)) - math.atan2(x * lean, root)
+    return math.sin(psi), math.cos(psi)
