@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from app.tracking.pen.body import PenProfile
 
 Name = Annotated[str, typer.Option("--pen", help="A pen's name or the path of its file.")]
+Edge = Annotated[
+    float | None,
+    typer.Option("--edge", metavar="MM", help="Edge of a face, where it is not the profile's."),
+]
 app = typer.Typer(help="A pen with printed markers before a webcam (docs/pen.md).")
 
 
@@ -43,6 +47,7 @@ def list_pens(
 def print_pen(
     out: Annotated[Path, typer.Option(help="PDF to write.")],
     pen: Name = "cube",
+    edge: Edge = None,
     paper: Annotated[str, typer.Option(help="A4, A3 or Letter.")] = "A4",
 ) -> None:
     """Write cube or ring with its tabs, and the sheet, as a PDF at true size."""
@@ -50,7 +55,7 @@ def print_pen(
     from app.views.cameras.board_layout import paper_named
     from app.views.pen.net_page import write_pen
 
-    profile = load_pen(pen)
+    profile = load_pen(pen) if edge is None else load_pen(pen).resized(edge)
     write_pen(out, profile, paper_named(paper))
     typer.echo(
         f"wrote {out}: print it at 100 %, check the line of 100 mm, cut, fold, glue (docs/pen.md)"
@@ -68,6 +73,7 @@ def calibrate(
         typer.Option(help="usb:0, folder:PATH or video:PATH; default: as remembered."),
     ] = None,
     pen: Name = "cube",
+    edge: Edge = None,
     lens: Annotated[
         Path | None, typer.Option(help="Calibration of the webcam's lens; default: remembered.")
     ] = None,
@@ -88,9 +94,10 @@ def calibrate(
     quarter turn or more. Without, the shaft is taken to run through the middle of the cube.
     """
     from app.compose.pen_calibration import calibrate_pen, measure_shaft
-    from app.tracking.pen.settings import load_settings, save_pen, save_settings, with_source
+    from app.tracking.pen.kept import save_pen
+    from app.tracking.pen.settings import load_settings, save_settings, with_source
 
-    settings = load_settings().model_copy(update={"pen": pen})
+    settings = load_settings().model_copy(update={"pen": pen, "edge_mm": edge})
     settings = settings if source is None else with_source(settings, source)
     settings = settings if lens is None else settings.model_copy(update={"calibration": lens})
     if not as_json:
@@ -103,7 +110,7 @@ def calibrate(
     if roll is not None:
         tell("now lay the pen into a groove and roll it about itself by a quarter turn or more …")
         found = measure_shaft(with_source(settings, roll), found, seconds, tell)
-    path = save_pen(found.pen)
+    path = save_pen(found.pen, settings.kept_name)
     save_settings(settings)
     if as_json:
         document = {
@@ -112,6 +119,7 @@ def calibrate(
             "rms_mm": found.tip.rms * 1e3,
             "poses": found.tip.poses,
             "left_out": found.tip.left_out,
+            "held_back_rms_mm": None if found.check is None else found.check.rms * 1e3,
             "axis_sd_deg": found.axis.sd_deg,
             "axis_by": found.axis.source,
             "file": str(path),

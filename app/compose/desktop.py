@@ -18,12 +18,14 @@ if TYPE_CHECKING:
 
     from app.compose.camera_check import Aim
     from app.compose.live_cameras import LiveReader
+    from app.compose.live_pen import LivePen
     from app.compose.trainer import Rig
     from app.core.arrays import FloatArray
     from app.device.commissioning.bench import Bench
     from app.mechanisms.profile import DeviceProfile
     from app.tracking.cameras.settings import CameraSettings
     from app.tracking.inspection import Inspection
+    from app.tracking.pen.settings import PenSettings
     from app.tracking.pen.tracker import PenTracker
     from app.tracking.tracker import Tracker
     from app.views.exercise.run import ExerciseRun
@@ -114,6 +116,12 @@ class Desktop:
             from app.compose.camera_check import aim_of
         progress.report(0.5, "computing what the cameras see of the needle's cone")
         return aim_of(settings, device)
+
+    def open_pen(self, settings: PenSettings, progress: Progress) -> LivePen:
+        """Open a pen and its webcam; called beside the window, may take seconds."""
+        with ONE_AT_A_TIME:
+            from app.compose.live_pen import open_live_pen
+        return open_live_pen(settings)
 
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""

@@ -59,10 +59,7 @@ class LiveReader:
 
     def settings(self) -> tuple[str, ...]:
         """Return what became of what was asked of the driver, a line each."""
-        inner = getattr(self._camera, "camera", self._camera)
-        if not isinstance(inner, UsbCamera):
-            return ()
-        return tuple(setting.text for setting in inner.settings)
+        return driver_settings(self._camera)
 
     def measure_light(self, wanted: bool) -> None:
         """Begin to keep the light of every picture, from none, or stop."""
@@ -78,6 +75,14 @@ class LiveReader:
         light = self._light
         if light is not None:
             light.append((delivered, grid_means(frame.image)))
+
+
+def driver_settings(camera: Camera) -> tuple[str, ...]:
+    """Return what became of what was asked of a camera's driver, a line each."""
+    inner = getattr(camera, "camera", camera)
+    if not isinstance(inner, UsbCamera):
+        return ()
+    return tuple(setting.text for setting in inner.settings)
 
 
 def open_live(settings: CameraSettings, side: str) -> LiveReader:

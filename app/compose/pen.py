@@ -11,57 +11,27 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
-import numpy as np
-
 from app.compose.needle import UPRIGHT, row_at
+from app.compose.pen_table import START_DEPTH, joint_angles, pen_table, without_force
+from app.compose.pen_webcam import attached_camera, simulated_lens, simulated_webcam
 from app.core import state_vector as sv
-from app.core.arrays import FloatArray
 from app.core.clock import Clock
-from app.core.units import MILLIMETRE
 from app.device.control import Loop, Table
-from app.device.control.kinematics import Kinematics
-from app.device.control.velocity import DEFAULT_VELOCITY, velocity_stage
-from app.device.links.link import Triple
 from app.device.links.pen import PenLink
-from app.exercises.scene import compile_exercise
 from app.exercises.schema import Exercise
-from app.mechanisms.errors import MechanismError
-from app.mechanisms.pantograph import inverse, system_forward
+from app.mechanisms.pantograph import system_forward
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.hands import TRAINEE
-from app.simulation.plant import initial_plant, plant_stage
-from app.simulation.trainee import trainee_stage
+from app.simulation.plant import initial_plant
 from app.tracking.cameras.camera import Camera
-from app.tracking.cameras.factory import make_camera
-from app.tracking.cameras.settings import CameraSettings, OneCamera
-from app.tracking.optics.calibration import CameraCalibration
-from app.tracking.optics.rig import CameraProfile
 from app.tracking.pen.needle import PenTip
 from app.tracking.pen.settings import PenSettings, load_settings, with_source
 from app.tracking.pen.step import PenObservation
 from app.tracking.pen.tracker import PenTracker
 from app.tracking.pen.webcam import Webcam
-from app.tracking.simulated.cameras import SimulatedCamera
-from app.tracking.simulated.pen import PenRenderer, PenScene, PenSceneAt, body_pose
-from app.tracking.simulated.picture_effects import NoiseTile, noise
+from app.tracking.simulated.pen_scene import PenScene, PenSceneAt, body_pose
 
-START_DEPTH: Final = -0.015
-"""Where the needle of a simulated hand waits [m]."""
-
-SIMULATED_WEBCAM: Final = CameraProfile(
-    name="webcam",
-    image_size=(640, 480),
-    focal_px=(620.0, 620.0),
-    centre_px=(319.5, 239.5),
-    distortion=(-0.05, 0.02, 0.0003, -0.0003, 0.0),
-    position_mm=(60.0, 560.0, 380.0),
-    looks_at_mm=(0.0, 160.0, 130.0),
-)
-"""A webcam on a small stand, 47 cm from the entry."""
-
-_SIMULATED_RATE_HZ: Final = 15.0
-_NOISE_GREY: Final = 4.0
 _ROLL: Final = 1.0
 """Turn of the simulated pen about its shaft [rad]: two sides and the top show."""
 
@@ -74,36 +44,6 @@ def pen_settings(source: str) -> PenSettings:
         ConfigurationError: if the settings file cannot be used.
     """
     return with_source(load_settings(), source)
-
-
-def attached_camera(settings: PenSettings, clock: Clock) -> Camera:
-    """Return the real webcam of the settings, not open yet.
-
-    Raises:
-        CameraError: for a simulated one.
-    """
-    one = OneCamera(source=settings.source)
-    wanted = CameraSettings(size=settings.size, rate_hz=settings.rate_hz, left=one, right=one)
-    return make_camera(wanted, one, clock)
-
-
-def without_force(profile: DeviceProfile) -> DeviceProfile:
-    """Return the geometry of a device that pushes nobody."""
-    return profile.model_copy(update={"loop": profile.loop.model_copy(update={"renders": ()})})
-
-
-def joint_angles(profile: DeviceProfile, axis: FloatArray) -> FloatArray | None:
-    """Joint angles [rad], shape (2,), of a robot whose needle points along `axis` (unit vector).
-
-    None where no robot could: a needle that does not point down, or out of reach.
-    """
-    if not axis[2] < -0.1:
-        return None
-    fulcrum = profile.pantograph.fulcrum
-    try:
-        return inverse(profile.pantograph, (fulcrum - axis * fulcrum[2] / axis[2])[:2])
-    except MechanismError:
-        return None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -155,18 +95,7 @@ class Pen:
         Raises:
             ConfigurationError: if the calibration's file cannot be used.
         """
-        if not self.settings.simulated:
-            return self.settings.webcam()
-        camera = SIMULATED_WEBCAM
-        return Webcam(
-            CameraCalibration(
-                name=camera.name,
-                image_size=camera.image_size,
-                focal_px=camera.focal_px,
-                centre_px=camera.centre_px,
-                distortion=camera.distortion,
-            )
-        )
+        return simulated_lens() if self.settings.simulated else self.settings.webcam()
 
     def scene(self, loop: Loop) -> PenSceneAt:
         """Return what a simulated webcam sees: the pen in the simulated hand."""
@@ -207,46 +136,3 @@ class Pen:
                         "pen": pen.name, "tip": "measured" if pen.tip.calibrated else "drawn"},
             TRAINEE: {"scripted": skill or ""} | hand,
         }  # fmt: skip
-
-
-def pen_table(
-    exercise: Exercise,
-    placed: PlacedPlan,
-    profile: DeviceProfile,
-    read: list[Triple],
-    skill: str | None,
-    seed: int,
-    simulated: bool,
-) -> Table:
-    """Table of a tick without force.
-
-    Args:
-        exercise: whose effects are computed; its force laws are not.
-        placed: the plan.
-        profile: geometry that renders nothing.
-        read: stages that give the joint angles; none in a replay, which is given them.
-        skill: of the scripted trainee; None without one.
-        seed: of the trainee.
-        simulated: whether a simulated hand holds the pen.
-    """
-    effects = compile_exercise(exercise.placed_as(placed.placement), profile, simulated=False)
-    plant = [plant_stage(profile, UPRIGHT, START_DEPTH)] if simulated else []
-    trainee = (
-        [trainee_stage(placed.axis, placed.length, skill, seed)] if simulated and skill else []
-    )
-    stages = [*trainee, *read, velocity_stage(DEFAULT_VELOCITY, profile)]
-    return Table.of([*stages, Kinematics.of(profile).stage(), *effects.stages()], plant)
-
-
-def simulated_webcam(
-    settings: PenSettings, scene: PenSceneAt, profile: DeviceProfile, clock: Clock, seed: int
-) -> SimulatedCamera:
-    """Return a webcam whose pictures are drawn, with noise."""
-    model, pen = SIMULATED_WEBCAM.model(), settings.profile()
-    base = pen.base.pose(np.array(profile.pantograph.fulcrum))
-    edge = pen.body.edge_mm * MILLIMETRE
-    renderer = PenRenderer(model, pen.body.board(), pen.base.board(), base, edge, seed=seed)
-    tile = NoiseTile.make(model.image_size, _NOISE_GREY, seed + 100)
-    return SimulatedCamera(
-        renderer, scene, clock, _SIMULATED_RATE_HZ, effects=[(noise, tile)], seed=seed + 200
-    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from app.compose.pen import attached_camera
+from app.compose.pen_webcam import attached_camera
 from app.core.clock import Clock, SystemClock
 from app.mechanisms.profile import load_profile
 from app.tracking.calibration.pictures import list_pictures

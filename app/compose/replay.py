@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from app.compose.pen import pen_table
+from app.compose.pen_table import pen_table
 from app.compose.trainer import TrainerSetup, loop_table
 from app.core.configuration import parse
 from app.device.control import Table

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
@@ -13,7 +13,11 @@ from app.planning.placement import PlacedPlan
 from app.tracking.cameras.settings import CameraSettings
 from app.views.cameras.live import AimPort, LiveCamera
 from app.views.exercise.run import ExerciseRun
+from app.views.pen.port import LivePen
 from app.views.robot.bench import BenchPort
+
+if TYPE_CHECKING:
+    from app.tracking.pen.settings import PenSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,6 +150,14 @@ class Services(Protocol):
 
         Raises:
             AcusError: if the calibration is of other cameras or another size.
+        """
+        ...
+
+    def open_pen(self, settings: PenSettings, progress: Progress) -> LivePen:
+        """Open a pen and its webcam; called beside the window, may take seconds.
+
+        Raises:
+            AcusError: if webcam, pen or lens cannot be used.
         """
         ...
 

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from app.commands import build
 from app.tracking.errors import CameraError, PenError
 from app.tracking.pen.settings import load_settings
-from app.tracking.simulated.pen import PenScene, body_pose
+from app.tracking.simulated.pen_scene import PenScene, body_pose
 from tests.tracking.pen_rig import ENTRY, camera, picture, renderer, webcam
 
 
@@ -49,7 +49,7 @@ def test_pictures_of_a_rocked_and_rolled_pen_give_its_tip_and_its_shaft(tmp_path
         lean = 0.5 * np.array([np.cos(2.4 * k), np.sin(2.4 * k)]) * np.sqrt((k + 1) / 36)
         axis = np.array([*lean, -1.0]) / np.linalg.norm([*lean, 1.0])
         pose = body_pose(ENTRY, axis, tip, tip / np.linalg.norm(tip), 1.0 + rng.uniform(-0.2, 0.2))
-        cv2.imwrite(str(folder / f"{k:03d}.png"), picture(draw, PenScene(pose, ENTRY), k).image)
+        cv2.imwrite(str(folder / f"{k:03d}.bmp"), picture(draw, PenScene(pose, ENTRY), k).image)
     lens = tmp_path / "lens.yaml"
     lens.write_text(webcam(model).calibration.model_dump_json(), encoding="utf-8")
     rolled = tmp_path / "rolled"
@@ -58,7 +58,7 @@ def test_pictures_of_a_rocked_and_rolled_pen_give_its_tip_and_its_shaft(tmp_path
     for k in range(24):
         shift = ENTRY + np.array([0.001 * k, 0.0, 0.0])
         pose = body_pose(shift, lying / np.linalg.norm(lying), tip, shaft, 0.09 * k)
-        cv2.imwrite(str(rolled / f"{k:03d}.png"), picture(draw, PenScene(pose, shift), k).image)
+        cv2.imwrite(str(rolled / f"{k:03d}.bmp"), picture(draw, PenScene(pose, shift), k).image)
     found = acus(
         "calibrate", "--source", f"folder:{folder}", "--lens", str(lens), "--json",
         "--roll", f"folder:{rolled}",

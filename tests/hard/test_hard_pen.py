@@ -13,7 +13,7 @@ from app.tracking.pen.detector import MarkerSighting
 from app.tracking.pen.edges import measure_squares
 from app.tracking.pen.locator import BoardLocator
 from app.tracking.pen.pose import PoseStatus
-from app.tracking.simulated.pen import PenScene
+from app.tracking.simulated.pen_scene import PenScene
 from tests.tracking.pen_rig import (
     BASE,
     BODY,

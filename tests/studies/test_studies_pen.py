@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from app.studies.pen import Setup, rendered, trials
+from app.studies.webcam.setups import Setup
+from app.studies.webcam.trials import rendered, trials
 from app.tracking.confidence import chi_square_quantile
 
 

@@ -1,5 +1,7 @@
 """A pen before a simulated webcam, for the tests of the pen."""
 
+from functools import cache
+
 import numpy as np
 
 from app.core.arrays import unit
@@ -11,7 +13,8 @@ from app.tracking.pen.body import load_pen
 from app.tracking.pen.detector import MarkerSighting
 from app.tracking.pen.step import PenStep
 from app.tracking.pen.webcam import Webcam
-from app.tracking.simulated.pen import PenRenderer, PenScene, body_pose
+from app.tracking.simulated.pen import PenRenderer
+from app.tracking.simulated.pen_scene import PenScene, body_pose
 
 ENTRY = np.array([0.0, 0.16056, 0.090])
 PEN = load_pen("cube")
@@ -20,6 +23,7 @@ DOWN = np.array([0.0, 0.0, 1.0])
 BODY, BASE = PEN.body.board(), PEN.base.board()
 
 
+@cache
 def camera(position_mm=(60, 560, 380), looks_at_mm=(0, 160, 130), size=(640, 480), focal=620.0):
     return CameraProfile(
         name="webcam",
@@ -46,7 +50,9 @@ def webcam(model):
     )
 
 
+@cache
 def renderer(model):
+    """Rays and background of a camera take longer than its pictures: made once."""
     return PenRenderer(model, BODY, BASE, PEN.base.pose(ENTRY), PEN.body.edge_mm * 1e-3)
 
 

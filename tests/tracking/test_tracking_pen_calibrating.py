@@ -12,18 +12,19 @@ from app.tracking.confidence import chi_square_quantile
 from app.tracking.errors import CameraError, PenError
 from app.tracking.pen.calibrating import PoseCollector, relative_pose
 from app.tracking.pen.drawing import draw_observation
+from app.tracking.pen.kept import save_pen
 from app.tracking.pen.locator import BoardLocator
 from app.tracking.pen.pose import PoseStatus
-from app.tracking.pen.settings import PenSettings, load_settings, save_pen, save_settings
-from app.tracking.simulated.pen import body_pose
+from app.tracking.pen.settings import PenSettings, load_settings, save_settings
+from app.tracking.simulated.pen_scene import body_pose
 
 MODEL = camera()
+BLANK = step(MODEL).look(Frame(np.full((480, 640, 3), 128, np.uint8), 1.0))
 TRUE_TIP = np.array([0.0015, -0.001, 0.172])
 
 
 def observed(T_world_body, rng):
     """An observation from corners, without a picture."""
-    blank = step(MODEL).look(Frame(np.full((480, 640, 3), 128, np.uint8), 1.0))
     poses = []
     for board, T in ((BODY, T_world_body), (BASE, PEN.base.pose(ENTRY))):
         T_camera = MODEL.T_camera_world @ T
@@ -33,7 +34,7 @@ def observed(T_world_body, rng):
             if T_camera.rotate(m.normal) @ (T_camera @ m.corners.mean(axis=0)) < -0.1
         ]
         poses.append(BoardLocator(board, 0.0).locate(MODEL, seen))
-    return dataclasses.replace(blank, body=poses[0], base=poses[1])
+    return dataclasses.replace(BLANK, body=poses[0], base=poses[1])
 
 
 def rocking(rng, n=45, spread=0.45):

@@ -191,6 +191,17 @@ class PenProfile(Strict):
             raise ValueError("cube and sheet need one dictionary")
         return self
 
+    def resized(self, edge_mm: float) -> "PenProfile":
+        """Return the pen with faces of another edge; markers grow with them, the tip stays."""
+        body = self.body.model_dump() | {
+            "edge_mm": edge_mm,
+            "marker_mm": round(self.body.marker_mm * edge_mm / self.body.edge_mm, 3),
+        }
+        name = f"{self.name}-{edge_mm:g}mm"
+        told = f"{self.description} (faces of {edge_mm:g} mm instead)" if self.description else ""
+        changed = {"name": name, "description": told, "body": body}
+        return PenProfile.model_validate(self.model_dump() | changed)
+
 
 def shipped_pens() -> list[str]:
     """Names of the pen profiles that come with the program."""

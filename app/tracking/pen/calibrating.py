@@ -1,6 +1,6 @@
 """Calibrating a pen from the pictures of a webcam: collecting poses, then pivoting."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.pen.body import PenProfile, TipProfile
+from app.tracking.pen.held_back import HeldBack, held_back
 from app.tracking.pen.pivot import MeasuredPose, TipCalibration, pivot
 from app.tracking.pen.pose import PoseStatus
 from app.tracking.pen.shaft import AxisCalibration, axis_by_mount, axis_by_rolling
@@ -29,11 +30,13 @@ class PenCalibration:
         pen: profile with tip and axis measured.
         tip: what pivoting found.
         axis: direction of the shaft.
+        check: on positions held back; None where there were too few.
     """
 
     pen: PenProfile
     tip: TipCalibration
     axis: AxisCalibration
+    check: HeldBack | None = None
 
     @property
     def words(self) -> str:
@@ -43,7 +46,7 @@ class PenCalibration:
             f"tip at ({x:.1f}, {y:.1f}, {z:.1f}) mm from the middle of the cube, standard "
             f"deviation {self.tip.sd_mm:.2f} mm; it stood still to {self.tip.rms / MILLIMETRE:.2f} "
             f"mm in {self.tip.poses} poses ({self.tip.left_out} left out); axis to "
-            f"{self.axis.sd_deg:.2f}°"
+            f"{self.axis.sd_deg:.2f}°" + (f"; {self.check.words}" if self.check else "")
         )
 
 
@@ -77,9 +80,10 @@ class PoseCollector:
         Raises:
             PenError: if the poses do not tell the tip; says what to do.
         """
-        tip = pivot(self.poses)
+        poses = tuple(self.poses)  # another thread may still add to them
+        tip = pivot(poses)
         axis = axis_by_mount(tip)
-        return PenCalibration(with_tip(pen, tip, axis), tip, axis)
+        return PenCalibration(with_tip(pen, tip, axis), tip, axis, held_back(poses))
 
     def finish_rolling(self, found: PenCalibration) -> PenCalibration:
         """Return a calibration with the shaft as these poses of a rolled pen tell it.
@@ -88,7 +92,7 @@ class PoseCollector:
             PenError: if they do not; says what to do.
         """
         axis = axis_by_rolling(self.poses, found.tip.p_tip)
-        return PenCalibration(with_tip(found.pen, found.tip, axis), found.tip, axis)
+        return replace(found, pen=with_tip(found.pen, found.tip, axis), axis=axis)
 
 
 def relative_pose(seen: PenObservation) -> MeasuredPose:

@@ -17,14 +17,11 @@ from app.tracking.optics.camera_model import CameraModel
 from app.tracking.pen.board import Marker, MarkerBoard
 from app.tracking.pen.detector import MarkerSighting
 from app.tracking.pen.pose import BoardPose, PoseStatus
-from app.tracking.pen.problem import BoardProblem, Minimum, angle_between, refine
+from app.tracking.pen.problem import SAME, BoardProblem, Minimum, angle_between, refine
 from app.tracking.pen.starts import starts_of
 
 DECISIVE = 16.0
 """Difference of chi-square between the two minima from which the better one is certain."""
-
-_SAME = 0.01
-"""Angle [rad] below which two poses are one."""
 
 _BESIDE = 0.05
 """Angle [rad] from a known minimum within which a start would only lead there."""
@@ -122,7 +119,7 @@ class BoardLocator:
                 " another size, or two of them in view",
                 ids,
             )
-        other = next((m for m in minima[1:] if angle_between(m.pose, best.pose) > _SAME), None)
+        other = next((m for m in minima[1:] if angle_between(m.pose, best.pose) > SAME), None)
         apart = angle_between(other.pose, best.pose) if other is not None else 0.0
         factor = max(1.0, best.cost / freedom) if misfit else 1.0
         lead = (other.cost - best.cost) / factor if other is not None else float("inf")
@@ -177,8 +174,9 @@ def _minima(problem: BoardProblem, starts: list[RigidTransform]) -> list[Minimum
     """Refine the starts that are not beside a minimum that is known already."""
     minima: list[Minimum] = []
     for start in starts:
-        if all(angle_between(start, known.pose) > _BESIDE for known in minima):
-            found = refine(problem, start)
+        known = [minimum.pose for minimum in minima]
+        if all(angle_between(start, pose) > _BESIDE for pose in known):
+            found = refine(problem, start, known)
             minima += [] if found is None else [found]
     return minima
 

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.core.arrays import FloatArray, read_only
-from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.errors import PenError
+from app.tracking.pen.projection import skews
 
 FEWEST = 20
 """Poses below which nothing is computed."""
@@ -108,15 +108,14 @@ def pivot(poses: Sequence[MeasuredPose]) -> TipCalibration:
 
 def _weights(poses: Sequence[MeasuredPose], p_tip: FloatArray | None) -> FloatArray:
     """Inverse covariance of each pose's tip in the poses' frame, (n, 3, 3)."""
-    weights = np.empty((len(poses), 3, 3))
-    for i, pose in enumerate(poses):
-        if p_tip is None:
-            weights[i] = np.eye(3) / MILLIMETRE**2
-            continue
-        jacobian = np.hstack([np.eye(3), -skew(pose.T @ p_tip)])
-        spread = jacobian @ pose.covariance @ jacobian.T + (1e-6) ** 2 * np.eye(3)
-        weights[i] = np.linalg.inv(spread)
-    return weights
+    if p_tip is None:
+        return np.tile(np.eye(3) / MILLIMETRE**2, (len(poses), 1, 1))
+    jacobians = np.empty((len(poses), 3, 6))
+    jacobians[:, :, :3] = np.eye(3)
+    jacobians[:, :, 3:] = -skews(np.array([pose.T @ p_tip for pose in poses]))
+    covariances = np.array([pose.covariance for pose in poses])
+    spread = jacobians @ covariances @ jacobians.transpose(0, 2, 1)
+    return np.asarray(np.linalg.inv(spread + (1e-6) ** 2 * np.eye(3)))
 
 
 def _normal_equations(

@@ -1,10 +1,13 @@
 """All corners of a board in one picture against a pose: weighted residual, and its minimum."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import cos
 
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.pen.projection import parameter_jacobians, projection_jacobians, skews
@@ -13,6 +16,14 @@ _STEPS = 12
 _ROUNDS = 3
 _CONVERGED = 1e-9
 """Decrease of chi-square still to be expected, below which a pose is as good as it gets."""
+
+_RELATIVE = 1e-7
+"""The same, as a share of chi-square: a false minimum, whose chi-square is thousands, need not be
+known to more digits than are compared."""
+
+
+SAME = 0.01
+"""Angle [rad] below which two poses are one."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,14 +53,13 @@ class BoardProblem:
     covariances: FloatArray  # (markers, 8, 8) [px²]
     build_sd: float
 
-    def evaluate(self, T: RigidTransform, whiten: FloatArray | None = None) -> Evaluated | None:
-        """Whitened residual and Jacobian at a pose; None outside of the picture.
+    def evaluate(self, p_camera: FloatArray, whiten: FloatArray | None = None) -> Evaluated | None:
+        """Whitened residual and Jacobian by the pose's twist; None outside of the picture.
 
         Args:
-            T: T_camera_board.
+            p_camera: `points` in the camera's frame [m], shape (n, 3).
             whiten: `Evaluated.whiten` of a pose nearby, which saves its computation.
         """
-        p_camera = T @ self.points
         uv, ok = self.model.project_camera(p_camera)
         if not ok.all():
             return None
@@ -97,20 +107,29 @@ class Minimum:
     residual_px: float
 
 
-def refine(problem: BoardProblem, pose: RigidTransform) -> Minimum | None:
+def refine(
+    problem: BoardProblem, pose: RigidTransform, known: Sequence[RigidTransform] = ()
+) -> Minimum | None:
     """Levenberg-Marquardt on the twist; None if it runs out of the picture or is singular.
 
     The weights are those of the start until it has converged, then those of the pose found.
+
+    Args:
+        problem: the corners.
+        pose: start.
+        known: minima that are known already; a way that leads to one of them is given up: None.
     """
-    found = problem.evaluate(pose)
+    found = problem.evaluate(pose @ problem.points)
     for _ in range(_ROUNDS):
         if found is None:
             return None
         start = pose
-        pose = _descend(problem, pose, found)
+        pose = _descend(problem, pose, found, known)
+        if any(angle_between(pose, other) < SAME for other in known):
+            return None
         if pose is start:
             break
-        found = problem.evaluate(pose)
+        found = problem.evaluate(pose @ problem.points)
     if found is None:
         return None
     normal = found.slopes.T @ found.slopes
@@ -120,9 +139,16 @@ def refine(problem: BoardProblem, pose: RigidTransform) -> Minimum | None:
     return Minimum(pose, float(found.white @ found.white), normal, found.slopes, rms)
 
 
-def _descend(problem: BoardProblem, pose: RigidTransform, found: Evaluated) -> RigidTransform:
-    """Pose of least cost from `pose` on, with the weights of `found`; the same one if it is."""
-    damping = 1e-6
+def _descend(
+    problem: BoardProblem, pose: RigidTransform, found: Evaluated, known: Sequence[RigidTransform]
+) -> RigidTransform:
+    """Pose of least cost from `pose` on, with the weights of `found`; the same one if it is.
+
+    A step (ρ, ω) is taken as R ← exp(ω) R, t ← exp(ω) t + ρ: to first order the twist on the left,
+    without the cost of a transform that is checked each time.
+    """
+    damping, cost, moved = 1e-6, float(found.white @ found.white), False
+    rotation, translation = pose.rotation, pose.translation
     for _ in range(_STEPS):
         normal, gradient = found.slopes.T @ found.slopes, found.slopes.T @ found.white
         if not np.isfinite(normal).all():
@@ -131,18 +157,27 @@ def _descend(problem: BoardProblem, pose: RigidTransform, found: Evaluated) -> R
             step = np.linalg.solve(normal + damping * np.diag(np.diag(normal)), gradient)
         except np.linalg.LinAlgError:
             break
-        if step @ gradient < _CONVERGED:
+        if step @ gradient < _CONVERGED + _RELATIVE * cost:
             break
         if np.linalg.norm(step[3:]) > 1.0:
             damping = max(10.0 * damping, 1e-3)
             continue
-        tried = RigidTransform.exp(step) @ pose
-        after = problem.evaluate(tried, found.whiten)
-        if after is None or after.white @ after.white > found.white @ found.white:
+        turn = rotation_exp(step[3:])
+        turned, shifted = turn @ rotation, turn @ translation + step[:3]
+        after = problem.evaluate(problem.points @ turned.T + shifted, found.whiten)
+        if after is None or after.white @ after.white > cost:
             damping = max(10.0 * damping, 1e-3)
             continue
-        pose, found, damping = tried, after, 0.1 * damping
-    return pose
+        rotation, translation, found, moved = turned, shifted, after, True
+        damping, cost = 0.1 * damping, float(after.white @ after.white)
+        if any(_cosine(rotation, other.rotation) > cos(SAME) for other in known):
+            break
+    return RigidTransform(rotation, translation) if moved else pose
+
+
+def _cosine(first: FloatArray, second: FloatArray) -> float:
+    """Cosine of the angle between two rotations."""
+    return 0.5 * (float(np.sum(first * second)) - 1.0)
 
 
 def angle_between(first: RigidTransform, second: RigidTransform) -> float:

@@ -1,4 +1,4 @@
-"""Which webcam and which pen: `pen.yaml` in the user's settings; calibrated pens in their data."""
+"""Which webcam and which pen: `pen.yaml` in the user's settings."""
 
 from pathlib import Path
 from typing import Annotated
@@ -13,6 +13,7 @@ from app.tracking.cameras.source import Kind, parse_source
 from app.tracking.errors import CameraError
 from app.tracking.optics.calibration import CameraCalibration, StereoCalibration
 from app.tracking.pen.body import PenProfile, load_pen
+from app.tracking.pen.kept import calibrated_path
 from app.tracking.pen.webcam import Webcam
 
 
@@ -24,6 +25,7 @@ class PenSettings(Strict):
         size: width, height of the pictures [px].
         rate_hz: pictures per second that are asked for.
         pen: name or path of a pen profile.
+        edge_mm: edge of a face of another size than the profile's; None for the profile's.
         calibration: file with the webcam's lens: one camera, or two of which `camera` is one; None
             guesses it from the size of the picture.
         camera: name of the camera in a calibration of two.
@@ -33,6 +35,7 @@ class PenSettings(Strict):
     size: tuple[int, int] = (1280, 720)
     rate_hz: Annotated[float, Field(gt=0.0, le=1000.0)] = 30.0
     pen: str = "cube"
+    edge_mm: Annotated[float, Field(ge=10.0, le=200.0)] | None = None
     calibration: Path | None = None
     camera: str = "left"
 
@@ -49,15 +52,23 @@ class PenSettings(Strict):
         """Whether the pictures are drawn."""
         return parse_source(self.source).kind is Kind.SIMULATED
 
+    @property
+    def kept_name(self) -> str:
+        """Name under which this pen is kept once its tip is measured: another size is another."""
+        return self.pen if self.edge_mm is None else f"{Path(self.pen).stem}-{self.edge_mm:g}mm"
+
     def profile(self) -> PenProfile:
-        """Return the pen, as calibrated if it was.
+        """Return the pen in its size, as calibrated if it was.
 
         Raises:
             PenError: if there is none of that name.
             ConfigurationError: if its file cannot be used.
         """
-        kept = calibrated_path(self.pen)
-        return load_pen(kept if kept.is_file() else self.pen)
+        kept = calibrated_path(self.kept_name)
+        if kept.is_file():
+            return load_pen(kept)
+        pen = load_pen(self.pen)
+        return pen if self.edge_mm is None else pen.resized(self.edge_mm)
 
     def webcam(self) -> Webcam | None:
         """Return the lens; None if it has to be guessed.
@@ -115,15 +126,3 @@ def with_source(settings: PenSettings, text: str) -> PenSettings:
         CameraError: if the source cannot be read; names the valid forms.
     """
     return settings.model_copy(update={"source": str(parse_source(text))})
-
-
-def calibrated_path(pen: str) -> Path:
-    """Where a pen with a measured tip is kept."""
-    return paths.data() / "pens" / f"{Path(pen).stem}.yaml"
-
-
-def save_pen(pen: PenProfile) -> Path:
-    """Keep a pen with its measured tip; return where. It is used instead of the shipped one."""
-    file = calibrated_path(pen.name)
-    write_atomically(file, yaml.safe_dump(pen.model_dump(mode="json"), sort_keys=False))
-    return file

@@ -134,6 +134,10 @@ class PenTracker:
             self._on_fix(fix)
         return fix
 
+    def health(self) -> CameraHealth:
+        """How the webcam does now."""
+        return self._health(self._clock.now())
+
     def statistics(self) -> TrackerStatistics:
         """Figures of the last seconds and the health of the webcam."""
         now = self._clock.now()

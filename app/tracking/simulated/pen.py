@@ -4,64 +4,37 @@ Every pixel is sampled nine times: ray, plane of a printed face, place on the pr
 therefore exact; edges have the blur of the pixel and of the lens.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from app.core.arrays import FloatArray, unit
-from app.core.transform import RigidTransform, rotation_between
+from app.core.arrays import FloatArray
+from app.core.transform import RigidTransform
 from app.tracking.cameras.camera import Image
 from app.tracking.optics.camera_model import CameraModel
-from app.tracking.pen.board import Marker, MarkerBoard, marker_cells
+from app.tracking.pen.board import Marker, MarkerBoard
 from app.tracking.simulated.background import LIGHT_WORLD
+from app.tracking.simulated.pen_print import (
+    PAD,
+    SUPERSAMPLING,
+    TEXELS,
+    WHITE,
+    Plain,
+    fine_rays,
+    places,
+    printed,
+)
+from app.tracking.simulated.pen_scene import PenScene
 
-SUPERSAMPLING = 3
-_TEXELS = 8
-"""Texels per cell of a marker."""
-_BLACK, _WHITE = 32.0, 215.0
 _SHAFT = (60.0, 90.0, 130.0)
 _TABLE = 118.0
 _SURROUND = 1.3
 _MARGIN = 0.012
 """White of the sheet round its markers [m]."""
-_PAD = 2
-"""White round a marker in its texture, in cells."""
-
 _EDGE = 8
 """Pixels at a part's rim that its blur spoils."""
 
-Plain = NDArray[np.float32]
 Grey = NDArray[np.uint8]
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class PenScene:
-    """The pen at one moment.
-
-    Attributes:
-        T_world_body: pose of cube or ring; None while it is not in view.
-        p_tip: of the pen [m], shape (3,); where the drawn shaft ends.
-    """
-
-    T_world_body: RigidTransform | None
-    p_tip: FloatArray
-
-
-PenSceneAt = Callable[[float], PenScene]
-"""What stands before the webcam at a monotonic time [s]."""
-
-
-def body_pose(
-    p_tip: FloatArray, axis: FloatArray, tip_body: FloatArray, axis_body: FloatArray, roll: float
-) -> RigidTransform:
-    """T_world_body of a needle: tip [m] and direction in world and in the body; roll [rad]."""
-    turn = rotation_between(axis_body, axis)
-    about = RigidTransform.exp(np.concatenate([np.zeros(3), roll * unit(axis)])).rotation
-    rotation = about @ turn
-    return RigidTransform(rotation, p_tip - rotation @ tip_body)
 
 
 class PenRenderer:
@@ -91,14 +64,14 @@ class PenRenderer:
     ) -> None:
         self.model = model
         self._body, self._face, self._blur = body, face, blur_px
-        self._prints = {m.id: _print(m, body.dictionary) for m in body.markers}
-        self._rays = _fine_rays(model)
+        self._prints = {m.id: printed(m, body.dictionary) for m in body.markers}
+        self._rays = fine_rays(model)
         self._background = self._table(seed)
         pose = model.T_camera_world @ T_world_base
         self._sheet(pose, base)
         for marker in base.markers:
             side = marker.side * _SURROUND
-            self._draw(self._background, marker, pose, _print(marker, base.dictionary), side)
+            self._draw(self._background, marker, pose, printed(marker, base.dictionary), side)
         self._empty = self._coarse(self._background)
 
     def render(self, scene: PenScene) -> Image:
@@ -168,7 +141,7 @@ class PenRenderer:
         outline = np.array([(x0, y0, 0.0), (x1, y0, 0.0), (x1, y1, 0.0), (x0, y1, 0.0)])
         uv, ok = self.model.project_camera(pose @ outline)
         if ok.all():
-            shade = _WHITE * (0.55 + 0.45 * max(0.0, self._light(pose.rotation[:, 2])))
+            shade = WHITE * (0.55 + 0.45 * max(0.0, self._light(pose.rotation[:, 2])))
             fine = np.rint((uv + 0.5) * SUPERSAMPLING - 0.5).astype(np.int32)
             cv2.fillConvexPoly(self._background, fine, shade)
 
@@ -188,11 +161,11 @@ class PenRenderer:
             return
         rows, columns = box
         rays = self._rays[rows, columns]
-        u, v = _places(rays, pose @ marker.corners, normal)
+        u, v = places(rays, pose @ marker.corners, normal)
         reach = 0.5 * (side / marker.side - 1.0)
         inside = (u >= -reach) & (u < 1.0 + reach) & (v >= -reach) & (v < 1.0 + reach)
-        cells = paper.shape[0] // _TEXELS - 2 * _PAD
-        x, y = ((place * cells + _PAD) * _TEXELS - 0.5 for place in (u, v))
+        cells = paper.shape[0] // TEXELS - 2 * PAD
+        x, y = ((place * cells + PAD) * TEXELS - 0.5 for place in (u, v))
         colour = cv2.remap(paper, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
         light = 0.55 + 0.45 * max(0.0, self._light(normal))
         fine[rows, columns][inside] = (light * colour)[inside]
@@ -220,38 +193,3 @@ class PenRenderer:
         thick = 0.004 * self.model.intrinsics[0] / max(start[2], 0.05) * SUPERSAMPLING
         a, b = (tuple(int(np.clip(c, -20000, 20000)) for c in end_) for end_ in ends)
         cv2.line(fine, a, b, _SHAFT[1], max(1, round(thick)))
-
-
-def _places(rays: Plain, corners: FloatArray, normal: FloatArray) -> tuple[Plain, Plain]:
-    """Where rays meet a print: 0 to 1 from its first corner to the right and downwards."""
-    origin, x, y = corners[0], corners[1] - corners[0], corners[3] - corners[0]
-    away = rays @ normal[:2].astype(np.float32) + np.float32(normal[2])
-    scale = np.float32(normal @ origin) / away
-    points = np.concatenate([rays, np.ones_like(rays[..., :1])], axis=-1) * scale[..., None]
-    points -= origin.astype(np.float32)
-    return points @ (x / (x @ x)).astype(np.float32), points @ (y / (y @ y)).astype(np.float32)
-
-
-def _print(marker: Marker, dictionary: str) -> Plain:
-    """Grey values of a printed marker with white round it; edges fall between texels."""
-    cells = np.pad(marker_cells(dictionary, marker.id), _PAD, constant_values=True)
-    texels = np.kron(cells, np.ones((_TEXELS, _TEXELS)))
-    return np.where(texels > 0.5, _WHITE, _BLACK).astype(np.float32)
-
-
-def _fine_rays(model: CameraModel) -> Plain:
-    """Normalised coordinates of all samples, float32 (3 height, 3 width, 2).
-
-    Undistorted on the pixels' centres and interpolated between: the map is smooth.
-    """
-    width, height = model.image_size
-    v, u = np.mgrid[-1 : height + 1, -1 : width + 1]
-    pixels = np.column_stack([u.ravel(), v.ravel()]).astype(np.float64)
-    rays, found = model.undistort(pixels)
-    rays[~found] = 1e3
-    coarse = rays.reshape(height + 2, width + 2, 2).astype(np.float32)
-    places = (np.arange(SUPERSAMPLING) - 0.5 * (SUPERSAMPLING - 1)) / SUPERSAMPLING
-    x = (np.arange(width)[:, None] + places).ravel() + 1.0
-    y = (np.arange(height)[:, None] + places).ravel() + 1.0
-    grid = np.meshgrid(x.astype(np.float32), y.astype(np.float32))
-    return np.asarray(cv2.remap(coarse, grid[0], grid[1], cv2.INTER_LINEAR))

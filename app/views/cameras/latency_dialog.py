@@ -77,7 +77,8 @@ class LatencyDialog(QDialog):
             free()
             return services.open_camera(settings, side, progress)
 
-        self.preview.opened.connect(lambda _: self.start.setEnabled(True))
+        self._camera: LiveCamera | None = None
+        self.preview.opened.connect(self._take)
         self.preview.cancelled.connect(self.reject)
         self.preview.open(operation, self.waiting)
 
@@ -85,13 +86,13 @@ class LatencyDialog(QDialog):
         """Blink, and keep the light of every picture."""
         from app.tracking.cameras.latency import blink_times  # scipy: when it is needed
 
-        if self.preview.camera is None:
+        if self.preview.camera is None or self._camera is None:
             return
         self.latency = None
         self.keep.setEnabled(False)
         self.start.setEnabled(False)
         self.say(tr("measuring: leave camera and window where they are"))
-        self.preview.camera.measure_light(True)
+        self._camera.measure_light(True)
         rng = np.random.default_rng()
         self.patch.begin(blink_times(self._seconds, self._rate, rng).tolist())
 
@@ -111,8 +112,12 @@ class LatencyDialog(QDialog):
         self.outcome.setStyleSheet(f"color: {colour};")
         self.outcome.setText(f"{symbol} {text}".strip())
 
+    def _take(self, camera: LiveCamera) -> None:
+        self._camera = camera
+        self.start.setEnabled(True)
+
     def _evaluate(self) -> None:
-        camera = self.preview.camera
+        camera = self._camera if self.preview.camera is not None else None
         self.start.setEnabled(camera is not None)
         if camera is None:
             self.say(tr("the camera was lost; start again"), "bad")

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 POLL_MS = 33
 
 
-class LiveCamera(Protocol):
-    """A camera that is open."""
+class ShownCamera(Protocol):
+    """A camera that is open, and whose picture is shown."""
 
     def newest(self) -> Frame | None:
         """Return the newest picture, or None before the first."""
@@ -38,16 +38,20 @@ class LiveCamera(Protocol):
         """Return what the driver accepted, a line each."""
         ...
 
+    def close(self) -> None:
+        """Let go of it; idempotent; may wait for threads."""
+        ...
+
+
+class LiveCamera(ShownCamera, Protocol):
+    """A camera that is open, and whose light is measured."""
+
     def measure_light(self, wanted: bool) -> None:
         """Begin to keep the light of every picture, from none, or stop."""
         ...
 
     def light(self) -> tuple[FloatArray, FloatArray]:
         """Return times of delivery [s], (m,), and light, (m, tiles)."""
-        ...
-
-    def close(self) -> None:
-        """Let go of it; idempotent; may wait for threads."""
         ...
 
 
@@ -101,14 +105,14 @@ class AimPort(Protocol):
 class _Opening:
     """A camera that is being opened; who no longer wants it need not wait for it."""
 
-    def __init__(self, open_camera: Callable[[Progress], LiveCamera]) -> None:
+    def __init__(self, open_camera: Callable[[Progress], ShownCamera]) -> None:
         self._open = open_camera
         self._lock = threading.Lock()
         self._stopped = False
-        self._camera: LiveCamera | None = None
+        self._camera: ShownCamera | None = None
         self.ended = threading.Event()
 
-    def run(self, progress: Progress) -> LiveCamera:
+    def run(self, progress: Progress) -> ShownCamera:
         """Open it, in another thread."""
         try:
             camera = self._open(progress)
@@ -128,7 +132,7 @@ class _Opening:
         if camera is not None and not stopped:
             threading.Thread(target=self._close, args=(camera,), daemon=True).start()
 
-    def _close(self, camera: LiveCamera) -> None:
+    def _close(self, camera: ShownCamera) -> None:
         try:
             camera.close()
         finally:
@@ -139,7 +143,7 @@ class LivePreview(QWidget):
     """Live picture of one camera, and one line about it.
 
     Signals:
-        opened(object): the `LiveCamera` that delivers now.
+        opened(object): the camera that delivers now, as `open_camera` gave it.
         cancelled(): the user did not wait for it.
     """
 
@@ -151,7 +155,7 @@ class LivePreview(QWidget):
         self.picture, self.note = PictureView(self), QLabel(self)
         self.note.setWordWrap(True)
         self.note.setMinimumHeight(3 * theme.FONT_PX)
-        self.camera: LiveCamera | None = None
+        self.camera: ShownCamera | None = None
         self._opening: _Opening | None = None
         self._last: _Opening | None = None
         self._task: Task | None = None
@@ -164,7 +168,7 @@ class LivePreview(QWidget):
 
     def open(
         self,
-        open_camera: Callable[[Progress], LiveCamera],
+        open_camera: Callable[[Progress], ShownCamera],
         indicator: Indicator | None = None,
     ) -> None:
         """Show another camera; `open_camera` runs beside the window.
@@ -179,7 +183,7 @@ class LivePreview(QWidget):
         self._opening = self._last = opening
         self.say(tr("opening the camera …"))
 
-        def operation(progress: Progress) -> LiveCamera:
+        def operation(progress: Progress) -> ShownCamera:
             if before is not None:
                 before.ended.wait(6.0)  # one port is opened once
             return opening.run(progress)
@@ -217,7 +221,7 @@ class LivePreview(QWidget):
         if opening is self._opening and self.camera is None and text:
             self.say(tr("opening the camera: {what}", what=text))
 
-    def _take(self, opening: _Opening, camera: LiveCamera) -> None:
+    def _take(self, opening: _Opening, camera: ShownCamera) -> None:
         if opening is self._opening:
             self.camera = camera
             self._timer.start()

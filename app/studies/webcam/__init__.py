@@ -1,0 +1,1 @@
+"""Conditions and trials of the study of the pen."""
