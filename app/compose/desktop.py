@@ -119,8 +119,9 @@ class Desktop:
 
     def open_pen(self, settings: PenSettings, progress: Progress) -> LivePen:
         """Open a pen and its webcam; called beside the window, may take seconds."""
-        with ONE_AT_A_TIME:
+        with turn(progress):
             from app.compose.live_pen import open_live_pen
+        progress.report(0.5, "asking the webcam for its first picture")
         return open_live_pen(settings)
 
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
