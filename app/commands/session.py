@@ -214,9 +214,13 @@ def _print_details(document: dict[str, Any]) -> None:
     if document["tip_radius_95_mm"] is not None:
         typer.echo(f"{'tip known to':12} ± {document['tip_radius_95_mm']:.1f} mm (95 %), median")
     typer.echo(f"{'score':12} {_total(document['score'])}")
-    for row in (document["score"] or {}).get("rows", []):
+    score = document["score"] or {}
+    if score.get("void_reason"):
+        typer.echo(f"{'void':12} {score['void_reason']}")
+    for row in score.get("rows", []):
         value = "-" if row["value"] is None else f"{row['value']:.4g} {row['unit']}"
-        typer.echo(f"  {row['label']:32} {value:>14}  {row['band'] or row['note'] or ''}")
+        band = row["band"] if score.get("total") is not None else ""  # a void one is not judged
+        typer.echo(f"  {row['label']:32} {value:>14}  {band or row['note'] or ''}")
     for event in document["events"]:
         typer.echo(f"  {event['time_s']:12.3f} s  {event['message']}")
     for problem in document["problems"]:

@@ -3,6 +3,7 @@ from pathlib import Path
 from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
+import pyqtgraph as pg
 import pytest
 from PySide6.QtCore import QPointF
 from PySide6.QtWidgets import QPushButton
@@ -19,7 +20,7 @@ from app.views.debrief.curves import CurvesView, curves_of, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.print_plot import polylines, ticks
 from app.views.debrief.report import report_bytes, write_report
-from app.views.debrief.review import Span, marks, only_measured, spans
+from app.views.debrief.review import Mark, Span, marks, only_measured, spans
 from app.views.debrief.review import review as review_of
 from app.views.debrief.score_words import number, row_texts, verdict
 
@@ -64,6 +65,39 @@ def test_passed_not_passed_void_and_unscored_are_told_apart_in_words():
     assert "99" in verdicts[1][2]
     assert "aborted" in verdicts[2][2]
     assert len({v[0] for v in verdicts}) == 4
+
+
+def test_a_void_attempt_is_not_judged_and_what_can_be_done_is_said(page):
+    shown = review(score=score(void=True))
+    page.show_review(shown)
+    assert not any("expert" in text or "/" in text for k in (2, 3) for text in column(page, k))
+    assert column(page, 1)[0] == "2.40 mm"
+    assert page._total.text() == "not scored"
+    assert page._reason.text().startswith("The attempt was aborted: student. It counts for nothing")
+    assert "try again" in page._reason.text()
+    lost = score().recomputed(rules=score().rules.model_copy(update={"minimum_tracking": 99.0}))
+    assert "both cameras see the marker" in verdict(review(score=lost))[2]
+
+
+@pytest.mark.parametrize("time", [0.5, 30.0, 63.5])
+def test_what_is_written_at_an_event_is_not_cut_at_the_edge(qt, page, time):
+    message = "the control loop has missed its deadline three times in a row"
+    page.resize(1180, 760)
+    page.show()
+    page.show_review(review(marks=(Mark(time, "abort", message), Mark(time, "scan", "2"))))
+    for _ in page.curves._curves:
+        page.curves._draw_next()
+    qt.processEvents()
+    plot = page.curves._plots[0]
+    area = plot.getViewBox().sceneBoundingRect()
+    texts = [i for i in plot.items if isinstance(i, pg.TextItem) and i.toPlainText()[0] in "!▼"]
+    assert len(texts) == 2
+    for text in texts:
+        box = text.mapRectToScene(text.boundingRect())
+        assert area.left() - 1 <= box.left()
+        assert box.right() <= area.right() + 1
+    assert texts[0].toPlainText().endswith("…")
+    assert texts[0].toolTip() == message
 
 
 def test_the_page_says_it_is_for_training_only(page):

@@ -1,91 +1,23 @@
 """Curves of an attempt: depth, distance from the path, angle and force over one time axis."""
 
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QPointF, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QPen
-from PySide6.QtWidgets import QGraphicsRectItem, QLabel, QVBoxLayout, QWidget
+from PySide6.QtCore import QPointF, QTimer, Signal
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from app.core.arrays import FloatArray
 from app.views import theme
+from app.views.debrief.curve_plot import cursor_of, draw, prepare, shade
+from app.views.debrief.curve_values import Curve, curves_of, time_end, value_range
 from app.views.debrief.review import Review, Span
-from app.views.exercise.felt import origin_word
 from app.views.exercise.state_words import state_word
 from app.views.text import tr
 
-PHASE_SHADES: Final = {
-    "ready": "#1b1f23",
-    "aligning": "#1d2a38",
-    "inserting": "#33291b",
-    "holding": "#1d3127",
-    "paused": "#2b2233",
-    "ended": "#1b1f23",
-    "aborted": "#3a1f1f",
-}
-"""Background of each state, dark enough for any curve on it."""
-
-SHORTEST_S: Final = 0.05
-"""Shortest time axis [s]."""
+__all__ = ["Curve", "CurvesView", "curves_of", "time_end", "value_range"]
 
 SHORT_S: Final = 2.0
 """Times of an attempt up to this are read out in milliseconds."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Curve:
-    """One plot.
-
-    Attributes:
-        title: what it shows, with the unit.
-        values: shape (n,), in the unit of the title.
-        colour: of the line.
-        line: level drawn across the plot; None for none.
-        line_name: what that level is.
-        unit: for the read-out.
-        name: for the read-out.
-    """
-
-    title: str
-    values: FloatArray
-    colour: str
-    line: float | None
-    line_name: str
-    unit: str
-    name: str
-
-
-def curves_of(review: Review) -> tuple[Curve, ...]:
-    """Return the four plots of an attempt."""
-    c = review.curves
-    target_mm = 1e3 * review.placed.length
-    return (
-        Curve(
-            tr("Depth [mm]"), 1e3 * c.depth, theme.NEEDLE.colour, target_mm,
-            tr("target {mm:.0f} mm", mm=target_mm), "mm", tr("depth"),
-        ),
-        Curve(
-            tr("Off the path [mm]"), 1e3 * c.lateral, theme.NEEDLE_TIP.colour, None, "", "mm",
-            tr("off the path"),
-        ),
-        Curve(
-            tr("Angle error [°]"), np.degrees(c.angle), theme.PATH.colour, None, "", "°",
-            tr("angle"),
-        ),
-        _force_curve(review),
-    )  # fmt: skip
-
-
-def _force_curve(review: Review) -> Curve:
-    """Curve of the force, as the gauge measured it where there was one, else estimated."""
-    force, origin = review.measured_force, origin_word(review.measured_force is not None)
-    return Curve(
-        tr("Force felt, {origin} [N]", origin=origin),
-        review.curves.felt if force is None else np.abs(force), "#f0e442", review.force_limit,
-        tr("limit {n:g} N", n=review.force_limit), "N", tr("{origin} force", origin=origin),
-    )  # fmt: skip
 
 
 class CurvesView(QWidget):
@@ -139,14 +71,14 @@ class CurvesView(QWidget):
         if row == len(self._plots):
             self._plots.append(self._new_plot(row, curve))
         plot = self._plots[row]
-        _shade(plot, review, curve, names=row == 0)
-        _draw(plot, review, curve)
-        self._cursors.append(_cursor(plot))
+        shade(plot, review, curve, names=row == 0)
+        draw(plot, review, curve)
+        self._cursors.append(cursor_of(plot))
 
     def _new_plot(self, row: int, curve: Curve) -> pg.PlotItem:
         box = pg.ViewBox(enableMenu=False)  # the menus that nobody opens take most of the time
         plot = self.graphics.addPlot(row=row, col=0, viewBox=box, enableMenu=False)
-        _prepare(plot, curve, last=row == len(self._curves) - 1)
+        prepare(plot, curve, last=row == len(self._curves) - 1)
         box.sigXRangeChanged.connect(self._follow)
         return plot
 
@@ -181,93 +113,6 @@ class CurvesView(QWidget):
             cursor.setPos(time)
             cursor.show()
         self.readout.setText(self.read_out(time))
-
-
-def _prepare(plot: pg.PlotItem, curve: Curve, last: bool) -> None:
-    plot.setTitle(None)
-    plot.hideButtons()
-    plot.setMenuEnabled(False)
-    plot.setMouseEnabled(x=True, y=False)
-    left = plot.getAxis("left")
-    left.setWidth(52)
-    for axis in (left, plot.getAxis("bottom")):
-        axis.setPen(theme.BORDER)
-        axis.setTextPen(theme.TEXT_DIM)
-        axis.enableAutoSIPrefix(False)  # or a short attempt's seconds become thousandths "(x0.001)"
-    plot.showGrid(x=True, y=True, alpha=0.15)
-    plot.getAxis("bottom").setStyle(showValues=last)
-    if last:
-        plot.setLabel("bottom", tr("Time [s]"), color=theme.TEXT_DIM)
-    title = pg.TextItem(curve.title, color=curve.colour, anchor=(0, 0))
-    title.setParentItem(plot.getViewBox())
-    title.setPos(6, 2)
-
-
-def _draw(plot: pg.PlotItem, review: Review, curve: Curve) -> None:
-    if curve.line is not None:
-        pen = pg.mkPen(theme.TARGET.colour, width=1.5, style=Qt.PenStyle.DashLine)
-        options = {"position": 0.9, "color": theme.TARGET.colour, "anchors": [(1, 1), (1, 1)]}
-        line = pg.InfiniteLine(
-            curve.line, angle=0, pen=pen, label=curve.line_name, labelOpts=options
-        )  # fmt: skip
-        plot.addItem(line)
-    plot.plot(
-        review.curves.time, curve.values, pen=pg.mkPen(curve.colour, width=2), connect="finite"
-    )  # fmt: skip
-    for mark in review.marks:
-        pen = pg.mkPen(theme.TEXT, width=1.2, style=Qt.PenStyle.DotLine)
-        plot.addItem(pg.InfiniteLine(mark.time, angle=90, pen=pen))
-    low, high = value_range(curve)
-    plot.setYRange(low, high, padding=0.0)
-    if len(review.curves.time):
-        plot.setXRange(0.0, time_end(review.curves.time), padding=0.01)
-
-
-def time_end(time: FloatArray) -> float:
-    """End of the time axis [s]: the last sample, however short the attempt was."""
-    return max(SHORTEST_S, float(time[-1]) if len(time) else 1.0)
-
-
-def value_range(curve: Curve) -> tuple[float, float]:
-    """Range of a plot: all values and the line, with room for the title above."""
-    values = curve.values[np.isfinite(curve.values)]
-    low = min(0.0, float(values.min(initial=0.0)))
-    high = max(float(values.max(initial=0.0)), curve.line or 0.0, low + 1e-3)
-    return low - 0.2 * (high - low), high + 0.28 * (high - low)
-
-
-def _shade(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None:
-    low, high = value_range(curve)
-    for span in review.spans:
-        region = QGraphicsRectItem(span.start, low, span.end - span.start, high - low)
-        region.setPen(QPen(Qt.PenStyle.NoPen))
-        region.setBrush(QColor(PHASE_SHADES.get(span.state, theme.BACKGROUND)))
-        region.setZValue(-20)
-        plot.addItem(region, ignoreBounds=True)
-    if names:
-        _name(plot, review, low, high)
-
-
-def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
-    """Name the states below and the events above the first curve."""
-    total = time_end(review.curves.time)
-    for span in review.spans:
-        if span.end - span.start > 0.06 * total:  # a narrower one has no room for its name
-            text = pg.TextItem(state_word(span.state), color=theme.TEXT_DIM, anchor=(0.5, 1))
-            text.setPos(0.5 * (span.start + span.end), low)
-            plot.addItem(text, ignoreBounds=True)
-    for mark in review.marks:
-        sign = "▼" if mark.kind == "scan" else "!"
-        text = pg.TextItem(f"{sign} {mark.label}", color=theme.TEXT, anchor=(0.5, 0))
-        text.setPos(mark.time, high)
-        plot.addItem(text, ignoreBounds=True)
-
-
-def _cursor(plot: pg.PlotItem) -> pg.InfiniteLine:
-    cursor = pg.InfiniteLine(0.0, angle=90, pen=pg.mkPen(theme.ACCENT, width=1.0))
-    cursor.hide()
-    plot.addItem(cursor, ignoreBounds=True)
-    return cursor
 
 
 def _state_at(spans: tuple[Span, ...], time: float) -> str:

@@ -133,8 +133,9 @@ def _paint_marks(painter: QPainter, area: QRectF, marks: Sequence[Mark], end: fl
         pen.setDashPattern([4.0, 4.0])
         painter.setPen(pen)
         painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()))
-        sign = "▼" if mark.kind == "scan" else "!"
-        painter.drawText(QPointF(x - 4.0, area.top() - 1.5), f"{sign}{mark.label}")
+        width = painter.fontMetrics().horizontalAdvance(mark.sign)
+        left = min(x - 4.0, area.right() - width)  # nothing of it is cut at the edge
+        painter.drawText(QPointF(left, area.top() - 1.5), mark.sign)
 
 
 def _x(area: QRectF, time: float, end: float) -> float:

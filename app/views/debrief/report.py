@@ -155,7 +155,8 @@ def _table_row(painter: QPainter, row: Row, score: Score, y: float) -> None:
     texts = row_texts(row, score)
     ink = DIM if row.tolerance is None else INK
     for i, text in enumerate((texts.label, texts.value, texts.band, texts.points, texts.weight)):
-        colour = BAND_INKS[row.band] if i == 2 and row.band else ink
+        judged = i == 2 and row.band is not None and score.total is not None
+        colour = BAND_INKS[row.band] if judged and row.band else ink
         _text(painter, MARGIN + _COLUMNS[i], y, text, font(9.5), colour)
 
 

@@ -31,6 +31,9 @@ SHOWN_EVENTS: Final = ("scan", "fault", "abort")
 DEVICE_FILE: Final = "device.json"
 """Attachment that holds the device profile."""
 
+LONGEST_SIGN: Final = 36
+"""Characters of an event that stand on a plot."""
+
 FORCE_LIMIT: Final = 5.0
 """Limit of the force at the hand [N] where the record names none."""
 
@@ -51,6 +54,14 @@ class Mark:
     time: float
     kind: str
     label: str
+
+    @property
+    def sign(self) -> str:
+        """What stands on a plot: a triangle and the number of a scan, or the words, cut short."""
+        if self.kind == "scan":
+            return f"▼ {self.label}"
+        whole = len(self.label) <= LONGEST_SIGN
+        return f"! {self.label if whole else self.label[: LONGEST_SIGN - 1].rstrip() + '…'}"
 
 
 @dataclass(frozen=True, slots=True, eq=False)

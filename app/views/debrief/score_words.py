@@ -52,9 +52,10 @@ def shown_only(score: Score) -> tuple[Row, ...]:
 
 
 def row_texts(row: Row, score: Score) -> RowTexts:
-    """Texts of one row."""
-    colour, symbol = BAND_LOOKS[row.band] if row.band else (theme.TEXT_DIM, "–")
-    band = f"{symbol} {band_word(row.band)}" if row.band else "–"
+    """Texts of one row; a void attempt is not judged, so that no row of it has band or points."""
+    judged = row.band is not None and score.total is not None
+    colour, symbol = BAND_LOOKS[row.band] if row.band and judged else (theme.TEXT_DIM, "–")
+    band = f"{symbol} {band_word(row.band)}" if row.band and judged else "–"
     return RowTexts(
         label=row.label + (" *" if row.tolerance and row.tolerance.required else ""),
         value=tr("not available") if row.value is None else with_unit(row.value, row.unit),
@@ -62,7 +63,7 @@ def row_texts(row: Row, score: Score) -> RowTexts:
         points=_points(row, score),
         weight=f"{row.tolerance.weight:g}" if row.tolerance else "–",
         colour=colour,
-        help=row.note or _limits(row),
+        help=row.note or (_limits(row) if score.total is not None else tr("Void: not judged.")),
     )
 
 
@@ -81,7 +82,7 @@ def with_unit(value: float, unit: str) -> str:
 def total_text(score: Score | None) -> str:
     """Say the total, or that there is none."""
     if score is None or score.total is None:
-        return tr("no score")
+        return tr("not scored")
     return tr("{total:.0f} of 100 points", total=score.total)
 
 
@@ -91,7 +92,8 @@ def verdict(review: Review) -> tuple[str, str, str]:
     if score is None:
         return theme.TEXT_DIM, "–", review.reason or tr("This attempt was not scored.")
     if score.void_reason:
-        return theme.WARNING, tr("▲ Void"), score.void_reason
+        why = score.void_reason[:1].upper() + score.void_reason[1:]
+        return theme.WARNING, tr("▲ Void"), f"{why}. {remedy(score)}"
     if score.passed:
         return theme.GOOD, tr("✔ Passed"), ""
     failures = ", ".join(row.label for row in score.failures)
@@ -103,9 +105,22 @@ def verdict(review: Review) -> tuple[str, str, str]:
     return theme.BAD, tr("✖ Not passed"), reason
 
 
+def remedy(score: Score) -> str:
+    """Say what can be done about a void attempt: it depends on what made it void."""
+    if score.attempt_void and "cameras" not in score.attempt_void:
+        return tr(
+            "It counts for nothing and spoils no average; mend what is named, if anything, and "
+            "try again."
+        )
+    return tr(
+        "It counts for nothing. Let both cameras see the marker (the panel Tracker says what each "
+        "one lacks: light, something before it, the colour), then try again."
+    )
+
+
 def _points(row: Row, score: Score) -> str:
     weight = sum(other.weight for other in score.rows)
-    if row.utility is None or weight <= 0.0 or row.weight <= 0.0:
+    if score.total is None or row.utility is None or weight <= 0.0 or row.weight <= 0.0:
         return "–"
     most = 100.0 * row.weight / weight
     return f"{most * row.utility:.1f} / {most:.1f}"
