@@ -10,13 +10,13 @@ from app.tracking.confidence import chi_square_quantile
 from app.tracking.fix import FixStatus, NeedleFix, without_point
 from app.tracking.fusion import GATE
 from app.tracking.markers.extractor import Centre, MarkerFix
-from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.one_camera_fix import OneCameraSolver
+from app.tracking.optics.packed import packed
 from app.tracking.optics.rig import RigProfile
+from app.tracking.pair_kernels import NO_OUTLINE, NO_RAY, SUMMARY, locate, summarise
 from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty
 from app.tracking.stereo.epipolar import essential_matrix
-from app.tracking.stereo.rays import normalised
-from app.tracking.stereo.triangulation import StereoStatus, Triangulation, Way, triangulate
+from app.tracking.stereo.triangulation import StereoStatus, Triangulation, triangulation
 
 OUTLINE_PX = 0.1
 """What edges of the background do to an outline's centroid, standard deviation per axis [px], and
@@ -49,11 +49,14 @@ class FixSolver:
     def __init__(self, rig: RigProfile, fulcrum: FloatArray) -> None:
         self._rig = rig
         self._models = rig.models
-        self._poses = (self._models[0].T_camera_world, self._models[1].T_camera_world)
+        poses = (self._models[0].T_camera_world, self._models[1].T_camera_world)
+        self._cameras = np.array([packed(model) for model in self._models])
+        self._matrices = np.array([pose.matrix()[:3] for pose in poses])
+        self._needle = np.array(rig.needle.shape)
         self._fulcrum = frozen(fulcrum, (3,), "fulcrum")
         self._systematic = systematic_px(rig) ** 2 * np.eye(2)
-        self._essential = essential_matrix(self._poses)
-        self._focal = np.concatenate([model.intrinsics[:2] for model in self._models])
+        self._essential = essential_matrix(poses)
+        self._focal = self._cameras[:, 12:14].ravel()
         self._single = OneCameraSolver(rig, self._fulcrum, GATE, systematic_px(rig))
         self._error = (
             CalibrationUncertainty(rig.calibration) if rig.calibration is not None else None
@@ -92,9 +95,7 @@ class FixSolver:
         With the axis outlines are moved to the band's centre; without it they are taken for it.
         """
         first, second = (Sighting(one.uv, one.covariance, one.centre) for one in sightings)
-        found = self._triangulate((first, second), (np.zeros(2), np.zeros(2)))
-        if axis is not None and found is not None and found.status is StereoStatus.FOUND:
-            found = self._corrected((first, second), found.p_world, axis)
+        found = self._located((first, second), None if axis is None else unit(axis))
         return found if found is not None and found.status is StereoStatus.FOUND else None
 
     def agrees(self, found: Triangulation) -> bool:
@@ -115,14 +116,18 @@ class FixSolver:
         self, sightings: tuple[Sighting, Sighting], axis: FloatArray, time: float
     ) -> NeedleFix:
         pixels = (sightings[0].uv, sightings[1].uv)
-        found = self._triangulate(sightings, (np.zeros(2), np.zeros(2)), Way.MIDPOINT)
-        if found is not None and found.status is StereoStatus.FOUND:
-            found = self._corrected(sightings, found.p_world, axis)
+        found = self._located(sightings, axis)
         if found is None or found.status is not StereoStatus.FOUND:
             why = "a pixel has no ray" if found is None else f"the rays are {found.status.value}"
             return without_point(FixStatus.INCONSISTENT, pixels, time, reason=why)
         covariance = self._with_calibration(found)
-        reason = self._contradiction(found, covariance, axis)
+        beside, summary = np.empty(3), np.full(SUMMARY, np.inf)
+        summarise(
+            found.p_world, covariance, found.residual, found.observations, found.chi_square,
+            self._focal, self._essential, self._fulcrum, axis, self._line_variance, beside, summary,
+        )  # fmt: skip
+        residual, epipolar, off_line = (float(value) for value in summary)
+        reason = _contradiction(found.chi_square, residual, beside, off_line)
         tip = found.p_world + self._rig.needle.marker_offset * axis
         return NeedleFix(
             tip,
@@ -130,74 +135,45 @@ class FixSolver:
             time,
             FixStatus.INCONSISTENT if reason else FixStatus.VALID,
             pixels,
-            self.residual_px(found),
+            residual,
             float((tip - self._fulcrum) @ axis),
             float(axis @ covariance @ axis),
             has_point=True,
             reason=reason,
             noise_covariance=found.covariance,
-            beside=_across(found.p_world - self._fulcrum, axis),
-            epipolar=self._signed(found),
+            beside=beside,
+            epipolar=epipolar,
             line_variance=self._line_variance,
             axis=axis,
         )
 
-    def _signed(self, found: Triangulation) -> float:
-        """Root of chi-square with the sign of x₂ᵀ E x₁ [standard deviations]."""
-        first, second = (np.append(xy, 1.0) for xy in found.observations)
-        return float(np.copysign(np.sqrt(found.chi_square), second @ self._essential @ first))
-
-    def _corrected(
-        self, sightings: tuple[Sighting, Sighting], p_world: FloatArray, axis: FloatArray
+    def _located(
+        self, sightings: tuple[Sighting, Sighting], axis: FloatArray | None
     ) -> Triangulation | None:
-        """Triangulate again with the outlines' centroids moved to the band's centre."""
-        shape = self._rig.needle.shape
-        first, second = (
-            np.zeros(2)
-            if sighting.centre is Centre.BAND
-            else centroid_shift(model, shape, p_world, axis)
-            for model, sighting in zip(self._models, sightings, strict=True)
+        """Point of two pixels, outlines moved to the band's centre where the axis is known.
+
+        None if a pixel belongs to no direction (beyond the fold of the distortion).
+        """
+        pixels = np.array([one.uv for one in sightings])
+        spreads = np.array([one.covariance for one in sightings]) + self._systematic
+        known = np.zeros(3) if axis is None else axis
+        outlines = np.array(
+            [axis is not None and one.centre is not Centre.BAND for one in sightings]
         )
-        if first is None or second is None:
+        point, covariance, residual = np.empty(3), np.empty((3, 3)), np.empty(4)
+        observed, seen = np.empty((2, 2)), np.empty((2, 2, 2))
+        status, square = locate(
+            self._cameras, self._matrices, pixels, spreads, outlines, self._needle, known,
+            point, covariance, residual, observed, seen,
+        )  # fmt: skip
+        if status in (NO_RAY, NO_OUTLINE):
             return None
-        return self._triangulate(sightings, (first, second))
-
-    def _triangulate(
-        self,
-        sightings: tuple[Sighting, Sighting],
-        shifts: tuple[FloatArray, FloatArray],
-        way: Way = Way.REPROJECTION,
-    ) -> Triangulation | None:
-        """None if a pixel belongs to no direction (beyond the fold of the distortion)."""
-        rays, covariances = np.empty((2, 2)), np.empty((2, 2, 2))
-        for i, (model, sighting, shift) in enumerate(
-            zip(self._models, sightings, shifts, strict=True)
-        ):
-            found = normalised(model, sighting.uv - shift, sighting.covariance + self._systematic)
-            if found is None:
-                return None
-            rays[i], covariances[i] = found
-        return triangulate(self._poses, rays, covariances, way)
+        return triangulation(status, point, covariance, square, residual, observed, seen)
 
     def _with_calibration(self, found: Triangulation) -> FloatArray:
         if self._error is None:
             return found.covariance
         return found.covariance + self._error.covariance(found.p_world, found.covariances)
-
-    def _contradiction(self, found: Triangulation, covariance: FloatArray, axis: FloatArray) -> str:
-        """Why the point cannot be the marker; empty if it can."""
-        residual = self.residual_px(found)
-        beside = _across(found.p_world - self._fulcrum, axis)
-        across = np.eye(3) - np.outer(axis, axis)
-        spread = across @ covariance @ across + self._line_variance * np.eye(3)
-        off_line = float(beside @ np.linalg.solve(spread, beside)) > _LINE_LIMIT
-        apart = found.chi_square > _RESIDUAL_LIMIT
-        if apart and (residual > _GROSS_PX or not off_line):
-            return f"the pictures disagree by {residual:.1f} px: two red things, or a moved camera"
-        if off_line:  # a wrong axis also spoils the outline correction, by a pixel at most
-            distance = float(np.linalg.norm(beside)) / MILLIMETRE
-            return f"the marker seems {distance:.1f} mm beside the needle's line"
-        return ""
 
     def residual_px(self, found: Triangulation) -> float:
         """Root mean square of the reprojection error of a point [px]."""
@@ -251,5 +227,19 @@ def systematic_px(rig: RigProfile) -> float:
     return float(np.hypot(rig.systematic_px, left))
 
 
-def _across(offset: FloatArray, axis: FloatArray) -> FloatArray:
-    return np.asarray(offset - (offset @ axis) * axis)
+def _contradiction(square: float, residual: float, beside: FloatArray, off_line: float) -> str:
+    """Why the point cannot be the marker; empty if it can.
+
+    Args:
+        square: chi-square of the point.
+        residual: root mean square [px].
+        beside: from the robot's line to the point, across it [m], (3,).
+        off_line: square of that [variances].
+    """
+    apart, off = square > _RESIDUAL_LIMIT, not off_line <= _LINE_LIMIT
+    if apart and (residual > _GROSS_PX or not off):
+        return f"the pictures disagree by {residual:.1f} px: two red things, or a moved camera"
+    if off:  # a wrong axis also spoils the outline correction, by a pixel at most
+        distance = float(np.linalg.norm(beside)) / MILLIMETRE
+        return f"the marker seems {distance:.1f} mm beside the needle's line"
+    return ""

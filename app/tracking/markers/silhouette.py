@@ -1,4 +1,4 @@
-"""How far the centroid of the band's visible outline is from the picture of its centre.
+"""How far the centroid of the band's visible outline is from the picture of its centre (compiled).
 
 The band is a convex body, so its outline is the convex hull of the pictures of its two end circles;
 the shaft that leaves the end turned to the camera hides part of that. Perspective and the hidden
@@ -6,17 +6,20 @@ part move the outline's centroid away from the picture of the band's centre: by 
 where the needle leans towards the camera. With the axis known the shift is computed and taken off.
 """
 
-import cv2
+from typing import Any, Final
+
 import numpy as np
 
-from app.core.arrays import FloatArray, unit
-from app.core.rotation import skew
+from app.core.arrays import FloatArray
+from app.core.compiled import njit
+from app.tracking.markers.polygons import common_part, hull_of, moments
 from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.packed import packed, project_point, to_camera
 from app.tracking.optics.rig import NeedleShape
 
-_CORNERS = 24
+_CORNERS: Final = 24
 _ANGLES = 2.0 * np.pi * np.arange(_CORNERS) / _CORNERS
-_CIRCLE = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)]) * np.sqrt(
+_CIRCLE: Final = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)]) * np.sqrt(
     2.0 * np.pi / (_CORNERS * np.sin(2.0 * np.pi / _CORNERS))
 )
 """Unit circle as a polygon of the same area: neither inside nor outside on average."""
@@ -29,45 +32,94 @@ def centroid_shift(
 
     None where the band has no picture (behind the camera, beyond the fold).
     """
-    centre = model.T_camera_world @ p_world
-    axis = model.T_camera_world.rotate(axis_world)
-    points = _body(needle, centre, axis)
-    uv, ok = model.project_camera(np.vstack([points, centre]))
-    if not ok.all():
-        return None
-    uv = (uv - uv[-1]).astype(np.float32)  # about the centre: single precision suffices then
-    outline = cv2.convexHull(uv[: 2 * _CORNERS]).reshape(-1, 2)
-    shaft = cv2.convexHull(uv[2 * _CORNERS : -1]).reshape(-1, 2)
-    area, first = _moments(outline)
-    hidden_area, hidden = 0.0, np.zeros(2)
-    overlap, common = cv2.intersectConvexConvex(outline, shaft)
-    if overlap > 0.0 and common is not None:
-        hidden_area, hidden = _moments(common.reshape(-1, 2))
-    visible = area - hidden_area
-    return (first - hidden) / visible if visible > 0.0 else None
+    shift = np.empty(2)
+    point, axis = np.array(p_world, dtype=np.float64), np.array(axis_world, dtype=np.float64)
+    return shift if outline_shift(packed(model), np.array(needle), point, axis, shift) else None
 
 
-def _body(needle: NeedleShape, centre: FloatArray, axis: FloatArray) -> FloatArray:
-    """Corners in the camera frame: both end circles, then the shaft before the near end."""
-    turn = skew(axis)
-    across = unit(turn[:, int(np.argmin(np.abs(axis)))])
-    ring = _CIRCLE @ np.array([across, turn @ across])
-    towards = -1.0 if axis @ centre > 0.0 else 1.0  # which end of the band faces the camera
-    if towards > 0.0:
-        stations = [needle.half, max(needle.half, needle.tip - needle.point), needle.tip]
+@njit
+def outline_shift(camera: Any, needle: Any, p_world: Any, axis_world: Any, shift: Any) -> bool:
+    """Fill the shift of `centroid_shift`; False where the band has no picture.
+
+    Args:
+        camera: see `optics.packed`.
+        needle: a `rig.NeedleShape` as an array.
+        p_world: centre of the band [m], (3,).
+        axis_world: unit vector from hub to tip, (3,).
+        shift: out [px], (2,).
+    """
+    centre, axis = np.empty(3), np.empty(3)
+    to_camera(camera, p_world, 1.0, centre)
+    to_camera(camera, axis_world, 0.0, axis)
+    u, v, seen = project_point(camera, centre[0], centre[1], centre[2])
+    circles = np.empty((5, 2))
+    along = axis[0] * centre[0] + axis[1] * centre[1] + axis[2] * centre[2]
+    rings = 2 + _circles(needle, along > 0.0, circles)
+    points = np.empty((rings * _CORNERS, 2))
+    if not (seen and _rings(camera, centre, axis, circles[:rings], u, v, points)):
+        return False
+    outline, corners = hull_of(points[: 2 * _CORNERS])
+    shaft, edges = hull_of(points[2 * _CORNERS :])
+    visible, mu, mv = moments(outline, corners)
+    common, other = np.empty((corners + edges, 2)), np.empty((corners + edges, 2))
+    count = common_part(outline, corners, shaft, edges, common, other)
+    if count > 0:
+        hidden, hu, hv = moments(common, count)
+        visible, mu, mv = visible - hidden, mu - hu, mv - hv
+    if not visible > 0.0:
+        return False
+    shift[0], shift[1] = mu / visible, mv / visible
+    return True
+
+
+@njit
+def _circles(needle: Any, away: bool, circles: Any) -> int:
+    """Fill position and radius of both end circles of the band and of the shaft before it.
+
+    The shaft counts that leaves the end which faces the camera: the hub's where the needle points
+    `away` from it. Returns how many circles of it there are.
+    """
+    shaft, radius, half, tip, point = needle[0], needle[1], needle[2], needle[3], needle[5]
+    circles[0, 0], circles[1, 0] = half, -half
+    circles[:2, 1] = radius
+    if away:
+        count, circles[2, 0], circles[3, 0] = 2, -half, -half - 3.0 * radius
     else:
-        stations = [-needle.half, -needle.half - 3.0 * needle.radius]
-    ends = [(needle.half, needle.radius), (-needle.half, needle.radius)]
-    shaft = [(s, needle.shaft * min(1.0, (needle.tip - s) / needle.point)) for s in stations]
-    return np.vstack([centre + s * axis + radius * ring for s, radius in ends + shaft])
+        count, circles[2, 0], circles[3, 0], circles[4, 0] = 3, half, max(half, tip - point), tip
+    for k in range(2, 2 + count):
+        circles[k, 1] = shaft * min(1.0, (tip - circles[k, 0]) / point)
+    return count
 
 
-def _moments(polygon: FloatArray) -> tuple[float, FloatArray]:
-    """Area of a convex polygon [px²] and its first moments [px³], shape (2,)."""
-    x, y = polygon.astype(np.float64).T
-    next_x, next_y = np.concatenate([x[1:], x[:1]]), np.concatenate([y[1:], y[:1]])
-    cross = x * next_y - next_x * y
-    first = np.array([(x + next_x) @ cross, (y + next_y) @ cross])
-    total = float(cross.sum())
-    sign = 1.0 if total >= 0.0 else -1.0
-    return 0.5 * sign * total, sign * first / 6.0
+@njit
+def _rings(
+    camera: Any, centre: Any, axis: Any, circles: Any, u: float, v: float, points: Any
+) -> bool:
+    """Fill the pixels of circles about the axis, from the pixel of the centre; False without."""
+    x, y, z = axis[0], axis[1], axis[2]
+    a, b = np.zeros(3), np.empty(3)
+    if abs(x) <= min(abs(y), abs(z)):  # across the axis: its product with the unit vector
+        a[1], a[2] = z, -y  # that it is furthest from
+    elif abs(y) <= abs(z):
+        a[0], a[2] = -z, x
+    else:
+        a[0], a[1] = y, -x
+    length = np.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
+    if not length > 0.0:
+        return False
+    a /= length
+    b[0], b[1], b[2] = y * a[2] - z * a[1], z * a[0] - x * a[2], x * a[1] - y * a[0]
+    for i in range(circles.shape[0]):
+        s, radius = circles[i, 0], circles[i, 1]
+        for j in range(_CORNERS):
+            p, q = radius * _CIRCLE[j, 0], radius * _CIRCLE[j, 1]
+            pu, pv, seen = project_point(
+                camera,
+                centre[0] + s * x + p * a[0] + q * b[0],
+                centre[1] + s * y + p * a[1] + q * b[1],
+                centre[2] + s * z + p * a[2] + q * b[2],
+            )
+            if not seen:
+                return False
+            points[i * _CORNERS + j, 0], points[i * _CORNERS + j, 1] = pu - u, pv - v
+    return True

@@ -18,8 +18,8 @@ _BASELINE = 1e-6
 _STEPS = 10
 _WORST = 1e-14
 
-FOUND, DEGENERATE, AT_INFINITY, NOT_FINITE = 0, 1, 2, 3
-"""What `meet` returns."""
+FOUND, DEGENERATE, AT_INFINITY, NOT_FINITE, BEHIND = 0, 1, 2, 3, 4
+"""What `meet` returns, and behind a camera."""
 
 
 @njit

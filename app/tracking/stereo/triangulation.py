@@ -96,15 +96,37 @@ def triangulate(
         return _nothing(StereoStatus.BEHIND)
     if covariance is None:
         return _nothing(StereoStatus.DEGENERATE)
-    return Triangulation(
-        StereoStatus.FOUND,
-        read_only(p_world),
-        read_only(covariance),
-        chi_square,
-        read_only(residual),
-        read_only(observed),
-        read_only(spreads),
+    return triangulation(
+        kernels.FOUND, p_world, covariance, chi_square, residual, observed, spreads
     )
+
+
+def triangulation(
+    status: int,
+    p_world: FloatArray,
+    covariance: FloatArray,
+    chi_square: float,
+    residual: FloatArray,
+    observations: FloatArray,
+    covariances: FloatArray,
+) -> Triangulation:
+    """Publish what a kernel has found: arrays become read-only; without a point they are zero.
+
+    Args:
+        status: one of those in `kernels`.
+        p_world: see `Triangulation`.
+        covariance: likewise.
+        chi_square: likewise.
+        residual: likewise.
+        observations: likewise.
+        covariances: likewise.
+    """
+    named = _STATUS[status]
+    if named is not StereoStatus.FOUND:
+        return _nothing(named)
+    arrays = (p_world, covariance, residual, observations, covariances)
+    point, spread, left, seen, noise = (read_only(array) for array in arrays)
+    return Triangulation(named, point, spread, float(chi_square), left, seen, noise)
 
 
 _STATUS = {
@@ -112,6 +134,7 @@ _STATUS = {
     kernels.DEGENERATE: StereoStatus.DEGENERATE,
     kernels.AT_INFINITY: StereoStatus.AT_INFINITY,
     kernels.NOT_FINITE: StereoStatus.NOT_FINITE,
+    kernels.BEHIND: StereoStatus.BEHIND,
 }
 
 
