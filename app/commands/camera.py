@@ -72,6 +72,8 @@ def use(
     A SOURCE is usb:PORT, usb:0, folder:PATH, video:PATH or simulated.
     """
     from app.core.configuration import parse
+    from app.tracking.cameras.ports import camera_ports
+    from app.tracking.cameras.presence import missing
     from app.tracking.cameras.settings import (
         CameraSettings,
         load_settings,
@@ -98,6 +100,9 @@ def use(
     settings = parse(document, CameraSettings, "acus camera use")
     typer.echo(f"left {settings.left.source}, right {settings.right.source}")
     typer.echo(f"saved in {save_settings(settings)}")
+    for side in given:
+        if lack := missing(getattr(settings, side).source, camera_ports()):
+            typer.echo(f"warning: {side}: {lack}; saved all the same, for when it is", err=True)
 
 
 def show(

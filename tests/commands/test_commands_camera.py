@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from app.__main__ import main
+from app.tracking.cameras.ports import CameraPort
 from app.tracking.cameras.settings import (
     CameraSettings,
     keep_colour,
@@ -139,3 +140,33 @@ def test_the_latency_test_is_refused_without_a_screen(monkeypatch, capsys, folde
     code, _, err = run(monkeypatch, capsys, "camera", "latency", "--display")
     assert code == 2
     assert "needs a real screen" in err
+
+
+def test_show_names_every_picture_of_a_folder_that_cannot_be_used(monkeypatch, capsys, folders):
+    (folders / "left" / "1.png").write_bytes(b"\x89PNG, cut off")
+    (folders / "left" / "notes.jpg").write_bytes(b"")
+    assert cv2.imwrite(str(folders / "left" / "3.png"), np.full((24, 32, 3), 90, np.uint8))
+    words = ("camera", "show", "--source", f"folder:{folders}/left", "--seconds", "0.3")
+    code, out, err = run(monkeypatch, capsys, *words)
+    assert code == 0, err
+    assert "left/1.png is no picture or is damaged" in out
+    assert "left/notes.jpg is no picture or is damaged" in out
+    assert "different sizes: 64x48 (0.png …), 32x24 (3.png …)" in out
+    advice = json.loads(run(monkeypatch, capsys, *words, "--json")[1])["cameras"][0]["advice"]
+    assert sum("is no picture or is damaged" in line for line in advice) == 2
+
+
+def test_a_source_that_is_not_there_is_saved_with_a_word_about_what_is(
+    monkeypatch, capsys, folders
+):
+    port = CameraPort("1-1.2", "1-1.2:1.0", "/dev/video0", "Webcam")
+    monkeypatch.setattr("app.tracking.cameras.ports.camera_ports", lambda: (port,))
+    words = ("camera", "use", "--left", "usb:77", "--right", "usb:1-1.2")
+    code, out, err = run(monkeypatch, capsys, *words)
+    assert code == 0
+    assert "saved in" in out
+    assert err.count("\n") == 1
+    assert "left: no camera at usb:77; plugged in are: usb:1-1.2 (Webcam); saved all the" in err
+    assert load_settings().left.source == "usb:77"
+    code, _, err = run(monkeypatch, capsys, "camera", "use", "--left", f"folder:{folders}/nobody")
+    assert (code, "there is no folder" in err) == (0, True)

@@ -46,15 +46,7 @@ class FolderCamera(Camera):
         Raises:
             CameraError: if there is no picture in it.
         """
-        if not self.folder.is_dir():
-            raise CameraError(f"there is no folder {self.folder}; folder:PATH names one")
-        self._files = sorted(
-            path for path in self.folder.iterdir() if path.suffix.lower() in ENDINGS
-        )
-        if not self._files:
-            raise CameraError(
-                f"no picture in {self.folder}; files that end in {', '.join(sorted(ENDINGS))} count"
-            )
+        self._files = pictures_in(self.folder)
         self._last = self._due()
         self._first = 0 if self._loops else self._last + 1
 
@@ -78,8 +70,49 @@ class FolderCamera(Camera):
         """Forget the folder."""
         self._files = []
 
+    def faults(self, most: int = 500) -> tuple[str, ...]:
+        """Look at the pictures one by one, whatever the pace; say what is wrong, a line each.
+
+        Args:
+            most: so many are looked at; that there are more is said too.
+
+        Raises:
+            CameraError: if the folder cannot be listed.
+        """
+        files = pictures_in(self.folder)
+        found, sizes = [], dict[tuple[int, int], Path]()
+        for path in files[:most]:
+            try:
+                height, width = read_picture(path).shape[:2]
+            except CameraError as error:
+                found.append(str(error))
+            else:
+                sizes.setdefault((width, height), path)
+        if len(sizes) > 1:
+            each = ", ".join(f"{w}x{h} ({path.name} …)" for (w, h), path in sizes.items())
+            found.append(f"the pictures of {self.folder} are of different sizes: {each}")
+        if len(files) > most:
+            found.append(f"only the first {most} of {len(files)} pictures were looked at")
+        return tuple(found)
+
     def _due(self) -> int:
         return floor(self._clock.now() * self._rate + 1e-6)
+
+
+def pictures_in(folder: Path) -> list[Path]:
+    """Return the files of a folder that should be pictures, by name.
+
+    Raises:
+        CameraError: if there is none, or no such folder.
+    """
+    if not folder.is_dir():
+        raise CameraError(f"there is no folder {folder}; folder:PATH names one")
+    files = sorted(path for path in folder.iterdir() if path.suffix.lower() in ENDINGS)
+    if not files:
+        raise CameraError(
+            f"no picture in {folder}; files that end in {', '.join(sorted(ENDINGS))} count"
+        )
+    return files
 
 
 def read_picture(path: Path) -> Image:

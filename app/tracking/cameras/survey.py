@@ -12,6 +12,7 @@ import numpy as np
 from app.core.clock import Clock
 from app.tracking.cameras.camera import Camera, Frame, Image
 from app.tracking.cameras.checked import CheckedCamera
+from app.tracking.cameras.files import FolderCamera
 from app.tracking.cameras.intake import StreamFigures
 from app.tracking.cameras.usb import UsbCamera
 from app.tracking.cameras.watch import CameraHealth, CameraReader
@@ -40,6 +41,7 @@ class CameraReport:
         saturated: share of its pixels that are overexposed, 0 to 1.
         settings: what became of what was asked of the driver, a line each.
         image: newest picture, or None.
+        faults: pictures of a folder that cannot be used, a line each.
     """
 
     name: str
@@ -52,12 +54,13 @@ class CameraReport:
     saturated: float
     settings: tuple[str, ...]
     image: Image | None
+    faults: tuple[str, ...] = ()
 
     def advice(self) -> tuple[str, ...]:
         """Say what to do; empty if nothing is wrong."""
-        lines = []
+        lines = list(self.faults)
         if self.image is None or self.health.message:
-            lines.append(self.health.text)
+            lines += [self.health.text] if self.health.text not in lines else []
         elif self.saturated > _TOO_BRIGHT:
             lines.append(f"{self.saturated:.0%} of the picture is overexposed: lower the exposure")
         elif self.brightness < _TOO_DARK:
@@ -140,6 +143,7 @@ def _watch(
 def _report(reader: CameraReader, camera: Camera, now: float, ages: list[float]) -> CameraReport:
     frame, health = reader.newest(), reader.health(now)
     inner = camera.camera if isinstance(camera, CheckedCamera) else camera
+    folder = inner if isinstance(inner, FolderCamera) else None
     usb = inner if isinstance(inner, UsbCamera) else None
     image = None if frame is None else frame.image
     return CameraReport(
@@ -153,4 +157,5 @@ def _report(reader: CameraReader, camera: Camera, now: float, ages: list[float])
         0.0 if image is None else float((image.max(axis=2) >= SATURATED).mean()),
         () if usb is None else tuple(setting.text for setting in usb.settings),
         image,
+        () if folder is None else folder.faults(),
     )
