@@ -21,8 +21,8 @@ demo: setup  ## the trainer on the built-in patient; with no display a whole exe
 run: setup  ## the trainer
 	$(BIN)/acus run
 
-test: setup  ## the tests (no display and no network needed)
-	./tools/with-display $(BIN)/python -m pytest -q $(TEST)
+test: setup  ## the tests (no display and no network needed), a file at a time on each core
+	./tools/with-display $(BIN)/python -m pytest -q --numprocesses auto --dist loadfile $(TEST)
 
 by-hand: setup  ## one insertion in the real window with mouse and keyboard, on an X server of its own
 	env -u DISPLAY ACUS_BY_HAND=1 ./tools/with-display $(BIN)/python -m pytest -q tests/display
