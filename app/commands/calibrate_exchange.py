@@ -61,15 +61,18 @@ def import_(
         typer.Argument(
             metavar="FILES",
             help="One YAML of Acus; or left and right YAML of ICube or ROS; or the folder of "
-            "TemugeB's text files.",
+            "TemugeB's text files; or intrinsics.yml and extrinsics.yml of OpenCV's stereo_calib.",
         ),
     ],
     unit: Annotated[
         str | None,
-        typer.Option("--unit", help="Unit of TemugeB's files, the board's: e.g. 1cm, 25.4mm."),
+        typer.Option(
+            "--unit", help="Unit of TemugeB's and OpenCV's files, the board's: e.g. 1cm, 25.4mm."
+        ),
     ] = None,
     size: Annotated[
-        str | None, typer.Option("--size", help="Picture size of TemugeB's files: e.g. 1280x720.")
+        str | None,
+        typer.Option("--size", help="Picture size of TemugeB's and OpenCV's files: e.g. 1280x720."),
     ] = None,
     as_json: AsJson = False,
 ) -> None:

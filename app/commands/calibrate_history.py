@@ -113,6 +113,7 @@ def entry_document(history: "CalibrationHistory", entry: "Entry") -> dict[str, A
         "rms_px": calibration.rms_px,
         "validation_rms_mm": validation.rms_mm if validation is not None else None,
         "world": calibration.world is not None,
+        "uncertainty_known": calibration.uncertainty_known,
     }
 
 
@@ -138,6 +139,11 @@ def calibration_lines(calibration: "StereoCalibration") -> list[str]:
         lines.append(
             f"held back     {checked.views} pairs: {checked.rms_mm:.3f} mm RMS, largest "
             f"{checked.max_mm:.3f} mm, scale {checked.scale:.5f} ± {checked.scale_sd:.5f}"
+        )
+    if not calibration.uncertainty_known:
+        lines.append(
+            "uncertainty   the calibration's own uncertainty is not known: every stated radius "
+            "leaves it out"
         )
     lines.append(f"world         {'known' if calibration.world else 'not known'}")
     return lines + [f"note          {note}" for note in calibration.notes]

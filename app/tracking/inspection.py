@@ -45,6 +45,8 @@ class Inspection:
         rate_hz: pictures a second that the rig's profile promises; 0 where nobody tells.
         rig: name of the rig's profile.
         calibration: id of the cameras' calibration; empty for cameras by their profile.
+        uncertainty_known: whether the calibration says how sure it is; if not, `radius` leaves
+            its error out.
     """
 
     pictures: tuple[InspectedPicture, ...]
@@ -52,6 +54,7 @@ class Inspection:
     rate_hz: float = 0.0
     rig: str = ""
     calibration: str = ""
+    uncertainty_known: bool = True
 
     @property
     def radius(self) -> float | None:
@@ -86,8 +89,15 @@ class Inspector:
         inspected = tuple(self._inspect(one, pictures, masks, lines) for one in pictures)
         newest = stamped.value if stamped else None
         rig = self._tracker.rig
-        calibration = rig.calibration.id if rig.calibration is not None else ""
-        return Inspection(inspected, newest, rig.rate_hz, rig.name, calibration)
+        used = rig.calibration
+        return Inspection(
+            inspected,
+            newest,
+            rig.rate_hz,
+            rig.name,
+            used.id if used is not None else "",
+            used is None or used.uncertainty_known,
+        )
 
     def _inspect(
         self,

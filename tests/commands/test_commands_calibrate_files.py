@@ -49,7 +49,7 @@ def test_the_list_says_which_is_in_use_and_which_was_found_bad(acus, kept) -> No
     assert document["calibrations"][1]["in_use"] is True
     assert set(document["calibrations"][0]) == {
         "id", "file", "kept", "in_use", "found_bad", "problem", "created", "board", "cameras",
-        "baseline_mm", "rms_px", "validation_rms_mm", "world",
+        "baseline_mm", "rms_px", "validation_rms_mm", "world", "uncertainty_known",
     }  # fmt: skip
 
 
@@ -91,6 +91,8 @@ def test_what_is_exported_is_imported_again(acus, kept, tmp_path: Path) -> None:
     code, text = acus("import", *pair)
     assert code == 0
     assert "in use from now on" in text
+    assert "the calibration's own uncertainty is not known" in text
+    assert "own uncertainty" not in acus("show", "cal-one")[1]
     path = tmp_path / "own.yaml"
     assert acus("export", "cal-one", "--out", str(path), "--json")[0] == 0
     assert path.read_text() == (kept.folder / "cal-one.yaml").read_text()

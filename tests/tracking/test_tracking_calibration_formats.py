@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 import yaml
@@ -259,3 +260,112 @@ def test_files_of_two_formats_or_too_many_are_refused(
         read_calibration([icube[0], right])
     with pytest.raises(CalibrationError, match="3 files were given"):
         read_calibration([left, right, right])
+
+
+def storage(path: Path, **matrices: np.ndarray) -> Path:
+    """Write a file as OpenCV's samples do."""
+    out = cv2.FileStorage(str(path), cv2.FILE_STORAGE_WRITE)
+    for name, value in matrices.items():
+        out.write(name, np.asarray(value, dtype=np.float64))
+    out.release()
+    return path
+
+
+@pytest.fixture
+def opencv(tmp_path: Path, calibration: StereoCalibration) -> tuple[Path, Path]:
+    """What stereo_calib writes of the sample: squares typed in centimetres."""
+    matrices = {}
+    for i, camera in enumerate(calibration.cameras, start=1):
+        (fx, fy), (cx, cy) = camera.focal_px, camera.centre_px
+        matrices[f"M{i}"] = [[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]]
+        matrices[f"D{i}"] = [camera.distortion]
+    pose = calibration.pose.transform
+    outer = {"R": pose.rotation, "T": pose.translation[:, None] / 0.01, "Q": np.eye(4)}
+    return (
+        storage(tmp_path / "intrinsics.yml", **matrices),
+        storage(tmp_path / "extrinsics.yml", **outer),
+    )
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_pair_of_opencvs_stereo_sample_is_read_in_its_unit_in_either_order(
+    opencv: tuple[Path, Path], calibration: StereoCalibration, turned: bool
+) -> None:
+    files = opencv[::-1] if turned else opencv
+    found = read_calibration(files, unit=0.01, image_size=(640, 480))
+    np.testing.assert_allclose(
+        found.pose.transform.matrix(), calibration.pose.transform.matrix(), atol=1e-9
+    )
+    for ours, theirs in zip(found.cameras, calibration.cameras, strict=True):
+        assert ours.focal_px == theirs.focal_px
+        assert ours.distortion == theirs.distortion
+        assert ours.image_size == (640, 480)
+    assert not found.uncertainty_known
+    assert calibration.uncertainty_known
+
+
+def test_a_longer_model_is_replaced_by_five_coefficients_that_say_the_same(
+    tmp_path: Path, opencv: tuple[Path, Path]
+) -> None:
+    matrix = np.array([[600.0, 0.0, 320.0], [0.0, 600.0, 240.0], [0.0, 0.0, 1.0]])
+    rational = [0.05, -0.02, 1e-3, -5e-4, 0.0, 0.08, 0.0, 0.001]
+    files = storage(tmp_path / "both.yml", M1=matrix, M2=matrix, D1=[rational], D2=[[0.0] * 14])
+    found = read_calibration([files, opencv[1]], unit=0.01, image_size=(640, 480))
+    assert any("8 coefficients replaced by five" in note for note in found.notes)
+    assert found.cameras[1].distortion == (0.0,) * 5
+    points = np.random.default_rng(1).uniform([-0.5, -0.38, 1.0], [0.5, 0.38, 1.0], (200, 3))
+    nothing = np.zeros(3)
+    theirs = cv2.projectPoints(points, nothing, nothing, matrix, np.array(rational))[0]
+    five = np.array(found.cameras[0].distortion)
+    ours = cv2.projectPoints(points, nothing, nothing, matrix, five)[0]
+    assert np.abs(ours - theirs).max() < 0.2
+    wild = [0.5, -3.0, 0.0, 0.0, 0.0, 0.9, -8.0, 30.0]
+    storage(tmp_path / "both.yml", M1=matrix, M2=matrix, D1=[wild], D2=[[0.0] * 5])
+    with pytest.raises(CalibrationError, match="that five cannot stand for"):
+        read_calibration([files, opencv[1]], unit=0.01, image_size=(640, 480))
+
+
+def test_a_lens_of_opencv_and_half_a_pair_are_told_in_one_line(
+    tmp_path: Path, opencv: tuple[Path, Path]
+) -> None:
+    lens = storage(tmp_path / "lens.yml", camera_matrix=np.eye(3), distortion_coefficients=[[0.0]])
+    for files, words in (
+        ([lens], "does not say how two cameras stand"),
+        ([lens, lens], "does not say how two cameras stand"),
+        ([opencv[0]], r"R, T \(extrinsics.yml\), found M1, D1, M2, D2; give both"),
+        ([opencv[0], opencv[1]], "--unit 1cm"),
+    ):
+        with pytest.raises(CalibrationError, match=words) as caught:
+            read_calibration(files)
+        assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("text", ["%YAML:1.0\n---\nM1: [", "%YAML:1.0\nM1: !!opencv-matrix\n  x"])
+def test_a_damaged_file_of_opencv_is_named_in_one_line(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "intrinsics.yml"
+    path.write_text(text)
+    with pytest.raises(CalibrationError, match=r"intrinsics.yml") as caught:
+        read_calibration([path], unit=0.01, image_size=(640, 480))
+    assert "\n" not in str(caught.value)
+
+
+def test_a_text_file_that_cannot_be_read_is_named_with_what_to_do(temuge: Path) -> None:
+    path = temuge / "camera1_rot_trans.dat"
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(CalibrationError, match=r"camera1_rot_trans.dat is no text file; one of"):
+        read_calibration([temuge], unit=0.01, image_size=(1280, 720))
+    path.unlink()
+    path.mkdir()
+    (temuge / "world_to_camera1_rot_trans.dat").symlink_to(temuge / "nowhere")
+    with pytest.raises(CalibrationError, match="its pose is missing"):
+        read_calibration([temuge], unit=0.01, image_size=(1280, 720))
+    with pytest.raises(CalibrationError, match=r"cannot read .*none.yaml: No such file"):
+        read_calibration([temuge / "none.yaml"])
+
+
+def test_a_real_file_of_opencvs_samples_asks_for_its_other_half(shared_data: Path) -> None:
+    folder = shared_data / "stereo_opencv"
+    with pytest.raises(CalibrationError, match="found M1, D1, M2, D2; give both files"):
+        read_calibration([folder / "intrinsics.yml"])
+    with pytest.raises(CalibrationError, match="a lens of OpenCV's one-camera sample"):
+        read_calibration([folder / "left_intrinsics.yml"])

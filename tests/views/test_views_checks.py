@@ -164,6 +164,14 @@ def test_without_a_check_the_strip_names_no_figure():
     assert agreement_item(None, "does not fit").verdict is Verdict.WARNING
 
 
+def test_an_imported_calibration_makes_no_agreement_green_and_says_why():
+    agreement = SimpleNamespace(radius=1e-3)
+    assert agreement_item(agreement).verdict is Verdict.GOOD
+    item = agreement_item(agreement, known=False)
+    assert item.verdict is Verdict.WARNING
+    assert item.text.endswith("the calibration's own uncertainty is not known")
+
+
 def test_the_outline_is_the_shadow_of_the_ellipsoid():
     error = ErrorOverlay(np.zeros(3), np.diag([4.0, 1.0, 0.25]))
     reach = np.sqrt(chi_square_quantile(0.95, 3))

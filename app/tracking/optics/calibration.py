@@ -189,6 +189,15 @@ class StereoCalibration(Strict):
         return frozen(result, (24, 24), "covariance")
 
     @property
+    def uncertainty_known(self) -> bool:
+        """Whether it says how sure lenses and relative pose are; files of other programs do not.
+
+        Where it does not, the covariance stands as zero: what is made of it leaves out the
+        calibration's own error, and must say so.
+        """
+        return bool(np.any(self.covariance))
+
+    @property
     def baseline(self) -> float:
         """Distance between the cameras [m]."""
         return float(np.linalg.norm(self.pose.transform.translation))

@@ -60,7 +60,7 @@ class ChecksDesk(QObject):
         self.registration: RegistrationDialog | None = None
         self.record: RegistrationRecord | None = None
         self._check: RegistrationCheck | None = None
-        self._looked = False
+        self._looked, self._known = False, True
         conductor.controller.add_items(self.items)
         conductor.patient_changed.connect(self.forget)
 
@@ -140,7 +140,7 @@ class ChecksDesk(QObject):
         self._show_error(run, check)
         checked = tr("Checked {when} with {plate}.", when=f"{record.created:%Y-%m-%d %H:%M}",
                      plate=record.plate.name)  # fmt: skip
-        return (agreement_item(agreement, checked=checked),)
+        return (agreement_item(agreement, checked=checked, known=self._known),)
 
     def use_place(self, T_world_patient: RigidTransform) -> None:
         """Take the measured place of the patient; one step to undo in the plan."""
@@ -173,7 +173,7 @@ class ChecksDesk(QObject):
         seen = run.inspect(False, False) if run.inspect is not None else None
         if seen is None:
             return
-        self._looked, volume = True, self.volume()
+        self._looked, volume, self._known = True, self.volume(), seen.uncertainty_known
         series = volume.series.pseudonym if volume is not None else ""
         try:
             record = Registrations.own().newest(

@@ -91,7 +91,9 @@ class TrackerPanel(QWidget):
         self._verdict.setStyleSheet(f"color: {colour};")
         self._verdict.setText(f"{symbol} {figures.item.text}")
         self._verdict.setToolTip(figures.item.help)
-        self._figures.show_figures(figures, inspection.radius if inspection is not None else None)
+        radius = inspection.radius if inspection is not None else None
+        known = inspection is None or inspection.uncertainty_known
+        self._figures.show_figures(figures, radius, known)
 
     def set_overlay(self, name: str, shown: bool) -> None:
         """Switch one of `Overlays` by its name, in both pictures."""
@@ -156,12 +158,29 @@ class _Figures(QWidget):
         grid.setColumnStretch(1, 1)
         grid.setColumnStretch(3, 1)
 
-    def show_figures(self, figures: TrackerFigures, radius: float | None) -> None:
-        """Show them; what is not known is a dash."""
+    def show_figures(
+        self, figures: TrackerFigures, radius: float | None, known: bool = True
+    ) -> None:
+        """Show them; what is not known is a dash.
+
+        Args:
+            figures: of the tracker.
+            radius: round the tip, 95 % [m].
+            known: whether it holds the calibration's error.
+        """
         residual, skew = figures.residual_px, figures.skew
+        size = "–" if radius is None else tr("± {mm:.2f} mm", mm=1e3 * radius)
+        if radius is not None and not known:
+            size = tr("{size} + calibration (not known)", size=size)
+            self._values["radius"].setToolTip(tr(
+                "By the pictures alone: the calibration's own uncertainty is not known, as it was "
+                "imported. The true radius is larger; calibrate with pictures of a board to know it"
+            ))  # fmt: skip
+        else:
+            self._values["radius"].setToolTip(_HELP["radius"])
         texts = {
             "residual": "–" if residual is None else tr("{px:.2f} px", px=residual),
-            "radius": "–" if radius is None else tr("± {mm:.2f} mm", mm=1e3 * radius),
+            "radius": size,
             "rate": tr("{rate:.0f} pairs/s", rate=figures.rate),
             "valid": tr("{share:.0f} %", share=100.0 * figures.valid_share),
             "latency": tr("{ms:.0f} ms", ms=1e3 * figures.latency),
@@ -187,3 +206,5 @@ _TITLES: Final = (
     ("skew", tr("Skew"), tr(
         "Capture of the right picture after the left one; it is made up for")),
 )  # fmt: skip
+
+_HELP: Final = {name: help_ for name, _, help_ in _TITLES}

@@ -6,6 +6,7 @@ from pathlib import Path
 from app.tracking.calibration.formats.fields import Fields
 from app.tracking.calibration.formats.icube import read_icube
 from app.tracking.calibration.formats.imported import NAMES
+from app.tracking.calibration.formats.opencv import is_opencv, read_opencv
 from app.tracking.calibration.formats.own import load_calibration
 from app.tracking.calibration.formats.ros import read_ros
 from app.tracking.calibration.formats.temuge import find_pair, read_temuge
@@ -13,8 +14,9 @@ from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
 
 _EXPECTED = (
-    "give one file of Acus, two YAML files of ICube or ROS (left, right), or the folder with "
-    "TemugeB's cameraN_intrinsics.dat and cameraN_rot_trans.dat"
+    "give one file of Acus, two YAML files of ICube or ROS (left, right), the folder with "
+    "TemugeB's cameraN_intrinsics.dat and cameraN_rot_trans.dat, or intrinsics.yml and "
+    "extrinsics.yml of OpenCV's stereo_calib"
 )
 
 
@@ -29,8 +31,8 @@ def read_calibration(
 
     Args:
         files: see the error message of `CalibrationError`; left before right.
-        unit: metres in the board's unit; only TemugeB's files need it.
-        image_size: width, height [px]; only TemugeB's files need it.
+        unit: metres in the board's unit; only TemugeB's and OpenCV's files need it.
+        image_size: width, height [px]; only TemugeB's and OpenCV's files need it.
         names: of the cameras in the rig, for files of other programs.
 
     Raises:
@@ -38,10 +40,12 @@ def read_calibration(
     """
     if len(files) == 1 and files[0].is_dir():
         return _text_files(files[0], unit, image_size, names)
+    if len(files) not in (1, 2):
+        raise CalibrationError(f"{len(files)} files were given; {_EXPECTED}")
+    if any(is_opencv(path) for path in files):
+        return read_opencv(files, unit=unit, image_size=image_size, names=names)
     if len(files) == 1:
         return load_calibration(files[0])
-    if len(files) != 2:
-        raise CalibrationError(f"{len(files)} files were given; {_EXPECTED}")
     left, right = files
     kinds = {_is_ros(path) for path in files}
     if len(kinds) == 2:

@@ -93,8 +93,15 @@ def _camera(files: TemugeFiles, unit: float, image_size: tuple[int, int]) -> Imp
 def _lines(path: Path) -> list[str]:
     try:
         text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise CalibrationError(f"cannot read {path}: {error}") from error
+    except OSError as error:
+        raise CalibrationError(
+            f"cannot read {path}: {error.strerror or error}; check its name and that it may be read"
+        ) from error
+    except UnicodeDecodeError as error:
+        raise CalibrationError(
+            f"{path} is no text file; one of lines of numbers is needed, as TemugeB's program "
+            "writes it"
+        ) from error
     return [line.strip() for line in text.splitlines() if line.strip()]
 
 
