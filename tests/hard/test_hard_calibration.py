@@ -11,7 +11,14 @@ from hypothesis import strategies as st
 
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
+from app.planning.registration.check import RegistrationCheck, check_points
+from app.planning.registration.errors import RegistrationError
+from app.planning.registration.plate import load_plate
+from app.planning.registration.points import NamedPoints
+from app.planning.registration.words import troubles
+from app.tracking.calibration.boards import Board
 from app.tracking.calibration.bundle import adjust, with_free
+from app.tracking.calibration.checks import check_baseline
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.mono import calibrate_mono
 from app.tracking.calibration.pairing import Pair
@@ -24,7 +31,7 @@ from app.tracking.calibration.sightings import Sighting, State
 from app.tracking.calibration.validation import triangulated
 from app.tracking.calibration.views import BoardView, Reason, Rejection
 from app.tracking.errors import CalibrationError
-from app.tracking.optics.calibration import PARAMETERS
+from app.tracking.optics.calibration import PARAMETERS, StereoCalibration
 from app.tracking.simulated.board import BoardRenderer
 from tests.tracking.calibration_rig import Rig, usual_rig
 
@@ -191,3 +198,88 @@ def test_noise_shows_no_board(seed: int, size: tuple[int, int]) -> None:
     image = np.random.default_rng(seed).integers(0, 256, size).astype(np.uint8)
     board = usual_rig().board
     assert isinstance(find_corners(image, board, thorough=False), Rejection)
+
+
+# --- a print at 97 % ---------------------------------------------------------------------------
+PRINTED = 0.97
+PLATE = load_plate("stepped-plate")
+
+
+def named(points: np.ndarray) -> NamedPoints:
+    return NamedPoints(PLATE.names, points, np.zeros((len(points), 3, 3)))
+
+
+def calibrated(rig: Rig, believed: Board) -> StereoCalibration:
+    """Calibration by a board that was printed at 97 %, and is believed to be another."""
+    printed = replace(rig.board, square=PRINTED * rig.board.square)
+    views = replace(rig, board=printed).pairs(16, 4, NOISE)
+    left, right = ([replace(view, board=believed) for view in side] for side in views)
+    return calibrate_pairs(left, right, hold_back=4).calibration
+
+
+@pytest.fixture(scope="module")
+def shrunk(rig: Rig) -> StereoCalibration:
+    return calibrated(rig, rig.board)
+
+
+def test_no_figure_of_the_calibration_itself_shows_a_print_at_97_percent(
+    rig: Rig, shrunk: StereoCalibration
+) -> None:
+    right = calibrated(rig, replace(rig.board, square=PRINTED * rig.board.square))
+    assert shrunk.rms_px == pytest.approx(right.rms_px, rel=1e-6)
+    checked, true = shrunk.validation, right.validation
+    assert checked is not None
+    assert true is not None
+    assert checked.scale == pytest.approx(true.scale, abs=1e-6)
+    assert checked.rms_mm == pytest.approx(true.rms_mm / PRINTED, rel=1e-3)
+    assert shrunk.baseline == pytest.approx(0.083 / PRINTED, rel=0.005)
+
+
+def test_a_print_at_97_percent_is_caught_by_the_ruler_and_by_the_plate_that_is_touched(
+    rig: Rig, shrunk: StereoCalibration
+) -> None:
+    ruler = check_baseline(shrunk, 83.0)
+    assert not ruler.passed
+    assert "squares of 24.2" in ruler.text
+    T_left_plate = RigidTransform(rotation_exp([-2.4, 0.3, 0.2]), np.array([0.0, 0.0, 0.40]))
+    true = T_left_plate @ PLATE.touch
+    rng = np.random.default_rng(5)  # a touch is the mean of a second's pictures
+    seen = [
+        camera.project(true)[0] + NOISE / 30**0.5 * rng.standard_normal((len(true), 2))
+        for camera in (rig.left, rig.right)
+    ]
+    left, right = shrunk.cameras
+    T_right_left = shrunk.pose.transform
+    models = left.model(RigidTransform.identity()), right.model(T_right_left.inverse())
+    touched = triangulated(models[0], models[1], seen[0], seen[1])
+    check = RegistrationCheck.of(PLATE, named(touched))
+    assert check.world.scale.value == pytest.approx(1.0 / PRINTED, abs=0.01)
+    assert check.world.scale.wrong
+    assert not check.trusted
+    (trouble,) = troubles(check)
+    assert "too long" in trouble
+    assert "line of 100 mm" in trouble
+    with pytest.raises(RegistrationError):
+        check.agreement(true.mean(axis=0))
+
+
+@pytest.mark.parametrize(("scale", "least", "most"), [(1.0, 0, 0), (1.0 / 0.97, 190, 200)])
+def test_careful_touches_show_a_print_at_97_percent_and_never_call_a_true_one_wrong(
+    scale: float, least: int, most: int
+) -> None:
+    rng = np.random.default_rng(8)
+    sigma = PLATE.localisation_mm * 1e-3 / 3**0.5
+    found = 0
+    for _ in range(200):
+        pose = RigidTransform(rotation_exp(rng.uniform(-3, 3, 3)), rng.uniform(-0.3, 0.3, 3))
+        points = scale * (pose @ PLATE.touch) + sigma * rng.standard_normal(PLATE.touch.shape)
+        found += check_points(PLATE, PLATE.touch, named(points)).scale.wrong
+    assert least <= found <= most
+
+
+def test_one_misplaced_point_is_called_that_and_no_wrong_scale() -> None:
+    for index in range(len(PLATE.names)):
+        points = PLATE.touch.copy()
+        points[index] += 0.2 * (points[index] - points.mean(axis=0))
+        check = check_points(PLATE, PLATE.touch, named(points))
+        assert not check.scale.wrong

@@ -15,6 +15,7 @@ from app.planning.registration.errors import RegistrationError
 from app.planning.registration.plate import FiducialPlate
 from app.planning.registration.points import NamedPoints
 from app.planning.registration.rigid import RigidFit, rigid_fit
+from app.planning.registration.scale import Scale, scale_of
 from app.planning.registration.uncertainty import (
     FiducialError,
     TargetError,
@@ -41,6 +42,7 @@ class PointCheck:
         outlier: one point that does not belong; None.
         tolerance: of a single residual [m].
         scattered: whether the residuals are larger than careful work explains.
+        scale: of the lengths between the points; a rigid fit does not show it.
     """
 
     names: tuple[str, ...]
@@ -52,10 +54,13 @@ class PointCheck:
     outlier: Outlier | None
     tolerance: float
     scattered: bool
+    scale: Scale
 
     @property
     def trusted(self) -> bool:
-        """Whether the points are what they are named after and no residual is a mistake."""
+        """Whether the points are what they are named after; neither scale nor residual is wrong."""
+        if self.scale.wrong:
+            return False
         within = bool((np.linalg.norm(self.fit.residuals, axis=1) <= self.tolerance).all())
         return within and self.reordering is None and self.outlier is None
 
@@ -97,6 +102,7 @@ def check_points(plate: FiducialPlate, reference: FloatArray, found: NamedPoints
         outlier(fit, tolerance),
         tolerance,
         fit.sum_of_squares > limit,
+        scale_of(fit, variance),
     )
 
 

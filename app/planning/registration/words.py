@@ -75,6 +75,8 @@ def _troubles(verb: str, part: PointCheck) -> list[str]:
             f"fiducials {' and '.join(moved)} were {verb} in another order: exchanged, they fit "
             f"within {_mm(part.reordering.fre)} mm; name them again"
         ]
+    if part.scale.wrong:
+        return [_scale_words(verb, part)]
     if part.outlier is not None:
         name = part.names[part.outlier.index]
         return [
@@ -95,6 +97,20 @@ def _troubles(verb: str, part: PointCheck) -> list[str]:
             f"{_mm(part.fiducial.rms)} mm); the figure below allows for it"
         ]
     return []
+
+
+def _scale_words(verb: str, part: PointCheck) -> str:
+    off = part.scale.value - 1.0
+    what = (
+        f"lengths between the {verb} points are {abs(off):.1%} too {'long' if off > 0 else 'short'}"
+        f" (± {part.scale.sd:.1%})"
+    )
+    if verb == "picked":
+        return f"{what}: the CT's spacing is wrong, or this is another plate"
+    return (
+        f"{what}: the cameras were calibrated with a board of another size than said. Measure its "
+        "line of 100 mm and its squares, calibrate again; or this is another plate"
+    )
 
 
 def _mm(length: float, digits: int = 2) -> str:
