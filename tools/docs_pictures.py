@@ -72,6 +72,7 @@ def main() -> None:
     own_settings("tools.camera_pictures")
     own_settings("tools.calibration_pictures")
     own_settings("tools.eyes_pictures")
+    own_settings("tools.pen_pictures")
     studies()
 
 

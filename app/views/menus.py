@@ -10,6 +10,7 @@ from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu
 
 from app.views.cameras.menu import CamerasMenu
+from app.views.pen.menu import PenMenu
 from app.views.robot.menu import RobotMenu
 from app.views.slices.presets import menu_windows
 from app.views.slices.viewing import Tool
@@ -29,8 +30,10 @@ class Menus:
         self.recent_cts, self.recent_plans = self._file()
         self.undo, self.redo = self._edit()
         self.follow, self.bullseye = self._view()
-        self.robot = RobotMenu(self._menu(tr("&Robot")), window.robot, self._show_health)
+        self.robot = RobotMenu(self._menu(tr("&Robot")), window.robot, self._show_health,
+                               window.pen.open)  # fmt: skip
         self.cameras = CamerasMenu(self._menu(tr("&Cameras")), window.cameras)
+        self.pen = PenMenu(self._menu(tr("&Pen")), window.pen)
         self.errors = self._checks()
         self._sessions()
         self._help()

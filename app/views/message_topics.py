@@ -40,6 +40,7 @@ class MessageTopics:
              (controller.worked, controller.began, ended, runs.ready, runs.gone, hand)),
             ("robot", window.robot.failed, (window.robot.accepted, ended)),
             ("cameras", window.cameras.failed, (window.cameras.accepted, ended)),
+            ("pen", window.pen.failed, (window.pen.changed, ended)),
             ("checks", window.checks.failed, (window.checks.noted, editor.changed, ended)),
         ):  # fmt: skip
             failed.connect(lambda error, topic=topic: self._bar.show_until(topic, error))
@@ -57,7 +58,7 @@ class MessageTopics:
         window.conductor.controller.event_seen.connect(lambda event: tell_pause(bar, event))
 
     def _notes(self, window: MainWindow) -> None:
-        for noted in (window.plan_files.noted, window.checks.noted):
+        for noted in (window.plan_files.noted, window.checks.noted, window.pen.noted):
             noted.connect(self._bar.show_note)
         window.debrief.saved.connect(
             lambda path: self._bar.show_note(tr("Saved {name}", name=path))

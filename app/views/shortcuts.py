@@ -53,6 +53,7 @@ def groups() -> list[Group]:
                 (tr("Esc"), tr("stop placing")),
                 ("Ctrl+Z, Ctrl+Y", tr("undo, redo")),
                 ("Ctrl+S, Ctrl+Shift+S", tr("save plan, save as")),
+                ("F4", tr("pen and webcam: a needle without a robot")),
                 ("Ctrl+O, Ctrl+Shift+O", tr("open CT folder, open plan")),
             ],
         ),

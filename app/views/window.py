@@ -25,6 +25,7 @@ from app.views.message_topics import MessageTopics
 from app.views.notices import Notices
 from app.views.open_ct import OpenCt
 from app.views.patient import Patient
+from app.views.pen.desk import PenDesk
 from app.views.plan.editor import PlanEditor
 from app.views.plan.files import PlanFiles
 from app.views.progress_strip import ProgressStrip
@@ -61,6 +62,7 @@ class MainWindow(QMainWindow):
         self.robot = RobotDesk(services, self.settings, self.conductor, self.runs, self.workspace,
                                self.progress, self)  # fmt: skip
         self.cameras = CamerasDesk(services, self.settings, self.conductor, self.runs, self)
+        self.pen = PenDesk(services, self.robot, self.cameras, self.conductor, self.runs, self)
         self.checks = ChecksDesk(self.conductor, self.editor, self.workspace,
                                  lambda: self.runs.run, self)  # fmt: skip
         self.plan_files = PlanFiles(self.editor, self.recent_plans, self)

@@ -17,6 +17,8 @@ from app.session.needle import DepthSource, NeedlePose
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.camera import Frame
 from app.tracking.cameras.watch import CameraHealth, CameraState
+from app.tracking.pen.webcam import guessed_webcam
+from app.tracking.statistics import TrackerMeter
 from app.views.exercise.run import ExerciseRun
 from app.views.services import RobotPort
 from app.views.slices.viewing import Tool
@@ -99,11 +101,36 @@ class FakeLive:
         self.closed.set()
 
 
+class FakePen(FakeLive):
+    """A pen before a webcam that sees what a test says."""
+
+    def __init__(self, settings, seen=None):
+        super().__init__("webcam")
+        self.opened_with, self.seen, self.fault, self.collect = settings, seen, "", None
+        self.moves = 0.0
+
+    def observed(self):
+        return self.seen
+
+    def statistics(self):
+        return TrackerMeter().statistics(1.0, None, (self.health(),), self.fault)
+
+    def webcam(self):
+        return guessed_webcam((640, 480))
+
+    def speed(self):
+        return self.moves
+
+    def listen(self, collect):
+        self.collect = collect
+
+
 class FakeServices:
     def __init__(self, folder):
         self.folder, self.opened, self.refuses = folder, [], ""
         self.prepared, self.missing = threading.Event(), ""
         self.sources, self.lives = (RobotPort("usb:1-1", "Webcam (usb:1-1)"),), []
+        self.pens, self.seen = [], None
         self.ports, self.benches = (RobotPort("/dev/ttyACM0", "icube A17 on /dev/ttyACM0"),), []
 
     def robots(self):
@@ -123,6 +150,12 @@ class FakeServices:
             raise AcusError(self.refuses)
         self.lives.append(FakeLive(side))
         return self.lives[-1]
+
+    def open_pen(self, settings, progress):
+        if self.refuses:
+            raise AcusError(self.refuses)
+        self.pens.append(FakePen(settings, self.seen))
+        return self.pens[-1]
 
     def aim(self, settings, device, progress):
         outlines = (np.array([[10.0, 10.0], [600.0, 10.0], [300.0, 400.0]]), np.empty((0, 2)))

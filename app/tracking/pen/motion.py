@@ -9,6 +9,9 @@ from app.core.arrays import FloatArray
 OVER = 0.3
 """Time [s] over which a speed is taken."""
 
+_OLD = 0.6
+"""Age [s] from which the newest place says nothing about now."""
+
 
 class Motion:
     """Speed of a point from its places in the last pictures."""
@@ -23,11 +26,14 @@ class Motion:
         self._places.append((time, np.array(p_world)))
 
     def speed(self, now: float) -> float:
-        """Return the mean speed [m/s] over the last `OVER` seconds; 0 with fewer than two places.
+        """Return the mean speed [m/s] over the last `OVER` seconds of places; 0 without any now.
 
         The mean over the span is taken, so that the noise of single pictures counts little.
         """
-        recent = [place for place in list(self._places) if now - place[0] <= OVER]
+        places = list(self._places)
+        if not places or now - places[-1][0] > _OLD:
+            return 0.0
+        recent = [place for place in places if places[-1][0] - place[0] <= OVER]
         if len(recent) < 2:
             return 0.0
         (first, start), (last, end) = recent[0], recent[-1]

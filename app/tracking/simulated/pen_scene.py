@@ -48,14 +48,20 @@ def body_pose(
 
 
 def rocked(p_tip: FloatArray, tip: PenTip) -> PenSceneAt:
-    """Return a pen that is rocked to every side, its tip at rest at a place [m], shape (3,)."""
+    """Return a pen that is rocked to every side, its tip at rest at a place [m], shape (3,).
+
+    A hand that rocks it does not roll it: the same faces look at the webcam.
+    """
+    down = np.array([0.0, 0.0, -1.0])
+    upright = body_pose(p_tip, down, tip.p_tip, tip.axis, _ROLL).rotation
 
     def scene(time: float) -> PenScene:
         swell = 0.5 - 0.5 * np.cos(2.0 * np.pi * time / ROCKING_SWELL)
         way = 2.0 * np.pi * time / ROCKING_ROUND
         lean = np.tan(_LEAST + (_MOST - _LEAST) * swell)
         axis = unit([lean * np.cos(way), lean * np.sin(way), -1.0])
-        roll = _ROLL + 0.3 * np.sin(0.7 * way)
-        return PenScene(body_pose(p_tip, axis, tip.p_tip, tip.axis, roll), p_tip)
+        roll = RigidTransform.exp([0.0, 0.0, 0.0, *(0.2 * np.sin(0.7 * way) * axis)]).rotation
+        rotation = roll @ rotation_between(down, axis) @ upright
+        return PenScene(RigidTransform(rotation, p_tip - rotation @ tip.p_tip), p_tip)
 
     return scene

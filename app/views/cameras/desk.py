@@ -117,7 +117,7 @@ class CamerasDesk(QObject):
     # --- dialogs ------------------------------------------------------------------------------
     def set_up(self) -> None:
         """Choose the sources, with their live pictures."""
-        if self._refused():
+        if self.refused():
             return
         dialog = CameraSettingsDialog(self.chosen, self._services, self.free(), self._window)
         dialog.chosen.connect(self._choose)
@@ -125,7 +125,7 @@ class CamerasDesk(QObject):
 
     def aim(self) -> None:
         """Show the needle's cone in both pictures."""
-        if self._refused() or self._without_real():
+        if self.refused() or self._without_real():
             return
         profile = self._conductor.profile
         device = DEVICE if profile is None else profile.name
@@ -133,7 +133,7 @@ class CamerasDesk(QObject):
 
     def measure_latency(self, side: str) -> None:
         """Measure the latency of the `left` or `right` camera."""
-        if self._refused() or self._without_real():
+        if self.refused() or self._without_real():
             return
         dialog = LatencyDialog(self.chosen, side, self._services, self.free(), self._window)
         dialog.measured.connect(self._keep_latency)
@@ -141,7 +141,7 @@ class CamerasDesk(QObject):
 
     def calibrate(self) -> None:
         """Calibrate both cameras; without real ones from folders of pictures."""
-        if self._refused():
+        if self.refused():
             return
         try:
             dialog = self._wizard(self.chosen)
@@ -232,7 +232,8 @@ class CamerasDesk(QObject):
         ))  # fmt: skip
         return True
 
-    def _refused(self) -> bool:
+    def refused(self) -> bool:
+        """Whether nothing can be opened now: a dialog is, or an attempt runs (which is said)."""
         return self.dialog is not None or self._refused_in_attempt()
 
     def _refused_in_attempt(self) -> bool:

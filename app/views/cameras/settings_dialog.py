@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import (
-    QComboBox,
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
@@ -22,6 +21,7 @@ from app.core.errors import AcusError
 from app.tracking.cameras.settings import SIDES, CameraSettings
 from app.tracking.cameras.source import Kind
 from app.views import theme
+from app.views.cameras.boxes import SizeBox
 from app.views.cameras.live import LiveCamera
 from app.views.cameras.side_editor import SideEditor
 from app.views.text import tr
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.views.services import Services
 
-SIZES = ("640x480", "800x600", "1280x720", "1920x1080")
 QUIET_MS = 500
 """This long after the last change the cameras are opened anew."""
 
@@ -66,7 +65,7 @@ class CameraSettingsDialog(QDialog):
             SideEditor(title, camera, sources, self)
             for title, camera in zip(titles, settings.cameras, strict=True)
         )
-        self.size_box, self.rate = QComboBox(self), QDoubleSpinBox(self)
+        self.size_box, self.rate = SizeBox(settings.size, self), QDoubleSpinBox(self)
         self.note = QLabel(self)
         self.swap = QPushButton(tr("Exchange left and right"))
         self._quiet = QTimer(self, interval=QUIET_MS, singleShot=True)
@@ -80,10 +79,9 @@ class CameraSettingsDialog(QDialog):
         Raises:
             CameraError: if it cannot be used; says why.
         """
-        width, height = (int(part) for part in self.size_box.currentText().split("x"))
         left, right = (side.camera() for side in self.sides)
         changed = self._settings.model_copy(
-            update={"left": left, "right": right, "size": (width, height),
+            update={"left": left, "right": right, "size": self.size_box.size_px(),
                     "rate_hz": self.rate.value()}
         )  # fmt: skip
         changed.check()
@@ -94,9 +92,8 @@ class CameraSettingsDialog(QDialog):
         for side, editor in zip(SIDES, self.sides, strict=True):
             editor.preview.stop()
             try:
-                width, height = (int(part) for part in self.size_box.currentText().split("x"))
                 settings = self._settings.model_copy(
-                    update={side: editor.camera(), "size": (width, height),
+                    update={side: editor.camera(), "size": self.size_box.size_px(),
                             "rate_hz": self.rate.value()}
                 )  # fmt: skip
                 if editor.camera().origin.kind is Kind.SIMULATED:
@@ -159,9 +156,6 @@ class CameraSettingsDialog(QDialog):
         self._quiet.start()
 
     def _lay_out(self, empty: bool) -> None:
-        present = "x".join(str(n) for n in self._settings.size)
-        self.size_box.addItems([s for s in SIZES if s != present] + [present])
-        self.size_box.setCurrentText(present)
         self.rate.setRange(1.0, 240.0)
         self.rate.setDecimals(0)
         self.rate.setSuffix(tr(" per second"))

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFormLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QLabel, QVBoxLayout, QWidget
 
 from app.tracking.cameras.settings import OneCamera
-from app.tracking.cameras.source import Kind, parse_source
+from app.views.cameras.boxes import SourceBox
 from app.views.cameras.live import LivePreview
 from app.views.text import tr
 
@@ -31,15 +31,8 @@ class SideEditor(QWidget):
     ) -> None:
         super().__init__(parent)
         self._camera = camera
-        self.source, self.exposure = QComboBox(self), QDoubleSpinBox(self)
+        self.source, self.exposure = SourceBox(sources, self), QDoubleSpinBox(self)
         self.preview = LivePreview(self)
-        self.source.setEditable(True)
-        for port in sources:
-            self.source.addItem(port.title, port.port)
-        self.source.addItem(tr("Simulated"), Kind.SIMULATED.value)
-        self.source.setToolTip(tr(
-            "A camera that is plugged in, or typed: usb:PORT, folder:PATH, video:PATH"
-        ))  # fmt: skip
         self.exposure.setRange(0.0, 500.0)
         self.exposure.setDecimals(1)
         self.exposure.setSuffix(tr(" ms"))
@@ -61,11 +54,7 @@ class SideEditor(QWidget):
     def show_camera(self, camera: OneCamera) -> None:
         """Show a camera's settings."""
         self._camera = camera
-        index = self.source.findData(camera.source)
-        if index >= 0:
-            self.source.setCurrentIndex(index)
-        else:
-            self.source.setEditText(camera.source)
+        self.source.show_source(camera.source)
         self.exposure.setValue(camera.exposure_ms or 0.0)
 
     def camera(self) -> OneCamera:
@@ -74,8 +63,6 @@ class SideEditor(QWidget):
         Raises:
             CameraError: if the source cannot be read.
         """
-        text = self.source.currentText()
-        known = self.source.findText(text)
-        source = str(parse_source(self.source.itemData(known) if known >= 0 else text))
+        source = self.source.source()
         base = self._camera if source == self._camera.source else OneCamera(source=source)
         return base.model_copy(update={"exposure_ms": self.exposure.value() or None})

@@ -57,7 +57,7 @@ class RobotDesk(QObject):
         self._workspace, self._indicator, self._window = workspace, indicator, parent
         self._opening = False
         self._taken: str | None = None
-        self._pen = ""
+        self._taken_pen: str | None = None
         self.wizard: Wizard | None = None
         self._connect()
         self._apply()
@@ -70,13 +70,27 @@ class RobotDesk(QObject):
 
     def take(self, port: str) -> None:
         """Take a robot until another one is chosen, without remembering it."""
-        self._taken, self._pen = port, ""
+        self._taken, self._taken_pen = port, ""
         self._apply()
 
     @property
     def pen(self) -> str:
         """Source of the webcam of a pen that is used in place of a robot; empty without one."""
-        return self._pen
+        return self.settings.pen if self._taken_pen is None else self._taken_pen
+
+    def use_pen(self, source: str) -> bool:
+        """Use a pen before a webcam in place of the robot, and remember it.
+
+        Args:
+            source: of the webcam's pictures; empty to use the robot again.
+
+        Returns whether it is done: it is refused while an attempt runs.
+        """
+        if self._refused_in_attempt():
+            return False
+        self.settings.pen, self._taken, self._taken_pen = source, None, None
+        self._apply()
+        return True
 
     def take_pen(self, source: str) -> None:
         """Take a pen before a webcam in place of the robot, until a robot is chosen.
@@ -84,7 +98,7 @@ class RobotDesk(QObject):
         Refused while an attempt runs.
         """
         if not self._refused_in_attempt():
-            self._taken, self._pen = "", source
+            self._taken, self._taken_pen = "", source
             self._apply()
 
     def ports(self) -> tuple[RobotPort, ...]:
@@ -104,7 +118,8 @@ class RobotDesk(QObject):
         """Take another robot; empty for the simulated one. Refused while an attempt runs."""
         if self._refused_in_attempt():
             return
-        self.settings.port, self._taken, self._pen = port, None, ""
+        self.settings.port, self.settings.pen = port, ""
+        self._taken = self._taken_pen = None
         self._apply()
         if not self._opening:
             self._conductor.take_again()  # one that failed before may be there now
@@ -208,26 +223,9 @@ class RobotDesk(QObject):
         source = self._workspace.bullseye.source
         if remembered.hand and remembered.hand != source.name:
             source.set_source(remembered.hand)
-        held = not self._pen and (bool(self.port) or remembered.practise_holding)
-        self._conductor.set_robot(RobotChoice(self.port, held, self._pen))
+        held = not self.pen and (bool(self.port) or remembered.practise_holding)
+        self._conductor.set_robot(RobotChoice("" if self.pen else self.port, held, self.pen))
         self.changed.emit()
-
-    def ask_pen(self) -> None:
-        """Ask for the webcam that sees a pen with printed markers, and take the pen."""
-        dialog = QInputDialog(self._window)
-        dialog.setWindowTitle(tr("Pen and webcam"))
-        dialog.setLabelText(tr(
-            "Webcam that sees the pen and its sheet: usb:0, usb:PORT, folder:PATH, video:PATH or "
-            "simulated (docs/pen.md; `acus pen print` prints the pen)"
-        ))  # fmt: skip
-        dialog.setTextValue(self.pen or "usb:0")
-        dialog.textValueSelected.connect(self._take_typed_pen)
-        dialog.finished.connect(dialog.deleteLater)
-        dialog.open()
-
-    def _take_typed_pen(self, text: str) -> None:
-        if text.strip():
-            self.take_pen(text.strip())
 
     def _choose_typed(self, text: str) -> None:
         if text.strip():

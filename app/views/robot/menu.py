@@ -14,10 +14,23 @@ from app.views.text import tr
 
 
 class RobotMenu:
-    """Fills a menu with what `RobotDesk` does; `show_health` brings the panel to the front."""
+    """Fills a menu with what `RobotDesk` does.
 
-    def __init__(self, menu: QMenu, desk: RobotDesk, show_health: Callable[[], object]) -> None:
-        self._desk = desk
+    Args:
+        menu: to fill.
+        desk: that does it.
+        show_health: brings the panel to the front.
+        open_pen: opens the page of the pen that stands in for a robot.
+    """
+
+    def __init__(
+        self,
+        menu: QMenu,
+        desk: RobotDesk,
+        show_health: Callable[[], object],
+        open_pen: Callable[[], object],
+    ) -> None:
+        self._desk, self._open_pen = desk, open_pen
         self.robots = menu.addMenu(tr("Use"))
         self.robots.aboutToShow.connect(self._fill_robots)
         self._add(menu, tr("Robot's health"), show_health, "F8")
@@ -53,7 +66,7 @@ class RobotMenu:
             self.robots.addAction(tr("no other robot is plugged in")).setEnabled(False)
         self.robots.addSeparator()
         self._add(self.robots, tr("Other port…"), self._desk.ask_port)
-        pen = self._add(self.robots, tr("No robot: pen and webcam…"), self._desk.ask_pen)
+        pen = self._add(self.robots, tr("No robot: pen and webcam…"), self._open_pen)
         pen.setCheckable(True)
         pen.setChecked(bool(self._desk.pen))
 

@@ -24,6 +24,15 @@ class RobotSettings:
         self._settings.setValue("robot/port", port)
 
     @property
+    def pen(self) -> str:
+        """Source of the webcam of the pen that is used in place of a robot; empty for a robot."""
+        return str(self._settings.value("robot/pen") or "")
+
+    @pen.setter
+    def pen(self, source: str) -> None:
+        self._settings.setValue("robot/pen", source)
+
+    @property
     def hand(self) -> str:
         """Source of the simulated hand by name; empty for the default."""
         return str(self._settings.value("robot/hand") or "")

@@ -1,0 +1,171 @@
+"""Which pen and which webcam, and printing the pen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QStandardPaths, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.errors import AcusError
+from app.tracking.pen.body import load_pen, shipped_pens
+from app.tracking.pen.settings import PenSettings
+from app.views import theme
+from app.views.cameras.board_layout import PAPERS
+from app.views.cameras.boxes import SizeBox, SourceBox
+from app.views.cameras.wizard_parts import button, label, tell
+from app.views.exercise.status_items import Verdict
+from app.views.pen.lens_box import LensBox
+from app.views.pen.net_page import write_pen
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.views.services import RobotPort
+
+
+class PenChoice(QWidget):
+    """Pen, size, webcam, lens.
+
+    Args:
+        settings: the present ones.
+        sources: webcams that are plugged in.
+        parent: the page.
+
+    Signals:
+        changed(): the user chose something.
+    """
+
+    changed = Signal()
+
+    def __init__(
+        self, settings: PenSettings, sources: Sequence[RobotPort], parent: QWidget | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._settings = settings
+        self.body, self.edge = QComboBox(self), QDoubleSpinBox(self)
+        self.source, self.size_box = SourceBox(sources, self), SizeBox(settings.size, self)
+        self.lens, self.paper = LensBox(settings, self), QComboBox(self)
+        self.print, self.note = button(tr("Save as PDF to print…")), label(role="dim")
+        self._fill(settings)
+        self._lay_out()
+        self._connect()
+        self._enable()
+
+    def settings(self) -> PenSettings:
+        """Return what is chosen.
+
+        Raises:
+            AcusError: if it cannot be used; says why.
+        """
+        name = str(self.body.currentData())
+        edge, usual = round(self.edge.value(), 1), load_pen(name).body.edge_mm
+        calibration, camera = self.lens.chosen()
+        return self._settings.model_copy(update={
+            "source": self.source.source(), "size": self.size_box.size_px(), "pen": name,
+            "edge_mm": None if abs(edge - usual) < 0.05 else edge,
+            "calibration": calibration, "camera": camera,
+        })  # fmt: skip
+
+    def write(self, path: Path) -> None:
+        """Write the net as a PDF; what is wrong is shown."""
+        self.note.show()
+        try:
+            chosen = self.settings()
+            pen = load_pen(chosen.pen)
+            pen = pen if chosen.edge_mm is None else pen.resized(chosen.edge_mm)
+            write_pen(path, pen, PAPERS[self.paper.currentText()])
+        except AcusError as error:
+            tell(self.note, Verdict.BAD, str(error))
+            return
+        tell(self.note, Verdict.GOOD, tr(
+            "written to {file}: print it at 100 %, check the line of 100 mm, cut, fold, glue",
+            file=path.name,
+        ))  # fmt: skip
+
+    def _ask(self) -> None:
+        folder = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
+        start = str(Path(folder) / "acus-pen.pdf")
+        answer, _ = QFileDialog.getSaveFileName(self, tr("Save the pen"), start, tr("PDF (*.pdf)"))
+        if answer:
+            path = Path(answer)
+            self.write(path if path.suffix else path.with_suffix(".pdf"))
+
+    def _enable(self) -> None:
+        """Let size and lens be chosen where they are not known: a simulated webcam's are."""
+        try:
+            simulated = self.settings().simulated
+        except AcusError:
+            simulated = False  # said by the page
+        for box in (self.size_box, self.lens):
+            box.setEnabled(not simulated)
+
+    def _take_body(self) -> None:
+        """Another pen: its own size."""
+        self.edge.blockSignals(True)
+        self.edge.setValue(load_pen(str(self.body.currentData())).body.edge_mm)
+        self.edge.blockSignals(False)
+        self.changed.emit()
+
+    def _fill(self, settings: PenSettings) -> None:
+        names = shipped_pens()
+        for name in [*names, *([] if settings.pen in names else [settings.pen])]:
+            self.body.addItem(Path(name).stem.capitalize(), name)
+        self.body.setCurrentIndex(self.body.findData(settings.pen))
+        self.body.setToolTip(tr(
+            "Cube: five faces, also seen from above. Ring: six faces round the shaft"
+        ))  # fmt: skip
+        self.edge.setRange(10.0, 100.0)
+        self.edge.setDecimals(1)
+        self.edge.setSuffix(" mm")
+        self.edge.setToolTip(tr("Edge of a face. Larger is more accurate, and heavier"))
+        usual = load_pen(settings.pen).body.edge_mm
+        self.edge.setValue(usual if settings.edge_mm is None else settings.edge_mm)
+        self.source.show_source(settings.source)
+        self.size_box.setToolTip(tr("Width and height of the webcam's pictures"))
+        self.paper.addItems(list(PAPERS))
+        self.paper.setToolTip(tr("Paper of the printer"))
+        self.print.setToolTip(tr("The net of the pen and the sheet for the table, at true size"))
+
+    def _lay_out(self) -> None:
+        form = QFormLayout()
+        form.setVerticalSpacing(theme.SPACING)
+        form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.AllNonFixedFieldsGrow)
+        named = QLabel(tr("&Pen"))
+        named.setBuddy(self.body)
+        form.addRow(named, _beside(self.body, self.edge))
+        form.addRow(tr("&Webcam"), self.source)
+        form.addRow(tr("Pictures"), self.size_box)
+        form.addRow(tr("&Lens"), self.lens)
+        form.addRow(tr("Print"), _beside(self.paper, self.print))
+        rows = QVBoxLayout(self)
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.addLayout(form)
+        rows.addWidget(self.note)
+        self.note.hide()
+
+    def _connect(self) -> None:
+        self.body.currentIndexChanged.connect(lambda _: self._take_body())
+        self.edge.valueChanged.connect(lambda _: self.changed.emit())
+        for box in (self.source, self.size_box):
+            box.currentTextChanged.connect(lambda _: self.changed.emit())
+        self.lens.changed.connect(self.changed)
+        self.changed.connect(self._enable)
+        self.print.clicked.connect(lambda _=False: self._ask())
+
+
+def _beside(first: QWidget, second: QWidget) -> QHBoxLayout:
+    row = QHBoxLayout()
+    row.addWidget(first)
+    row.addWidget(second, 1)
+    return row

@@ -1,0 +1,250 @@
+"""Measuring the tip, step by step: rock the pen, see what is missing, keep or drop the result."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from PySide6.QtCore import QTimer, Signal
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
+
+from app.core.errors import AcusError
+from app.tracking.pen.calibrating import WANTED, PenCalibration
+from app.tracking.pen.kept import can_undo, save_pen, undo_pen
+from app.tracking.pen.rocking import Rocking
+from app.tracking.pen.settings import PenSettings
+from app.views import theme
+from app.views.background import Task, run_in_background
+from app.views.cameras.wizard_parts import button, label, tell
+from app.views.exercise.status_items import Verdict
+from app.views.pen.directions_view import DirectionsView
+from app.views.pen.status import Lines
+from app.views.pen.words import Line, result_lines, tip_line
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.views.pen.port import LivePen
+
+POLL_MS: Final = 100
+
+
+class TipStep(QWidget):
+    """Collects positions of a pen that is rocked, computes the tip beside the window, keeps it.
+
+    Signals:
+        kept(): another tip is in use: saved, or taken back.
+    """
+
+    kept = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._settings: PenSettings | None = None
+        self._live: LivePen | None = None
+        self.rocking: Rocking | None = None
+        self.found: PenCalibration | None = None
+        self._task: Task | None = None
+        self.directions, self.bar = DirectionsView(self), QProgressBar(self)
+        self.state, self.lines = label(), Lines(4, self)
+        self.begin = button(tr("&Measure the tip"))
+        self.compute = button(tr("Compute now"))
+        self.stop = button(tr("Stop"))
+        self.save = button(tr("&Save"), "primary")
+        self.undo = button(tr("Undo"))
+        self._timer = QTimer(self, interval=POLL_MS)
+        self._timer.timeout.connect(self.look)
+        self._lay_out()
+        self._connect()
+        self.refresh()
+
+    @property
+    def running(self) -> bool:
+        """Whether positions are collected or the tip is computed."""
+        return self.rocking is not None or self._task is not None
+
+    def set_pen(self, settings: PenSettings | None, live: LivePen | None) -> None:
+        """Measure another pen; None while there is none. What was collected is dropped."""
+        if self.running:
+            self.end(tr("stopped: pen or webcam are others now"))
+        if settings != self._settings:
+            self.found = None
+        self._settings, self._live = settings, live
+        self.refresh()
+
+    def start(self) -> None:
+        """Begin to collect."""
+        if self._live is None or self.running:
+            return
+        self.found = None
+        self.rocking = Rocking()
+        self._live.listen(self.rocking.add)
+        self._timer.start()
+        self.refresh()
+        self.look()
+
+    def end(self, why: str = "") -> None:
+        """Stop and drop what was collected; idempotent."""
+        self._release()
+        self._task = None  # what it finds is not taken any more
+        self.bar.setValue(0)
+        self.refresh()
+        if why:
+            tell(self.state, Verdict.IDLE, why)
+
+    def look(self) -> None:
+        """Show how far it is; compute once there is enough."""
+        rocking = self.rocking
+        if rocking is None:
+            return
+        self.directions.show_leans(rocking.covered, rocking.now)
+        self.bar.setValue(round(1000 * rocking.progress))
+        self.compute.setEnabled(rocking.computable)
+        count, missing = len(rocking.collector.poses), rocking.missing
+        words = tr("{n} of {all} positions", n=min(count, WANTED), all=WANTED)
+        if missing:
+            words += tr("; still missing: {side}", side=tr(missing[0]))
+        elif count < WANTED:
+            words += tr("; all sides are covered, go on rocking")
+        tell(self.state, Verdict.IDLE, words)
+        if rocking.enough:
+            self.finish()
+
+    def finish(self) -> None:
+        """Compute the tip from what there is, beside the window."""
+        rocking, settings = self.rocking, self._settings
+        if rocking is None or settings is None:
+            return
+        self._release()
+
+        def operation(_: object) -> PenCalibration:
+            return rocking.collector.finish(settings.profile())
+
+        task = self._task = run_in_background(
+            self, operation,
+            lambda found: self._take(found) if self._task is task else None,
+            lambda error: self._refuse(error) if self._task is task else None,
+        )  # fmt: skip
+        tell(self.state, Verdict.IDLE, tr("computing …"))
+        self.refresh()
+
+    def keep(self) -> None:
+        """Keep the tip that was found, and use it."""
+        if self.found is None or self._settings is None:
+            return
+        try:
+            save_pen(self.found.pen, self._settings.kept_name)
+        except (AcusError, OSError) as error:
+            tell(self.state, Verdict.BAD, str(error))
+            return
+        self.found = None
+        self.refresh()
+        tell(self.state, Verdict.GOOD, tr("saved and in use"))
+        self.kept.emit()
+
+    def take_back(self) -> None:
+        """Use the tip before this one; once more uses this one again."""
+        if self._settings is None:
+            return
+        try:
+            measured = undo_pen(self._settings.kept_name)
+        except OSError as error:
+            tell(self.state, Verdict.BAD, str(error))
+            return
+        self.refresh()
+        told = tr("the tip before is in use") if measured else tr("the drawing's tip is in use")
+        tell(self.state, Verdict.GOOD, told)
+        self.kept.emit()
+
+    def refresh(self) -> None:
+        """Enable what can be done now."""
+        ready = self._live is not None and not self.running
+        collecting, practice = self.rocking is not None, self._simulated
+        self.begin.setVisible(not collecting)
+        self.begin.setEnabled(ready)
+        self.begin.setText(
+            tr("&Measure anew") if self.found is not None else tr("&Measure the tip")
+        )
+        for one in (self.compute, self.stop):
+            one.setVisible(collecting)
+        self.save.setVisible(self.found is not None)
+        self.save.setEnabled(not practice)
+        self.save.setToolTip(
+            tr("A simulated pen's tip is not kept: it would be taken for the real one's")
+            if practice else tr("Keep this tip; it is used from now on")
+        )  # fmt: skip
+        name = "" if self._settings is None else self._settings.kept_name
+        self.undo.setEnabled(ready and bool(name) and can_undo(name))
+        if not self.running:
+            self.lines.show_lines(() if self.found is None else result_lines(self.found))
+        if not self.running and self.found is None:
+            self._show_tip()
+
+    @property
+    def _simulated(self) -> bool:
+        return self._settings is not None and self._settings.simulated
+
+    def _show_tip(self) -> None:
+        self.directions.show_leans(frozenset(), None)
+        self.bar.setValue(0)
+        if self._settings is None:
+            return
+        try:
+            line = tip_line(self._settings.profile())
+        except AcusError as error:
+            line = Line(Verdict.BAD, str(error))
+        tell(self.state, line.verdict, line.text)
+
+    def _take(self, found: PenCalibration) -> None:
+        self._task, self.found = None, found
+        self.bar.setValue(1000)
+        self.refresh()
+        practised = tr("done; a simulated pen is practice only and is not kept")
+        words = practised if self._simulated else tr("measured, not saved yet")
+        tell(self.state, Verdict.GOOD if self._simulated else Verdict.WARNING, words)
+
+    def _refuse(self, error: Exception) -> None:
+        self._task = None
+        self.refresh()
+        tell(self.state, Verdict.BAD, str(error))
+
+    def _release(self) -> None:
+        """Collect no more; what was collected stays with whoever holds it."""
+        self._timer.stop()
+        self.rocking = None
+        if self._live is not None:
+            self._live.listen(None)
+
+    def _lay_out(self) -> None:
+        self.bar.setRange(0, 1000)
+        self.bar.setTextVisible(False)
+        self.bar.setFixedHeight(10)
+        self.undo.setToolTip(tr("Use the tip before this one; once more uses this one again"))
+        self.compute.setToolTip(tr("Do not wait for all positions and sides"))
+        words = label(tr(
+            "Stand the tip in a dimple on the sheet, hold it there, and rock the pen slowly to "
+            "every side, by 30°."
+        ), "dim")  # fmt: skip
+        beside = QVBoxLayout()
+        beside.addWidget(words)
+        beside.addWidget(self.bar)
+        beside.addWidget(self.state)
+        beside.addStretch(1)
+        upper = QHBoxLayout()
+        upper.addWidget(self.directions)
+        upper.addLayout(beside, 1)
+        buttons = QHBoxLayout()
+        for one in (self.begin, self.compute, self.stop, self.save, self.undo):
+            buttons.addWidget(one)
+        buttons.addStretch(1)
+        rows = QVBoxLayout(self)
+        rows.setContentsMargins(0, 0, 0, 0)
+        rows.setSpacing(theme.SPACING)
+        rows.addLayout(upper)
+        rows.addWidget(self.lines)
+        rows.addLayout(buttons)
+
+    def _connect(self) -> None:
+        self.begin.clicked.connect(lambda _=False: self.start())
+        self.compute.clicked.connect(lambda _=False: self.finish())
+        self.stop.clicked.connect(lambda _=False: self.end(tr("stopped, nothing is changed")))
+        self.save.clicked.connect(lambda _=False: self.keep())
+        self.undo.clicked.connect(lambda _=False: self.take_back())
