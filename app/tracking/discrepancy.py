@@ -5,6 +5,7 @@ other. A single one means little; over the last seconds each cause leaves its ow
 
 - a bumped camera: the pictures miss each other (epipolar residual) or the band is beside the line
   by the same amount wherever the needle is;
+- swapped cameras: the pictures agree with left and right exchanged only;
 - a bent needle: the pictures agree, and the band is beside the line the more, the deeper it is and
   the harder the hand pushes sideways, along that force;
 - a robot or cameras turned: the axis by two bands on the shaft leans to the robot's by the same
@@ -21,6 +22,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
+from app.tracking.discrepancy_words import BUMPED, SWAPPED, bent, lean, slipped, unclear
 
 WINDOW: Final = 300
 """Fixes that are looked at: 10 s of 30 Hz."""
@@ -30,6 +32,9 @@ ENOUGH: Final = 45
 
 EPIPOLAR_LIMIT: Final = 3.0
 """Median residual of the pictures, in standard deviations of one, from which a camera has moved."""
+
+LARGEST_BEND: Final = 8.0 * MILLIMETRE
+"""A band further beside the line than this [m] is no bent needle's."""
 
 BESIDE_LIMIT: Final = 3.0
 """RMS distance from the line, in standard deviations, from which there is a cause."""
@@ -46,6 +51,9 @@ TURN_LIMIT: Final = 3.0
 SLIP_LIMIT: Final = 0.5 * MILLIMETRE
 """Mean axial error at touches [m] from which the marker has slipped."""
 
+_NOWHERE: Final = 1000.0
+"""What counts as the residual of pictures whose rays do not meet [standard deviations]."""
+
 _FORCE: Final = 0.3
 """RMS sideways force [N] from which its direction is believed."""
 
@@ -57,6 +65,7 @@ class Cause(StrEnum):
     BENT_NEEDLE = "bent_needle"
     SLIPPED_MARKER = "slipped_marker"
     BUMPED_CAMERA = "bumped_camera"
+    SWAPPED_CAMERAS = "swapped_cameras"
     TURNED = "turned"  # the axis by two bands is not the robot's
     UNCLEAR = "unclear"  # they disagree, and no cause explains how
 
@@ -94,6 +103,8 @@ class Evidence:
         turn: rotation from the robot's axis to that by two bands [rad], shape (3,), world; None
             where both are not seen.
         turn_sigma: standard deviation that this should have about either normal [rad].
+        exchanged: whether the pictures fit with left and right exchanged only; nothing else of such
+            a pair counts.
     """
 
     depth: float
@@ -103,6 +114,17 @@ class Evidence:
     force: FloatArray
     turn: FloatArray | None = None
     turn_sigma: float = 0.0
+    exchanged: bool = False
+
+    @classmethod
+    def of_exchanged(cls) -> "Evidence":
+        """Evidence of a pair that fits with left and right exchanged only."""
+        return cls(0.0, np.zeros(3), 1.0, 0.0, np.zeros(3), exchanged=True)
+
+    @classmethod
+    def of_rays_that_miss(cls) -> "Evidence":
+        """Evidence of a pair whose rays meet nowhere before both cameras."""
+        return cls(0.0, np.zeros(3), 1.0, _NOWHERE, np.zeros(3))
 
 
 class DiscrepancyMonitor:
@@ -131,9 +153,11 @@ class DiscrepancyMonitor:
 
     def verdict(self) -> Discrepancy:
         """Say what the evidence so far means."""
-        if len(self._evidence) >= ENOUGH:
-            found = self._beside()
-            found = self._turned(found)
+        evidence = [one for one in self._evidence if not one.exchanged]
+        if len(self._evidence) - len(evidence) >= ENOUGH:
+            return Discrepancy(Cause.SWAPPED_CAMERAS, words=SWAPPED)
+        if len(evidence) >= ENOUGH:
+            found = self._turned(self._beside(evidence))
             if found.cause is not Cause.NONE:
                 return found
         else:
@@ -142,7 +166,7 @@ class DiscrepancyMonitor:
             slip = float(np.mean(self._touches))
             scatter = float(np.std(self._touches)) / np.sqrt(len(self._touches))
             if abs(slip) > max(SLIP_LIMIT, 3.0 * scatter):
-                return Discrepancy(Cause.SLIPPED_MARKER, found.beside, abs(slip), _slipped(slip))
+                return Discrepancy(Cause.SLIPPED_MARKER, found.beside, abs(slip), slipped(slip))
         return found
 
     def _turned(self, found: Discrepancy) -> Discrepancy:
@@ -153,17 +177,16 @@ class DiscrepancyMonitor:
         turn = float(np.linalg.norm(np.mean([turn for turn, _ in both], axis=0)))
         sigma = float(np.median([sigma for _, sigma in both]))
         if found.cause is Cause.NONE and turn > TURN_LIMIT * sigma:
-            return replace(found, cause=Cause.TURNED, turn=turn, words=_lean(turn))
+            return replace(found, cause=Cause.TURNED, turn=turn, words=lean(turn))
         return replace(found, turn=turn)
 
-    def _beside(self) -> Discrepancy:
-        evidence = list(self._evidence)
+    def _beside(self, evidence: list[Evidence]) -> Discrepancy:
         beside = np.array([e.beside for e in evidence])
         sigma = np.array([e.sigma for e in evidence])
         rms = float(np.sqrt(np.mean(np.sum(beside**2, axis=1))))
         epipolar = float(np.median([e.epipolar for e in evidence]))
-        if abs(epipolar) > EPIPOLAR_LIMIT:
-            return Discrepancy(Cause.BUMPED_CAMERA, rms, rms, _BUMPED)
+        if abs(epipolar) > EPIPOLAR_LIMIT or rms > LARGEST_BEND:
+            return Discrepancy(Cause.BUMPED_CAMERA, rms, rms, BUMPED)
         if np.mean(np.sum(beside**2, axis=1) / (2.0 * sigma**2)) < BESIDE_LIMIT**2:
             return Discrepancy(beside=rms)
         return _explained(evidence, beside, rms)
@@ -188,39 +211,7 @@ def _explained(evidence: list[Evidence], beside: FloatArray, rms: float) -> Disc
         left_by_bend < EXPLAINED * left_by_shift and np.ptp(depth) > SPREAD
     ):
         size = float(np.max(np.linalg.norm(beside, axis=1)))
-        return Discrepancy(Cause.BENT_NEEDLE, rms, size, _bent(size))
+        return Discrepancy(Cause.BENT_NEEDLE, rms, size, bent(size))
     if left_by_shift < least and np.ptp(depth) > SPREAD:
-        return Discrepancy(Cause.BUMPED_CAMERA, rms, float(np.linalg.norm(constant)), _BUMPED)
-    return Discrepancy(Cause.UNCLEAR, rms, rms, _unclear(rms))
-
-
-_BUMPED: Final = (
-    "the cameras see the needle beside the robot's line wherever it is: a camera was moved; run "
-    "the morning check, and calibrate again if it fails"
-)
-
-
-def _bent(size: float) -> str:
-    return f"the needle bends: up to {size / MILLIMETRE:.1f} mm off its line at the band"
-
-
-def _lean(turn: float) -> str:
-    return (
-        f"the cameras see the needle turned by {np.degrees(turn):.1f}° from the robot's direction: "
-        "home the robot again, then run the morning check"
-    )
-
-
-def _unclear(rms: float) -> str:
-    return (
-        f"the cameras see the needle {rms / MILLIMETRE:.1f} mm beside the robot's line: move it "
-        "through its whole depth to tell a bent needle from a camera that was moved"
-    )
-
-
-def _slipped(slip: float) -> str:
-    where = "towards the tip" if slip > 0.0 else "towards the hub"
-    return (
-        f"the tip touches known places {abs(slip) / MILLIMETRE:.1f} mm from where the cameras see "
-        f"it: the marker has slipped {where}; set it back to its mark"
-    )
+        return Discrepancy(Cause.BUMPED_CAMERA, rms, float(np.linalg.norm(constant)), BUMPED)
+    return Discrepancy(Cause.UNCLEAR, rms, rms, unclear(rms))

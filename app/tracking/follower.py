@@ -1,7 +1,10 @@
 """Follows the marker through both cameras' pictures and brings its pixels to one time."""
 
+from dataclasses import replace
+
 from app.core.arrays import FloatArray
 from app.tracking.agreement import EpipolarGate, Pairing
+from app.tracking.amiss import certain_pair, fits_exchanged
 from app.tracking.cameras.feed import Pair
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix, Miss, MissReason
@@ -36,6 +39,12 @@ class MarkerFollower:
         self._gate = gate
         self._tracks = (PixelTrack(), PixelTrack())
         self._p_world: FloatArray | None = None
+        self._exchanged = False
+
+    @property
+    def exchanged(self) -> bool:
+        """Whether the last pictures fit with left and right exchanged, and not as they came."""
+        return self._exchanged
 
     def use(self, extractors: tuple[Extractor, Extractor]) -> None:
         """Find the marker by other extractors from the next picture on; any thread may call it."""
@@ -44,6 +53,7 @@ class MarkerFollower:
     def find(self, frames: Pair, axis: FloatArray | None, time: float) -> Markers:
         """Marker in each picture; of several red things the pair that geometry and robot allow."""
         markers: list[Found] = [None, None]
+        self._exchanged = False
         for i, (frame, track) in enumerate(zip(frames, self._tracks, strict=True)):
             if frame is not None and (predicted := track.predict(frame.time)) is not None:
                 hint = Hint(predicted, self._p_world, axis)
@@ -90,11 +100,18 @@ class MarkerFollower:
             pairings = self._pairings(candidates, frames)
         agreeing = [pair for pair in pairings if pair.agrees]
         if agreeing:
-            return self._chosen(agreeing, markers, frames, axis, time)
+            chosen = self._chosen(agreeing, markers, frames, axis, time)
+            if any(isinstance(one, MarkerFix) for one in chosen) or self._distance is not None:
+                return chosen
+            return self._amiss(candidates, frames, axis) or _unproven(agreeing[0])
+        if pairings and (amiss := self._amiss(candidates, frames, axis)) is not None:
+            return amiss
         if pairings and not pairings[0].hopeless:  # a bumped camera: the solver says how far off
             near = pairings[:1]  # or outlines far from their bands' centres, which the axis tells
             if self._distance is None:
-                return self._chosen(near, markers, frames, axis, time)
+                chosen = self._chosen(near, markers, frames, axis, time)
+                one_found = any(isinstance(one, MarkerFix) for one in chosen)
+                return chosen if one_found else _unproven(near[0])
             return [near[0].first, near[0].second]
         best = [found[0] if found else None for found in candidates]
         if pairings:  # the marker that is followed goes on; what has no partner is none
@@ -108,6 +125,20 @@ class MarkerFollower:
             else self._closer(i, frames, one, None, axis)
             for i, (one, marker) in enumerate(zip(best, markers, strict=True))
         ]  # fmt: skip
+
+    def _amiss(
+        self, candidates: list[list[Found]], frames: Pair, axis: FloatArray | None
+    ) -> list[Found] | None:
+        """Look for signs of a camera that was moved, or of left and right exchanged."""
+        if self._distance is not None or axis is None:
+            return None
+        certain = certain_pair(self._extractors, frames, candidates, axis)
+        if certain is not None:
+            return list(certain)
+        if not fits_exchanged(self._extractors, self._gate, frames, candidates, axis):
+            return None
+        self._exchanged = True
+        return [Miss(MissReason.EXCHANGED), Miss(MissReason.EXCHANGED)]
 
     def _pairings(self, candidates: list[list[Found]], frames: Pair) -> list[Pairing]:
         firsts, seconds = (
@@ -143,7 +174,10 @@ class MarkerFollower:
                     self._closer(i, frames, one, p_world, axis)
                     for i, one in enumerate((pair.first, pair.second))
                 ]
-        return [best.first, best.second]  # a moving pair needs its track
+        return [  # a moving pair needs its track
+            self._closer(i, frames, one, None, axis)
+            for i, one in enumerate((best.first, best.second))
+        ]
 
     def _solved(self, pair: Pairing, axis: FloatArray, time: float) -> NeedleFix:
         return self._solver.solve((Sighting.of(pair.first), Sighting.of(pair.second)), axis, time)
@@ -186,6 +220,11 @@ class MarkerFollower:
 
 def _either(found: MarkerFix) -> Miss:
     return Miss(MissReason.ONE_OF_TWO, found.uv)
+
+
+def _unproven(pair: Pairing) -> list[Found]:
+    """Two outlines in which no fit finds the band: they tell people what is amiss, no more."""
+    return [replace(one, alone=False) for one in (pair.first, pair.second)]
 
 
 def _unpaired(found: MarkerFix) -> Miss:

@@ -7,19 +7,22 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.units import MILLIMETRE
-from app.tracking.discrepancy import Cause, Discrepancy, DiscrepancyMonitor, Evidence
+from app.tracking.discrepancy import (
+    LARGEST_BEND,
+    Cause,
+    Discrepancy,
+    DiscrepancyMonitor,
+    Evidence,
+)
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.fusion import DIRECTION_SIGMA
-
-LARGEST_BEND: Final = 8.0 * MILLIMETRE
-"""A band further beside the line than this [m] is no bent needle's."""
 
 _PICTURES_AGREE: Final = 4.5
 """Epipolar residual [standard deviations] up to which both pictures show the same thing."""
 
 _GROSS: Final = 60.0
-"""Epipolar residual [standard deviations] beyond which the pictures show two things."""
+"""Epipolar residual [standard deviations] beyond which the pictures show two things, unless both
+finds are certain."""
 
 _EVERY: Final = 15
 """Fixes between two verdicts; they take longer than a fix."""
@@ -47,16 +50,33 @@ class FixHealth:
         self._verdict = Discrepancy()
         self._count = 0
 
-    def look(self, fix: NeedleFix, axis: FloatArray | None) -> NeedleFix:
+    def look(
+        self,
+        fix: NeedleFix,
+        axis: FloatArray | None,
+        certain: bool = False,
+        exchanged: bool = False,
+    ) -> NeedleFix:
         """Return the fix with what is known of the discrepancy.
 
         A fix that only the line contradicts is a measurement all the same once the needle is known
         to bend: the pictures agree on where the band is.
+
+        Args:
+            fix: by the solver.
+            axis: needle's direction by the robot.
+            certain: whether both pictures show a thing that can be nothing but the marker, so that
+                a camera was moved, however far they are apart.
+            exchanged: whether the pictures fit with left and right exchanged only.
         """
-        if fix.line_variance is None or axis is None or not _near(fix):
+        if exchanged:
+            self._add(Evidence.of_exchanged())
+        elif certain and fix.status is FixStatus.INCONSISTENT and not fix.has_point:
+            self._add(Evidence.of_rays_that_miss())
+        if fix.line_variance is None or axis is None or not (certain or _near(fix)):
             return replace(fix, discrepancy=self._verdict)
         self._gather(fix, axis, fix.line_variance)
-        bent = self._verdict.cause is Cause.BENT_NEEDLE and abs(fix.epipolar) <= _PICTURES_AGREE
+        bent = self._verdict.cause is Cause.BENT_NEEDLE and _may_be_bent(fix)
         if bent and (fix.usable or fix.status is FixStatus.INCONSISTENT):
             fix = replace(fix, status=FixStatus.VALID, reason="", covariance=self._of_bent(fix))
         return replace(fix, discrepancy=self._verdict)
@@ -75,7 +95,7 @@ class FixHealth:
         force = self._force(fix.time)
         sideways = np.zeros(3) if force is None else force - (force @ axis) * axis
         sigma = np.sqrt(line_variance + float(np.trace(fix.covariance)) / 3.0)
-        self.monitor.add(
+        self._add(
             Evidence(
                 fix.depth - self._offset,
                 fix.beside,
@@ -85,6 +105,9 @@ class FixHealth:
                 *_turn(fix, axis),
             )
         )
+
+    def _add(self, evidence: Evidence) -> None:
+        self.monitor.add(evidence)
         self._count += 1
         if self._count % _EVERY:
             return
@@ -101,6 +124,14 @@ def _turn(fix: NeedleFix, axis: FloatArray) -> tuple[FloatArray | None, float]:
     return np.cross(axis, fix.axis_world), float(np.sqrt(variance))
 
 
+def _may_be_bent(fix: NeedleFix) -> bool:
+    return abs(fix.epipolar) <= _PICTURES_AGREE and _beside(fix) <= LARGEST_BEND
+
+
+def _beside(fix: NeedleFix) -> float:
+    return float(np.linalg.norm(fix.beside))
+
+
 def _near(fix: NeedleFix) -> bool:
     """Whether this may be the needle at all, and not two other red things."""
-    return float(np.linalg.norm(fix.beside)) <= LARGEST_BEND and abs(fix.epipolar) <= _GROSS
+    return _beside(fix) <= LARGEST_BEND and abs(fix.epipolar) <= _GROSS

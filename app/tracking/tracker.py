@@ -12,6 +12,7 @@ from app.tracking.cameras.camera import Camera, Frame
 from app.tracking.cameras.feed import CameraFeed, Pair
 from app.tracking.capture_times import CaptureTimes, without_picture
 from app.tracking.continuity import Continuity
+from app.tracking.discrepancy_words import SWAPPED
 from app.tracking.errors import TrackingError
 from app.tracking.fix import FixStatus, NeedleFix, without_point
 from app.tracking.follower import MarkerFollower
@@ -19,7 +20,7 @@ from app.tracking.health import FixHealth
 from app.tracking.hiding import Hiding
 from app.tracking.markers.choice import extractors as default_extractors
 from app.tracking.markers.colour import RED, ColourModel, learn
-from app.tracking.markers.extractor import Extractor
+from app.tracking.markers.extractor import Centre, Extractor, MarkerFix
 from app.tracking.optics.rig import RigProfile
 from app.tracking.rehearsal import rehearse
 from app.tracking.solver import FixSolver
@@ -144,8 +145,10 @@ class Tracker:
         time = min(times)
         axis = self._axis(time)
         fix, markers = self._measured(frames, axis, time)
-        fix = self._health.look(fix, axis)
-        fix = self._hiding.look(self._continuity.look(fix))
+        certain = all(isinstance(m, MarkerFix) and m.centre is Centre.BAND for m in markers)
+        fix = self._health.look(fix, axis, certain, self._follower.exchanged)
+        found = [one for one in markers if isinstance(one, MarkerFix)]
+        fix = self._hiding.look(self._continuity.look(fix, found))
         if fix.status is FixStatus.INCONSISTENT:
             self._follower.doubt()
         self._follower.remember(self._solver.band(fix, axis))
@@ -158,6 +161,9 @@ class Tracker:
         if axis is None and self._bands is not None:
             return self._bands.alone(frames, time, self.extractors)
         markers = self._follower.find(frames, axis, time)
+        if self._follower.exchanged:
+            inconsistent = FixStatus.INCONSISTENT
+            return without_point(inconsistent, (None, None), time, reason=SWAPPED), markers
         left, right = self._follower.sightings(frames, markers, time)
         fix = self._solver.solve((left, right), axis, time)
         if self._bands is not None and left is not None and right is not None and fix.has_point:

@@ -31,7 +31,9 @@ class MissReason(StrEnum):
     SATURATED = "saturated"
     AT_BORDER = "at_border"
     PARTLY_HIDDEN = "partly_hidden"
+    NO_SHAFT = "no_shaft"
     OFF_EPIPOLAR = "off_epipolar"
+    EXCHANGED = "exchanged"
     ONE_OF_TWO = "one_of_two"
     NOT_YET_VISIBLE = "not_yet_visible"
 
@@ -49,7 +51,9 @@ _WORDS = {
     MissReason.SATURATED: "the marker is overexposed: less light or a shorter exposure",
     MissReason.AT_BORDER: "the marker is cut by the picture's border",
     MissReason.PARTLY_HIDDEN: "the marker is partly hidden",
+    MissReason.NO_SHAFT: "no bare shaft beside it: another red thing",
     MissReason.OFF_EPIPOLAR: "the two pictures do not show the same point",
+    MissReason.EXCHANGED: "it is where the other camera should show it: left and right exchanged",
     MissReason.ONE_OF_TWO: "one band alone: which of the two cannot be told; show both",
     MissReason.NOT_YET_VISIBLE: "the marker is still inside the tube",
 }
@@ -85,6 +89,7 @@ class MarkerFix:
         area: of the band [px²].
         quality: 0 to 1; share of the outline that is as a band's should be.
         centre: which point of the band `uv` is.
+        alone: whether it can be nothing but the marker, so that it counts without another picture.
     """
 
     uv: FloatArray
@@ -92,6 +97,7 @@ class MarkerFix:
     area: float
     quality: float
     centre: Centre = Centre.OUTLINE
+    alone: bool = True
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "uv", frozen(self.uv, (2,), "marker pixel"))

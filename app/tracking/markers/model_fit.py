@@ -3,10 +3,11 @@
 The centroid of the outline says where to begin; the fit then weighs every pixel as its noise
 deserves. It needs the needle's axis: without one the centroid is handed out. A fit that leaves
 pixels over, or finds another width or length than the band has, is a band partly hidden, lit by a
-highlight, or none at all. What little misfit is let pass enlarges the covariance.
+highlight, or none at all; one without the bare shaft beside it (see `shaft_evidence`) is another
+red thing. What little misfit is let pass enlarges the covariance.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from app.tracking.markers.extractor import (
     MissReason,
 )
 from app.tracking.markers.outline_centroid import OutlineCentroid
+from app.tracking.markers.shaft_evidence import shaft_evidence
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
@@ -44,6 +46,9 @@ _AGREES_PX, _AGREES, _CLOSE_PX = 2.5, 0.3, 1.0
 """How far the prediction may be from the patch's mean pixel [px, or of half the band's length], and
 from what the fit makes of it [px]. The mean pixel is off itself by 1.5 px on a band 16 px wide (the
 darker flank is not strong enough), by 0.28 of half the length where an end faces the camera."""
+
+_QUALITY_ALONE, _ALONE_PX = 0.85, 0.1
+"""Least quality and largest standard deviation [px] of a find that no other picture confirms."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +128,7 @@ class ModelFit(Extractor):
             return None
         if not np.abs(fit.uv - hint.uv).max() < _CLOSE_PX:
             return None
-        judged = self._judged(fit, start, axis)
+        judged = self._on_shaft(image, fit, start, axis)
         return judged if isinstance(judged, MarkerFix) else None
 
     def _fit(
@@ -137,7 +142,7 @@ class ModelFit(Extractor):
         return (
             Miss(MissReason.WRONG_SHAPE, found.uv)
             if fit is None
-            else self._judged(fit, start, axis)
+            else self._on_shaft(image, fit, start, axis)
         )
 
     def _judged(self, fit: BandFit, start: FloatArray, axis: FloatArray) -> MarkerFix | Miss:
@@ -155,6 +160,23 @@ class ModelFit(Extractor):
         covariance = inflation * fit.covariance + doubt * np.eye(2)
         quality = (1.0 - fit.outliers) / inflation
         return MarkerFix(fit.uv, covariance, fit.area, quality, Centre.BAND)
+
+    def _on_shaft(
+        self, image: Image, fit: BandFit, start: FloatArray, axis: FloatArray
+    ) -> MarkerFix | Miss:
+        """Judge the fit, and whether the band is on a shaft."""
+        judged = self._judged(fit, start, axis)
+        if isinstance(judged, Miss):
+            return judged
+        shaft = shaft_evidence(
+            image, self.model, self.shape, start, axis, fit.uv, fit.stretch, fit.paint,
+            self.coarse.colour.weights, self.blur_px, self.coarse.noise_grey,
+        )  # fmt: skip
+        if not shaft.found:
+            return Miss(MissReason.NO_SHAFT, fit.uv)
+        alone = shaft.found_alone and judged.quality >= _QUALITY_ALONE
+        alone = alone and float(np.trace(judged.covariance)) <= _ALONE_PX**2
+        return replace(judged, alone=alone)
 
     def _half_px(self, p_camera: FloatArray, axis: FloatArray) -> FloatArray:
         """Half the width and half the length of the band's picture [px], shape (2,)."""
