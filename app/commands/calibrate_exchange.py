@@ -1,7 +1,6 @@
 """`acus calibrate export|import|board`: files for and from other programs, boards to print."""
 
 import json
-import re
 from pathlib import Path
 from typing import Annotated
 
@@ -79,6 +78,7 @@ def import_(
     """Read a calibration of another program and use it from now on."""
     from app.commands.calibrate_history import calibration_lines
     from app.tracking.calibration.formats.reading import read_calibration
+    from app.tracking.calibration.formats.said import length, picture_size
     from app.tracking.calibration.history import CalibrationHistory
 
     calibration = read_calibration(
@@ -131,30 +131,3 @@ def board_(
             "odd and an even count of corners, does not"
         )
     typer.echo("print at 100 %, not fitted to the page, and measure the line of 100 mm")
-
-
-def length(text: str) -> float:
-    """Metres of a length with its unit, such as `1cm`.
-
-    Raises:
-        ExchangeError: if it is none.
-    """
-    from app.tracking.calibration.boards import UNITS
-
-    units = UNITS | {"in": 0.0254}
-    found = re.fullmatch(r"(\d+(?:\.\d*)?|\.\d+)\s*(mm|cm|m|in)", text.strip())
-    if found is None:
-        raise ExchangeError(f"--unit {text}: a length with its unit is needed, e.g. 1cm or 25.4mm")
-    return float(found[1]) * units[found[2]]
-
-
-def picture_size(text: str) -> tuple[int, int]:
-    """Width and height [px] of `1280x720`.
-
-    Raises:
-        ExchangeError: if it is none.
-    """
-    found = re.fullmatch(r"(\d{2,5})[xX×](\d{2,5})", text.strip())
-    if found is None:
-        raise ExchangeError(f"--size {text}: WIDTHxHEIGHT in pixels is needed, e.g. 1280x720")
-    return int(found[1]), int(found[2])

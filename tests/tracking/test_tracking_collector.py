@@ -115,7 +115,7 @@ def test_a_blurred_view_is_refused() -> None:
 
 def test_what_is_missing_is_said_until_nothing_is() -> None:
     collector = ViewCollector(BOARD, ["left"], live=False)
-    assert collector.missing == ("15 more views",)
+    assert collector.missing == ("15 more pictures of the board, unlike those taken",)
     assert not collector.enough
     collector.consider((view(),))
     assert any("side towards the camera" in line for line in collector.missing)
@@ -147,7 +147,9 @@ def test_two_cameras_count_pairs_and_keep_what_one_alone_sees() -> None:
     assert collector.consider((view(), view(aside=(0.05, 0.0)))).kept
     assert collector.pairs == 1
     assert not collector.consider((view(), view(aside=(0.05, 0.0)))).kept
-    assert collector.missing[0] == "11 more views that both cameras see at the same time"
+    assert collector.missing[0] == (
+        "11 more pairs: both cameras see the board, unlike in the pairs taken"
+    )
     assert any(line.startswith("right: ") for line in collector.missing)
 
 

@@ -13,13 +13,17 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QMessageBox
 
 from app.core.transform import RigidTransform
-from app.tracking.calibration.boards import BoardKind, parse_board
+from app.tracking.calibration.boards import DEFAULT_BOARD, BoardKind, parse_board
 from app.tracking.calibration.coverage import Coverage
+from app.tracking.calibration.formats.own import save_camera
+from app.tracking.calibration.formats.reading import read_calibration
+from app.tracking.calibration.formats.ros import ros_paths, write_ros
 from app.tracking.calibration.placed_board import place
 from app.tracking.cameras.camera import Frame
+from app.tracking.errors import CalibrationError
 from app.tracking.optics.rig import load_rig
 from app.views.cameras.wizard import CalibrationWizard
-from app.views.cameras.wizard_job import CalibrationJob
+from app.views.cameras.wizard_job import CalibrationJob, last_board
 from app.views.cameras.wizard_words import baseline_sd, verdict_of
 from app.views.exercise.status_items import Verdict
 
@@ -91,7 +95,8 @@ def test_from_pictures_to_a_calibration_in_use(wizard, job, pictures, at_place, 
     assert not wizard.next.isEnabled()
     assert settle(lambda: not wizard.capture_page.running, 60.0)
     assert job.pairs >= 8
-    assert f"{job.pairs} pairs" in wizard.capture_page.state.text()
+    assert f"{job.pairs} pairs, all of which are used" in wizard.capture_page.state.text()
+    assert wizard.next.isEnabled()
     wizard.show_page(2)  # computes by itself
     assert wizard.result_page.running
     assert settle(lambda: not wizard.result_page.running, 60.0)
@@ -100,6 +105,12 @@ def test_from_pictures_to_a_calibration_in_use(wizard, job, pictures, at_place, 
     assert left.focal_px[0] == pytest.approx(1070.0, rel=0.01)
     assert wizard.result_page.views.rowCount() == job.pairs
     assert wizard.result_page.parameters.item(0, 0).text() == "fx [px]"
+    assert "board's size is not checked" in wizard.result_page.ruled.text()
+    wizard.result_page.ruler.setValue(1e3 * job.result.calibration.baseline / 1.05)
+    assert "mm instead of 11 mm would explain it" in wizard.result_page.ruled.text()
+    assert titles(wizard)[2].startswith("✖")
+    wizard.result_page.ruler.setValue(1e3 * job.result.calibration.baseline)
+    assert wizard.result_page.ruled.text().startswith("✔")
     wizard.show_page(3)
     for field, value in zip(wizard.world_page.fields, AT, strict=True):
         field.setValue(value)
@@ -179,7 +190,8 @@ def test_a_folder_without_pairs_says_so(wizard, tmp_path: Path) -> None:
     wizard.show_page(1)
     wizard.capture_page.begin_folder(tmp_path)
     assert "no picture" in wizard.capture_page.state.text()
-    assert wizard.next.isEnabled()
+    assert not wizard.next.isEnabled()
+    assert "choose the page in the list" in wizard.next.toolTip()
 
 
 def test_pictures_without_a_board_are_named(wizard, job, tmp_path: Path, settle) -> None:
@@ -296,3 +308,45 @@ def test_the_verdict_follows_what_was_held_back() -> None:
     assert verdict_of(good.model_copy(update={"rms_px": 3.0}))[0] is Verdict.BAD
     assert baseline_sd(good) > 0.0
     assert Coverage().covered == 0.0
+
+
+def test_what_other_programs_wrote_is_imported_on_the_last_page(
+    wizard, job, tmp_path: Path, settle
+) -> None:
+    theirs = sample(load_rig("wide"))
+    left, right = ros_paths(tmp_path, theirs)
+    write_ros(left, right, theirs)
+    used = []
+    wizard.used.connect(lambda: used.append(True))
+    wizard.show_page(4)
+    dialog = wizard.save_page.ask_import()
+    assert not dialog.take.isEnabled()
+    dialog.set_files([left, tmp_path / "nowhere.yaml"])
+    dialog.take.click()
+    assert settle(lambda: "nowhere.yaml" in dialog.state.text(), 10.0)
+    dialog.set_files([left, right])
+    dialog.size_box.setText("big")
+    dialog.take.click()
+    assert settle(lambda: "--size big" in dialog.state.text(), 10.0)
+    dialog.size_box.clear()
+    dialog.take.click()
+    assert settle(lambda: used == [True], 10.0)
+    assert job.history.active().notes[0].startswith("imported: ROS")
+    assert "it has no place yet" in wizard.save_page.state.text()
+    table = wizard.save_page.table
+    assert settle(lambda: "own uncertainty not known" in table.item(0, 1).text(), 10.0)
+
+
+def test_the_lens_of_one_camera_is_told_from_a_calibration_of_two(tmp_path: Path) -> None:
+    path = tmp_path / "lens.yaml"
+    save_camera(path, sample(load_rig("wide")).cameras[0])
+    with pytest.raises(CalibrationError, match="is the lens of one camera; a calibration holds"):
+        read_calibration([path])
+
+
+def test_the_last_board_is_there_again_and_an_unreadable_one_is_the_usual(wizard) -> None:
+    told = []
+    wizard.board_page.chosen.connect(told.append)
+    wizard.board_page.square.setValue(12.5)
+    assert last_board(told[-1]) == wizard.job.board
+    assert last_board("").spec == last_board("a board of wood").spec == DEFAULT_BOARD

@@ -242,3 +242,15 @@ def test_what_a_first_start_waits_for_is_said_in_the_dialog_and_cancel_ends_it(
     row.cancel.click()
     assert settle(lambda: cameras.dialog is None, 10.0)
     assert settle(lambda: running.runs.run is not None, 10.0)
+
+
+def test_the_board_chosen_last_is_remembered_between_starts(window):
+    window.menus.cameras.calibrate.trigger()
+    window.cameras.dialog.board_page.square.setValue(31.5)
+    spec = window.cameras.dialog.job.board.spec
+    window.cameras.dialog.reject()
+    QApplication.processEvents()
+    window.menus.cameras.calibrate.trigger()
+    assert window.cameras.dialog.job.board.spec == spec
+    assert "31.5mm" in spec
+    window.cameras.dialog.reject()

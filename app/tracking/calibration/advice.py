@@ -34,7 +34,7 @@ def missing_words(coverage: Coverage, alone: bool) -> list[str]:
             lines.append("hold the board nearer to the camera, and farther away")
     count = ENOUGH_VIEWS - len(coverage.views)
     if count > 0:
-        lines.append(f"{count} more views")
+        lines.append(f"{count} more pictures of the board, unlike those taken")
     return lines
 
 

@@ -140,7 +140,9 @@ class ViewCollector:
             ]
         if len(self.names) == 2 and self.pairs < ENOUGH_PAIRS:
             count = ENOUGH_PAIRS - self.pairs
-            lines.insert(0, f"{count} more views that both cameras see at the same time")
+            lines.insert(
+                0, f"{count} more pairs: both cameras see the board, unlike in the pairs taken"
+            )
         return tuple(lines)
 
     @property

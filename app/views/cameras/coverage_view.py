@@ -106,7 +106,7 @@ class CoverageView(QWidget):
 
     def _paint_words(self, painter: QPainter, frame: QRectF) -> None:
         share = round(100.0 * self._coverage.covered)
-        words = tr("{camera}: {n} views, {share} % covered", camera=self._name,
+        words = tr("{camera}: {n} different views, {share} % covered", camera=self._name,
                    n=len(self._coverage.views), share=share)  # fmt: skip
         box = QRectF(frame.x(), frame.bottom() - 24.0, frame.width(), 24.0)
         painter.fillRect(box, QColor(0, 0, 0, 150))

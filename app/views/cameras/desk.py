@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from app.views.cameras.wizard import CalibrationWizard
 
 _USED = "cameras/real"
+_BOARD = "cameras/board"
 DEVICE = "icube"
 """Device whose fulcrum is aimed at before an exercise names one."""
 
@@ -149,6 +150,7 @@ class CamerasDesk(QObject):
             self.failed.emit(error)
             return
         dialog.used.connect(self._apply)
+        dialog.board_page.chosen.connect(lambda spec: self._remembered.setValue(_BOARD, spec))
         self.show(dialog)
 
     def free(self) -> Callable[[], object]:
@@ -180,12 +182,13 @@ class CamerasDesk(QObject):
         from app.tracking.optics.rig import load_rig
         from app.views.cameras.camera_pair import open_both
         from app.views.cameras.wizard import CalibrationWizard
-        from app.views.cameras.wizard_job import CalibrationJob
+        from app.views.cameras.wizard_job import CalibrationJob, last_board
 
         profile, rig = self._conductor.profile, load_rig(chosen.rig)
         left, right = (camera.name for camera in rig.cameras)
         fulcrum = (load_profile(DEVICE) if profile is None else profile).pantograph.fulcrum
         job = CalibrationJob(
+            board=last_board(str(self._remembered.value(_BOARD, ""))),
             names=(left, right),
             watched=fulcrum[None, :],
             expected=rig.models[0].T_world_camera,

@@ -24,6 +24,16 @@ class CamerasMenu:
         self.aim = self._add(menu, tr("Aim…"), desk.aim)
         self.calibrate = self._add(menu, tr("Calibrate…"), desk.calibrate)
         latency = menu.addMenu(tr("Latency"))
+        menu.setToolTipsVisible(True)
+        latency.menuAction().setToolTip(tr(
+            "How late a picture comes: a patch blinks, the camera looks at it, the delay is kept"
+        ))  # fmt: skip
+        for action, help_ in (
+            (self.set_up, tr("Which cameras there are: size, rate, exposure, live pictures")),
+            (self.aim, tr("Where the needle can be, drawn into both live pictures")),
+            (self.calibrate, tr("Lenses and places of the cameras, from pictures of a board")),
+        ):
+            action.setToolTip(help_)
         self._add(latency, tr("Left camera…"), lambda: desk.measure_latency("left"))
         self._add(latency, tr("Right camera…"), lambda: desk.measure_latency("right"))
         desk.changed.connect(self.refresh)

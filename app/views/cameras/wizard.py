@@ -128,9 +128,25 @@ class CalibrationWizard(QDialog):
             item.setForeground(QColor(colour))
         here, running = self.pages.currentIndex(), self.running
         self.back.setEnabled(here > 0 and not running)
-        self.next.setEnabled(not running and self.board_page.valid)
+        lacks = self._lacks(here)
+        self.next.setEnabled(not running and not lacks)
+        self.next.setToolTip(lacks)
         self.next.setText(tr("Close") if here == len(self.steps) - 1 else tr("Next"))
         self.list.setEnabled(not running)
+
+    def _lacks(self, here: int) -> str:
+        """Say what a page must have before the next one makes sense; empty if it has it."""
+        if not self.board_page.valid:
+            return tr("Choose a board that can be")
+        page = self.steps[here]
+        if page is self.capture_page and not self.job.pairs:
+            return tr(
+                "Take or open pictures first. To place or to import a calibration without any, "
+                "choose the page in the list."
+            )
+        if page is self.result_page and self.job.result is None:
+            return tr("There is no result yet")
+        return ""
 
     def _go_on(self) -> None:
         here = self.pages.currentIndex()

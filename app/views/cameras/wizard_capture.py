@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from PySide6.QtCore import QTimer, Signal
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QProgressBar, QWidget
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QWidget
 
 from app.core.errors import AcusError
 from app.tracking.calibration.collector import ViewCollector
@@ -17,7 +17,8 @@ from app.views.cameras.camera_pair import OpenCamera, OpenPair, PairOpening
 from app.views.cameras.capture import FolderShots, LiveShots, Search, Shot
 from app.views.cameras.coverage_view import CoverageView
 from app.views.cameras.wizard_job import CalibrationJob, Views
-from app.views.cameras.wizard_parts import button, column, label, tell
+from app.views.cameras.wizard_parts import button, column, label, tell, thin_bar
+from app.views.cameras.wizard_words import pairs_words
 from app.views.exercise.status_items import Verdict
 from app.views.text import tr
 
@@ -51,10 +52,7 @@ class CapturePage(QWidget):
         self.stop = button(tr("Stop"))
         self.back = button(tr("Drop the last"))
         self.state, self.advice = label(), label()
-        self.bar = QProgressBar(self)
-        self.bar.setRange(0, 1000)
-        self.bar.setTextVisible(False)
-        self.bar.setFixedHeight(10)
+        self.bar = thin_bar()
         self._timer = QTimer(self, interval=POLL_MS)
         self._timer.timeout.connect(self.look)
         self._lay_out()
@@ -213,12 +211,8 @@ class CapturePage(QWidget):
         chosen = search.collector.kept if self._live else search.views
         views: tuple[Views, ...] = tuple((one[0], one[1]) for one in chosen)
         self._job.set_views(views, () if self._live else search.refused)
-        refused = self._job.refused
-        words = tr("{pairs} pairs in which both cameras see the board", pairs=self._job.pairs)
-        if refused:
-            names = ", ".join(view.name for view in refused[:4])
-            more = " …" if len(refused) > 4 else ""
-            words += "; " + tr("not used: {names} ({why})", names=names + more, why=refused[0].text)
+        different = None if self._live else search.collector.pairs
+        words = pairs_words(self._job.pairs, different, self._job.refused)
         enough = self._job.pairs >= LEAST_PAIRS
         tell(self.state, Verdict.GOOD if enough else Verdict.BAD, words)
         self._collector = search.collector

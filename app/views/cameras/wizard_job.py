@@ -20,6 +20,14 @@ from app.tracking.optics.calibration import StereoCalibration
 Views = tuple[BoardView | None, BoardView | None]
 
 
+def last_board(spec: str) -> Board:
+    """Return the board that was chosen last; the default one if none was, or it cannot be read."""
+    try:
+        return parse_board(spec or DEFAULT_BOARD)
+    except CalibrationError:
+        return parse_board(DEFAULT_BOARD)
+
+
 @dataclass
 class CalibrationJob:
     """One pass through the wizard.

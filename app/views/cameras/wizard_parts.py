@@ -7,6 +7,7 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QHeaderView,
     QLabel,
+    QProgressBar,
     QPushButton,
     QTableWidget,
     QVBoxLayout,
@@ -44,6 +45,15 @@ def button(text: str, role: str = "") -> QPushButton:
     made.setAutoDefault(False)
     if role:
         made.setProperty("role", role)
+    return made
+
+
+def thin_bar() -> QProgressBar:
+    """Return a bar of progress, 0 to 1000, without words."""
+    made = QProgressBar()
+    made.setRange(0, 1000)
+    made.setTextVisible(False)
+    made.setFixedHeight(10)
     return made
 
 

@@ -5,23 +5,25 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
+    QDoubleSpinBox,
     QGridLayout,
     QHBoxLayout,
     QLabel,
-    QProgressBar,
     QTableWidgetItem,
     QWidget,
 )
 
 from app.tracking.calibration.run import StereoResult
+from app.tracking.optics.calibration import StereoCalibration
 from app.views import theme
 from app.views.background import Task, run_in_background
 from app.views.cameras.wizard_job import CalibrationJob
-from app.views.cameras.wizard_parts import button, column, label, table, tell
+from app.views.cameras.wizard_parts import button, column, label, table, tell, thin_bar
 from app.views.cameras.wizard_words import (
     figures,
     other_notes,
     parameter_rows,
+    ruler_line,
     verdict_of,
     view_rows,
 )
@@ -43,17 +45,16 @@ class ResultPage(QWidget):
         self._job = job
         self._task: Task | None = None
         self.start, self.cancel = button(tr("Compute again")), button(tr("Cancel"), "danger")
-        self.bar = QProgressBar(self)
-        self.bar.setRange(0, 1000)
-        self.bar.setTextVisible(False)
-        self.bar.setFixedHeight(10)
+        self.bar = thin_bar()
         self.state, self.notes = label(), label(role="dim")
         self._figures = QGridLayout()
+        self.ruler, self.ruled = QDoubleSpinBox(self), label()
         self.views = table((tr("Pair"), tr("px"), tr("Remark")))
         self.parameters = table((tr("Parameter"), job.names[0], job.names[1]))
         self._lay_out()
         self.start.clicked.connect(self.begin)
         self.cancel.clicked.connect(self.stop)
+        self.ruler.valueChanged.connect(self._measured)
         self.refresh()
 
     @property
@@ -65,7 +66,10 @@ class ResultPage(QWidget):
     def verdict(self) -> Verdict:
         """How the page stands."""
         result = self._job.result
-        return verdict_of(result.calibration)[0] if result is not None else Verdict.IDLE
+        if result is None:
+            return Verdict.IDLE
+        ruled = ruler_line(result.calibration, self.ruler.value())[0]
+        return Verdict.BAD if ruled is Verdict.BAD else verdict_of(result.calibration)[0]
 
     @property
     def running(self) -> bool:
@@ -108,7 +112,7 @@ class ResultPage(QWidget):
                 tell(self.state, Verdict.IDLE, tr("There are no pictures yet."))
             return
         calibration = result.calibration
-        tell(self.state, *verdict_of(calibration))
+        self._show_verdict(calibration)
         _fill_grid(self._figures, figures(calibration))
         self._show_views(result)
         alone = (result.estimate.left, result.estimate.right)
@@ -140,11 +144,27 @@ class ResultPage(QWidget):
                     )
                 self.views.setItem(i, k, item)
 
+    def _measured(self) -> None:
+        """Hold the distance of the cameras by ruler against the calibration's."""
+        result = self._job.result
+        if result is not None:
+            self._show_verdict(result.calibration)
+            self.changed.emit()
+
+    def _show_verdict(self, calibration: StereoCalibration) -> None:
+        ruled = ruler_line(calibration, self.ruler.value())
+        tell(self.ruled, *ruled)
+        if ruled[0] is Verdict.BAD:
+            tell(self.state, Verdict.BAD, tr("Not to be used: a measured length contradicts it."))
+        else:
+            tell(self.state, *verdict_of(calibration))
+
     def _clear(self) -> None:
         _fill_grid(self._figures, [])
         self.views.setRowCount(0)
         self.parameters.setRowCount(0)
         self.notes.clear()
+        self.ruled.clear()
         if not self.running:
             self.bar.setValue(0)
             self.state.clear()
@@ -171,12 +191,24 @@ class ResultPage(QWidget):
         tell(self.state, verdict, words)
         self.changed.emit()
 
+    def _ruler_row(self) -> QHBoxLayout:
+        self.ruler.setRange(0.0, 5000.0)
+        self.ruler.setDecimals(0)
+        self.ruler.setSuffix(tr(" mm"))
+        self.ruler.setSpecialValueText(tr("not measured"))
+        row = QHBoxLayout()
+        row.addWidget(label(tr("Distance of the lenses by ruler"), "dim"))
+        row.addWidget(self.ruler)
+        row.addWidget(self.ruled, 1)
+        return row
+
     def _lay_out(self) -> None:
         rows = column(self, tr("Result"))
         rows.addWidget(self.bar)
         rows.addWidget(self.state)
         self._figures.setColumnStretch(1, 1)
         rows.addLayout(self._figures)
+        rows.addLayout(self._ruler_row())
         tables = QHBoxLayout()
         tables.addWidget(self.views, 5)
         tables.addWidget(self.parameters, 6)

@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QInputDialog,
-    QTableWidgetItem,
     QWidget,
 )
 
 from app.core.errors import AcusError
 from app.core.progress import Progress
-from app.tracking.calibration.history import CalibrationHistory, Entry
-from app.views import theme
+from app.tracking.calibration.history import Entry
+from app.tracking.optics.calibration import StereoCalibration
 from app.views.background import Task, run_in_background
+from app.views.cameras.wizard_history import details, show_entry
+from app.views.cameras.wizard_import import ImportDialog
 from app.views.cameras.wizard_job import CalibrationJob
 from app.views.cameras.wizard_parts import button, column, label, table, tell
 from app.views.exercise.status_items import Verdict
@@ -42,6 +42,7 @@ class SavePage(QWidget):
         self._task: Task | None = None
         self.state, self._remark = label(), label(role="dim")
         self.save = button(tr("Save and use it"), "primary")
+        self.import_ = button(tr("Import…"))
         self.undo, self.redo = button(tr("Undo")), button(tr("Redo"))
         self.use, self.condemn = button(tr("Use this one")), button(tr("Found bad…"), "danger")
         titles = (tr("Calibration"), tr("Error"), tr("Place"), tr("State"))
@@ -94,7 +95,22 @@ class SavePage(QWidget):
         if chosen is not None:
             self._do(lambda: self._job.history.condemn(chosen, reason))
 
+    def ask_import(self) -> ImportDialog:
+        """Ask for a calibration of another program; what is imported is in use."""
+        dialog = ImportDialog(self._job.history, self._job.names, self)
+        dialog.imported.connect(self._imported)
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
+        return dialog
+
     # --- inside -----------------------------------------------------------------------------------
+    def _imported(self, calibration: StereoCalibration) -> None:
+        self._done(None)
+        placed = calibration.world is not None
+        note = "" if placed else tr("; it has no place yet: find it on the page before")
+        words = tr("imported as {id} and in use{note}", id=calibration.id, note=note)
+        tell(self.state, Verdict.GOOD if placed else Verdict.WARNING, words)
+
     def _save(self) -> None:
         self._do(self._job.save)
 
@@ -146,7 +162,7 @@ class SavePage(QWidget):
             found = {}
             for i, name in enumerate(missing):
                 progress.report(i / len(missing))
-                found[name] = _details(history, name)
+                found[name] = details(history, name)
             return found
 
         def show(found: dict[str, tuple[str, str, str]]) -> None:
@@ -170,26 +186,8 @@ class SavePage(QWidget):
     def _fill(self, entries: tuple[Entry, ...]) -> None:
         self.table.setRowCount(len(entries))
         for row, entry in enumerate(reversed(entries)):
-            self._show_entry(row, entry)
+            show_entry(self.table, row, entry, self._details.get(entry.id, ("…", "", "")))
         self._enable(entries)
-
-    def _show_entry(self, row: int, entry: Entry) -> None:
-        figures, world, problem = self._details.get(entry.id, ("…", "", ""))
-        colour, state = theme.TEXT_DIM, ""
-        if entry.active:
-            colour, state = theme.GOOD, tr("✔ in use")
-        if problem:
-            colour, state = theme.BAD, tr("✖ unreadable: {why}", why=problem)
-        if entry.condemned is not None:
-            colour, state = theme.BAD, tr("✖ found bad: {why}", why=entry.condemned.reason)
-        for k, text in enumerate((entry.id, figures, world, state)):
-            item = QTableWidgetItem(text)
-            item.setToolTip(text)
-            if k == 3:
-                item.setForeground(QColor(colour))
-            if k == 0:
-                item.setData(Qt.ItemDataRole.UserRole, entry.id)
-            self.table.setItem(row, k, item)
 
     def _enable(self, entries: tuple[Entry, ...]) -> None:
         self.undo.setEnabled(any(entry.active for entry in entries))
@@ -211,6 +209,7 @@ class SavePage(QWidget):
         rows.addWidget(self.state)
         first = QHBoxLayout()
         first.addWidget(self.save)
+        first.addWidget(self.import_)
         first.addStretch(1)
         rows.addLayout(first)
         rows.addWidget(label(tr(
@@ -229,21 +228,9 @@ class SavePage(QWidget):
     def _connect(self) -> None:
         history = self._job.history
         self.save.clicked.connect(self._save)
+        self.import_.clicked.connect(self.ask_import)
         self.undo.clicked.connect(lambda: self._do(history.undo))
         self.redo.clicked.connect(lambda: self._do(history.redo))
         self.use.clicked.connect(self._use)
         self.condemn.clicked.connect(self._ask_why)
         self.table.itemSelectionChanged.connect(self._selected)
-
-
-def _details(history: CalibrationHistory, calibration_id: str) -> tuple[str, str, str]:
-    """Figures, place and problem of a calibration, in words."""
-    try:
-        calibration = history.load(calibration_id)
-    except AcusError as error:
-        return "", "", str(error)
-    checked = calibration.validation
-    figures = tr("{px:.2f} px", px=calibration.rms_px)
-    if checked is not None:
-        figures += tr(", {mm:.3f} mm held back", mm=checked.rms_mm)
-    return figures, tr("placed") if calibration.world is not None else tr("no place"), ""

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
 from app.core.units import MILLIMETRE
+from app.tracking.calibration.checks import check_baseline
 from app.tracking.calibration.mono import MonoResult
 from app.tracking.calibration.run import StereoResult
+from app.tracking.calibration.views import Rejection
 from app.tracking.calibration.world import WorldFrame
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration, StereoCalibration
 from app.views.exercise.status_items import Verdict
@@ -27,6 +30,28 @@ GOOD_SCALE: Final = 0.003
 """Relative error of lengths on pairs held back."""
 
 Line = tuple[Verdict, str]
+
+
+def pairs_words(pairs: int, different: int | None, refused: Sequence[Rejection]) -> str:
+    """Say how many pairs there are.
+
+    Args:
+        pairs: in which both cameras see the board.
+        different: of them that show it as no other does; None if there are only such.
+        refused: pictures of no use.
+    """
+    if different is None:
+        words = tr("{pairs} pairs taken: both cameras see the board in each", pairs=pairs)
+    else:
+        words = tr(
+            "{pairs} pairs, all of which are used; {different} of them show the board unlike the "
+            "others: only those count below", pairs=pairs, different=different,
+        )  # fmt: skip
+    if refused:
+        names = ", ".join(view.name for view in refused[:4])
+        more = " …" if len(refused) > 4 else ""
+        words += "; " + tr("not used: {names} ({why})", names=names + more, why=refused[0].text)
+    return words
 
 
 def verdict_of(calibration: StereoCalibration) -> Line:
@@ -48,6 +73,14 @@ def verdict_of(calibration: StereoCalibration) -> Line:
             "Usable, but worse than usual: more and sharper views will do better."
         )
     return Verdict.GOOD, tr("Good: pairs that took no part come out right.")
+
+
+def ruler_line(calibration: StereoCalibration, known_mm: float) -> Line:
+    """Say what a distance of the cameras by ruler [mm] tells of the board's size; 0: none."""
+    if known_mm <= 0.0:
+        return Verdict.WARNING, tr("The board's size is not checked: nothing else here can tell.")
+    check = check_baseline(calibration, known_mm)
+    return Verdict.GOOD if check.passed else Verdict.BAD, check.text
 
 
 def figures(calibration: StereoCalibration) -> list[tuple[str, str]]:

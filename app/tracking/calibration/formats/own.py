@@ -1,10 +1,11 @@
 """The own file: one YAML with everything that a calibration says."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import yaml
 
-from app.core.configuration import load
+from app.core.configuration import parse, read_yaml
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
 from app.tracking.errors import CalibrationError
@@ -67,7 +68,14 @@ def load_calibration(path: Path) -> StereoCalibration:
         CalibrationError: naming the file, the field, the value and what would be valid.
     """
     try:
-        calibration = load(path, StereoCalibration)
+        document = read_yaml(path)
+        if isinstance(document, Mapping) and "focal_px" in document:
+            raise CalibrationError(
+                f"{path} is the lens of one camera; a calibration holds two and how they stand to "
+                "each other. A pen takes it (`acus pen calibrate --lens`); for two cameras "
+                "calibrate pairs of pictures (`acus calibrate stereo`)"
+            )
+        calibration = parse(document, StereoCalibration, str(path))
         calibration.models()  # an impossible camera or pose is refused here, not later
     except ConfigurationError as error:
         raise CalibrationError(str(error)) from error
