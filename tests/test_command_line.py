@@ -1,5 +1,13 @@
+import re
 import subprocess
 import sys
+from pathlib import Path
+
+import pytest
+import typer
+
+from app.__main__ import main
+from app.commands import build
 
 
 def acus(*arguments, **options):
@@ -14,8 +22,41 @@ def one_line(text):
 def test_help_names_every_noun():
     result = acus("--help")
     assert result.returncode == 0
-    for noun in ("ct", "demo", "device", "explain", "run", "session", "study"):
+    nouns = {words[0] for words, _ in commands()}
+    assert {"camera", "calibrate", "check", "pen", "registration"} < nouns
+    for noun in nouns:
         assert f" {noun} " in result.stdout
+
+
+def commands(group=None, path=()):
+    """Every command of the program: its words and what it is."""
+    group = typer.main.get_command(build()) if group is None else group
+    for name, command in group.commands.items():
+        if hasattr(command, "commands"):
+            yield from commands(command, (*path, name))
+        else:
+            yield (*path, name), command
+
+
+def test_every_command_stands_in_the_readme():
+    text = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+    listed = text.split("## The command line")[1].split("```")[1].splitlines()
+    lines = [re.split(r"[ |]+", line.replace("acus ", "")) for line in listed if line]
+    missing = [words for words, _ in commands()
+               if not any(set(words) <= set(line) for line in lines)]  # fmt: skip
+    assert missing == []
+
+
+@pytest.mark.parametrize(("words", "command"), list(commands()), ids=lambda v: str(v)[:30])
+def test_no_bracket_is_cut_out_of_the_help(words, command, monkeypatch, capsys):
+    told = [command.help or "", *(getattr(p, "help", None) or "" for p in command.params)]
+    brackets = [found for text in told for found in re.findall(r"\[[^\]]*\]", text)]
+    monkeypatch.setattr("sys.argv", ["acus", *words, "--help"])
+    monkeypatch.setenv("COLUMNS", "200")
+    with pytest.raises(SystemExit):
+        main()
+    shown = capsys.readouterr().out
+    assert [one for one in brackets if one not in " ".join(shown.split())] == []
 
 
 def test_help_loads_no_room():

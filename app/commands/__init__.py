@@ -17,6 +17,7 @@ def build() -> typer.Typer:
         help="A trainer for CT-guided needle insertion. Training only; not a medical device.",
         no_args_is_help=True,
         add_completion=False,
+        rich_markup_mode="markdown",  # in rich's own markup [mm] is a style, and is cut out
         pretty_exceptions_enable=False,
     )
     for module in sorted(iter_modules(__path__), key=lambda item: item.name):
