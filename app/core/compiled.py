@@ -65,6 +65,11 @@ STAGE_TYPE = types.FunctionType(STAGE_SIGNATURE)
 """Type of a stage as a first-class function, for the loop's table."""
 
 
+REORDERED = {"contract", "arcp", "reassoc", "nsz"}
+"""For `fastmath`: sums in any order, products and sums in one, a common divisor as a factor. NaN
+and infinity keep their meaning, so that checks against them hold."""
+
+
 def njit(*args: Any, **options: Any) -> Any:
     """`numba.njit` that releases the interpreter lock, caches, and divides as C does."""
     options = {"nogil": True, "cache": True, "error_model": "numpy"} | options

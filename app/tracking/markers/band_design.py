@@ -18,7 +18,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from app.core.compiled import njit
+from app.core.compiled import REORDERED, njit
 from app.tracking.markers.band_outline import CELLS, tapers_at_once
 
 BAND: Final = 7
@@ -29,32 +29,30 @@ PARTIALS: Final = 5
 
 _FAR: Final = 4.0
 _FINE: Final = 256
-"""Entries of the tables per standard deviation: linear between them, to 1e-6."""
+"""Entries of the table per standard deviation: linear between them, to 1e-6."""
 
 _GRID = np.arange(-_FAR * _FINE, _FAR * _FINE + 2) / _FINE
-STEP_TABLE: Final = np.array([0.5 + 0.5 * math.erf(z / math.sqrt(2.0)) for z in _GRID])
-BELL_TABLE: Final = np.exp(-0.5 * _GRID**2) / math.sqrt(2.0 * math.pi)
+_TABLE: Final = np.column_stack(
+    [
+        [0.5 + 0.5 * math.erf(z / math.sqrt(2.0)) for z in _GRID],
+        np.exp(-0.5 * _GRID**2) / math.sqrt(2.0 * math.pi),
+    ]
+)
+"""Share of a Gaussian below, and the bell."""
 
 
-@njit
-def _step(z: float) -> float:
-    """Share of a Gaussian below z."""
+@njit(fastmath=REORDERED, forceinline=True)
+def _gauss(z: float) -> Any:
+    """Share of a Gaussian below z, and the bell there."""
     t = (z + _FAR) * _FINE
-    if t <= 0.0:
-        return 0.0
+    if not t > 0.0:
+        return 0.0, 0.0
+    if t >= _TABLE.shape[0] - 2:
+        return 1.0, 0.0
     k = int(t)
-    if k >= STEP_TABLE.shape[0] - 2:
-        return 1.0
-    return STEP_TABLE[k] + (t - k) * (STEP_TABLE[k + 1] - STEP_TABLE[k])
-
-
-@njit
-def _bell(z: float) -> float:
-    t = (z + _FAR) * _FINE
-    k = int(t)
-    if t <= 0.0 or k >= BELL_TABLE.shape[0] - 2:
-        return 0.0
-    return BELL_TABLE[k] + (t - k) * (BELL_TABLE[k + 1] - BELL_TABLE[k])
+    t -= k
+    below, bell = _TABLE[k, 0], _TABLE[k, 1]
+    return below + t * (_TABLE[k + 1, 0] - below), bell + t * (_TABLE[k + 1, 1] - bell)
 
 
 @njit
@@ -69,7 +67,7 @@ def quadratic_spline(t: float, count: int, weights: Any) -> int:
     return k
 
 
-@njit
+@njit(fastmath=REORDERED)
 def design(
     pixels: Any,
     shift: Any,
@@ -135,7 +133,8 @@ def design(
             if tip:
                 j = int(0.5 * CELLS * ((n - middle) / (stretch[0] * width) + 1.0))
                 h = (stretch[1] * arcs[1, min(CELLS - 1, max(0, j))] - e) / blur
-                at = e + blur * _bell(h) / max(_step(-h), 1e-3)  # where it looks, on average
+                below, bell = _gauss(h)
+                at = e + blur * bell / max(1.0 - below, 1e-3)  # where it looks, on average
                 taper = max(0.05, (frame[8] - at) / frame[9])
                 slim = taper if cone else min(slim, taper)
             a, b = _across(n, middle, width * slim, blur, stretch[0], edges)
@@ -144,7 +143,7 @@ def design(
             _shaft(row, e, a, b, edges, arcs, blur, stretch[1], tip, splines, first)
 
 
-@njit
+@njit(fastmath=REORDERED, forceinline=True)
 def _across(n: float, middle: float, width: float, blur: float, stretch: float, edges: Any) -> Any:
     """Fill share below, bell, its n and width derivative at the strips' edges near a pixel.
 
@@ -154,15 +153,16 @@ def _across(n: float, middle: float, width: float, blur: float, stretch: float, 
     start = (n - _FAR * blur - middle + stretch * width) / step
     stop = (n + _FAR * blur - middle + stretch * width) / step
     a, b = max(0, math.floor(start)), min(CELLS, math.ceil(stop))
+    at, ahead, sharp = (middle - stretch * width - n) / blur, step / blur, 1.0 / blur
     for j in range(a, b + 1):
-        x = 2.0 * j / CELLS - 1.0
-        z = (middle + stretch * width * x - n) / blur
-        bell = _bell(z) / blur
-        edges[0, j], edges[1, j], edges[2, j] = _step(z), -bell, bell * width * x
+        below, bell = _gauss(at + j * ahead)
+        bell *= sharp
+        edges[0, j], edges[1, j] = below, -bell
+        edges[2, j] = bell * width * (j * (2.0 / CELLS) - 1.0)
     return a, b
 
 
-@njit
+@njit(fastmath=REORDERED, forceinline=True)
 def _within(row: Any, a: int, b: int, edges: Any, profile: Any) -> None:
     """Like `_band`, far from both of the band's ends."""
     for j in range(a, b):
@@ -176,7 +176,7 @@ def _within(row: Any, a: int, b: int, edges: Any, profile: Any) -> None:
             row[3, k] += p * by_width
 
 
-@njit
+@njit(fastmath=REORDERED, forceinline=True)
 def _band(
     row: Any,
     e: float,
@@ -189,12 +189,13 @@ def _band(
     profile: Any,
 ) -> None:
     """Add the band's columns of one pixel and their derivatives."""
+    sharp = 1.0 / blur
     for j in range(a, b):
-        h1, h2 = (stretch * arcs[0, j] - e) / blur, (stretch * arcs[1, j] - e) / blur
+        h1, h2 = (stretch * arcs[0, j] - e) * sharp, (stretch * arcs[1, j] - e) * sharp
         if h1 >= _FAR or h2 <= -_FAR:
             continue
-        along = _step(h2) - _step(h1)
-        k1, k2 = _bell(h1) / blur, _bell(h2) / blur
+        (below1, bell1), (below2, bell2) = _gauss(h1), _gauss(h2)
+        along, k1, k2 = below2 - below1, bell1 * sharp, bell2 * sharp
         across = edges[0, j + 1] - edges[0, j]
         share = across * along
         by_n = (edges[1, j + 1] - edges[1, j]) * along
@@ -210,7 +211,7 @@ def _band(
             row[4, k] += p * by_length
 
 
-@njit
+@njit(fastmath=REORDERED, forceinline=True)
 def _shaft(
     row: Any,
     e: float,
@@ -226,13 +227,13 @@ def _shaft(
 ) -> None:
     """Add the columns of the shaft beyond one end of the band, and their derivatives."""
     start = BAND + tip * SPLINES
-    sign = -1.0 if tip else 1.0
+    sign, sharp = -1.0 if tip else 1.0, 1.0 / blur
     for j in range(a, b):
-        h = (stretch * arcs[2 + tip, j] - e) / blur
-        along = _step(sign * h)
+        h = (stretch * arcs[2 + tip, j] - e) * sharp
+        along, bell = _gauss(sign * h)
         if along == 0.0:
             continue
-        bell = sign * _bell(h) / blur
+        bell *= sign * sharp
         across = edges[0, j + 1] - edges[0, j]
         share = across * along
         by_n = (edges[1, j + 1] - edges[1, j]) * along

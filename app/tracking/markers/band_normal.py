@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from app.core.compiled import njit
+from app.core.compiled import REORDERED, njit
 from app.tracking.markers.band_design import BAND, COLUMNS, PARTIALS
 from app.tracking.markers.band_ground import CURVE, SIDE
 
@@ -18,34 +18,27 @@ _SHAFTS: Final = COLUMNS - BAND
 _SLOPES: Final = _SHAFTS + CURVE
 
 
-@njit
-def covered(row: Any) -> float:
-    """Share of band and shaft in a pixel, or its derivative: the sum of their columns."""
-    rest = row[0]
-    for k in range(BAND, COLUMNS):
-        rest += row[k]
+@njit(fastmath=REORDERED, forceinline=True)
+def _shafts(row: Any) -> Any:
+    """First of a row's columns of shaft and tip that is not zero, and the last + 1."""
+    low, high = BAND, COLUMNS
+    while low < high and row[low] == 0.0:
+        low += 1
+    while high > low and row[high - 1] == 0.0:
+        high -= 1
+    return low, high
+
+
+@njit(fastmath=REORDERED, forceinline=True)
+def _free(row: Any, low: int, high: int) -> float:
+    """Share of the background in a pixel: what band and shaft leave."""
+    rest = 1.0 - row[0]
+    for k in range(low, high):
+        rest -= row[k]
     return rest
 
 
-@njit
-def _entries(row: Any, free: float, first: int, weights: Any, index: Any, value: Any) -> int:
-    """Columns of the rest that are not zero in a row; returns how many."""
-    count = 0
-    for k in range(BAND, COLUMNS):
-        if row[k] != 0.0:
-            index[count], value[count] = k - BAND, row[k]
-            count += 1
-    if free != 0.0:
-        for k in range(3):
-            index[count], value[count] = _SHAFTS + first + k, free * weights[k]
-            count += 1
-        index[count] = _SLOPES + (SIDE if first >= SIDE else 0)
-        value[count] = free * weights[3]
-        count += 1
-    return count
-
-
-@njit
+@njit(fastmath=REORDERED)
 def colour_equations(
     rows: Any,
     seen: Any,
@@ -70,8 +63,7 @@ def colour_equations(
         cross: out, rest with band and colours, (REST, BAND + 3).
         shared: out, band with band and colours, (BAND, BAND + 3).
     """
-    index, value = np.empty(COLUMNS + 4, np.int64), np.empty(COLUMNS + 4)
-    right = np.empty(BAND + 3)
+    right, ground = np.empty(BAND + 3), np.empty(4)
     cross[:], shared[:] = 0.0, 0.0
     for i in range(rows.shape[0]):
         if not good[i]:
@@ -80,24 +72,48 @@ def colour_equations(
             _ground_only(first[i], weights[i], colours[i], normal, cross)
             continue
         row = rows[i, 0]
-        count = _entries(row, 1.0 - covered(row), first[i], weights[i], index, value)
+        low, high = _shafts(row)
+        free = _free(row, low, high)
         for k in range(BAND):
             right[k] = row[k]
         for c in range(3):
             right[BAND + c] = colours[i, c]
-        for p in range(count):
-            a, x = index[p], value[p]
-            for q in range(p + 1):
-                normal[a, index[q]] += x * value[q]
-            for k in range(BAND + 3):
-                cross[a, k] += x * right[k]
+        for p in range(4):
+            ground[p] = free * weights[i, p]
+        for k in range(low, high):
+            x = row[k]
+            for q in range(low, k + 1):
+                normal[k - BAND, q - BAND] += x * row[q]
+            for q in range(BAND + 3):
+                cross[k - BAND, q] += x * right[q]
+        _background(first[i], ground, row, low, high, right, normal, cross)
         if row[0] != 0.0:
             for k in range(BAND):
-                for q in range(BAND + 3):
+                for q in range(k, BAND + 3):
                     shared[k, q] += row[k] * right[q]
+    for k in range(BAND):
+        for q in range(k):
+            shared[k, q] = shared[q, k]
 
 
-@njit
+@njit(fastmath=REORDERED, forceinline=True)
+def _background(
+    first: int, ground: Any, row: Any, low: int, high: int, right: Any, normal: Any, cross: Any
+) -> None:
+    """Add what the background's four columns of a pixel have in common with all others."""
+    start, slope = _SHAFTS + first, _SLOPES + (SIDE if first >= SIDE else 0)
+    for p in range(4):
+        a, x = (slope if p == 3 else start + p), ground[p]
+        for q in range(low, high):
+            normal[a, q - BAND] += x * row[q]
+        for q in range(min(p, 2) + 1):
+            normal[a, start + q] += x * ground[q]
+        for q in range(BAND + 3):
+            cross[a, q] += x * right[q]
+    normal[slope, slope] += ground[3] * ground[3]
+
+
+@njit(fastmath=REORDERED, forceinline=True)
 def _ground_only(first: int, weights: Any, colour: Any, normal: Any, cross: Any) -> None:
     """Add a pixel of the background alone."""
     start, slope = _SHAFTS + first, _SLOPES + (SIDE if first >= SIDE else 0)
@@ -110,7 +126,7 @@ def _ground_only(first: int, weights: Any, colour: Any, normal: Any, cross: Any)
     normal[slope, slope] += weights[3] * weights[3]
 
 
-@njit
+@njit(fastmath=REORDERED)
 def move_equations(
     rows: Any,
     seen: Any,
@@ -139,58 +155,97 @@ def move_equations(
         shading: of the band: its coefficients are those of the paint times these, (BAND,).
         rest: coefficients, (REST, 3).
         squares: out, mean square over the colours of the difference from the model, (m,).
-        cross: out, rest with the derivatives by n, e, width and length of each colour,
-            (REST, 3 * MOVES).
+        cross: out, rest with the derivatives of the three colours by n, then by e, width and
+            length, (REST, 3 * MOVES).
         moves: out, derivatives with derivatives and with the band, (MOVES, MOVES + BAND).
         right: out, derivatives with the residual, (MOVES,).
     """
-    index, value = np.empty(COLUMNS + 4, np.int64), np.empty(COLUMNS + 4)
     slope, ground, residual = np.empty(3 * MOVES), np.empty(3), np.empty(3)
     cross[:], moves[:], right[:] = 0.0, 0.0, 0.0
     for i in range(rows.shape[0]):
-        start, slopes = _SHAFTS + first[i], _SLOPES + (SIDE if first[i] >= SIDE else 0)
-        for c in range(3):
-            ground[c] = weights[i, 3] * rest[slopes, c]
-            for k in range(3):
-                ground[c] += weights[i, k] * rest[start + k, c]
-        row, count, free = rows[i, 0], 0, 1.0
-        light = 0.0
+        _colour_behind(first[i], weights[i], rest, ground)
+        row, low, high, free = rows[i, 0], BAND, BAND, 1.0
         if seen[i]:
-            free = 1.0 - covered(row)
-            count = _entries(row, 0.0, first[i], weights[i], index, value)
-            for k in range(BAND):
-                light += row[k] * shading[k]
+            low, high = _shafts(row)
+            free = _free(row, low, high)
+            _model(row, low, high, free, shading, paint, rest, ground, residual)
+        else:
+            residual[:] = ground
         squares[i] = 0.0
         for c in range(3):
-            model = light * paint[c] + free * ground[c]
-            for p in range(count):
-                model += value[p] * rest[index[p], c]
-            residual[c] = colours[i, c] - model
+            residual[c] = colours[i, c] - residual[c]
             squares[i] += residual[c] * residual[c] / 3.0
         if not seen[i] or not good[i] or (row[0] == 0.0 and free > 0.9999):
             continue
         for m in range(MOVES):
             change = rows[i, 1 + m]
-            lost, light = covered(change), 0.0
-            for k in range(BAND):
-                light += change[k] * shading[k]
-            for c in range(3):
-                total = light * paint[c] - lost * ground[c]
-                for p in range(count):
-                    total += change[BAND + index[p]] * rest[index[p], c]
-                slope[c * MOVES + m] = total
-        count = _entries(row, free, first[i], weights[i], index, value)
-        for p in range(count):
-            a, x = index[p], value[p]
+            gained, by_colour = -change[0], slope[3 * m : 3 * m + 3]
+            for k in range(low, high):
+                gained -= change[k]
+            _model(change, low, high, gained, shading, paint, rest, ground, by_colour)
+        start, last = _SHAFTS + first[i], _SLOPES + (SIDE if first[i] >= SIDE else 0)
+        for k in range(low, high):
+            for q in range(3 * MOVES):
+                cross[k - BAND, q] += row[k] * slope[q]
+        for p in range(4):
+            a, x = (last if p == 3 else start + p), free * weights[i, p]
             for q in range(3 * MOVES):
                 cross[a, q] += x * slope[q]
-        for m in range(MOVES):
-            painted = 0.0
-            for c in range(3):
-                x = slope[c * MOVES + m]
-                right[m] += x * residual[c]
-                painted += x * paint[c]
-                for q in range(MOVES):
-                    moves[m, q] += x * slope[c * MOVES + q]
-            for k in range(BAND):
-                moves[m, MOVES + k] += painted * row[k]
+        _gather_moves(slope, residual, paint, row, moves, right)
+    for m in range(MOVES):
+        for q in range(m):
+            moves[m, q] = moves[q, m]
+
+
+@njit(fastmath=REORDERED, forceinline=True)
+def _colour_behind(first: int, weights: Any, rest: Any, ground: Any) -> None:
+    """Fill the background's colour at a pixel, (3,)."""
+    start, slope = _SHAFTS + first, _SLOPES + (SIDE if first >= SIDE else 0)
+    for c in range(3):
+        ground[c] = (
+            weights[0] * rest[start, c]
+            + weights[1] * rest[start + 1, c]
+            + weights[2] * rest[start + 2, c]
+            + weights[3] * rest[slope, c]
+        )
+
+
+@njit(fastmath=REORDERED, forceinline=True)
+def _model(
+    row: Any,
+    low: int,
+    high: int,
+    free: float,
+    shading: Any,
+    paint: Any,
+    rest: Any,
+    ground: Any,
+    colour: Any,
+) -> None:
+    """Fill the colour that a row stands for, (3,); of a row's derivative, its change."""
+    light = 0.0
+    for k in range(BAND):
+        light += row[k] * shading[k]
+    first, second, third = light * paint[0], light * paint[1], light * paint[2]
+    for k in range(low, high):
+        first += row[k] * rest[k - BAND, 0]
+        second += row[k] * rest[k - BAND, 1]
+        third += row[k] * rest[k - BAND, 2]
+    colour[0] = first + free * ground[0]
+    colour[1] = second + free * ground[1]
+    colour[2] = third + free * ground[2]
+
+
+@njit(fastmath=REORDERED, forceinline=True)
+def _gather_moves(slope: Any, residual: Any, paint: Any, row: Any, moves: Any, right: Any) -> None:
+    """Add a pixel to the products of the derivatives with each other, the band and the residual."""
+    for m in range(MOVES):
+        first, second, third = slope[3 * m], slope[3 * m + 1], slope[3 * m + 2]
+        right[m] += first * residual[0] + second * residual[1] + third * residual[2]
+        painted = first * paint[0] + second * paint[1] + third * paint[2]
+        for q in range(m, MOVES):
+            moves[m, q] += (
+                first * slope[3 * q] + second * slope[3 * q + 1] + third * slope[3 * q + 2]
+            )
+        for k in range(BAND):
+            moves[m, MOVES + k] += painted * row[k]

@@ -4,13 +4,13 @@ from typing import Any
 
 import numpy as np
 
-from app.core.compiled import njit
+from app.core.compiled import REORDERED, njit
 from app.tracking.markers.band_design import BAND
 from app.tracking.markers.band_normal import MOVES, REST, colour_equations, move_equations
 from app.tracking.markers.cholesky import factorise, finish, halve
 
 
-@njit
+@njit(fastmath=REORDERED)
 def solve_step(
     rows: Any,
     seen: Any,
@@ -91,10 +91,10 @@ def solve_step(
         for p in range(MOVES):
             painted = 0.0
             for c in range(3):
-                x = crosses[a, c * MOVES + p]
+                x = crosses[a, 3 * p + c]
                 painted += paint[c] * x
                 for q in range(MOVES):
-                    information[p, q] -= x * crosses[a, c * MOVES + q]
+                    information[p, q] -= x * crosses[a, 3 * q + c]
             for k in range(BAND):
                 information[p, MOVES + k] -= painted * cross[a, k]
     for p in range(MOVES):

@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from app.core.compiled import njit
+from app.core.compiled import REORDERED, njit
 
 
-@njit
+@njit(fastmath=REORDERED)
 def factorise(matrix: Any) -> bool:
     """Replace the lower triangle by Cholesky's factor; False if it is not positive definite."""
     size = matrix.shape[0]
@@ -25,7 +25,7 @@ def factorise(matrix: Any) -> bool:
     return True
 
 
-@njit
+@njit(fastmath=REORDERED)
 def halve(factor: Any, right: Any) -> None:
     """Replace B, (size, n), by L⁻¹ B: products of two such are those with the inverse between."""
     size, count = right.shape
@@ -39,7 +39,7 @@ def halve(factor: Any, right: Any) -> None:
             right[i, c] /= factor[i, i]
 
 
-@njit
+@njit(fastmath=REORDERED)
 def finish(factor: Any, right: Any) -> None:
     """Replace L⁻¹ B by (L Lᵀ)⁻¹ B."""
     size, count = right.shape

@@ -1,0 +1,96 @@
+"""The band's normal equations, compiled and sparse, against dense ones in plain numpy."""
+
+import math
+
+import numpy as np
+import pytest
+
+from app.tracking.markers.band_design import BAND, COLUMNS, PARTIALS, SPLINES, _gauss
+from app.tracking.markers.band_ground import CURVE, SIDE
+from app.tracking.markers.band_normal import MOVES, REST, colour_equations, move_equations
+
+COUNT = 300
+
+
+@pytest.fixture(scope="module")
+def pixels():
+    """Random rows with the zeros of real ones: band, and shaft at either end or none at all."""
+    rng = np.random.default_rng(5)
+    rows = np.zeros((COUNT, PARTIALS, COLUMNS))
+    seen = rng.random(COUNT) < 0.8
+    for i in np.flatnonzero(seen):
+        if rng.random() < 0.7:
+            rows[i, :, :BAND] = rng.normal(0.0, 0.2, (PARTIALS, BAND))
+        if rng.random() < 0.7:
+            k = BAND + rng.integers(0, 2) * SPLINES + rng.integers(0, SPLINES - 4)
+            rows[i, :, k : k + 5] = rng.normal(0.0, 0.1, (PARTIALS, 5))
+    first = rng.integers(0, CURVE - 2, COUNT) + SIDE * rng.integers(0, 2, COUNT)
+    weights, colours = rng.random((COUNT, 4)), rng.normal(20.0, 9.0, (COUNT, 3))
+    return rows, seen, first, weights, colours, rng.random(COUNT) < 0.9
+
+
+def _dense(rows, seen, first, weights):
+    """Rest's columns of the pixels and of their derivatives, and the free share and its change."""
+    free = np.zeros((COUNT, PARTIALS))
+    free[:, 0] = 1.0
+    covered = rows[:, :, 0] + rows[:, :, BAND:].sum(axis=2)
+    free[seen] -= covered[seen]
+    rest = np.zeros((COUNT, PARTIALS, REST))
+    rest[seen, :, : 2 * SPLINES] = rows[seen][:, :, BAND:]
+    ground = np.zeros((COUNT, REST))
+    for i in range(COUNT):
+        ground[i, 2 * SPLINES + first[i] + np.arange(3)] = weights[i, :3]
+        slope = CURVE + (SIDE if first[i] >= SIDE else 0)
+        ground[i, 2 * SPLINES + slope] = weights[i, 3]
+    rest += free[:, :, None] * ground[:, None]
+    band = np.where(seen[:, None, None], rows[:, :, :BAND], 0.0)
+    return band, rest, free
+
+
+def test_the_equations_of_the_colours_are_those_of_dense_matrices(pixels):
+    rows, seen, first, weights, colours, good = pixels
+    band, rest, _ = _dense(rows, seen, first, weights)
+    normal, cross = np.zeros((REST, REST)), np.empty((REST, BAND + 3))
+    shared = np.empty((BAND, BAND + 3))
+    colour_equations(rows, seen, first, weights, colours, good, normal, cross, shared)
+    a, right = rest[good, 0], np.hstack([band[good, 0], colours[good]])
+    some = good & (rows[:, 0, 0] != 0.0)  # a pixel without a share of the band has no shading
+    assert np.tril(normal) == pytest.approx(np.tril(a.T @ a), rel=1e-9, abs=1e-9)
+    assert cross == pytest.approx(a.T @ right, rel=1e-9, abs=1e-9)
+    wanted = band[some, 0].T @ np.hstack([band[some, 0], colours[some]])
+    assert shared == pytest.approx(wanted, rel=1e-9, abs=1e-9)
+
+
+def test_the_equations_of_the_moves_are_those_of_dense_matrices(pixels):
+    rows, seen, first, weights, colours, good = pixels
+    rng = np.random.default_rng(6)
+    band, rest, free = _dense(rows, seen, first, weights)
+    paint, shading = rng.normal(30.0, 9.0, 3), rng.normal(0.0, 0.3, BAND)
+    values = rng.normal(10.0, 4.0, (REST, 3))
+    squares, cross = np.empty(COUNT), np.empty((REST, 3 * MOVES))
+    moves, right = np.empty((MOVES, MOVES + BAND)), np.empty(MOVES)
+    move_equations(
+        rows, seen, first, weights, colours, good, paint, shading, values, squares, cross, moves,
+        right,
+    )  # fmt: skip
+    model = (band @ shading)[:, :, None] * paint + rest @ values  # (pixels, PARTIALS, 3)
+    residual = colours - model[:, 0]
+    assert squares == pytest.approx(np.mean(residual**2, axis=1), rel=1e-9)
+    count = seen & good & ~((rows[:, 0, 0] == 0.0) & (free[:, 0] > 0.9999))
+    slopes, residual = model[count, 1:], residual[count]
+    assert right == pytest.approx(np.einsum("imc,ic->m", slopes, residual), rel=1e-9)
+    wanted = np.einsum("ia,imc->amc", rest[count, 0], slopes).reshape(REST, -1)
+    assert cross == pytest.approx(wanted, rel=1e-9, abs=1e-7)
+    assert moves[:, :MOVES] == pytest.approx(np.einsum("imc,iqc->mq", slopes, slopes), rel=1e-9)
+    painted = np.einsum("imc,c,ik->mk", slopes, paint, band[count, 0])
+    assert moves[:, MOVES:] == pytest.approx(painted, rel=1e-9, abs=1e-6)
+
+
+def test_the_tables_of_a_gaussian_hold_to_a_millionth():
+    for z in np.linspace(-3.99, 3.99, 1777):
+        below, bell = _gauss(z)
+        assert below == pytest.approx(0.5 + 0.5 * math.erf(z / math.sqrt(2.0)), abs=1e-6)
+        assert bell == pytest.approx(math.exp(-0.5 * z * z) / math.sqrt(2.0 * math.pi), abs=1e-6)
+    assert _gauss(np.nan) == (0.0, 0.0)
+    assert _gauss(-np.inf) == (0.0, 0.0)
+    assert _gauss(np.inf) == (1.0, 0.0)
