@@ -2,44 +2,41 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-from PySide6.QtCore import QSize, QTimer
+from PySide6.QtCore import QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
-from PySide6.QtWidgets import QMainWindow, QMessageBox, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
-from app import __version__
 from app.core.errors import AcusError
 from app.exercises.schema import Exercise
-from app.imaging.window import WindowLevel
 from app.session.result import AttemptResult
+from app.views.about import about
 from app.views.cameras.desk import CamerasDesk
 from app.views.checks.desk import ChecksDesk
 from app.views.conductor import Conductor
 from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.sessions import SessionsPage
+from app.views.drops import dropped
 from app.views.menus import Menus
 from app.views.message_bar import MessageBar
 from app.views.message_topics import MessageTopics
 from app.views.notices import Notices
 from app.views.open_ct import OpenCt
+from app.views.page_ways import connect_pages
 from app.views.patient import Patient
 from app.views.pen.desk import PenDesk
 from app.views.plan.editor import PlanEditor
 from app.views.plan.files import PlanFiles
 from app.views.progress_strip import ProgressStrip
+from app.views.remembered import remember, restore
 from app.views.robot.desk import RobotDesk
 from app.views.runs import Runs
 from app.views.services import Services
 from app.views.settings import Recents, open_settings
 from app.views.shortcuts import ShortcutSheet
 from app.views.start_page import StartPage
-from app.views.text import disclaimer, tr
+from app.views.text import tr
 from app.views.workspace import Workspace
-
-SMALLEST = (1180, 700)
-PREFERRED = (1400, 900)
 
 PAINTED_MS = 50
 """This long after it is shown the window is painted, and heavy parts may load."""
@@ -77,7 +74,7 @@ class MainWindow(QMainWindow):
         self.menus = Menus(self)
         self.notices = Notices(self, (self.progress, self.message_bar))
         self._connect()
-        self._restore()
+        restore(self, self.workspace.viewing, self.settings)
         self.show_start()
 
     # --- pages --------------------------------------------------------------------------------
@@ -152,11 +149,7 @@ class MainWindow(QMainWindow):
 
     def show_about(self) -> None:
         """Say what this is and what it is not."""
-        text = tr("Acus {version}", version=__version__)
-        box = QMessageBox(QMessageBox.Icon.NoIcon, tr("About Acus"), text, parent=self)
-        box.setInformativeText(disclaimer())
-        box.finished.connect(box.deleteLater)
-        box.open()
+        about(self).open()
 
     # --- what happens -------------------------------------------------------------------------
     def show_patient(self, patient: Patient) -> None:
@@ -174,7 +167,8 @@ class MainWindow(QMainWindow):
         except AcusError as error:
             self.message_bar.show_error(error)
 
-    def _finished(self, result: AttemptResult) -> None:
+    def show_result(self, result: AttemptResult) -> None:
+        """Show the debrief of an attempt that ended."""
         self.editor.set_locked(False)
         self.debrief.show_result(result)
 
@@ -212,49 +206,12 @@ class MainWindow(QMainWindow):
         )
         conductor.patient_changed.connect(self._refresh)
         self.editor.changed.connect(self._refresh)
-        self._connect_pages()
+        connect_pages(self)
         panel = self.workspace.plan_panel
         panel.new_wanted.connect(self.plan_files.new)
         panel.open_wanted.connect(self.plan_files.ask_open)
         panel.save_wanted.connect(self.plan_files.save)
         panel.save_as_wanted.connect(self.plan_files.save_as)
-
-    def _connect_pages(self) -> None:
-        controller = self.conductor.controller
-        controller.began.connect(lambda _: self.menus.bullseye.setChecked(True))
-        controller.began.connect(lambda _: self.workspace.show_exercise())
-        controller.finished.connect(self._finished)
-        self.workspace.exercise_panel.exercise_chosen.connect(self.begin_exercise)
-        self.start_page.exercise_chosen.connect(self.begin_exercise)
-        self.start_page.open_wanted.connect(self.open_ct.ask)
-        self.start_page.recent_chosen.connect(self.open_ct.open_folder)
-        self.start_page.sessions_wanted.connect(self.show_sessions)
-        self.debrief.shown.connect(self.show_debrief)
-        self.debrief_page.retry_requested.connect(self.show_workspace)
-        self.debrief_page.sessions_requested.connect(self.show_sessions)
-        self.sessions_page.closed.connect(self.show_workspace)
-
-    # --- remembered ---------------------------------------------------------------------------
-    def _restore(self) -> None:
-        self.setMinimumSize(*SMALLEST)
-        wanted, available = QSize(*PREFERRED), self.screen().availableGeometry().size()
-        self.resize(wanted.boundedTo(available))
-        geometry = self.settings.value("window/geometry")
-        if geometry is not None:
-            self.restoreGeometry(geometry)
-        try:
-            width = float(str(self.settings.value("slices/width")))
-            level = float(str(self.settings.value("slices/level")))
-            self.workspace.viewing.set_window(WindowLevel(width, level))
-        except (ValueError, AcusError):  # nothing was remembered, or nothing usable
-            return
-
-    def _remember(self) -> None:
-        window = self.workspace.viewing.window
-        self.settings.setValue("window/geometry", self.saveGeometry())
-        self.settings.setValue("slices/width", window.width)
-        self.settings.setValue("slices/level", window.level)
-        self.settings.sync()
 
     # --- events -------------------------------------------------------------------------------
     def showEvent(self, event: QShowEvent) -> None:
@@ -264,20 +221,20 @@ class MainWindow(QMainWindow):
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Accept a folder or a file from it."""
-        if any(url.isLocalFile() for url in event.mimeData().urls()):
+        if dropped(event):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:
         """Open a dropped folder, or a dropped plan."""
-        for url in event.mimeData().urls():
-            if url.isLocalFile():
-                path = Path(url.toLocalFile())
-                if path.suffix == ".json":
-                    self.plan_files.open(path)
-                else:
-                    self.open_ct.open_folder(path)
-                event.acceptProposedAction()
-                return
+        for path in dropped(event)[:1]:
+            if path.suffix == ".json":
+                self.plan_files.open(path)
+            else:
+                self.open_ct.open_folder(path)
+            event.acceptProposedAction()
+
+    def _remember(self) -> None:
+        remember(self, self.workspace.viewing, self.settings)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask about an unsaved plan, then end everything."""

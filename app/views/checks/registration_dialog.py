@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import Signal
@@ -14,7 +13,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QProgressBar,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
@@ -22,7 +20,6 @@ from PySide6.QtWidgets import (
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.transform import RigidTransform
-from app.imaging.volume import Volume
 from app.planning.history import History
 from app.planning.registration.check import RegistrationCheck
 from app.planning.registration.draft import CheckDraft
@@ -31,26 +28,11 @@ from app.planning.registration.record import RegistrationRecord, Registrations, 
 from app.session.touch import Touch
 from app.views import theme
 from app.views.checks.fiducial_table import FiducialTable
+from app.views.checks.registration_buttons import make_buttons, row_of
 from app.views.checks.registration_result import RegistrationResult
+from app.views.checks.surroundings import Surroundings
 from app.views.checks.toucher import Toucher, move_there
-from app.views.exercise.run import ExerciseRun
 from app.views.text import tr
-
-
-class Surroundings(Protocol):
-    """What the dialog needs of the window."""
-
-    def run(self) -> ExerciseRun | None:
-        """Return what runs now."""
-        ...
-
-    def volume(self) -> Volume | None:
-        """Return the CT that is shown."""
-        ...
-
-    def cursor_mm(self) -> FloatArray:
-        """Return the crosshair in the CT (LPS, mm), shape (3,)."""
-        ...
 
 
 class RegistrationDialog(QDialog):
@@ -75,7 +57,7 @@ class RegistrationDialog(QDialog):
         self.plates, self.table = QComboBox(self), FiducialTable(self)
         self.plates.addItems(plate_names())
         self.plate = load_plate(self.plates.currentText())
-        self.buttons = {name: QPushButton(title, self) for name, title in _BUTTONS.items()}
+        self.buttons = make_buttons(self)
         self.progress = QProgressBar(self)
         self.outcome = RegistrationResult(self)
         self._lay_out()
@@ -206,7 +188,6 @@ class RegistrationDialog(QDialog):
         self.progress.setRange(0, 100)
         self.progress.setTextVisible(False)
         self.progress.setFixedHeight(10)
-        self.buttons["save"].setProperty("role", "primary")
         head = QHBoxLayout()
         head.addWidget(QLabel(tr("Plate"), self))
         head.addWidget(self.plates)
@@ -216,21 +197,10 @@ class RegistrationDialog(QDialog):
         page.setSpacing(theme.SPACING)
         page.addLayout(head)
         page.addWidget(self.table, 1)
-        page.addLayout(self._row("touch", "move", "pick", "forget"))
+        page.addLayout(row_of(self.buttons, "touch", "move", "pick", "forget"))
         page.addWidget(self.progress)
         page.addWidget(self.outcome)
-        page.addLayout(self._row("undo", "redo", None, "place", "save"))
-
-    def _row(self, *names: str | None) -> QHBoxLayout:
-        row = QHBoxLayout()
-        for name in names:
-            if name is None:
-                row.addStretch(1)
-            else:
-                row.addWidget(self.buttons[name])
-        if None not in names:
-            row.addStretch(1)
-        return row
+        page.addLayout(row_of(self.buttons, "undo", "redo", None, "place", "save"))
 
     def _connect(self) -> None:
         for name, command in (
@@ -254,15 +224,3 @@ class RegistrationDialog(QDialog):
         """Stop measuring."""
         self.toucher.stop()
         super().closeEvent(event)
-
-
-_BUTTONS = {
-    "touch": tr("Touch now"),
-    "move": tr("Bring the simulated tip there"),
-    "pick": tr("Pick the bead at the crosshair"),
-    "forget": tr("Forget"),
-    "undo": tr("Undo"),
-    "redo": tr("Redo"),
-    "place": tr("Use the measured place"),
-    "save": tr("Save"),
-}

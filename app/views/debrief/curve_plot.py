@@ -9,7 +9,8 @@ from PySide6.QtWidgets import QGraphicsRectItem
 
 from app.views import theme
 from app.views.debrief.curve_values import Curve, time_end, value_range
-from app.views.debrief.review import Mark, Review
+from app.views.debrief.review import Review
+from app.views.debrief.timeline import Mark
 from app.views.exercise.state_words import state_word
 from app.views.text import tr
 

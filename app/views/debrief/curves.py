@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 from app.views import theme
 from app.views.debrief.curve_plot import cursor_of, draw, prepare, shade
 from app.views.debrief.curve_values import Curve, curves_of, time_end, value_range
-from app.views.debrief.review import Review, Span
+from app.views.debrief.review import Review
+from app.views.debrief.timeline import Span
 from app.views.exercise.state_words import state_word
 from app.views.text import tr
 

@@ -1,7 +1,6 @@
 """What the debrief shows of one attempt, as values; page and report draw the same ones."""
 
 import json
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import atan2
 from typing import Final
@@ -10,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
-from app.core.events import Event
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import ScoreFormatError
 from app.scoring.result import Score
@@ -22,8 +20,20 @@ from app.session.needle import FROM_CAMERAS
 from app.session.recording import Recording, read_recording
 from app.session.result import AttemptResult
 from app.session.summary import SCORE_FILE, derive
+from app.views.debrief.timeline import Mark, Span, marks, spans
 from app.views.exercise.pad_geometry import PadScale, PathFrame, path_frame
 from app.views.exercise.pad_view import rings
+
+__all__ = [
+    "Mark",
+    "Review",
+    "Span",
+    "marks",
+    "only_measured",
+    "review",
+    "review_of_result",
+    "spans",
+]
 
 SHOWN_EVENTS: Final = ("scan", "fault", "abort")
 """Kinds of events that are marked on the curves."""
@@ -31,37 +41,8 @@ SHOWN_EVENTS: Final = ("scan", "fault", "abort")
 DEVICE_FILE: Final = "device.json"
 """Attachment that holds the device profile."""
 
-LONGEST_SIGN: Final = 36
-"""Characters of an event that stand on a plot."""
-
 FORCE_LIMIT: Final = 5.0
 """Limit of the force at the hand [N] where the record names none."""
-
-
-@dataclass(frozen=True, slots=True)
-class Span:
-    """A stretch of time in one state of the attempt [s since the beginning]."""
-
-    state: str
-    start: float
-    end: float
-
-
-@dataclass(frozen=True, slots=True)
-class Mark:
-    """An event on the time axis [s since the beginning]."""
-
-    time: float
-    kind: str
-    label: str
-
-    @property
-    def sign(self) -> str:
-        """What stands on a plot: a triangle and the number of a scan, or the words, cut short."""
-        if self.kind == "scan":
-            return f"▼ {self.label}"
-        whole = len(self.label) <= LONGEST_SIGN
-        return f"! {self.label if whole else self.label[: LONGEST_SIGN - 1].rstrip() + '…'}"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -139,29 +120,6 @@ class Review:
             ratio = np.where(lengths > 1e-12, radii / lengths, 0.0)
         result: FloatArray = offsets * np.where(np.isnan(lengths), np.nan, ratio)[:, None]
         return result
-
-
-def spans(time: FloatArray, state: NDArray[np.str_]) -> tuple[Span, ...]:
-    """Stretches of equal state; each ends where the next one begins."""
-    if len(time) == 0:
-        return ()
-    starts = [0, *(np.flatnonzero(state[1:] != state[:-1]) + 1).tolist()]
-    ends = [*starts[1:], len(time) - 1]
-    return tuple(
-        Span(str(state[a]), float(time[a]), float(time[b]))
-        for a, b in zip(starts, ends, strict=True)
-    )
-
-
-def marks(events: Sequence[Event], origin: float, kinds: Sequence[str]) -> tuple[Mark, ...]:
-    """Events of some kinds on the time axis; scans are numbered."""
-    found, counts = [], dict.fromkeys(kinds, 0)
-    for event in events:
-        if event.kind in counts:
-            counts[event.kind] += 1
-            label = str(counts[event.kind]) if event.kind == "scan" else event.message
-            found.append(Mark(event.time - origin, event.kind, label))
-    return tuple(found)
 
 
 def review(recording: Recording) -> Review:

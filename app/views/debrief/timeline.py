@@ -1,0 +1,63 @@
+"""States and events of an attempt on its time axis."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray
+from app.core.events import Event
+
+LONGEST_SIGN: Final = 36
+"""Characters of an event that stand on a plot."""
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A stretch of time in one state of the attempt [s since the beginning]."""
+
+    state: str
+    start: float
+    end: float
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """An event on the time axis [s since the beginning]."""
+
+    time: float
+    kind: str
+    label: str
+
+    @property
+    def sign(self) -> str:
+        """What stands on a plot: a triangle and the number of a scan, or the words, cut short."""
+        if self.kind == "scan":
+            return f"▼ {self.label}"
+        whole = len(self.label) <= LONGEST_SIGN
+        return f"! {self.label if whole else self.label[: LONGEST_SIGN - 1].rstrip() + '…'}"
+
+
+def spans(time: FloatArray, state: NDArray[np.str_]) -> tuple[Span, ...]:
+    """Stretches of equal state; each ends where the next one begins."""
+    if len(time) == 0:
+        return ()
+    starts = [0, *(np.flatnonzero(state[1:] != state[:-1]) + 1).tolist()]
+    ends = [*starts[1:], len(time) - 1]
+    return tuple(
+        Span(str(state[a]), float(time[a]), float(time[b]))
+        for a, b in zip(starts, ends, strict=True)
+    )
+
+
+def marks(events: Sequence[Event], origin: float, kinds: Sequence[str]) -> tuple[Mark, ...]:
+    """Events of some kinds on the time axis; scans are numbered."""
+    found, counts = [], dict.fromkeys(kinds, 0)
+    for event in events:
+        if event.kind in counts:
+            counts[event.kind] += 1
+            label = str(counts[event.kind]) if event.kind == "scan" else event.message
+            found.append(Mark(event.time - origin, event.kind, label))
+    return tuple(found)

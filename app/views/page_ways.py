@@ -1,0 +1,26 @@
+"""The ways between the window's pages: what leads from which to which."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from app.views.window import MainWindow
+
+
+def connect_pages(window: MainWindow) -> None:
+    """Connect the pages of a window whose parts are all there."""
+    controller = window.conductor.controller
+    controller.began.connect(lambda _: window.menus.bullseye.setChecked(True))
+    controller.began.connect(lambda _: window.workspace.show_exercise())
+    controller.finished.connect(window.show_result)
+    window.workspace.exercise_panel.exercise_chosen.connect(window.begin_exercise)
+    start, debrief = window.start_page, window.debrief_page
+    start.exercise_chosen.connect(window.begin_exercise)
+    start.open_wanted.connect(window.open_ct.ask)
+    start.recent_chosen.connect(window.open_ct.open_folder)
+    start.sessions_wanted.connect(window.show_sessions)
+    window.debrief.shown.connect(window.show_debrief)
+    debrief.retry_requested.connect(window.show_workspace)
+    debrief.sessions_requested.connect(window.show_sessions)
+    window.sessions_page.closed.connect(window.show_workspace)
