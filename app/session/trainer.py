@@ -5,9 +5,7 @@ from collections.abc import Callable
 from typing import Final
 
 from app.core.clock import Clock, SystemClock
-from app.core.errors import AcusError
 from app.core.events import EventQueue
-from app.core.latest import Latest
 from app.planning.placement import PlacedPlan
 from app.session.arming import Arming, ClearanceOf
 from app.session.attempt_log import AttemptLog
@@ -18,7 +16,8 @@ from app.session.ports import ExercisePort, FixPort, LoopPort, TrackerPort
 from app.session.result import AttemptResult
 from app.session.running import Running
 from app.session.scored import scorer
-from app.session.snapshot import Snapshot, take
+from app.session.sight import Sight
+from app.session.snapshot import Snapshot
 from app.session.ticker import Ticker
 from app.session.watch import Watch
 
@@ -72,7 +71,7 @@ class Trainer:
         self._arming = Arming(self._inputs, held_arming, clearance)
         self._watch = Watch(loop, tracker, self._inputs)
         self._running = Running(self.events)
-        self._latest: Latest[Snapshot] = Latest()
+        self._sight = Sight(self._inputs, self._arming, self._watch, self._running, self.events)
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
 
@@ -144,7 +143,7 @@ class Trainer:
             self._running.begin(log, now, threaded=self._ticker is not None)
             self.heartbeat()
             self._arming.begin()
-            self._publish(now)
+            self._sight.publish(self._placed, now)
             return header.id
 
     def end(self) -> AttemptResult:
@@ -215,35 +214,18 @@ class Trainer:
 
     def snapshot(self) -> Snapshot:
         """Return everything as of the last tick; never waits for a running one."""
-        stamped = self._latest.read()
-        return stamped.value if stamped is not None else self.tick(self._clock.now())
+        return self._sight.newest or self.tick(self._clock.now())
 
     # --- one tick ---------------------------------------------------------------------------------
     def tick(self, now: float) -> Snapshot:
         """Pull the latest values, move the attempt, record, publish; `now` is the time [s]."""
         with self._lock:
-            try:
-                self._arming.look()
-                seen = self._watch.look(self._placed, now)
-                was_paused = self._running.paused
-                reason = self._running.look(seen, self._inputs, self.held_arming)
-                self._arming.pause(was_paused, self._running.paused)
-                reason = reason or self._watch.news(self._running, self.events)
-            except AcusError as error:
-                reason = str(error)
-                self._watch.blind(self._placed, now, reason)
+            reason = self._sight.look(self._placed, now)
             if reason:
                 self.abort(reason)
             elif self._ticker is None and self._running.log is not None:
                 self._running.log.recorder.drain()
-            return self._publish(now)
-
-    def _publish(self, now: float) -> Snapshot:
-        """Publish what the last look saw, with the attempt as it is now."""
-        seen = self._watch.newest(self._placed, now)
-        snapshot = take(now, seen, self._running, self._inputs, self._arming, self._watch)
-        self._latest.publish(snapshot, now)
-        return snapshot
+            return self._sight.publish(self._placed, now)
 
     def _finish(self, event: Event, reason: str = "") -> AttemptResult:
         self.disarm()
@@ -251,7 +233,7 @@ class Trainer:
         result = self._running.finish(event, self._watch.seen, self._inputs, now, reason)
         self.disarm()  # a key that was pressed while the attempt was ending
         self.result = result
-        self._publish(now)
+        self._sight.publish(self._placed, now)
         return result
 
     def _crashed(self, error: Exception) -> None:
