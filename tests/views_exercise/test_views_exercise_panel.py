@@ -27,6 +27,7 @@ from app.views.exercise.status_items import (
     recorder_item,
     tracker_item,
 )
+from app.views.exercise.tracker_panel import TrackerFigures, _Figures
 
 
 @pytest.fixture
@@ -232,3 +233,16 @@ def test_the_strip_keeps_its_height_while_there_is_nothing_to_say(qt):
     strip.show_items(status_items(snapshot(), 1000.0, 0.0, 0.02))
     strip.layout().activate()
     assert max(strip.sizeHint().height(), strip.minimumHeight()) == empty
+
+
+def test_a_radius_without_the_calibrations_error_says_so(qt):
+    table = _Figures(None)
+    shown = TrackerFigures(30.0, 0.2, None)
+    table.show_figures(shown, 0.31e-3)
+    assert table.text("radius") == "± 0.31 mm"
+    table.show_figures(shown, 0.31e-3, known=False)
+    assert table.text("radius") == "± 0.31 mm + calibration (not known)"
+    assert "calibrate with pictures of a board" in table._values["radius"].toolTip()
+    table.show_figures(shown, 0.31e-3)
+    assert "not known" not in table._values["radius"].toolTip()
+    table.deleteLater()
