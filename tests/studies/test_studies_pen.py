@@ -2,8 +2,10 @@
 
 import numpy as np
 
+from app.core.progress import Progress
+from app.studies import pen
 from app.studies.webcam.setups import Setup
-from app.studies.webcam.trials import rendered, trials
+from app.studies.webcam.trials import Outcome, rendered, trials
 from app.tracking.confidence import chi_square_quantile
 
 
@@ -17,3 +19,23 @@ def test_the_ellipsoid_holds_in_trials_with_everything_declared_drawn_anew():
     found = trials(60)
     assert found.share > 0.5, "single faces are refused where nothing but the picture is known"
     assert np.mean(found.distance < chi_square_quantile(0.95, 3)) >= 0.88
+
+
+def test_the_study_has_a_row_for_each_condition_and_says_what_the_trials_gave(monkeypatch):
+    monkeypatch.setattr(pen, "SETUPS", (Setup(), Setup(distance=0.35)))
+    monkeypatch.setattr(pen, "rendered", lambda setup: rendered(setup, poses=3))
+    monkeypatch.setattr(pen, "trials", lambda: trials(20))
+    told = []
+    found = pen.STUDY.measure(Progress(lambda share, text: told.append(share)))
+    (sheet,) = found.sheets
+    assert len(sheet.rows) == 2
+    assert all(len(row) == len(sheet.columns) for row in sheet.rows)
+    assert "95 % ellipsoid" in found.lines[-1]
+    assert told == sorted(told)
+
+
+def test_a_condition_in_which_nothing_is_found_has_a_row_that_says_so():
+    nothing = Outcome(np.array([]), np.array([]), np.array([]), 0.0)
+    row = pen._row(Setup(), nothing)
+    assert row[4] == 0.0
+    assert row[-1] == "-"

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos
+from math import asin, sqrt
 
 import numpy as np
 
@@ -170,16 +170,17 @@ def _descend(
             continue
         rotation, translation, found, moved = turned, shifted, after, True
         damping, cost = 0.1 * damping, float(after.white @ after.white)
-        if any(_cosine(rotation, other.rotation) > cos(SAME) for other in known):
+        if any(_turn(rotation, other.rotation) < SAME for other in known):
             break
     return RigidTransform(rotation, translation) if moved else pose
 
 
-def _cosine(first: FloatArray, second: FloatArray) -> float:
-    """Cosine of the angle between two rotations."""
-    return 0.5 * (float(np.sum(first * second)) - 1.0)
-
-
 def angle_between(first: RigidTransform, second: RigidTransform) -> float:
     """Angle between two poses' rotations [rad]."""
-    return float(np.linalg.norm((first @ second.inverse()).log()[3:]))
+    return _turn(first.rotation, second.rotation)
+
+
+def _turn(first: FloatArray, second: FloatArray) -> float:
+    """Angle between two rotations [rad]: |R1 - R2| = 2 √2 sin(angle / 2), exact for small ones."""
+    apart = float(np.sqrt(np.sum((first - second) ** 2)))
+    return 2.0 * asin(min(1.0, apart / sqrt(8.0)))
