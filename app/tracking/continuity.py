@@ -55,6 +55,10 @@ class Continuity:
             "the needle's line until both have seen it",
         )
 
+    def clear(self) -> None:
+        """Forget it: both cameras have to see the marker before one is believed."""
+        self._last = None
+
     def _continues(self, fix: NeedleFix) -> bool:
         last = self._last
         if last is None:

@@ -81,6 +81,11 @@ class FixHealth:
             fix = replace(fix, status=FixStatus.VALID, reason="", covariance=self._of_bent(fix))
         return replace(fix, discrepancy=self._verdict)
 
+    def clear(self) -> None:
+        """Forget all evidence, for a new start."""
+        self.monitor.clear()
+        self._verdict, self._count = Discrepancy(), 0
+
     def _of_bent(self, fix: NeedleFix) -> FloatArray:
         """Covariance of a bent needle's tip [m²], (3, 3).
 

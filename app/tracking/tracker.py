@@ -1,6 +1,5 @@
 """The tracker: two cameras in, needle fixes out."""
 
-import threading
 from collections.abc import Callable, Sequence
 
 from app.core.arrays import FloatArray
@@ -28,9 +27,7 @@ from app.tracking.statistics import TrackerMeter, TrackerStatistics
 from app.tracking.track import Markers
 from app.tracking.tracked_picture import TrackedPicture
 from app.tracking.two_bands import TwoBands
-
-_PAUSE = 0.1
-"""Time [s] to wait after an error inside the tracker."""
+from app.tracking.worker import Stopped, Worker
 
 Axis = Callable[[float], FloatArray | None]
 """Needle direction, hub to tip, at a time [s]; None while the robot does not know it."""
@@ -84,7 +81,7 @@ class Tracker:
         self._names = tuple(model.name for model in rig.models)
         self._fulcrum = fulcrum
         self._solver = FixSolver(rig, fulcrum)
-        self._hiding = Hiding(rig.needle)
+        self._hiding = Hiding(rig.needle, self._put)
         self._continuity = Continuity()
         self._health = FixHealth(rig.needle.marker_offset, force, self._put)
         self._times = CaptureTimes(self._names, self._put)
@@ -98,9 +95,7 @@ class Tracker:
         self._pictures: dict[str, TrackedPicture] = {}
         if self._bands is not None:
             self._bands.use(colour)
-        self._thread: threading.Thread | None = None
-        self._stop = threading.Event()
-        self._fault = ""
+        self._worker = Worker(self._step, self._put)
 
     def open(self) -> None:
         """Open both cameras and start; opening twice is fine.
@@ -108,21 +103,23 @@ class Tracker:
         Raises:
             CameraError: if a camera cannot be opened; the other is closed again.
         """
-        if self._thread is not None:
+        if self._worker.is_open:
             return
-        self._stop.clear()
+        for memory in (self._health, self._hiding, self._continuity):
+            memory.clear()  # needle, cameras and robot may be others than before
         rehearse(self.rig, self._fulcrum, self.extractors, self._solver)
         self._feed.open()
-        self._thread = threading.Thread(target=self._run, name="tracker", daemon=True)
-        self._thread.start()
+        self._worker.open()
 
     def close(self) -> None:
-        """Stop the thread and close the cameras; closing twice is fine."""
-        self._stop.set()
+        """Stop the thread and close the cameras; closing twice is fine.
+
+        A thread that does not end in time is told of in an event; nothing that it still finds
+        counts, and it does not touch the cameras again.
+        """
+        self._worker.stop()
         self._feed.close()
-        thread, self._thread = self._thread, None
-        if thread is not None:
-            thread.join(timeout=2.0)
+        self._worker.join()
 
     def process(self, left: Frame | None, right: Frame | None) -> NeedleFix:
         """Fix of one pair of pictures, of whatever capture times; None for a camera without one.
@@ -208,7 +205,7 @@ class Tracker:
         stamped = self.latest.read()
         newest = stamped.value if stamped else None
         return self._meter.statistics(
-            now, newest, self._feed.health(now), self._fault, self._feed.skew()
+            now, newest, self._feed.health(now), self._worker.fault, self._feed.skew()
         )
 
     def pictures(self) -> tuple[TrackedPicture, ...]:
@@ -221,29 +218,18 @@ class Tracker:
             if frame is not None:
                 self._pictures[name] = TrackedPicture(name, frame.image, frame.time, marker)
 
-    def _run(self) -> None:
-        while not self._stop.is_set():
-            try:
-                self._step()
-            except Exception as error:  # shown as a fault; the tracker goes on with the next pair
-                self._fail(f"{type(error).__name__}: {error}")
-                self._stop.wait(_PAUSE)
-
-    def _step(self) -> None:
+    def _step(self, stopped: Stopped) -> None:
         frames = self._feed.wait()
-        if self._stop.is_set() or (frames[0] is None and frames[1] is None):
+        if stopped() or (frames[0] is None and frames[1] is None):
             return
         fix = self.process(*frames)
+        if stopped():  # closed meanwhile
+            return
         self.latest.publish(fix, fix.time)
         self._meter.count(fix, self._clock.now())
         if self._on_fix is not None:
             self._on_fix(fix)
-        self._fault = ""
-
-    def _fail(self, message: str) -> None:
-        if message != self._fault:
-            self._put("fault", f"the tracker failed: {message}")
-        self._fault = message
+        self._worker.fault = ""
 
     def _put(self, kind: str, message: str) -> None:
         self.events.put(Event(self._clock.now(), kind, message))

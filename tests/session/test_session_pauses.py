@@ -139,6 +139,20 @@ def test_only_a_loss_in_the_body_pauses() -> None:
     assert not _paused(DepthSource.MODEL, State.INSERTING, "not_yet_visible")
 
 
+def test_a_marker_drawn_into_the_tube_in_a_pause_keeps_it_until_it_is_seen_again() -> None:
+    pauses = Pauses()
+    for k in range(60):
+        event = pauses.look(State.INSERTING, pose(0.02 * k, DepthSource.MODEL), "out_of_view")
+        if event is not None:
+            break
+    assert event is Event.PAUSE
+    for k in range(100):
+        seen = pose(2.0 + 0.02 * k, DepthSource.MODEL)
+        assert pauses.look(State.PAUSED, seen, "not_yet_visible") is None
+    events = [pauses.look(State.PAUSED, pose(5.0 + 0.02 * k), "valid") for k in range(40)]
+    assert events.index(Event.RESUME) == pytest.approx(BACK / 0.02, abs=1)
+
+
 def test_a_flickering_marker_neither_pauses_nor_resumes() -> None:
     pauses = Pauses()
     for k in range(400):

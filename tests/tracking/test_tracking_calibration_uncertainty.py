@@ -155,3 +155,17 @@ def test_the_world_frame_alone_moves_the_point_as_a_rigid_body(wide):
         rtol=1e-9,
         atol=1e-18,
     )
+
+
+def test_what_is_remembered_of_a_place_serves_no_other_weights(wide):
+    """A pixel of one camera that is far less certain changes whose calibration error counts."""
+    calibration = _calibration(wide)
+    p_world = np.array([0.02, 0.16, 0.05])
+    error = CalibrationUncertainty(calibration)
+    even = np.stack([1e-8 * np.eye(2)] * 2)
+    error.covariance(p_world, even)
+    for share in (1.0, 1.05, 1.5, 4.0, 100.0):
+        seen = even * np.array([1.0, share])[:, None, None]
+        fresh = CalibrationUncertainty(calibration).covariance(p_world, seen)
+        kept = error.covariance(p_world + 1e-3, seen)
+        assert np.linalg.norm(kept - fresh) < 0.05 * np.linalg.norm(fresh)

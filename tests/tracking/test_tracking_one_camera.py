@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from app.tracking.continuity import Continuity
 from app.tracking.fix import FixStatus
-from app.tracking.hiding import Hiding
+from app.tracking.hiding import NEVER, Hiding
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.rig import NeedleProfile, load_rig
 from app.tracking.solver import FixSolver, Sighting
@@ -154,6 +154,22 @@ def test_a_marker_that_was_last_seen_at_the_tube_is_not_yet_visible_and_elsewher
         assert hiding.look(unseen).status is status
     open_rig = Hiding(wide.needle)
     assert open_rig.look(unseen).status is FixStatus.OUT_OF_VIEW
+
+
+def test_a_marker_that_is_never_seen_is_asked_for_after_a_while_and_once(wide):
+    told = []
+    solver = FixSolver(wide, FULCRUM)
+    hiding = Hiding(_profile(wide, hidden_mm=(-60.0, 12.0)), lambda *said: told.append(said))
+    for time in np.arange(0.0, 40.0, 0.5):
+        fix = hiding.look(solver.solve((None, None), _axis(0.0, 0.0), float(time)))
+        hidden = fix.status is FixStatus.NOT_YET_VISIBLE
+        assert hidden == (time <= NEVER)
+        assert hidden or "push the needle in" in fix.reason
+    assert [kind for kind, _ in told] == ["tracker"]
+    assert "not seen yet" in told[0][1]
+    hiding.clear()
+    unseen = solver.solve((None, None), _axis(0.0, 0.0), 100.0)
+    assert hiding.look(unseen).status is FixStatus.NOT_YET_VISIBLE
 
 
 def test_a_hidden_range_in_the_wrong_order_is_refused(wide):

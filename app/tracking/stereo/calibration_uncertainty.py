@@ -26,6 +26,10 @@ _LEFT, _RIGHT, _POSE, _WORLD = slice(0, 9), slice(9, 18), slice(18, 24), slice(2
 _REUSED = 2e-3
 """How far [m] a point may move before its sensitivities are computed anew: they change by 1 %."""
 
+_ALIKE = 0.1
+"""By how much of the largest any entry of the pixels' covariances may differ meanwhile: they are
+the weights of both cameras, by which the point divides their errors."""
+
 
 class CalibrationUncertainty:
     """Covariance of triangulated points from that of a calibration; remembers the last place."""
@@ -36,7 +40,7 @@ class CalibrationUncertainty:
         self._spread[: _WORLD.start, : _WORLD.start] = calibration.covariance
         if calibration.world is not None:
             self._spread[_WORLD, _WORLD] = calibration.world.pose_covariance
-        self._last: dict[tuple[int, ...], tuple[FloatArray, FloatArray]] = {}
+        self._last: dict[tuple[int, ...], tuple[FloatArray, FloatArray, FloatArray]] = {}
 
     def covariance(
         self,
@@ -54,11 +58,11 @@ class CalibrationUncertainty:
             prior: information that the shaft's line added [1/m²], shape (3, 3), or None.
         """
         known = self._last.get(cameras)
-        if known is not None and float(np.abs(known[0] - p_world).max()) < _REUSED:
-            return known[1]
+        if known is not None and _near(known[0], p_world) and _alike(known[1], covariances):
+            return known[2]
         gain = self._gain(p_world, covariances, cameras, prior)
         spread = read_only(gain @ self._spread @ gain.T)
-        self._last[cameras] = (np.array(p_world), spread)
+        self._last[cameras] = (np.array(p_world), np.array(covariances), spread)
         return spread
 
     def joint(self, points: FloatArray, covariances: FloatArray) -> FloatArray:
@@ -112,6 +116,14 @@ class CalibrationUncertainty:
         # World: p_left = T̂⁻¹ exp(-ξ) p_world, carried on into this camera.
         change[:, _WORLD] = projection @ model.T_camera_world.rotation @ _moved(p_world)
         return change
+
+
+def _near(known: FloatArray, p_world: FloatArray) -> bool:
+    return float(np.abs(known - p_world).max()) < _REUSED
+
+
+def _alike(known: FloatArray, covariances: FloatArray) -> bool:
+    return float(np.abs(known - covariances).max()) <= _ALIKE * float(np.abs(known).max())
 
 
 def pixel_by_parameters(
