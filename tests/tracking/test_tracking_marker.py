@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from app.tracking.markers.colour import RED
+from app.tracking.markers.colour_patch import mark_half
 from app.tracking.markers.extractor import Hint, MarkerFix
 from app.tracking.markers.outline_centroid import OutlineCentroid
 from app.tracking.markers.silhouette import centroid_shift
@@ -143,3 +145,21 @@ def test_the_picture_shows_a_red_band_on_a_grey_needle_where_the_model_says(
     assert red > 80
     u, v = np.rint(model.pixel(scene.p_world + (shape.tip + 0.01) * scene.axis_world)).astype(int)
     assert np.array_equal(image[v, u], wide_renderers[0]._background[v, u])  # beyond the tip
+
+
+def test_the_marked_pixels_are_those_of_every_second_pixel_in_numpy():
+    rng = np.random.default_rng(8)
+    image = rng.integers(0, 256, (61, 83, 3)).astype(np.uint8)
+    image[20:] = rng.integers(90, 120, (41, 83, 3))  # rows with nothing strong in them
+    image[40, 20] = (20, 20, 100)
+    mask, box = np.empty((31, 42), np.uint8), np.empty(4, np.int64)
+    for least in (25.5, 60.5):
+        assert mark_half(image, RED.weights, least, mask, box)
+        half = image[::2, ::2].astype(np.float64)
+        strength = half @ RED.weights
+        wanted = (strength >= least) & (strength - 0.3 * half[..., 2] >= 0.5)
+        assert (mask == wanted).all()
+        v, u = np.nonzero(wanted)
+        assert box.tolist() == [u.min(), v.min(), u.max() + 1, v.max() + 1]
+    assert not mark_half(np.full_like(image, 90), RED.weights, 25.5, mask, box)
+    assert not mask.any()

@@ -7,6 +7,7 @@ the angle of its mean colour to the learned one is small. The threshold of the s
 strongest in view, so that less light needs no other setting.
 """
 
+import math
 from functools import cached_property
 
 import numpy as np
@@ -55,11 +56,17 @@ class ColourModel(Strict):
 
     def angle(self, bgr: FloatArray) -> float:
         """Angle of a colour to the marker's [deg]; 90 for black."""
-        length = float(np.linalg.norm(bgr))
+        colour = bgr.tolist()
+        length = math.hypot(*colour)
         if length < 1.0:
             return 90.0
-        cosine = float(unit(np.array(self.bgr)) @ bgr) / length
-        return float(np.degrees(np.arccos(min(1.0, cosine))))
+        cosine = sum(a * b for a, b in zip(self._direction, colour, strict=True)) / length
+        return math.degrees(math.acos(min(1.0, cosine)))
+
+    @cached_property
+    def _direction(self) -> tuple[float, float, float]:
+        blue, green, red = unit(np.array(self.bgr)).tolist()
+        return blue, green, red
 
     def is_marker(self, bgr: FloatArray) -> bool:
         """Whether a patch of this mean colour may be the marker."""

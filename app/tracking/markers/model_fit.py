@@ -7,6 +7,7 @@ highlight, or none at all; one without the bare shaft beside it (see `shaft_evid
 red thing. What little misfit is let pass enlarges the covariance.
 """
 
+import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -180,10 +181,10 @@ class ModelFit(Extractor):
 
     def _half_px(self, p_camera: FloatArray, axis: FloatArray) -> FloatArray:
         """Half the width and half the length of the band's picture [px], shape (2,)."""
-        focal, z = self.model.intrinsics[:2], p_camera[2]
-        along = focal * (axis[:2] - axis[2] * p_camera[:2] / z)
-        length = self.shape.half * float(np.hypot(*along))
-        return np.array([self.shape.radius * float(np.sqrt(np.prod(focal))), length]) / z
+        fx, fy = self.model.intrinsics[:2].tolist()
+        (x, y, z), (a, b, c) = p_camera.tolist(), axis.tolist()
+        length = self.shape.half * math.hypot(fx * (a - c * x / z), fy * (b - c * y / z))
+        return np.array([self.shape.radius * math.sqrt(fx * fy) / z, length / z])
 
     def _start(
         self, found: MarkerFix, axis: FloatArray, p_world: FloatArray | None
