@@ -181,6 +181,7 @@ def test_a_webcam_that_is_missing_is_said_and_can_be_tried_again(window, service
     window.pen.open()
     page = window.pen.dialog
     assert settle(lambda: "none is plugged in" in page.preview.note.text(), 10.0)
+    assert "could not be opened" in page.status.accuracy.text()
     assert not page.tip.begin.isEnabled()
     services.refuses = ""
     page.again.click()

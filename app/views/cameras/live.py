@@ -144,10 +144,12 @@ class LivePreview(QWidget):
 
     Signals:
         opened(object): the camera that delivers now, as `open_camera` gave it.
+        failed(object): the error that kept it from opening; it is said below the picture too.
         cancelled(): the user did not wait for it.
     """
 
     opened = Signal(object)
+    failed = Signal(object)
     cancelled = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -230,6 +232,7 @@ class LivePreview(QWidget):
     def _refuse(self, opening: _Opening, error: Exception) -> None:
         if opening is self._opening:
             self.say(str(error), bad=True)
+            self.failed.emit(error)
 
     def _look(self) -> None:
         if self.camera is None:

@@ -62,6 +62,7 @@ class PenDialog(QDialog):
         self._pen: PenProfile | None = None
         self._live: LivePen | None = None
         self._opened: PenSettings | None = None
+        self._refused = False
         self.preview, self.status, self.tip = LivePreview(self), PenStatus(self), TipStep(self)
         self.choice = PenChoice(settings, services.camera_sources(), self)
         self.use = button(tr("&Use the pen as needle"), "primary")
@@ -82,7 +83,7 @@ class PenDialog(QDialog):
         """Look at what is chosen now, beside the window."""
         self._quiet.stop()
         self.preview.stop()
-        self._live = self._pen = None
+        self._live, self._pen, self._refused = None, None, False
         try:
             settings = self.choice.settings()
             self._pen = settings.profile()
@@ -109,7 +110,8 @@ class PenDialog(QDialog):
         if pen is None:
             return
         if live is None or self.preview.camera is None:
-            self.status.show_status(accuracy_line(None), status_lines(None, pen, None, 0.0))
+            why = tr("the webcam could not be opened") if self._refused else ""
+            self.status.show_status(accuracy_line(None, why), status_lines(None, pen, None, 0.0))
             return
         seen, trouble = live.observed(), _trouble(live)
         lines = status_lines(None if trouble else seen, pen, live.webcam(), live.speed())
@@ -172,6 +174,10 @@ class PenDialog(QDialog):
         self.tip.set_pen(self._opened, live)
         self.look()
 
+    def _refuse(self) -> None:
+        self._refused = True
+        self.look()
+
     def _lay_out(self) -> None:
         self.use.setToolTip(tr("The next attempts are made with the pen, without a robot"))
         self.back.setToolTip(tr("The robot, or the simulated one, holds the needle again"))
@@ -208,6 +214,7 @@ class PenDialog(QDialog):
 
     def _connect(self) -> None:
         self.preview.opened.connect(self._take)
+        self.preview.failed.connect(lambda _: self._refuse())
         self.choice.changed.connect(self._quiet.start)
         self.tip.kept.connect(self.reopen)
         self.again.clicked.connect(lambda _=False: self.reopen())
