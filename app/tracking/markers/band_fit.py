@@ -22,8 +22,11 @@ from app.tracking.optics.rig import NeedleShape
 _RIDGE = 1e-4
 """Prior of the colours: standard deviation of 100 times the noise."""
 
-_SHADING = np.array([0.0, 1.0, 1.0, *[0.15**-2] * 2, *[0.03**-2] * 2])
+SHADING_PRIOR = np.array([0.0, 1.0, 1.0, *[0.15**-2] * 2, *[0.03**-2] * 2])
 """Prior of the paint's shading, relative to its mean: inverse squares of standard deviations."""
+
+STRETCH_SD = 0.03
+"""How well width and length are known beforehand, relative."""
 
 _STIFF, _SOFT = 2.0, 25.0
 """Standard deviation of the background curve's second differences [noise]: even, with edges."""
@@ -69,7 +72,7 @@ class BandFitter:
         shape: NeedleShape,
         blur: float,
         noise: float,
-        stretch_sd: float = 0.03,
+        stretch_sd: float = STRETCH_SD,
     ) -> None:
         self._model = model
         self._shape = shape
@@ -98,7 +101,7 @@ class BandFitter:
         result = np.empty(RESULT)
         if not minimise(
             read_only(image[:]), box, frame, arcs, self._shape, self._blur, self._noise,
-            self._prior, _PRIORS, _SHADING, result,
+            self._prior, _PRIORS, SHADING_PRIOR, result,
         ):  # fmt: skip
             return None
         return BandFit(
@@ -112,7 +115,7 @@ class BandFitter:
         )
 
 
-def _smoothness(*uneven: bool) -> FloatArray:
+def rest_prior(*uneven: int) -> FloatArray:
     """Prior of the rest's colours, (REST, REST), by whether each side's background has edges."""
     normal = _RIDGE * np.eye(REST)
     for side in range(2):
@@ -122,4 +125,4 @@ def _smoothness(*uneven: bool) -> FloatArray:
     return normal
 
 
-_PRIORS = np.array([[_smoothness(a, b) for b in (False, True)] for a in (False, True)])
+_PRIORS = np.array([[rest_prior(a, b) for b in (False, True)] for a in (False, True)])

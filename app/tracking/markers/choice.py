@@ -31,8 +31,10 @@ class ExtractorName(StrEnum):
 
 
 DEFAULT = ExtractorName.MODEL_FIT
-"""By measurement: a quarter of the centroid's error over the workspace of rig `wide` (0.03 px of
-0.12, mostly edges of the background), and the only way that notices what covers the marker."""
+"""By measurement over the workspace of rig `wide`: 0.016 px RMS before even grey, 0.023 before the
+housing, less than half the centroid's, an eighth of the ellipse's; 1.01 times the joint
+Cramér-Rao bound before grey. The only way that notices what covers the marker; its 95 % ellipsoid
+of the tip held the truth in 95.8 % of clean pairs, 93.9 under fingers, 95.4 under highlights."""
 
 
 def extractor(
@@ -59,7 +61,13 @@ def extractor(
         return ThesisMarker()
     least, largest = _areas(model, shape, distances)
     outline = OutlineCentroid(
-        colour=colour, area_min=least, area_max=largest, noise_grey=noise_grey
+        colour=colour,
+        area_min=least,
+        area_max=largest,
+        noise_grey=noise_grey,
+        blur_px=blur_px,
+        focal_px=float(np.sqrt(np.prod(model.intrinsics[:2]))),
+        shape=shape,
     )
     if name is ExtractorName.OUTLINE_CENTROID:
         return outline

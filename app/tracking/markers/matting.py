@@ -20,6 +20,7 @@ outside, both found along the side (see `Rim`) that the pixel belongs to: beyond
 shaft is the same along the needle, and only there.
 """
 
+import math
 from typing import Any
 
 import numpy as np
@@ -39,7 +40,8 @@ _SHARED = 1.5
 """Variance of the centroid over that of independent pixels: pixels across the outline share the
 estimates f and g, whose noise then adds up. Measured by Monte Carlo (a test repeats it)."""
 
-_LEAST_CONTRAST = 12.0
+_LEAST_CONTRAST = 3.0
+"""Of paint and ground [noise]."""
 
 
 @njit
@@ -87,22 +89,20 @@ def _gather(
 
 
 @njit
-def _mixture(p: Any, f: Any, g: Any, loose_f: float, loose_g: float, noise: float) -> Any:
+def mixture(p: Any, f: Any, g: Any, loose: Any, noise: float) -> Any:
     """α of one pixel, its variance and the contrast² that tells it.
 
-    S⁻¹ is the adjugate of the symmetric 3 × 3 over its determinant, in units of the noise.
+    `loose`, (2, 3), holds two colours that are added to the pixel with factors of standard
+    deviation 1. S⁻¹ is the adjugate of the symmetric 3 × 3 over its determinant, in units of the
+    noise.
     """
-    a, b = loose_f / (noise * noise), loose_g / (noise * noise)
-    xx, yy, zz = (
-        1.0 + a * f[0] * f[0] + b * g[0] * g[0],
-        1.0 + a * f[1] * f[1] + b * g[1] * g[1],
-        1.0 + a * f[2] * f[2] + b * g[2] * g[2],
-    )
-    xy, xz, yz = (
-        a * f[0] * f[1] + b * g[0] * g[1],
-        a * f[0] * f[2] + b * g[0] * g[2],
-        a * f[1] * f[2] + b * g[1] * g[2],
-    )
+    a, b, w = loose[0], loose[1], 1.0 / (noise * noise)
+    xx = 1.0 + w * (a[0] * a[0] + b[0] * b[0])
+    yy = 1.0 + w * (a[1] * a[1] + b[1] * b[1])
+    zz = 1.0 + w * (a[2] * a[2] + b[2] * b[2])
+    xy = w * (a[0] * a[1] + b[0] * b[1])
+    xz = w * (a[0] * a[2] + b[0] * b[2])
+    yz = w * (a[1] * a[2] + b[1] * b[2])
     x, y, z = f[0] - g[0], f[1] - g[1], f[2] - g[2]
     determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
     wx = (yy * zz - yz * yz) * x + (xz * yz - xy * zz) * y + (xy * yz - xz * yy) * z
@@ -111,11 +111,11 @@ def _mixture(p: Any, f: Any, g: Any, loose_f: float, loose_g: float, noise: floa
     contrast = max(wx * x + wy * y + wz * z, 1e-12 * determinant)
     told = wx * (p[0] - g[0]) + wy * (p[1] - g[1]) + wz * (p[2] - g[2])
     variance = noise * noise * (wx * wx + wy * wy + wz * wz) / (contrast * contrast)
-    return told / contrast, variance, contrast / determinant
+    return told / contrast, variance, contrast / (determinant * noise * noise)
 
 
 @njit
-def _paint(window: Any, distance: Any, out: Any) -> bool:
+def paint_colour(window: Any, distance: Any, out: Any) -> bool:
     """Mean colour of what is surely inside; False where nothing is."""
     n = 0
     out[:] = 0.0
@@ -152,10 +152,10 @@ def rim_shares(
         zeros where there is no inside or no rim.
     """
     hue, f, g, one = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
-    place = np.empty(4)
+    place, loose = np.empty(4), np.empty((2, 3))
     area, mu, mv, n, good = 0.0, 0.0, 0.0, 0, 0
     suu, suv, svv, s1u, s1v, s0 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    some = _paint(window, distance, hue)
+    some = paint_colour(window, distance, hue)
     brightness = hue[0] * hue[0] + hue[1] * hue[1] + hue[2] * hue[2]
     if not some or brightness < 1.0:
         return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -184,9 +184,10 @@ def rim_shares(
                 for k in range(3):
                     f[k] = bright * hue[k]
                 a = min(1.0, max(0.0, first[v, u]))
-                loose_f = (_PAINT_SD * a) ** 2
-                loose_g = (_GROUND_SD**2 + _GROUND_SCATTER**2 * scatter) * (1.0 - a) ** 2
-                weight, variance, contrast = _mixture(window[v, u], f, g, loose_f, loose_g, noise)
+                ease = math.sqrt(_GROUND_SD**2 + _GROUND_SCATTER**2 * scatter) * (1.0 - a)
+                for k in range(3):
+                    loose[0, k], loose[1, k] = _PAINT_SD * a * f[k], ease * g[k]
+                weight, variance, contrast = mixture(window[v, u], f, g, loose, noise)
                 if contrast < _LEAST_CONTRAST**2:
                     weight = 0.0
                     continue

@@ -17,6 +17,7 @@ from app.tracking.markers.colour import RED, ColourModel
 from app.tracking.markers.colour_patch import mark_half, nearest_patch
 from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Mask, Miss, MissReason
 from app.tracking.markers.rim import outline_moments
+from app.tracking.optics.rig import NeedleShape
 
 _SQUARE3 = np.ones((3, 3), dtype=np.uint8)
 _CANDIDATES = 6
@@ -45,6 +46,10 @@ class OutlineCentroid(Extractor):
         overexposed: largest share of the band with a colour at its end, at which it is refused.
         quality_min: least share of outline pixels that are mixtures of band and background.
         rough: whether a place to begin a fit at will do: half the work, twice the error.
+        blur_px: standard deviation of the point spread.
+        focal_px: of the camera, for the band's perspective; without it there is none.
+        shape: of the needle, for what its point looks like behind the band; None: a plain shaft.
+        optics: of all these, see `rim.outline_moments`.
     """
 
     colour: ColourModel = field(default=RED)
@@ -55,6 +60,24 @@ class OutlineCentroid(Extractor):
     overexposed: float = 0.25
     quality_min: float = 0.6
     rough: bool = False
+    blur_px: float = 0.7
+    focal_px: float = np.inf
+    shape: NeedleShape | None = None
+    optics: FloatArray = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        shape = self.shape
+        needle = (
+            (np.inf, np.inf, 1.0)
+            if shape is None
+            else (
+                shape.tip / shape.half,
+                (shape.tip - shape.point) / shape.half,
+                shape.shaft / shape.radius,
+            )
+        )
+        optics = np.array([self.blur_px, self.focal_px, *needle])
+        object.__setattr__(self, "optics", read_only(optics))
 
     def find(self, image: Image, hint: Hint) -> MarkerFix | Miss:
         """See `Extractor.find`."""
@@ -140,7 +163,9 @@ class OutlineCentroid(Extractor):
             return Miss(MissReason.SATURATED, middle)
         if not self.colour.is_marker(np.array(cv2.mean(window, blob)[:3])):
             return Miss(MissReason.NOTHING_RED, middle)
-        area, u, v, uu, uv, vv, quality = outline_moments(window, blob, self.noise_grey, self.rough)
+        area, u, v, uu, uv, vv, quality = outline_moments(
+            window, blob, self.noise_grey, self.optics, self.rough
+        )
         if area < self.area_min:
             return Miss(MissReason.TOO_SMALL, middle)
         if area > self.area_max:

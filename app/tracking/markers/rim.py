@@ -1,9 +1,9 @@
 """The rim of the band in a window: from a rough mask to its area, centroid and their noise.
 
-Two passes over the shares that the band covers (see `matting`). The first, in a wide rim round a
-rough mask, finds the outline to a fraction of a pixel; the second estimates shares only in a rim
-round that outline as wide as the edge is blurred. What lies within counts as one and beyond as
-nothing, so that no noise comes from there.
+First the shares that the band covers (see `matting`), in a wide rim round a rough mask; they lead
+to the band's four edges (see `edge_fit`). Then the shares again, only in a rim round the outline as
+wide as the edge is blurred, what lies within counting as one: their sum stands in where there are
+no four edges, or an edge of the background was taken for one.
 """
 
 from typing import NamedTuple
@@ -13,11 +13,15 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
+from app.tracking.markers.edge_fit import edge_moments
 from app.tracking.markers.extractor import Mask
-from app.tracking.markers.matting import rim_shares
+from app.tracking.markers.matting import paint_colour, rim_shares
 
 _ROUGH, _FINE = 2.5, 1.6
 """Half width of the rim [px]; the fine one is 2.3 standard deviations of a blur of 0.7 px."""
+
+_AGREE_PX = 0.2
+"""Farther from the sum of the shares the four edges are not the band's: one behind it was taken."""
 
 _SMOOTH = 0.6
 """Of the first shares, before the outline is where they are a half [px]."""
@@ -38,7 +42,9 @@ class Moments(NamedTuple):
     quality: float
 
 
-def outline_moments(window: Image, blob: Mask, noise: float, rough: bool = False) -> Moments:
+def outline_moments(
+    window: Image, blob: Mask, noise: float, optics: FloatArray, rough: bool = False
+) -> Moments:
     """Area [px²], centroid [px] and its covariance [px²] of the band in a window.
 
     All zero where the band is too thin to have an inside.
@@ -47,6 +53,8 @@ def outline_moments(window: Image, blob: Mask, noise: float, rough: bool = False
         window: uint8 (H, W, 3).
         blob: one where the band roughly is, (H, W).
         noise: standard deviation of a grey value.
+        optics: standard deviation of the point spread [px], focal length [px], and three ratios of
+            the needle, see `edge_fit.edge_moments`, (5,).
         rough: only the first pass, for a place to begin a fit at.
     """
     window = np.ascontiguousarray(window)
@@ -58,11 +66,17 @@ def outline_moments(window: Image, blob: Mask, noise: float, rough: bool = False
     if rough or first[0] <= 0.0:
         return Moments(*first)
     smooth = cv2.GaussianBlur(np.clip(share, -0.3, 1.3), (0, 0), _SMOOTH)
+    hue, edges = np.empty(3), (0.0,) * 7
+    if paint_colour(window, distance, hue):
+        sides = _sides((smooth > 0.5).astype(np.uint8), smooth)
+        edges = edge_moments(
+            window, smooth, sides, hue, float(optics[0]), least, float(optics[1]), optics[2:]
+        )
     outline = _greatest((smooth > 0.5).astype(np.uint8), blob)
     distance = _signed_distance(outline)
-    return Moments(
-        *rim_shares(window, distance, smooth, _sides(outline, smooth), _FINE, least, share)
-    )
+    summed = rim_shares(window, distance, smooth, _sides(outline, smooth), _FINE, least, share)
+    agree = np.hypot(edges[1] - summed[1], edges[2] - summed[2]) < _AGREE_PX
+    return Moments(*(edges if edges[0] > 0.0 and agree else summed))
 
 
 def _signed_distance(mask: Mask) -> FloatArray:

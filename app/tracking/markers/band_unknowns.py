@@ -1,0 +1,146 @@
+"""The unknowns of the band's picture besides its position, as columns of a design matrix.
+
+For the bound of what any estimator with the unknowns of `band_fit` can reach (see `cramer_rao`):
+dense, in plain arrays, for one picture at a known place.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.tracking.cameras.camera import Image
+from app.tracking.errors import TrackingError
+from app.tracking.markers.band_design import BAND, COLUMNS, PARTIALS, design
+from app.tracking.markers.band_fit import SHADING_PRIOR, STRETCH_SD, rest_prior
+from app.tracking.markers.band_ground import CURVE, SIDE, directions, ground_columns
+from app.tracking.markers.band_normal import REST
+from app.tracking.markers.band_outline import ARCS, CELLS, FRAME, outline
+from app.tracking.markers.band_pixels import gather, surroundings
+from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.rig import NeedleShape
+
+_CLEAR = 4.0
+_SHAFTS = COLUMNS - BAND
+
+
+class Unknowns(NamedTuple):
+    """Of one picture.
+
+    `pixels`: (m, 2) u, v that the fit looks at; `columns`: derivatives of their colours, one colour
+    after the other, over the noise, (3·m, n); `prior`: information on the unknowns, (n, n).
+    """
+
+    pixels: FloatArray
+    columns: FloatArray
+    prior: FloatArray
+
+
+class _Places(NamedTuple):
+    pixels: FloatArray
+    colours: FloatArray
+    rows: FloatArray
+    ground: FloatArray
+    uneven: tuple[int, int]
+    origin: FloatArray
+
+
+def band_unknowns(
+    image: Image,
+    model: CameraModel,
+    shape: NeedleShape,
+    blur_px: float,
+    noise_grey: float,
+    p_camera: FloatArray,
+    axis_camera: FloatArray,
+) -> Unknowns:
+    """Differentiate a noise-free picture by shading, colours, width and length.
+
+    Args:
+        image: the picture, (height, width, 3).
+        model: the camera.
+        shape: of the needle.
+        blur_px: standard deviation of the point spread.
+        noise_grey: standard deviation of the noise.
+        p_camera: the band's true centre in the camera frame [m], shape (3,).
+        axis_camera: unit vector from hub to tip, shape (3,).
+
+    Raises:
+        TrackingError: if the band has no picture there.
+    """
+    at = _places(image, model, shape, blur_px, noise_grey, p_camera, axis_camera)
+    count, colours = len(at.pixels), at.colours / noise_grey
+    band, rest = at.rows[:, 0, :BAND], np.zeros((count, REST))
+    covered = _covered(at.rows[:, 0])
+    rest[:, :_SHAFTS] = at.rows[:, 0, BAND:]
+    rest[:, _SHAFTS:] = (1.0 - covered)[:, None] * at.ground
+    paint = colours[at.rows[:, 0, 0] > 0.97].mean(axis=0)
+    linear = np.zeros((3 * count, BAND + 3 * REST))
+    prior = np.zeros((BAND + 3 * REST + 2, BAND + 3 * REST + 2))
+    prior[:BAND, :BAND] = np.diag(SHADING_PRIOR)
+    for c in range(3):
+        own = slice(BAND + c * REST, BAND + (c + 1) * REST)
+        linear[c * count : (c + 1) * count, :BAND] = paint[c] * band
+        linear[c * count : (c + 1) * count, own] = rest
+        prior[own, own] = rest_prior(*at.uneven)
+    values = colours.T.ravel()
+    normal = linear.T @ linear + prior[:-2, :-2]
+    solved = np.asarray(np.linalg.solve(normal, linear.T @ values), dtype=np.float64)
+    sizes = _sizes(at, paint, solved)
+    prior[-2:, -2:] = np.eye(2) / STRETCH_SD**2
+    return Unknowns(at.pixels + at.origin, np.column_stack([linear, sizes]), prior)
+
+
+def _covered(rows: FloatArray) -> FloatArray:
+    return np.asarray(rows[:, 0] + rows[:, BAND:].sum(axis=1))
+
+
+def _sizes(at: _Places, paint: FloatArray, solved: FloatArray) -> FloatArray:
+    """Differentiate the colours by the relative width and length, (3·m, 2)."""
+    found = []
+    for c in range(3):
+        rest = solved[BAND + c * REST : BAND + (c + 1) * REST]
+        behind = at.ground @ rest[_SHAFTS:]
+        by_size = [
+            paint[c] * rows[:, :BAND] @ solved[:BAND]
+            + rows[:, BAND:] @ rest[:_SHAFTS]
+            - _covered(rows) * behind
+            for rows in (at.rows[:, 3], at.rows[:, 4])
+        ]
+        found.append(np.column_stack(by_size))
+    return np.vstack(found)
+
+
+def _places(
+    image: Image,
+    model: CameraModel,
+    shape: NeedleShape,
+    blur_px: float,
+    noise_grey: float,
+    p_camera: FloatArray,
+    axis_camera: FloatArray,
+) -> _Places:
+    """Pixels near the band with their colours and the model's columns."""
+    arcs, frame, box = np.empty((ARCS, CELLS)), np.empty(FRAME), np.empty(4, np.int64)
+    height, width = image.shape[:2]
+    if not outline(
+        p_camera, axis_camera, shape, model.intrinsics, model.distortion, arcs, frame
+    ) or not surroundings(frame, arcs, height, width, box):
+        raise TrackingError(f"camera {model.name} has no picture of a band at {p_camera} m")
+    high, wide = box[3] - box[1], box[2] - box[0]
+    pixels, colours = np.empty((high * wide, 2)), np.empty((high * wide, 3))
+    usable, sides = np.empty(high * wide, np.bool_), np.empty(high * wide, np.int64)
+    clear = np.empty((high, wide), np.int8)
+    count = gather(image, box, frame, arcs, _CLEAR * blur_px, pixels, colours, usable, sides, clear)
+    along, uneven = np.empty((2, 2)), np.empty(2, np.bool_)
+    directions(image[box[1] : box[3], box[0] : box[2]], clear, noise_grey, along, uneven)
+    pixels, colours, sides = pixels[:count], colours[:count], sides[:count]
+    first, weights = np.zeros(count, np.int64), np.empty((count, 4))
+    ground_columns(pixels, sides, along, first, weights)
+    ground, every = np.zeros((count, 2 * SIDE)), np.arange(count)
+    for k in range(3):
+        ground[every, first + k] += weights[:, k]
+    ground[every, CURVE + np.where(first >= SIDE, SIDE, 0)] = weights[:, 3]
+    rows, seen = np.zeros((count, PARTIALS, COLUMNS)), np.empty(count, np.bool_)
+    design(pixels, np.zeros(2), frame, arcs, shape, blur_px, np.ones(2), rows, seen)
+    return _Places(pixels, colours, rows, ground, (int(uneven[0]), int(uneven[1])), frame[:2])
