@@ -64,5 +64,5 @@ def test_the_study_of_the_marker_orders_the_ways_and_none_is_below_the_bound(mon
     error = {p.way: p.error for p in result.points if p.setting == "even grey"}
     assert error["model_fit"] < error["outline_centroid"] < error["ellipse"] < error["thesis"]
     rows = result.findings.sheets[0].rows
-    assert {row[1] for row in rows} == {"Cramér-Rao bound", *error}
+    assert {row[1] for row in rows} == {"bound: position alone", "bound: joint", *error}
     assert all(row[4] > 0.7 for row in rows)
