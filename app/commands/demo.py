@@ -112,9 +112,11 @@ def _tell(result: AttemptResult, script: Script) -> None:
     score = result.score
     if score is not None:
         for row in score.rows:
-            value = "–" if row.value is None else f"{row.value:.2f} {row.unit}"
-            typer.echo(f"  {row.label:<28} {value}")
+            value = "–" if row.value is None else f"{row.value:z.2f} {row.unit}"
+            typer.echo(f"  {row.label:<28} {value}".rstrip())
         total = "void" if score.total is None else f"{score.total:.0f} of 100"
         typer.echo(f"  {'Score':<28} {total}, {'passed' if score.passed else 'not passed'}")
+        if score.void_reason:
+            typer.echo(f"  void: {score.void_reason}")
     if script.pictures is not None:
         typer.echo(f"pictures, report and session are in {script.pictures}")

@@ -33,6 +33,9 @@ PATIENCE_S: Final = 300.0
 SETTLE_S: Final = 1.5
 """Time for the first picture in 3D after everything stands [s]."""
 
+FRESH_S: Final = 0.1
+"""Pictures on the way wait until the cameras' last fix is no older [s]: drawing disturbs them."""
+
 TRAINEE_DONE: Final = 9.0
 
 
@@ -135,6 +138,7 @@ class Demonstration(QObject):
         self._picture_on_the_way(snapshot)
         if snapshot.device.row[sv.TRAINEE_PHASE] != TRAINEE_DONE:
             return False
+        self._pictures_missed()
         self._window.workspace.show_exercise()
         self._picture("4-at-the-target")
         self._window.conductor.controller.end()
@@ -161,7 +165,7 @@ class Demonstration(QObject):
         workspace = self._window.workspace
         if snapshot.state is State.ALIGNING and snapshot.elapsed > 3.0:
             self._picture("2-aligning")
-        if snapshot.pose.depth_source is not DepthSource.TRACKED:
+        if not snapshot.pose.measured or snapshot.tracker.age > FRESH_S:
             return
         length = snapshot.pose.depth + snapshot.offset.remaining
         if snapshot.pose.depth > 0.7 * length and "3-inserting" in self._taken:
@@ -171,6 +175,16 @@ class Demonstration(QObject):
             self._picture("3-inserting")
             self._picture("3-bullseye", workspace.bullseye)
             workspace.show_cameras()
+
+    def _pictures_missed(self) -> None:
+        """Take at the target what no moment on the way was good for; each picture exists."""
+        if "3-cameras" in self._taken:
+            return
+        workspace = self._window.workspace
+        self._picture("3-inserting")
+        self._picture("3-bullseye", workspace.bullseye)
+        workspace.show_cameras()
+        self._picture("3-cameras")
 
     # --- around the steps -----------------------------------------------------------------------
     def _look(self) -> None:

@@ -194,3 +194,23 @@ def test_small_blurred_pictures_are_calibrated_from_disk_to_within_what_is_state
     error, sd = twist_error(found.calibration, rig)
     assert (np.abs(error) < 4.0 * sd).all()
     assert found.calibration.rms_px < 0.3
+
+
+def test_too_few_pairs_are_refused_with_the_commonest_reason(tmp_path: Path) -> None:
+    rig = usual_rig()
+    for i, T in enumerate(rig.poses(3, 21)):
+        for model in (rig.left, rig.right):
+            picture = BoardRenderer(model, rig.board, 2).render(model.T_camera_world @ T)
+            seen = model is rig.left or i == 0
+            cv2.imwrite(str(tmp_path / f"{model.name}{i}.png"), picture if seen else 0 * picture)
+    reason = r"1 of 3 pairs show the board to both .* right1\.png: .*check the counts"
+    with pytest.raises(CalibrationError, match=reason):
+        stereo_set(pair_folder(tmp_path), rig.board)
+
+
+def test_pictures_of_two_sizes_are_remarked(rig: Rig, pairs: tuple[Views, Views]) -> None:
+    left, right = pairs
+    half = [BoardView(v.board, v.ids, (v.pixels - 0.5) / 2, (320, 240), name=v.name) for v in right]
+    notes = calibrate_pairs(left, half, hold_back=0).calibration.notes
+    assert any("left 640x480, right 320x240" in note for note in notes)
+    assert not any("sizes" in note for note in calibrate_pairs(left, right).calibration.notes)

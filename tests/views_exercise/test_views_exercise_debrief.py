@@ -279,6 +279,7 @@ def test_the_range_of_a_plot_holds_its_line_and_is_never_empty():
 
 def test_numbers_have_three_digits():
     assert [number(v) for v in (0.031, -0.9, 12.34, 250.4)] == ["0.03", "-0.90", "12.3", "250"]
+    assert [number(v) for v in (-0.004, -0.0, 0.0)] == ["0.00"] * 3
 
 
 def test_a_date_that_is_none_stands_as_it_is():

@@ -91,3 +91,15 @@ def stereo_remarks(
             f"{names[0]}: the two may be swapped"
         )
     return notes
+
+
+def size_remarks(names: tuple[str, str], pair: tuple[BoardView, BoardView]) -> list[str]:
+    """Say that the cameras' pictures differ in size: the pair fits, the trainer cannot use it."""
+    sizes = [view.image_size for view in pair]
+    if sizes[0] == sizes[1]:
+        return []
+    (w0, h0), (w1, h1) = sizes
+    return [
+        f"pictures of different sizes, {names[0]} {w0}x{h0}, {names[1]} {w1}x{h1}: the trainer "
+        "takes both cameras at one size; set both to it and take the pictures again"
+    ]

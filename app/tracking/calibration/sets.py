@@ -11,7 +11,7 @@ from app.tracking.calibration.pair_fit import matched
 from app.tracking.calibration.pairing import Pair
 from app.tracking.calibration.pictures import look_at_all
 from app.tracking.calibration.run import StereoResult, calibrate_pairs
-from app.tracking.calibration.stereo import StereoEstimate
+from app.tracking.calibration.stereo import LEAST_PAIRS, StereoEstimate
 from app.tracking.calibration.validation import ViewPair
 from app.tracking.calibration.views import BoardView, Rejection
 from app.tracking.errors import CalibrationError
@@ -95,6 +95,14 @@ def stereo_set(
     views = [view if isinstance(view, BoardView) else None for view in looked]
     if not any(views):
         raise CalibrationError(none_seen(looked))
+    both = sum(
+        a is not None and b is not None for a, b in zip(views[0::2], views[1::2], strict=True)
+    )
+    if both < LEAST_PAIRS:
+        raise CalibrationError(
+            f"{both} of {len(pairs)} pairs show the board to both cameras; at least {LEAST_PAIRS} "
+            f"are needed, 15 to 30 are good; {commonest(looked)}"
+        )
     result = calibrate_pairs(views[0::2], views[1::2], names, hold_back, progress.part(0.6, 1.0))
     return StereoSet(tuple(looked), result)
 
@@ -118,7 +126,12 @@ def seen_by_both(pairs: Sequence[Pair], board: Board, estimate: StereoEstimate) 
 
 def none_seen(looked: Sequence[Seen]) -> str:
     """Say that no picture shows the board, and the commonest reason."""
+    return f"the board is usable in none of {len(looked)} pictures (or pairs); {commonest(looked)}"
+
+
+def commonest(looked: Sequence[Seen]) -> str:
+    """Name a picture that was refused for the commonest reason, and the reason."""
     texts = [view.text for view in looked if isinstance(view, Rejection)]
-    common = max(set(texts), key=texts.count, default="")
+    common = max(texts, key=texts.count, default="")
     name = next((v.name for v in looked if isinstance(v, Rejection) and v.text == common), "")
-    return f"the board is usable in none of {len(looked)} pictures (or pairs); {name}: {common}"
+    return f"{name}: {common}"

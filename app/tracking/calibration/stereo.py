@@ -15,7 +15,7 @@ from app.tracking.calibration.mono import MonoResult, calibrate_mono
 from app.tracking.calibration.outliers import limit_px
 from app.tracking.calibration.pair_fit import matched_residual, pair_residuals, pair_sightings
 from app.tracking.calibration.poses import board_pose
-from app.tracking.calibration.remarks import ViewResidual, stereo_remarks
+from app.tracking.calibration.remarks import ViewResidual, size_remarks, stereo_remarks
 from app.tracking.calibration.sightings import Sighting, State
 from app.tracking.calibration.start import usual_stereo_rms
 from app.tracking.calibration.validation import ViewPair
@@ -115,7 +115,7 @@ def estimate_stereo(
         residuals,
         changed,
         usual_stereo_rms(mended),
-        (*left.notes, *right.notes, *remarks),
+        (*left.notes, *right.notes, *size_remarks(names, pairs[0]), *remarks),
     )
 
 

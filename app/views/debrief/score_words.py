@@ -68,9 +68,9 @@ def row_texts(row: Row, score: Score) -> RowTexts:
 
 
 def number(value: float) -> str:
-    """Three significant digits, never in exponents."""
+    """Three significant digits, never in exponents; what rounds to zero has no sign."""
     size = abs(value)
-    return f"{value:.0f}" if size >= 100 else f"{value:.1f}" if size >= 10 else f"{value:.2f}"
+    return f"{value:.0f}" if size >= 100 else f"{value:.1f}" if size >= 10 else f"{value:z.2f}"
 
 
 def with_unit(value: float, unit: str) -> str:
