@@ -136,6 +136,8 @@ def test_a_whole_exercise_runs_on_simulated_pictures_and_is_scored_recorded_and_
     (path,) = tmp_path.glob("*.mcap")
     recording = read_recording(path)
     assert recording.metadata["device"] == {"name": "pen", "simulated": "no", "pen": "yes"}
+    assert result.score.row("peak_force").value is None
+    assert recording.trajectory().felt is None
     assert recording.metadata["cameras"]["tip"] == "drawn"
     assert "pen.json" in recording.attachments
     report = replay_recording(recording)

@@ -84,7 +84,7 @@ def main(folder: Path) -> None:
         wait(lambda: not wizard.world_page.running)
         pause(0.5)
         keep(wizard, folder / "calibration-place.png")
-        wizard.reject()
+        wizard.done(0)  # not reject(): it would ask about what is not saved
     QApplication.processEvents()
     application.quit()
 

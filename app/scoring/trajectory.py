@@ -46,7 +46,8 @@ class Trajectory:
         tip: needle tip [m], shape (n, 3).
         axis: needle direction, hub to tip, unit vectors, shape (n, 3).
         depth: tip beyond the fulcrum along the axis [m], shape (n,).
-        felt: force at the hub point after all limits [N], shape (n, 3).
+        felt: force at the hub point after all limits [N], shape (n, 3); None where nothing can
+            push: a pen before a webcam.
         phase: state of the attempt, given as names (`aligning`, ...) or as `Phase`, shape (n,).
         depth_valid: whether the depth came from the cameras, at most 0.2 s ago, shape (n,).
         hub: hub point P_u, where the hand is [m], shape (n, 3); None if not recorded.
@@ -65,7 +66,7 @@ class Trajectory:
     tip: FloatArray
     axis: FloatArray
     depth: FloatArray
-    felt: FloatArray
+    felt: FloatArray | None
     phase: NDArray[np.int8]
     depth_valid: NDArray[np.bool_]
     hub: FloatArray | None = None
@@ -109,6 +110,16 @@ class Trajectory:
     def was_aborted(self) -> bool:
         """Whether the attempt was broken off."""
         return bool(self.aborted) or bool((self.phase == Phase.ABORTED).any())
+
+    def forces(self) -> FloatArray:
+        """Return `felt`, shape (n, 3).
+
+        Raises:
+            MetricUnavailableError: if nothing can push.
+        """
+        if self.felt is None:
+            raise MetricUnavailableError("no robot held the needle: there is no force")
+        return self.felt
 
     def insertions(self) -> list[slice]:
         """Uninterrupted stays in the body, in order.

@@ -18,7 +18,7 @@ from app.session.recorder import Recorder
 from app.session.result import AttemptResult
 from app.session.sample import Sample
 from app.session.samples import History
-from app.session.scored import score_document, trajectory
+from app.session.scored import renders_force, score_document, trajectory
 from app.session.summary import SCORE_FILE, Summary, write_summary
 
 Scorer = Callable[[Trajectory], Score]
@@ -70,7 +70,8 @@ class AttemptLog:
         samples = self.history.arrays()
         path, score, unscored = None, None, ""
         try:
-            path = trajectory(samples, self.placed, attempt.reason)
+            renders = renders_force(self.recorder.header.metadata)
+            path = trajectory(samples, self.placed, attempt.reason, renders)
             score = self.scorer(path)
         except AcusError as error:
             unscored = str(error)

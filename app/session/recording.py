@@ -18,7 +18,7 @@ from app.session.facts import PLAN, placed_plan
 from app.session.samples import Samples, floats, vectors, words
 from app.session.scan import Scan, scan
 from app.session.schemas import CHANNELS, conforms
-from app.session.scored import trajectory
+from app.session.scored import renders_force, trajectory
 from app.session.ticks import Inputs, read_inputs
 
 Metadata = MappingProxyType[str, dict[str, str]]
@@ -69,7 +69,8 @@ class Recording:
             BrokenRecordingError: if the record holds no usable plan.
         """
         reason = self.metadata.get("result", {}).get("reason", "")
-        return trajectory(self.samples, self.placed_plan(), reason)
+        renders = renders_force(self.metadata)
+        return trajectory(self.samples, self.placed_plan(), reason, renders)
 
     def placed_plan(self) -> PlacedPlan:
         """Plan in the robot's frame.

@@ -1,7 +1,7 @@
 """The bridge to scoring: samples become a `Trajectory`, a score becomes a JSON document."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,14 @@ from app.session.ports import ExercisePort
 from app.session.samples import Samples
 
 
-def trajectory(samples: Samples, placed: PlacedPlan, aborted: str = "") -> Trajectory:
+def renders_force(metadata: Mapping[str, Mapping[str, str]]) -> bool:
+    """Tell from a record's head whether something could push the hand: a pen cannot."""
+    return "pen" not in metadata.get("device", {})
+
+
+def trajectory(
+    samples: Samples, placed: PlacedPlan, aborted: str = "", renders: bool = True
+) -> Trajectory:
     """Turn samples into what scoring wants: those without a valid pose are left out.
 
     A force that the robot did not report counts as zero; hub point and fixture are given only if
@@ -26,6 +33,7 @@ def trajectory(samples: Samples, placed: PlacedPlan, aborted: str = "") -> Traje
         samples: the attempt over time.
         placed: its plan.
         aborted: why it was aborted; empty if it was not.
+        renders: whether something could push the hand; see `renders_force`.
 
     Raises:
         SessionError: if no sample has a valid pose.
@@ -41,7 +49,7 @@ def trajectory(samples: Samples, placed: PlacedPlan, aborted: str = "") -> Traje
         tip=samples.tip[keep],
         axis=samples.axis[keep],
         depth=samples.depth[keep],
-        felt=np.nan_to_num(samples.felt[keep], nan=0.0),
+        felt=np.nan_to_num(samples.felt[keep], nan=0.0) if renders else None,
         phase=samples.state[keep],  # type: ignore[arg-type]  # names are taken as well as codes
         depth_valid=np.isin(samples.depth_source[keep], FROM_CAMERAS),
         hub=hub if np.isfinite(hub).all() else None,

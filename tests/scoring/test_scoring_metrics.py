@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -235,3 +237,11 @@ def test_a_depth_that_was_never_measured_has_no_path() -> None:
     unseen = Attempt().trajectory(depth_valid=np.zeros(len(plain.time), dtype=bool))
     with pytest.raises(MetricUnavailableError, match="not measured"):
         value("path_length", unseen)
+
+
+@pytest.mark.parametrize("name", ["mean_force", "peak_force", "guidance_work"])
+def test_without_a_robot_there_is_no_figure_of_force(name: str) -> None:
+    base = Attempt().trajectory()
+    pen = replace(base, felt=None, guide=np.zeros((len(base), 3)))
+    with pytest.raises(MetricUnavailableError, match="no robot"):
+        value(name, pen)

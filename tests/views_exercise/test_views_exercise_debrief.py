@@ -133,6 +133,22 @@ def test_the_pointer_reads_every_curve_and_the_state(qt):
     view.deleteLater()
 
 
+def test_a_pen_has_no_curve_of_the_force_and_the_next_robot_has_one_again(qt):
+    view = CurvesView()
+    view.resize(900, 700)
+    for renders, count in ((True, 4), (False, 3), (True, 4)):
+        view.show_review(replace(review(), renders=renders))
+        for _ in range(count + 1):
+            view._draw_next()
+        assert len(view._plots) == count
+        assert ("force" in view.read_out(20.0)) is renders
+        bottom = view._plots[-1].getAxis("bottom")
+        assert bottom.isVisible()
+        assert bottom.labelText
+    assert not view.grab().isNull()
+    view.deleteLater()
+
+
 @pytest.mark.parametrize("size", [(900, 700), (300, 260)])
 def test_an_attempt_of_a_tenth_of_a_second_fills_a_time_axis_in_plain_seconds(qt, size):
     full = review().curves

@@ -18,6 +18,7 @@ READS = ("guide_x", "guide_y", "guide_z")
 
 def compute(trajectory: Trajectory) -> float:
     """Return the work [mJ], by the trapezoidal rule."""
+    trajectory.forces()
     guide, hub = trajectory.guide, trajectory.hub
     if guide is None or hub is None:
         raise MetricUnavailableError("the force of the guidance was not recorded")

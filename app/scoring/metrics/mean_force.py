@@ -15,10 +15,10 @@ def compute(trajectory: Trajectory) -> float:
     """Return the mean of |felt| weighted with time [N]; of a single sample, its value."""
     total = weight = 0.0
     for part in trajectory.insertions():
-        force = np.linalg.norm(trajectory.felt[part], axis=1)
+        force = np.linalg.norm(trajectory.forces()[part], axis=1)
         steps = np.diff(trajectory.time[part])
         total += float((0.5 * (force[1:] + force[:-1]) * steps).sum())
         weight += float(steps.sum())
     if weight > 0.0:
         return total / weight
-    return float(np.linalg.norm(trajectory.felt[trajectory.inserted], axis=1).mean())
+    return float(np.linalg.norm(trajectory.forces()[trajectory.inserted], axis=1).mean())

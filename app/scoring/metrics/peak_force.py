@@ -14,4 +14,4 @@ READS = ("felt_x", "felt_y", "felt_z")
 def compute(trajectory: Trajectory) -> float:
     """Return the force at the hub point, after all limits [N]."""
     trajectory.insertions()
-    return float(np.linalg.norm(trajectory.felt[trajectory.inserted], axis=1).max())
+    return float(np.linalg.norm(trajectory.forces()[trajectory.inserted], axis=1).max())

@@ -39,7 +39,7 @@ class Curve:
 
 
 def curves_of(review: Review) -> tuple[Curve, ...]:
-    """Return the four plots of an attempt."""
+    """Return the plots of an attempt: depth, two errors, and the force if something could push."""
     c = review.curves
     target_mm = 1e3 * review.placed.length
     return (
@@ -55,7 +55,7 @@ def curves_of(review: Review) -> tuple[Curve, ...]:
             tr("Angle error [°]"), np.degrees(c.angle), theme.PATH.colour, None, "", "°",
             tr("angle"),
         ),
-        _force_curve(review),
+        *([_force_curve(review)] if review.renders else []),
     )  # fmt: skip
 
 

@@ -56,6 +56,9 @@ class CurvesView(QWidget):
         """Draw an attempt, from the next turn of the event loop on."""
         self._review, self._curves = review, curves_of(review)
         self._cursors = []
+        if len(self._plots) != len(self._curves):  # the last one alone has a time axis
+            self.graphics.clear()
+            self._plots = []
         for plot in self._plots:
             plot.clear()
         self.readout.setText(tr("Point at the curves to read them."))

@@ -19,6 +19,7 @@ from app.session.errors import SessionError
 from app.session.needle import FROM_CAMERAS
 from app.session.recording import Recording, read_recording
 from app.session.result import AttemptResult
+from app.session.scored import renders_force
 from app.session.summary import SCORE_FILE, derive
 from app.views.debrief.timeline import Mark, Span, marks, spans
 from app.views.exercise.pad_geometry import PadScale, PathFrame, path_frame
@@ -69,6 +70,7 @@ class Review:
         force_limit: of the device [N].
         measured_force: force across the needle that a gauge measured [N], shape (n,), NaN where it
             did not; None if there was none: then the force is the estimate in `curves`.
+        renders: whether something could push the hand; without it there is no curve of the force.
         tip_radius: round the tip that holds the true one with 95 %, median [m]; None if not known.
     """
 
@@ -91,6 +93,7 @@ class Review:
     force_limit: float
     measured_force: FloatArray | None = None
     tip_radius: float | None = None
+    renders: bool = True
 
     @property
     def rings(self) -> tuple[float, float]:
@@ -157,6 +160,7 @@ def review(recording: Recording) -> Review:
         force_limit=_force_limit(recording),
         measured_force=samples.measured if np.isfinite(samples.measured).any() else None,
         tip_radius=samples.tip_radius(),
+        renders=renders_force(recording.metadata),
     )
 
 
@@ -205,6 +209,7 @@ def review_of_result(result: AttemptResult) -> Review:
         placed=path.placed,
         tip=path.tip,
         force_limit=FORCE_LIMIT,
+        renders=path.felt is not None,
     )
 
 
