@@ -26,6 +26,7 @@ class InspectedPicture:
             empty without a marker there.
         mask: what counts as the marker's colour, shape (height, width); None if not asked for.
         region: where the marker is looked for in the next picture; None for the whole picture.
+        drawn: whether what was looked for was found and is no single pixel (a pen).
     """
 
     picture: TrackedPicture
@@ -33,6 +34,12 @@ class InspectedPicture:
     epipolar: FloatArray
     mask: Mask | None
     region: Region | None
+    drawn: bool = False
+
+    @property
+    def found(self) -> bool:
+        """Whether what was looked for is in the picture."""
+        return self.drawn or self.picture.pixel is not None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,6 +54,7 @@ class Inspection:
         calibration: id of the cameras' calibration; empty for cameras by their profile.
         uncertainty_known: whether the calibration says how sure it is; if not, `radius` leaves
             its error out.
+        cameras: how many there are; one for a pen, which has no coloured marker either.
     """
 
     pictures: tuple[InspectedPicture, ...]
@@ -55,6 +63,7 @@ class Inspection:
     rig: str = ""
     calibration: str = ""
     uncertainty_known: bool = True
+    cameras: int = 2
 
     @property
     def radius(self) -> float | None:

@@ -15,6 +15,9 @@ SMALLEST_MM = 1e-4
 ERROR_SCALE = 10.0
 """The 3D view enlarges ellipsoids so much, and says so: true ones vanish inside the needle."""
 
+LARGE_MM = 2.0
+"""Ellipsoids with a longer half axis are drawn as they are: enlarged they hide the patient."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ErrorOverlay:
@@ -44,6 +47,12 @@ class ErrorOverlay:
         """Bring a covariance in world [m²], shape (3, 3), to a point of the patient [mm]."""
         turned = R_world_patient.T @ covariance @ R_world_patient
         return cls(centre_mm, turned / MILLIMETRE**2)
+
+    @property
+    def scale(self) -> float:
+        """How many times the 3D view enlarges it: `ERROR_SCALE`, or 1 if it is large itself."""
+        largest = float(np.linalg.eigvalsh(self.covariance_mm2)[-1])
+        return 1.0 if chi_square_quantile(0.95, 3) * largest > LARGE_MM**2 else ERROR_SCALE
 
     def outline_mm(self, across: FloatArray) -> FloatArray:
         """Outline of the ellipsoid seen along a plane's normal, from its centre, shape (48, 2).

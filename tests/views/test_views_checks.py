@@ -21,6 +21,7 @@ from app.views.checks.registration_dialog import RegistrationDialog
 from app.views.checks.words import agreement_item
 from app.views.error_overlay import ErrorOverlay
 from app.views.exercise.status_items import Verdict
+from app.views.scene.view import error_note
 
 MM = 1e-3
 PLATE = load_plate("stepped-plate")
@@ -181,6 +182,13 @@ def test_the_outline_is_the_shadow_of_the_ellipsoid():
         np.zeros(3), 1e-6 * np.diag([4.0, 1.0, 0.25]), rotation_exp([0.0, 0.0, np.pi / 2])
     )
     np.testing.assert_allclose(turned.covariance_mm2, np.diag([1.0, 4.0, 0.25]), atol=1e-12)
+
+
+@pytest.mark.parametrize(("sd_mm", "scale"), [(0.1, 10.0), (0.6, 10.0), (0.8, 1.0), (5.0, 1.0)])
+def test_a_large_error_is_not_enlarged_and_that_is_said(sd_mm: float, scale: float) -> None:
+    overlay = ErrorOverlay(np.zeros(3), np.diag([sd_mm**2, 0.01, 0.01]))
+    assert overlay.scale == scale
+    assert ("enlarged" in error_note(overlay.scale)) is (scale > 1.0)
 
 
 def test_the_morning_page_shows_every_step_and_keeps_the_day(application, tmp_path, monkeypatch):

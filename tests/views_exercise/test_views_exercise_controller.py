@@ -21,7 +21,8 @@ from app.views.exercise.messages import LONGEST, MessageList
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.rate_meter import RateMeter
 from app.views.exercise.status import StatusStrip
-from app.views.exercise.tracker_panel import TrackerPanel
+from app.views.exercise.status_items import tracker_item
+from app.views.exercise.tracker_panel import TrackerFigures, TrackerPanel
 
 
 @pytest.fixture
@@ -175,6 +176,22 @@ def test_camera_pictures_are_refreshed_at_most_fifteen_times_a_second(desk, qt):
     desk.controller.look()
     assert asked[-1] == (True, True)
     assert not desk.views.tracker.grab().isNull()
+
+
+def test_a_pen_has_one_picture_and_nothing_about_a_coloured_marker(qt):
+    panel, image = TrackerPanel(), np.zeros((48, 64, 3), np.uint8)
+    figures = TrackerFigures(15.0, None, tracker_item(15.0, 1.0, 0.1, ""))
+    one = InspectedPicture(
+        TrackedPicture("webcam", image, 1.0, None), "", np.empty((0, 2)), None, None, drawn=True
+    )
+    assert one.found
+    panel.show_tracker(Inspection((one,), None, cameras=1), figures, 0.0)
+    assert panel.cameras[1].isHidden()
+    assert panel.learn.isHidden()
+    panel.show_tracker(Inspection((one,), None), figures, 1.0)  # of two cameras, one is missing
+    assert not panel.cameras[1].isHidden()
+    assert not panel.learn.isHidden()
+    panel.deleteLater()
 
 
 def test_the_marker_s_colour_is_learned_only_when_asked_for(desk):

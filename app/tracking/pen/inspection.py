@@ -31,7 +31,8 @@ class PenInspector:
         for one in self._tracker.pictures():
             image = draw_observation(one.image, one.observation) if lines else one.image
             picture = TrackedPicture(one.name, image, one.time, None)
+            seen = one.observation.fix
             inspected.append(
-                InspectedPicture(picture, one.observation.fix.reason, np.empty((0, 2)), None, None)
+                InspectedPicture(picture, seen.reason, np.empty((0, 2)), None, None, seen.usable)
             )
-        return Inspection(tuple(inspected), fix)
+        return Inspection(tuple(inspected), fix, cameras=1)

@@ -136,7 +136,7 @@ class CameraView(QWidget):
 
 
 def _draw_name(painter: QPainter, corner: QPointF, shown: InspectedPicture) -> None:
-    found = shown.picture.pixel is not None
+    found = shown.found
     colour, symbol = theme.VERDICTS["good" if found else "bad"]
     name = camera_name(shown.picture.name)
     why = shown.why or tr("marker not seen")

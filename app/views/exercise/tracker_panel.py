@@ -85,6 +85,7 @@ class TrackerPanel(QWidget):
         """Show the newest pictures and figures."""
         self._shown = now
         pictures = inspection.pictures if inspection is not None else ()
+        self._show_what_there_is(inspection is None or inspection.cameras > 1)
         for i, camera in enumerate(self.cameras):
             camera.show_picture(pictures[i] if i < len(pictures) else None)
         colour, symbol = figures.item.verdict.look
@@ -94,6 +95,11 @@ class TrackerPanel(QWidget):
         radius = inspection.radius if inspection is not None else None
         known = inspection is None or inspection.uncertainty_known
         self._figures.show_figures(figures, radius, known)
+
+    def _show_what_there_is(self, marker: bool) -> None:
+        """Leave out, for a pen, the second picture and what is about a coloured marker."""
+        for widget in (self.cameras[1], self.learn, *(self._buttons[name] for name in OF_MARKER)):
+            widget.setVisible(marker)
 
     def set_overlay(self, name: str, shown: bool) -> None:
         """Switch one of `Overlays` by its name, in both pictures."""
@@ -134,6 +140,10 @@ class TrackerPanel(QWidget):
         if self.learn.isChecked():
             self.learn.setChecked(False)
             self.colour_clicked.emit(camera, pixel)
+
+
+OF_MARKER: Final = ("mask", "region", "magnifier")
+"""Overlays that are about the coloured marker."""
 
 
 class _Figures(QWidget):

@@ -15,7 +15,7 @@ from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.planning.draft import DraftPlan
 from app.views import theme
-from app.views.error_overlay import ERROR_SCALE, SMALLEST_MM
+from app.views.error_overlay import SMALLEST_MM
 from app.views.needle_overlay import NeedleOverlay
 from app.views.scene.actors import Ball, Ellipsoid, Rod, SurfaceActor, colour
 from app.views.scene.orbit import Orbit
@@ -87,7 +87,7 @@ class Stage:
         if error is None:
             self._error.place(None, None)
         else:
-            axes = ERROR_SCALE * principal_axes(error.covariance_mm2 + SMALLEST_MM**2 * np.eye(3))
+            axes = error.scale * principal_axes(error.covariance_mm2 + SMALLEST_MM**2 * np.eye(3))
             self._error.place(error.centre_mm, axes)
 
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:

@@ -26,7 +26,6 @@ from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.views import theme
-from app.views.error_overlay import ERROR_SCALE
 from app.views.needle_overlay import NeedleOverlay
 from app.views.scene.compass import draw_compass
 from app.views.scene.orbit import Orbit
@@ -76,7 +75,7 @@ class SceneView(QWidget):
         self._body: FloatArray = _box(np.zeros((1, 3)))
         self._robot: FloatArray | None = None
         self.note = ""
-        self._enlarged = False
+        self._scale = 0.0
         self._turned_at = self._fine_at = -SETTLE_S
         self._fine, self._pending = False, False
         self._pressed, self._last = QPointF(), QPointF()
@@ -107,7 +106,7 @@ class SceneView(QWidget):
 
     def set_needle(self, needle: NeedleOverlay | None) -> None:
         """Show the needle."""
-        self._enlarged = needle is not None and needle.error is not None
+        self._scale = needle.error.scale if needle is not None and needle.error else 0.0
         self._change("needle", lambda stage: stage.set_needle(needle))
 
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
@@ -197,9 +196,9 @@ class SceneView(QWidget):
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0))
         painter.setPen(QColor(theme.TEXT))
         painter.drawText(8, 20, tr("3D"))
-        if self._enlarged:
+        if self._scale > 0.0:
             painter.setPen(QColor(theme.NEEDLE_TIP.colour))
-            painter.drawText(8, 38, tr("Tip error 95 %, {scale:.0f}× enlarged", scale=ERROR_SCALE))
+            painter.drawText(8, 38, error_note(self._scale))
             painter.setPen(QColor(theme.TEXT))
         note = self._renderer.error and tr("3D view off: {why}", why=self._renderer.error)
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignBottom
@@ -261,3 +260,10 @@ def _box(points_mm: FloatArray) -> FloatArray:
     """Eight corners of the box around points, shape (8, 3)."""
     low, high = points_mm.min(axis=0), points_mm.max(axis=0)
     return np.array([np.where(bits, high, low) for bits in np.ndindex(2, 2, 2)])
+
+
+def error_note(scale: float) -> str:
+    """Say how large the tip's error is drawn."""
+    if scale == 1.0:
+        return tr("Tip error 95 %, true to scale")
+    return tr("Tip error 95 %, {scale:.0f}× enlarged", scale=scale)
