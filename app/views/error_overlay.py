@@ -18,6 +18,9 @@ ERROR_SCALE = 10.0
 LARGE_MM = 2.0
 """Ellipsoids with a longer half axis are drawn as they are: enlarged they hide the patient."""
 
+PATIENCE = 60
+"""Pictures after which another scale is taken: a tip not seen for a moment changes nothing."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ErrorOverlay:
@@ -68,3 +71,22 @@ class ErrorOverlay:
         turn = np.linspace(0.0, 2.0 * np.pi, POINTS, endpoint=False)
         outline: FloatArray = np.column_stack([np.cos(turn), np.sin(turn)]) @ axes.T
         return outline
+
+
+class Enlargement:
+    """The scale at which the 3D view draws the tip's error; it does not flicker.
+
+    Attributes:
+        scale: 1 or `ERROR_SCALE`; 0 while there is nothing to draw.
+    """
+
+    def __init__(self) -> None:
+        self.scale, self._against = 0.0, 0
+
+    def follow(self, error: ErrorOverlay | None) -> float:
+        """Take the next picture's error; return the scale to draw it at."""
+        wanted = 0.0 if error is None else error.scale
+        self._against = 0 if wanted == self.scale else self._against + 1
+        if self._against > PATIENCE or 0.0 in (wanted, self.scale):
+            self.scale, self._against = wanted, 0
+        return self.scale

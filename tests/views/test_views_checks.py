@@ -19,7 +19,7 @@ from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.inspection import Inspection
 from app.views.checks.registration_dialog import RegistrationDialog
 from app.views.checks.words import agreement_item
-from app.views.error_overlay import ErrorOverlay
+from app.views.error_overlay import PATIENCE, Enlargement, ErrorOverlay
 from app.views.exercise.status_items import Verdict
 from app.views.scene.view import error_note
 
@@ -182,6 +182,16 @@ def test_the_outline_is_the_shadow_of_the_ellipsoid():
         np.zeros(3), 1e-6 * np.diag([4.0, 1.0, 0.25]), rotation_exp([0.0, 0.0, np.pi / 2])
     )
     np.testing.assert_allclose(turned.covariance_mm2, np.diag([1.0, 4.0, 0.25]), atol=1e-12)
+
+
+def test_the_scale_of_the_error_changes_only_when_it_stays_large() -> None:
+    small, large = (ErrorOverlay(np.zeros(3), sd**2 * np.eye(3)) for sd in (0.1, 3.0))
+    enlargement = Enlargement()
+    assert enlargement.follow(large) == 1.0
+    assert enlargement.follow(None) == 0.0
+    assert enlargement.follow(small) == 10.0
+    assert {enlargement.follow(e) for _ in range(20) for e in (large, large, small)} == {10.0}
+    assert [enlargement.follow(large) for _ in range(PATIENCE + 1)][-1] == 1.0
 
 
 @pytest.mark.parametrize(("sd_mm", "scale"), [(0.1, 10.0), (0.6, 10.0), (0.8, 1.0), (5.0, 1.0)])

@@ -73,8 +73,8 @@ class Stage:
         self._target.place(draft.target_mm)
         self._path.place(draft.entry_mm, draft.target_mm)
 
-    def set_needle(self, needle: NeedleOverlay | None) -> None:
-        """Show the needle, grey where its pose is not valid."""
+    def set_needle(self, needle: NeedleOverlay | None, scale: float = 1.0) -> None:
+        """Show the needle, grey where its pose is not valid; its error `scale` times enlarged."""
         if needle is None:
             self._needle.place(None, None)
             self._tip.place(None)
@@ -87,7 +87,7 @@ class Stage:
         if error is None:
             self._error.place(None, None)
         else:
-            axes = error.scale * principal_axes(error.covariance_mm2 + SMALLEST_MM**2 * np.eye(3))
+            axes = scale * principal_axes(error.covariance_mm2 + SMALLEST_MM**2 * np.eye(3))
             self._error.place(error.centre_mm, axes)
 
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:

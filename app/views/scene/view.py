@@ -26,6 +26,7 @@ from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.views import theme
+from app.views.error_overlay import Enlargement
 from app.views.needle_overlay import NeedleOverlay
 from app.views.scene.compass import draw_compass
 from app.views.scene.orbit import Orbit
@@ -75,7 +76,7 @@ class SceneView(QWidget):
         self._body: FloatArray = _box(np.zeros((1, 3)))
         self._robot: FloatArray | None = None
         self.note = ""
-        self._scale = 0.0
+        self._enlargement = Enlargement()
         self._turned_at = self._fine_at = -SETTLE_S
         self._fine, self._pending = False, False
         self._pressed, self._last = QPointF(), QPointF()
@@ -106,8 +107,8 @@ class SceneView(QWidget):
 
     def set_needle(self, needle: NeedleOverlay | None) -> None:
         """Show the needle."""
-        self._scale = needle.error.scale if needle is not None and needle.error else 0.0
-        self._change("needle", lambda stage: stage.set_needle(needle))
+        scale = self._enlargement.follow(needle.error if needle is not None else None)
+        self._change("needle", lambda stage: stage.set_needle(needle, scale))
 
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
         """Show the robot, placed under the patient."""
@@ -196,9 +197,9 @@ class SceneView(QWidget):
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0))
         painter.setPen(QColor(theme.TEXT))
         painter.drawText(8, 20, tr("3D"))
-        if self._scale > 0.0:
+        if self._enlargement.scale > 0.0:
             painter.setPen(QColor(theme.NEEDLE_TIP.colour))
-            painter.drawText(8, 38, error_note(self._scale))
+            painter.drawText(8, 38, error_note(self._enlargement.scale))
             painter.setPen(QColor(theme.TEXT))
         note = self._renderer.error and tr("3D view off: {why}", why=self._renderer.error)
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignBottom
