@@ -11,6 +11,9 @@ if TYPE_CHECKING:
     from app.studies.findings import SurveyResult
     from app.studies.study import Result
 
+PIPE_WIDTH = 160
+"""Columns of a table that is not read on a terminal."""
+
 
 def register(app: typer.Typer) -> None:
     """Add `acus study`."""
@@ -44,7 +47,10 @@ def study(
     if json:
         typer.echo(dumps(data, indent=2))
     else:
-        _print(result, Console())
+        console = Console()
+        if not console.is_terminal:  # a pipe or a file has no edge at which figures must be cut
+            console = Console(width=max(console.width, PIPE_WIDTH))
+        _print(result, console)
     if out is not None:
         for path in _write(name, result, data, out):
             typer.echo(f"wrote {path}", err=True)

@@ -15,10 +15,10 @@ SMALLEST_MM = 1e-4
 ERROR_SCALE = 10.0
 """The 3D view enlarges ellipsoids so much, and says so: true ones vanish inside the needle."""
 
-LARGE_MM = 2.0
+LARGE_MM = 6.0
 """Ellipsoids with a longer half axis are drawn as they are: enlarged they hide the patient."""
 
-PATIENCE = 60
+PATIENCE = 30
 """Pictures after which another scale is taken: a tip not seen for a moment changes nothing."""
 
 

@@ -54,3 +54,10 @@ def test_explain_for_the_real_robot_drops_what_it_cannot_render() -> None:
     done = RUN.invoke(build(), ["explain", "first-insertion", "--real"])
     assert done.exit_code == 0
     assert "shaft_friction\n    dropped: it writes axial_force" in done.stdout
+
+
+def test_no_figure_of_a_table_is_cut_where_no_terminal_limits_it() -> None:
+    done = RUN.invoke(build(), ["study", "stereo", "--repeats", "1"])
+    assert done.exit_code == 0
+    assert max(map(len, done.stdout.splitlines())) > 80
+    assert "…" not in done.stdout

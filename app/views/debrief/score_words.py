@@ -58,7 +58,7 @@ def row_texts(row: Row, score: Score) -> RowTexts:
     band = f"{symbol} {band_word(row.band)}" if row.band and judged else "–"
     return RowTexts(
         label=row.label + (" *" if row.tolerance and row.tolerance.required else ""),
-        value=tr("not available") if row.value is None else with_unit(row.value, row.unit),
+        value="–" if row.value is None else with_unit(row.value, row.unit),
         band=band,
         points=_points(row, score),
         weight=f"{row.tolerance.weight:g}" if row.tolerance else "–",
