@@ -33,6 +33,19 @@ _STIFF, _SOFT = 2.0, 25.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Outline:
+    """Where the band was taken to be, see `band_outline.outline`.
+
+    Attributes:
+        arcs: shape (ARCS, CELLS).
+        frame: shape (FRAME,).
+    """
+
+    arcs: FloatArray
+    frame: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class BandFit:
     """What the fit says.
 
@@ -44,6 +57,7 @@ class BandFit:
         outliers: share of the band's pixels that were left out.
         area: of the band [px²].
         paint: mean colour of the band [grey levels], blue, green, red, shape (3,).
+        outline: the one that the fit began with.
     """
 
     uv: FloatArray
@@ -53,6 +67,7 @@ class BandFit:
     outliers: float
     area: float
     paint: FloatArray
+    outline: Outline
 
 
 class BandFitter:
@@ -112,6 +127,7 @@ class BandFitter:
             outliers=float(result[9]),
             area=float(result[10]),
             paint=result[11:14],
+            outline=Outline(arcs, frame),
         )
 
 

@@ -16,6 +16,8 @@ REST: Final = COLUMNS - BAND + 2 * SIDE
 MOVES: Final = PARTIALS - 1
 _SHAFTS: Final = COLUMNS - BAND
 _SLOPES: Final = _SHAFTS + CURVE
+_NOTHING: Final = 1e-9
+"""Share of a pixel too small to count."""
 
 
 @njit(fastmath=REORDERED, forceinline=True)
@@ -86,7 +88,8 @@ def colour_equations(
                 normal[k - BAND, q - BAND] += x * row[q]
             for q in range(BAND + 3):
                 cross[k - BAND, q] += x * right[q]
-        _background(first[i], ground, row, low, high, right, normal, cross)
+        if abs(free) > _NOTHING:
+            _background(first[i], ground, row, low, high, right, normal, cross)
         if row[0] != 0.0:
             for k in range(BAND):
                 for q in range(k, BAND + 3):
@@ -187,10 +190,11 @@ def move_equations(
         for k in range(low, high):
             for q in range(3 * MOVES):
                 cross[k - BAND, q] += row[k] * slope[q]
-        for p in range(4):
-            a, x = (last if p == 3 else start + p), free * weights[i, p]
-            for q in range(3 * MOVES):
-                cross[a, q] += x * slope[q]
+        if abs(free) > _NOTHING:
+            for p in range(4):
+                a, x = (last if p == 3 else start + p), free * weights[i, p]
+                for q in range(3 * MOVES):
+                    cross[a, q] += x * slope[q]
         _gather_moves(slope, residual, paint, row, moves, right)
     for m in range(MOVES):
         for q in range(m):

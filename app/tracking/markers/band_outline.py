@@ -30,8 +30,9 @@ FRAME: Final = 12
 
 ARCS: Final = 4
 
-CELLS: Final = 28
-"""Strips across the band, for integration: narrower than half the point spread."""
+CELLS: Final = 20
+"""Strips across the band, for integration: as wide as the point spread's standard deviation on a
+band 14 px wide; midpoints of such strips are off by less than 1e-6."""
 
 
 @njit

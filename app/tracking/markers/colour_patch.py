@@ -112,46 +112,66 @@ def nearest_patch(
     """
     left, top = region[0], region[1]
     height, width = region[3] - top, region[2] - left
-    strengths = np.empty((height, width))
-    near, all_over = 0.0, 0.0
+    strengths = np.empty((height, width), np.float32)
+    _measure(image, top, left, weights, strengths)
     x, y = round(u) - left, round(v) - top
-    for j in range(height):
-        for i in range(width):
-            strength = min(255.0, max(0.0, _strength(image, top + j, left + i, weights)))
-            strengths[j, i] = strength
-            all_over = max(all_over, strength)
-            if -_NEAR <= j - y < _NEAR and -_NEAR <= i - x < _NEAR:
-                near = max(near, strength)
-    strongest = near if near >= least else all_over
+    rows = slice(max(0, y - _NEAR), max(0, y + _NEAR))
+    near = strengths[rows, max(0, x - _NEAR) : max(0, x + _NEAR)]
+    strongest = min(255.0, near.max()) if near.size else 0.0
+    if strongest < least:
+        strongest = min(255.0, strengths.max())
     limit = max(math.floor(least) + 0.5, share * strongest)
     for j in range(height):
         for i in range(width):
-            strength = strengths[j, i]
-            pure = strength >= limit and _is_pure(image, top + j, left + i, weights, strength)
+            pure = strengths[j, i] >= limit and _is_pure(
+                image, top + j, left + i, weights, strengths[j, i]
+            )
             labels[j, i] = -1 if pure else 0
-    stack = np.empty((height * width, 2), np.int32)
-    count, largest, best, nearest = 0, 0, 0, np.inf
-    for attempt in range(2):  # the largest says what is a speck
-        if attempt:
-            for j in range(height):
-                for i in range(width):
-                    labels[j, i] = -1 if labels[j, i] else 0
-            count = 0
-        for j in range(height):
-            for i in range(width):
+    return _choose(labels, left, top, u, v, box, centre)
+
+
+@njit(fastmath=REORDERED)
+def _measure(image: Any, top: int, left: int, weights: Any, strengths: Any) -> None:
+    """Strength of every pixel: without a branch, eight at a time."""
+    blue, green, red = np.float32(weights[0]), np.float32(weights[1]), np.float32(weights[2])
+    for j in range(strengths.shape[0]):
+        for i in range(strengths.shape[1]):
+            strengths[j, i] = (
+                blue * np.float32(image[top + j, left + i, 0])
+                + green * np.float32(image[top + j, left + i, 1])
+                + red * np.float32(image[top + j, left + i, 2])
+            )
+
+
+@njit
+def _choose(labels: Any, left: int, top: int, u: float, v: float, box: Any, centre: Any) -> int:
+    """Fill box and centre of the nearest patch that is no speck beside the largest; its number.
+
+    What is nearer than the largest so far may be a speck beside one that comes later: only then
+    are the patches gone through once more.
+    """
+    stack = np.empty((labels.size, 2), np.int32)
+    largest = 0
+    for attempt in range(2):
+        count, best, smallest, nearest = 0, 0, 0, np.inf
+        for j in range(labels.shape[0]):
+            for i in range(labels.shape[1]):
                 if labels[j, i] != -1:
                     continue
                 count += 1
                 area, low, high, first, last, su, sv = _flood(labels, j, i, count, stack)
-                if not attempt:
-                    largest = max(largest, area)
-                    continue
+                largest = max(largest, area)
                 mu, mv = left + su / area, top + sv / area
                 distance = math.hypot(mu - u, mv - v)
                 if area >= max(_SPECK, _SPECK_SHARE * largest) and distance < nearest:
-                    best, nearest = count, distance
+                    best, nearest, smallest = count, distance, area
                     box[0], box[1], box[2], box[3] = first, low, last - first + 1, high - low + 1
                     centre[0], centre[1] = mu, mv
+        if attempt or not best or smallest >= _SPECK_SHARE * largest:
+            break
+        for j in range(labels.shape[0]):
+            for i in range(labels.shape[1]):
+                labels[j, i] = -1 if labels[j, i] else 0
     return best
 
 

@@ -8,7 +8,7 @@ red thing. What little misfit is let pass enlarges the covariance.
 """
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -51,6 +51,8 @@ darker flank is not strong enough), by 0.28 of half the length where an end face
 _QUALITY_ALONE, _ALONE_PX = 0.85, 0.1
 """Least quality and largest standard deviation [px] of a find that no other picture confirms."""
 
+_ONE = np.eye(2)
+
 
 @dataclass(frozen=True)
 class ModelFit(Extractor):
@@ -88,11 +90,10 @@ class ModelFit(Extractor):
         if (followed := self._followed(image, hint)) is not None:
             return followed
         found = self.coarse.find(image, hint)
-        if isinstance(found, Miss) or hint.axis_world is None:
+        axis = self._axis(hint.axis_world)
+        if isinstance(found, Miss) or axis is None:
             return found
-        if not np.isfinite(hint.axis_world).all() or not np.any(hint.axis_world):
-            return found
-        return self._fit(image, found, unit(hint.axis_world), hint.p_world)
+        return self._fit(image, found, axis, hint.p_world)
 
     def search(self, image: Image) -> tuple[MarkerFix | Miss, ...]:
         """Outlines' centroids: the fit comes with the axis, in `find`."""
@@ -108,93 +109,106 @@ class ModelFit(Extractor):
         The mean pixel of the patch only has to agree with the prediction. What a fit does not
         take, or moves far, is looked at again from the centroid.
         """
-        if hint.p_world is None or hint.axis_world is None or not hint.finite:
-            return None
-        if not np.isfinite(hint.axis_world).all() or not np.any(hint.axis_world):
+        axis = self._axis(hint.axis_world)
+        if hint.p_world is None or axis is None or not hint.finite:
             return None
         middle = self.coarse.patch_centre(image, hint.uv)
-        depth = float((self.model.T_camera_world @ hint.p_world)[2])
+        pose = self.model.T_camera_world
+        depth = float(pose.rotation[2] @ hint.p_world + pose.translation[2])
         if middle is None or not depth > 4.0 * self.shape.half:
             return None
-        ray, ok = self.model.undistort(hint.uv)
-        if not ok[0]:
+        start = self._at(hint.uv, depth)
+        if start is None:
             return None
-        start = depth * np.array([ray[0, 0], ray[0, 1], 1.0])
-        axis = self.model.T_camera_world.rotate(unit(hint.axis_world))
-        room = max(_AGREES_PX, _AGREES * float(self._half_px(start, axis)[1]))
-        if not np.abs(middle - hint.uv).max() < room:
+        room = max(_AGREES_PX, _AGREES * self._half_px(start, axis)[1])
+        if not _farthest(middle, hint.uv) < room:
             return None
         fit = self.fitter.fit(image, start, axis)
         if fit is None or not self.coarse.area_min <= fit.area <= self.coarse.area_max:
             return None
-        if not np.abs(fit.uv - hint.uv).max() < _CLOSE_PX:
+        if not _farthest(fit.uv, hint.uv) < _CLOSE_PX:
             return None
-        judged = self._on_shaft(image, fit, start, axis)
+        judged = self._judged(image, fit, start, axis)
         return judged if isinstance(judged, MarkerFix) else None
 
+    def _axis(self, axis_world: FloatArray | None) -> FloatArray | None:
+        """Carry the axis into the camera frame, at length one; None where it is not known."""
+        if axis_world is None:
+            return None
+        length = math.hypot(*axis_world.tolist())
+        if not 0.0 < length < math.inf:
+            return None
+        return self.model.T_camera_world.rotation @ (axis_world / length)
+
+    def _at(self, uv: FloatArray, depth: float) -> FloatArray | None:
+        """Point of the camera frame that a pixel shows at a depth [m], shape (3,)."""
+        ray = self.model.ray(uv)
+        return None if ray is None else np.array([ray[0] * depth, ray[1] * depth, depth])
+
     def _fit(
-        self, image: Image, found: MarkerFix, axis_world: FloatArray, p_world: FloatArray | None
+        self, image: Image, found: MarkerFix, axis: FloatArray, p_world: FloatArray | None
     ) -> MarkerFix | Miss:
-        axis = self.model.T_camera_world.rotate(axis_world)
         start = self._start(found, axis, p_world)
-        if start is None:
+        fit = None if start is None else self.fitter.fit(image, start, axis)
+        if start is None or fit is None:
             return Miss(MissReason.WRONG_SHAPE, found.uv)
-        fit = self.fitter.fit(image, start, axis)
-        return (
-            Miss(MissReason.WRONG_SHAPE, found.uv)
-            if fit is None
-            else self._on_shaft(image, fit, start, axis)
-        )
+        return self._judged(image, fit, start, axis)
 
-    def _judged(self, fit: BandFit, start: FloatArray, axis: FloatArray) -> MarkerFix | Miss:
-        if not self.coarse.colour.is_marker(fit.paint):
-            return Miss(MissReason.NOTHING_RED, fit.uv)
-        if fit.outliers > self.outliers_max or fit.misfit > self.misfit_max:
-            return Miss(MissReason.PARTLY_HIDDEN, fit.uv)
-        if np.abs(fit.stretch - 1.0).max() > self.stretch_max:
-            return Miss(MissReason.WRONG_SHAPE, fit.uv)
-        inflation = max(1.0, fit.misfit)
-        doubt = self.floor_px**2 + _MISFIT_PX2 * max(0.0, fit.misfit - _USUAL_MISFIT)
-        doubt += _OUTLIERS_PX2 * max(0.0, fit.outliers - _USUAL_OUTLIERS)
-        amiss = float(np.sum((self._half_px(start, axis) * (fit.stretch - 1.0)) ** 2))
-        doubt += _STRETCH * max(0.0, amiss - _USUAL_STRETCH_PX**2)
-        covariance = inflation * fit.covariance + doubt * np.eye(2)
-        quality = (1.0 - fit.outliers) / inflation
-        return MarkerFix(fit.uv, covariance, fit.area, quality, Centre.BAND)
-
-    def _on_shaft(
+    def _judged(
         self, image: Image, fit: BandFit, start: FloatArray, axis: FloatArray
     ) -> MarkerFix | Miss:
-        """Judge the fit, and whether the band is on a shaft."""
-        judged = self._judged(fit, start, axis)
-        if isinstance(judged, Miss):
-            return judged
+        """Whether the fit is of the band, and the band on a shaft; if so, how far to trust it."""
+        if (reason := self._refused(fit)) is not None:
+            return Miss(reason, fit.uv)
         shaft = shaft_evidence(
-            image, self.model, self.shape, start, axis, fit.uv, fit.stretch, fit.paint,
+            image, fit.outline, self.shape, fit.uv, fit.stretch, fit.paint,
             self.coarse.colour.weights, self.blur_px, self.coarse.noise_grey,
         )  # fmt: skip
         if not shaft.found:
             return Miss(MissReason.NO_SHAFT, fit.uv)
-        alone = shaft.found_alone and judged.quality >= _QUALITY_ALONE
-        alone = alone and float(np.trace(judged.covariance)) <= _ALONE_PX**2
-        return replace(judged, alone=alone)
+        inflation = max(1.0, fit.misfit)
+        covariance = inflation * fit.covariance + self._doubt(fit, start, axis) * _ONE
+        quality = (1.0 - fit.outliers) / inflation
+        alone = shaft.found_alone and quality >= _QUALITY_ALONE
+        alone = alone and float(covariance[0, 0] + covariance[1, 1]) <= _ALONE_PX**2
+        return MarkerFix(fit.uv, covariance, fit.area, quality, Centre.BAND, alone)
 
-    def _half_px(self, p_camera: FloatArray, axis: FloatArray) -> FloatArray:
-        """Half the width and half the length of the band's picture [px], shape (2,)."""
+    def _refused(self, fit: BandFit) -> MissReason | None:
+        if not self.coarse.colour.is_marker(fit.paint):
+            return MissReason.NOTHING_RED
+        if fit.outliers > self.outliers_max or fit.misfit > self.misfit_max:
+            return MissReason.PARTLY_HIDDEN
+        width, length = fit.stretch.tolist()
+        if max(abs(width - 1.0), abs(length - 1.0)) > self.stretch_max:
+            return MissReason.WRONG_SHAPE
+        return None
+
+    def _doubt(self, fit: BandFit, start: FloatArray, axis: FloatArray) -> float:
+        """Variance of the centre beyond the fit's own, by what the model does not have [px²]."""
+        (width, length), (wide, long) = fit.stretch.tolist(), self._half_px(start, axis)
+        amiss = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
+        return (
+            self.floor_px**2
+            + _MISFIT_PX2 * max(0.0, fit.misfit - _USUAL_MISFIT)
+            + _OUTLIERS_PX2 * max(0.0, fit.outliers - _USUAL_OUTLIERS)
+            + _STRETCH * max(0.0, amiss - _USUAL_STRETCH_PX**2)
+        )
+
+    def _half_px(self, p_camera: FloatArray, axis: FloatArray) -> tuple[float, float]:
+        """Half the width and half the length of the band's picture [px]."""
         fx, fy = self.model.intrinsics[:2].tolist()
         (x, y, z), (a, b, c) = p_camera.tolist(), axis.tolist()
         length = self.shape.half * math.hypot(fx * (a - c * x / z), fy * (b - c * y / z))
-        return np.array([self.shape.radius * math.sqrt(fx * fy) / z, length / z])
+        return self.shape.radius * math.sqrt(fx * fy) / z, length / z
 
     def _start(
         self, found: MarkerFix, axis: FloatArray, p_world: FloatArray | None
     ) -> FloatArray | None:
         """Band's centre in the camera frame by the centroid and its distance [m], shape (3,)."""
         known = None if p_world is None else self.model.T_camera_world @ p_world
-        ray, ok = self.model.undistort(found.uv)
-        if not ok[0]:
+        direction = self._at(found.uv, 1.0)
+        if direction is None:
             return None
-        direction = np.array([ray[0, 0], ray[0, 1], 1.0])
         if known is not None and known[2] > 4.0 * self.shape.half:
             depth = float(known[2])
         else:
@@ -202,12 +216,14 @@ class ModelFit(Extractor):
             face = 4.0 * self.shape.radius * self.shape.half * max(sine, 0.2)
             focal = float(np.prod(self.model.intrinsics[:2]))
             depth = float(np.sqrt(focal * face / max(found.area, 1.0)))
-        p_camera = depth * direction
-        world = self.model.T_world_camera @ p_camera
+        world = self.model.T_world_camera @ (depth * direction)
         shift = centroid_shift(
             self.model, self.shape, world, self.model.T_world_camera.rotate(axis)
         )
-        if shift is None:
-            return None
-        centre, ok = self.model.undistort(found.uv - shift)
-        return np.array([centre[0, 0] * depth, centre[0, 1] * depth, depth]) if ok[0] else None
+        return None if shift is None else self._at(found.uv - shift, depth)
+
+
+def _farthest(uv: FloatArray, other: FloatArray) -> float:
+    """Larger of the distances of two pixels in u and v [px]."""
+    (u, v), (a, b) = uv.tolist(), other.tolist()
+    return max(abs(u - a), abs(v - b))

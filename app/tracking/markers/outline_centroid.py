@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, read_only
 from app.tracking.cameras.camera import Image
@@ -27,11 +28,27 @@ _ROOM = 7
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Patch:
-    """A patch of the marker's colour: mask of its box with room, the box, and its mean pixel."""
+    """A patch of the marker's colour: its box with room, mean pixel, and where it has its number.
 
-    mask: Mask
+    Attributes:
+        box: left, top, right, bottom [px], with room.
+        centre: mean pixel, shape (2,).
+        numbers: of the patches in the box without the room, shape (h, w).
+        number: the patch's.
+    """
+
     box: tuple[int, int, int, int]
     centre: FloatArray
+    numbers: NDArray[np.int32]
+    number: int
+
+    @property
+    def mask(self) -> Mask:
+        """Where it is in its box."""
+        height, width = self.numbers.shape
+        mask = np.zeros((height + 2 * _ROOM, width + 2 * _ROOM), dtype=np.uint8)
+        mask[_ROOM:-_ROOM, _ROOM:-_ROOM] = self.numbers == self.number
+        return mask
 
 
 @dataclass(frozen=True)
@@ -135,27 +152,25 @@ class OutlineCentroid(Extractor):
     def _patch(self, image: Image, centre: FloatArray) -> _Patch | Miss:
         """Patch nearest to `centre` in the region round it, with room."""
         height, width = image.shape[:2]
-        u, v = (round(min(1e6, max(-1e6, float(x)))) for x in centre)
+        at_u, at_v = centre.tolist()
+        u, v = (round(min(1e6, max(-1e6, x))) for x in (at_u, at_v))
         left, top = max(0, u - self.region), max(0, v - self.region)
         right, bottom = min(width, u + self.region + 1), min(height, v + self.region + 1)
         if right - left < 8 or bottom - top < 8:
             return Miss(MissReason.NOTHING_RED)
-        labels, inner = np.empty((bottom - top, right - left), np.int32), np.empty(4, np.int64)
+        numbers, inner = np.empty((bottom - top, right - left), np.int32), np.empty(4, np.int64)
         middle = np.empty(2)
-        label = nearest_patch(
-            read_only(image[:]), np.array([left, top, right, bottom]), float(centre[0]),
-            float(centre[1]), self.colour.weights, self.colour.strength, self.colour.share,
-            labels, inner, middle,
+        number = nearest_patch(
+            read_only(image[:]), np.array([left, top, right, bottom]), at_u, at_v,
+            self.colour.weights, self.colour.strength, self.colour.share, numbers, inner, middle,
         )  # fmt: skip
-        if label == 0:
+        if number == 0:
             return Miss(MissReason.NOTHING_RED)
-        x, y, w, h = (int(value) for value in inner)
+        x, y, w, h = inner.tolist()
         box = (left + x - _ROOM, top + y - _ROOM, left + x + w + _ROOM, top + y + h + _ROOM)
         if box[0] <= 0 or box[1] <= 0 or box[2] >= width or box[3] >= height:
             return Miss(MissReason.AT_BORDER, middle)
-        mask = np.zeros((h + 2 * _ROOM, w + 2 * _ROOM), dtype=np.uint8)
-        mask[_ROOM:-_ROOM, _ROOM:-_ROOM] = labels[y : y + h, x : x + w] == label
-        return _Patch(mask, box, middle)
+        return _Patch(box, middle, numbers[y : y + h, x : x + w], number)
 
     def _measure(self, window: Image, blob: Mask, origin: FloatArray) -> MarkerFix | Miss:
         middle = origin + 0.5 * np.array([blob.shape[1], blob.shape[0]])

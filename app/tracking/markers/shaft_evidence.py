@@ -16,7 +16,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only
 from app.tracking.cameras.camera import Image
-from app.tracking.markers.band_outline import ARCS, CELLS, FRAME, outline
+from app.tracking.markers.band_fit import Outline
 from app.tracking.markers.shaft_kernels import (
     ENDS,
     PIECES,
@@ -25,7 +25,6 @@ from app.tracking.markers.shaft_kernels import (
     gather_zones,
     shaft_steps,
 )
-from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
 
 LEAST: Final = 6.0
@@ -60,10 +59,8 @@ class ShaftEvidence:
 
 def shaft_evidence(
     image: Image,
-    model: CameraModel,
+    outline: Outline,
     shape: NeedleShape,
-    p_camera: FloatArray,
-    axis_camera: FloatArray,
     uv: FloatArray,
     stretch: FloatArray,
     paint: FloatArray,
@@ -75,10 +72,8 @@ def shaft_evidence(
 
     Args:
         image: the picture.
-        model: the camera.
+        outline: of the band where it is about.
         shape: of the needle.
-        p_camera: the band's centre in the camera frame, about [m], shape (3,).
-        axis_camera: unit vector from hub to tip, shape (3,).
         uv: picture of the band's centre as fitted [px], shape (2,).
         stretch: width and length as fitted, over the expected, shape (2,).
         paint: mean colour of the band, shape (3,).
@@ -86,12 +81,10 @@ def shaft_evidence(
         blur: standard deviation of the point spread [px].
         noise: standard deviation of a grey value.
     """
-    arcs, frame = np.empty((ARCS, CELLS)), np.empty(FRAME)
-    if not outline(p_camera, axis_camera, shape, model.intrinsics, model.distortion, arcs, frame):
-        return ShaftEvidence(0.0, 0.0)
+    frame = outline.frame
     sums, counts = np.empty((ENDS, PIECES, ZONES, 3)), np.empty((ENDS, PIECES, ZONES))
     moved, steps = np.array([*(uv - frame[:2]), *stretch]), np.empty(STEPS)
-    gather_zones(read_only(image[:]), frame, arcs, shape, moved, blur, sums, counts)
+    gather_zones(read_only(image[:]), frame, outline.arcs, shape, moved, blur, sums, counts)
     shaft_steps(sums, counts, max(noise, 1.0), weights, float(weights @ paint), steps)
     steps.sort()
     return ShaftEvidence(float(steps[-2]), float(steps[-3]))

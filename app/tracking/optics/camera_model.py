@@ -8,7 +8,12 @@ from numpy.typing import ArrayLike, NDArray
 from app.core.arrays import FloatArray, frozen
 from app.core.transform import RigidTransform
 from app.tracking.errors import RigError
-from app.tracking.optics.distortion import distortion_jacobian, fold_radius, undistort_grid
+from app.tracking.optics.distortion import (
+    distortion_jacobian,
+    fold_radius,
+    undistort_grid,
+    undistort_point,
+)
 
 _NEAREST = 1e-6
 """Depth [m] in front of the camera below which a point counts as not in front of it."""
@@ -101,6 +106,13 @@ class CameraModel:
         points = np.ascontiguousarray(np.atleast_2d(np.asarray(pixels, dtype=np.float64)))
         rays, found = undistort_grid(points, self.intrinsics, self.distortion, self.fold)
         return rays, found
+
+    def ray(self, pixel: FloatArray) -> tuple[float, float] | None:
+        """Normalised coordinates x/z, y/z of one pixel, or None if it belongs to no direction."""
+        fx, fy, cx, cy = self.intrinsics.tolist()
+        u, v = pixel.tolist()
+        x, y, found = undistort_point((u - cx) / fx, (v - cy) / fy, self.distortion, self.fold)
+        return (x, y) if found else None
 
     def ray_jacobian(self, ray: ArrayLike) -> FloatArray:
         """Change of the normalised coordinates with the pixel [1/px] at `ray`, shape (2, 2)."""
