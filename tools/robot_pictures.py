@@ -57,6 +57,7 @@ def attempt(window: MainWindow, folder: Path) -> None:
     window.robot.set_gauge(GaugeMode.SHOWN)
     window.begin_exercise("first-insertion")
     wait(lambda: window.conductor.controller.run is not None)
+    wait(lambda: window.conductor.settled)  # surfaces in 3D too
     panel, workspace = window.workspace.exercise_panel, window.workspace
     run = window.conductor.controller.run
     wait(lambda: run is not None and run.trainer.snapshot().pose.measured)

@@ -54,7 +54,7 @@ class CheckedCamera(Camera):
         if (width, height) != self._size:
             raise CameraError(
                 f"camera {self.name} ({self.source}) gives pictures of {width}x{height}, "
-                f"{self._reason} is for {self._size[0]}x{self._size[1]}; set `size` in the camera "
+                f"not {self._size[0]}x{self._size[1]} ({self._reason}); set `size` in the camera "
                 "settings, or calibrate again at this size"
             )
         return frame
