@@ -1,5 +1,6 @@
 """Array types and the few checks that every room needs on arrays it publishes or receives."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,8 @@ def frozen(
     array = np.array(values, dtype=np.float64)
     if shape is not None and array.shape != shape:
         raise NumericalError(f"{name} has shape {array.shape}; {shape} is needed")
-    if not np.isfinite(array).all():
+    # the square's sum is finite if all are, unless they are huge: then one looks again
+    if not math.isfinite(np.vdot(array, array)) and not np.isfinite(array).all():
         raise NumericalError(f"{name} is not finite: {array.tolist()}")
     array.setflags(write=False)
     return array

@@ -10,7 +10,7 @@ unknowns; a column each, of which the first seven are the paint's shading and co
 
 The derivatives of every entry by where the band is (n, e), how wide and how long, come along. The
 integral over the point spread is exact along the needle and across, but for the strips' width
-(`band_outline.CELLS`), within which an arc is a step.
+(`band_outline.strips`), within which an arc is a step.
 """
 
 import math
@@ -19,7 +19,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.compiled import REORDERED, njit
-from app.tracking.markers.band_outline import CELLS, tapers_at_once
+from app.tracking.markers.band_outline import tapers_at_once
 
 BAND: Final = 7
 SPLINES: Final = 9
@@ -96,11 +96,12 @@ def design(
         rows: out, (m, PARTIALS, COLUMNS); untouched where nothing but background is seen.
         seen: out, whether the row is filled, (m,).
     """
-    profile, splines = np.zeros((CELLS, BAND)), np.empty((CELLS, 3))
-    first = np.empty(CELLS, dtype=np.int64)
+    cells = arcs.shape[1]
+    profile, splines = np.zeros((cells, BAND)), np.empty((cells, 3))
+    first = np.empty(cells, dtype=np.int64)
     low, high, inner_low, inner_high = np.inf, -np.inf, -np.inf, np.inf
-    for j in range(CELLS):
-        x = (2 * j + 1.0) / CELLS - 1.0
+    for j in range(cells):
+        x = (2 * j + 1.0) / cells - 1.0
         depth = math.sqrt(1.0 - x * x)
         profile[j, 0], profile[j, 1], profile[j, 2] = 1.0, x, depth
         double_sine, double_cosine = 2.0 * x * depth, 1.0 - 2.0 * x * x
@@ -113,7 +114,7 @@ def design(
     reach = _FAR * blur
     low, high = stretch[1] * low, stretch[1] * high
     inner_low, inner_high = stretch[1] * inner_low + reach, stretch[1] * inner_high - reach
-    edges, cone = np.empty((3, CELLS + 1)), tapers_at_once(shape)
+    edges, cone = np.empty((3, cells + 1)), tapers_at_once(shape)
     for i in range(pixels.shape[0]):
         row = rows[i]
         seen[i] = False
@@ -135,8 +136,8 @@ def design(
                 continue
             slim = shape[0] / shape[1]
             if tip:
-                j = int(0.5 * CELLS * ((n - middle) / (stretch[0] * width) + 1.0))
-                h = (stretch[1] * arcs[1, min(CELLS - 1, max(0, j))] - e) / blur
+                j = int(0.5 * cells * ((n - middle) / (stretch[0] * width) + 1.0))
+                h = (stretch[1] * arcs[1, min(cells - 1, max(0, j))] - e) / blur
                 below, bell = _gauss(h)
                 at = e + blur * bell / max(1.0 - below, 1e-3)  # where it looks, on average
                 taper = max(0.05, (frame[8] - at) / frame[9])
@@ -153,16 +154,17 @@ def _across(n: float, middle: float, width: float, blur: float, stretch: float, 
 
     Returns the first strip near and the last + 1.
     """
-    step = 2.0 * stretch * width / CELLS
+    cells = edges.shape[1] - 1
+    step = 2.0 * stretch * width / cells
     start = (n - _FAR * blur - middle + stretch * width) / step
     stop = (n + _FAR * blur - middle + stretch * width) / step
-    a, b = max(0, math.floor(start)), min(CELLS, math.ceil(stop))
+    a, b = max(0, math.floor(start)), min(cells, math.ceil(stop))
     at, ahead, sharp = (middle - stretch * width - n) / blur, step / blur, 1.0 / blur
     for j in range(a, b + 1):
         below, bell = _gauss(at + j * ahead)
         bell *= sharp
         edges[0, j], edges[1, j] = below, -bell
-        edges[2, j] = bell * width * (j * (2.0 / CELLS) - 1.0)
+        edges[2, j] = bell * width * (j * (2.0 / cells) - 1.0)
     return a, b
 
 

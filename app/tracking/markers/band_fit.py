@@ -14,7 +14,7 @@ from app.tracking.cameras.camera import Image
 from app.tracking.markers.band_ground import CURVE, SIDE
 from app.tracking.markers.band_minimum import RESULT, minimise
 from app.tracking.markers.band_normal import REST
-from app.tracking.markers.band_outline import ARCS, CELLS, FRAME, outline
+from app.tracking.markers.band_outline import ARCS, FRAME, outline, strips
 from app.tracking.markers.band_pixels import surroundings
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
@@ -37,7 +37,7 @@ class Outline:
     """Where the band was taken to be, see `band_outline.outline`.
 
     Attributes:
-        arcs: shape (ARCS, CELLS).
+        arcs: shape (ARCS, strips).
         frame: shape (FRAME,).
     """
 
@@ -103,7 +103,8 @@ class BandFitter:
             p_camera: the band's centre in the camera frame, about [m], shape (3,).
             axis_camera: unit vector from hub to tip, shape (3,).
         """
-        arcs, frame = np.empty((ARCS, CELLS)), np.empty(FRAME)
+        count = strips(p_camera, self._shape, self._model.intrinsics, self._blur)
+        arcs, frame = np.empty((ARCS, count)), np.empty(FRAME)
         if not outline(
             p_camera, axis_camera, self._shape, self._model.intrinsics, self._model.distortion,
             arcs, frame,

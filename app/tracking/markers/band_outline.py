@@ -23,16 +23,31 @@ from typing import Any, Final
 
 import numpy as np
 
+from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.tracking.optics.distortion import distort_point
+from app.tracking.optics.rig import NeedleShape
 
 FRAME: Final = 12
 
 ARCS: Final = 4
 
-CELLS: Final = 20
-"""Strips across the band, for integration: as wide as the point spread's standard deviation on a
-band 14 px wide; midpoints of such strips are off by less than 1e-6."""
+_FEWEST, _MOST = 10, 40
+
+
+def strips(p_camera: FloatArray, shape: NeedleShape, intrinsics: FloatArray, blur: float) -> int:
+    """Count the strips across the band, for integration: one per deviation of the blur.
+
+    Their midpoints are then off by exp(-2π²), 3e-9; beyond 40 strips the band is close enough.
+
+    Args:
+        p_camera: the band's centre in the camera frame [m], shape (3,).
+        shape: of the needle.
+        intrinsics: fx, fy, cx, cy [px], shape (4,).
+        blur: standard deviation of the point spread [px].
+    """
+    width = 2.0 * shape.radius * float(intrinsics[:2].max()) / float(p_camera[2])
+    return min(_MOST, max(_FEWEST, math.ceil(width / max(blur, 0.1)))) if width > 0.0 else _FEWEST
 
 
 @njit
@@ -53,7 +68,7 @@ def outline(
         shape: a `rig.NeedleShape`.
         intrinsics: fx, fy, cx, cy.
         distortion: k1, k2, p1, p2, k3.
-        arcs: out, (ARCS, CELLS): e of both ends [px] at the middle of each of the band's strips,
+        arcs: out, (ARCS, strips): e of both ends [px] at the middle of each of the band's strips,
             hub end first; the same of the strips of the shaft that leaves them.
         frame: out, (FRAME,): origin u, v; e's u, v; n of the tangents x = -1 and x = 1, each at
             e = 0 and per pixel of e; e of the apex, and what e before it makes the point as wide
@@ -116,11 +131,12 @@ def outline(
         for k in range(2):
             frame[4 + k], frame[6 + k] = frame[6 + k], frame[4 + k]
         tx, ty, tz = -tx, -ty, -tz
+    cells = arcs.shape[1]
     for end in range(2):
         s = half if end else -half
         faces = (along + s) * s < 0.0
-        for j in range(CELLS):
-            x = cosine * ((2 * j + 1.0) / CELLS - 1.0)
+        for j in range(cells):
+            x = cosine * ((2 * j + 1.0) / cells - 1.0)
             depth = np.sqrt(1.0 - x * x)
             if faces:
                 hidden = (shape[0] / radius) ** 2 - x * x
@@ -135,8 +151,8 @@ def outline(
             arcs[end, j] = (u - u0) * eu + (v - v0) * ev
         cone = end == 1 and tapers_at_once(shape)
         thick = shape[0] * min(1.0, (shape[3] - s) / shape[5])
-        for j in range(CELLS):
-            x = (2 * j + 1.0) / CELLS - 1.0
+        for j in range(cells):
+            x = (2 * j + 1.0) / cells - 1.0
             wide = thick
             if thick < radius and not faces:
                 x, wide = x * thick / radius, radius  # the band's own edge hides the shaft

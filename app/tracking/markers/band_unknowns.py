@@ -15,7 +15,7 @@ from app.tracking.markers.band_design import BAND, COLUMNS, PARTIALS, design
 from app.tracking.markers.band_fit import SHADING_PRIOR, STRETCH_SD, rest_prior
 from app.tracking.markers.band_ground import CURVE, SIDE, directions, ground_columns
 from app.tracking.markers.band_normal import REST
-from app.tracking.markers.band_outline import ARCS, CELLS, FRAME, outline
+from app.tracking.markers.band_outline import ARCS, FRAME, outline, strips
 from app.tracking.markers.band_pixels import gather, surroundings
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
@@ -121,7 +121,8 @@ def _places(
     axis_camera: FloatArray,
 ) -> _Places:
     """Pixels near the band with their colours and the model's columns."""
-    arcs, frame, box = np.empty((ARCS, CELLS)), np.empty(FRAME), np.empty(4, np.int64)
+    count = strips(p_camera, shape, model.intrinsics, blur_px)
+    arcs, frame, box = np.empty((ARCS, count)), np.empty(FRAME), np.empty(4, np.int64)
     height, width = image.shape[:2]
     if not outline(
         p_camera, axis_camera, shape, model.intrinsics, model.distortion, arcs, frame
