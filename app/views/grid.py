@@ -1,43 +1,37 @@
-"""The panes on a grid: two by two, or with the bull's-eye; any pane can have the whole room."""
+"""The panes on a grid, as a layout says; any pane can have the whole room."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
+from itertools import pairwise
 
 from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
 
-GAP_PX = 3
-ROWS, COLUMNS = 11, 12
-
-Cell = tuple[int, int, int, int]
-"""First row and column, height in `ROWS` and width in `COLUMNS`."""
-
-FOUR: tuple[Cell, ...] = ((0, 0, 1, 6), (0, 6, 1, 6), (1, 0, 1, 6), (1, 6, 1, 6))
-FIVE: tuple[Cell, ...] = (
-    (0, 0, 5, 4),
-    (0, 4, 5, 4),
-    (0, 8, 5, 4),
-    (5, 0, 6, 4),
-    (5, 4, 6, 8),
-)
+from app.views.layouts import COLUMNS, FOUR, Layout
 
 
 class ViewGrid(QWidget):
-    """Holds the panes in reading order and shows as many as the arrangement has cells."""
+    """Holds the panes by name and shows those that the layout has a cell for."""
 
-    def __init__(self, panes: Sequence[QWidget], parent: QWidget | None = None) -> None:
+    def __init__(self, panes: Mapping[str, QWidget], parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._panes = tuple(panes)
-        self._cells = FOUR
+        self._panes: dict[str, QWidget] = {}
+        self._layout = FOUR
+        self._rows = 0
         self._maximised: QWidget | None = None
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setSpacing(0)
-        for pane in panes:  # the cells give the sizes, whatever the panes would like
-            pane.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
         for column in range(COLUMNS):
             self._grid.setColumnStretch(column, 1)
+        for name, pane in panes.items():
+            self.add(name, pane)
         self.arrange(FOUR)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The panes that there are."""
+        return tuple(self._panes)
 
     @property
     def maximised(self) -> QWidget | None:
@@ -45,30 +39,50 @@ class ViewGrid(QWidget):
         return self._maximised
 
     @property
-    def cells(self) -> tuple[Cell, ...]:
-        """The present arrangement."""
-        return self._cells
+    def shown(self) -> Layout:
+        """The present layout."""
+        return self._layout
 
-    def arrange(self, cells: tuple[Cell, ...]) -> None:
-        """Put the first panes into these cells and hide the rest."""
-        self._cells, self._maximised = cells, None
-        rows = max(row + height for row, _, height, _ in cells)
-        for row in range(ROWS):
-            self._grid.setRowStretch(row, 1 if row < rows else 0)
-        for number, pane in enumerate(self._panes):
+    def pane(self, name: str) -> QWidget:
+        """Return the pane of this name."""
+        return self._panes[name]
+
+    def add(self, name: str, pane: QWidget) -> None:
+        """Take another pane; it is hidden until a layout has a cell for it."""
+        # the cells give the sizes, whatever the panes would like
+        pane.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
+        pane.setParent(self)
+        pane.setVisible(False)
+        self._panes[name] = pane
+
+    def arrange(self, layout: Layout) -> None:
+        """Put panes into the layout's cells and hide the rest."""
+        self._layout, self._maximised = layout, None
+        self._rows = max(self._rows, layout.rows)
+        for row in range(self._rows):
+            self._grid.setRowStretch(row, 1 if row < layout.rows else 0)
+        cells = dict(layout.cells)
+        for name, pane in self._panes.items():
             self._grid.removeWidget(pane)
-            if number < len(cells):
-                self._grid.addWidget(pane, *cells[number])
-            pane.setVisible(number < len(cells))
+            if name in cells:
+                self._grid.addWidget(pane, *cells[name])
+            pane.setVisible(name in cells)
+        self._set_tab_order(layout)
+
+    def _set_tab_order(self, layout: Layout) -> None:
+        """Let the Tab key go through the panes in reading order."""
+        shown = [self._panes[name] for name in layout.panes if name in self._panes]
+        for first, second in pairwise(shown):
+            QWidget.setTabOrder(first, second)
 
     def toggle(self, pane: QWidget) -> None:
         """Give `pane` the whole room, or share it again."""
         if self._maximised is not None:
-            self.arrange(self._cells)
+            self.arrange(self._layout)
         else:
             self._maximised = pane
-            for other in self._panes:
+            for other in self._panes.values():
                 self._grid.removeWidget(other)
                 other.setVisible(other is pane)
-            self._grid.addWidget(pane, 0, 0, ROWS, COLUMNS)
+            self._grid.addWidget(pane, 0, 0, self._rows, COLUMNS)
         pane.setFocus()

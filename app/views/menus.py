@@ -12,9 +12,9 @@ from PySide6.QtWidgets import QMenu
 from app.views.cameras.menu import CamerasMenu
 from app.views.pen.menu import PenMenu
 from app.views.robot.menu import RobotMenu
-from app.views.slices.presets import menu_windows
 from app.views.slices.viewing import Tool
 from app.views.text import tr
+from app.views.view_menu import ViewMenu
 
 if TYPE_CHECKING:
     from app.views.window import MainWindow
@@ -29,7 +29,8 @@ class Menus:
         self._window = window
         self.recent_cts, self.recent_plans = self._file()
         self.undo, self.redo = self._edit()
-        self.follow, self.bullseye = self._view()
+        self.view = ViewMenu(self._menu(tr("&View")), window)
+        self.follow, self.bullseye = self.view.follow, self.view.bullseye
         self.robot = RobotMenu(self._menu(tr("&Robot")), window.robot, self._show_health,
                                window.pen.open)  # fmt: skip
         self.cameras = CamerasMenu(self._menu(tr("&Cameras")), window.cameras)
@@ -103,33 +104,6 @@ class Menus:
             (tr("Place target"), "T", lambda: viewing.set_tool(Tool.TARGET)),
         ])  # fmt: skip
         return undo, redo
-
-    def _view(self) -> tuple[QAction, QAction]:
-        window, viewing = self._window, self._window.workspace.viewing
-        menu = self._menu(tr("&View"))
-        presets = menu.addMenu(tr("Window presets"))
-        presets.aboutToShow.connect(lambda: self._fill_presets(presets))
-        follow, bullseye = self._add(menu, [
-            (tr("Slices follow the needle tip"), "F", lambda: None),
-            (tr("Bull's-eye beside the slices"), "B", lambda: None),
-        ])  # fmt: skip
-        follow.setCheckable(True)
-        follow.toggled.connect(viewing.set_follows_tip)
-        bullseye.setCheckable(True)
-        bullseye.toggled.connect(window.workspace.show_bullseye)
-        self._add(menu, [
-            None,
-            (tr("Crosshair to target"), "", window.cursor_to_target),
-            (tr("Full screen"), "F11", window.toggle_full_screen),
-        ])  # fmt: skip
-        return follow, bullseye
-
-    def _fill_presets(self, menu: QMenu) -> None:
-        menu.clear()
-        viewing = self._window.workspace.viewing
-        for name, key, window in menu_windows(viewing.volume):
-            action = menu.addAction(f"{name}  {window.width:g} / {window.level:g}\t{key}")
-            action.triggered.connect(lambda _=False, w=window: viewing.set_window(w))
 
     def _show_health(self) -> None:
         self._window.show_workspace()

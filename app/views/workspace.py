@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
+    QBoxLayout,
     QFrame,
     QHBoxLayout,
     QScrollArea,
@@ -20,7 +21,8 @@ from app.views.exercise.messages import MessageList
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.tracker_panel import TrackerPanel
-from app.views.grid import FIVE, FOUR, ViewGrid
+from app.views.grid import ViewGrid
+from app.views.layouts import BULLSEYE, FOUR, SCENE, chosen, possible
 from app.views.plan.editor import PlanEditor
 from app.views.plan.panel import PlanPanel
 from app.views.robot.health_panel import HealthPanel
@@ -34,10 +36,17 @@ from app.views.text import tr
 
 SIDE_WIDTH = 376
 ORDER = (View.AXIAL, View.SAGITTAL, View.CORONAL)
+_LEFT_TO_RIGHT, _RIGHT_TO_LEFT = QBoxLayout.Direction.LeftToRight, QBoxLayout.Direction.RightToLeft
 
 
 class Workspace(QWidget):
-    """Owns the panes and panels; what they do together stands in `Conductor`."""
+    """Owns the panes and panels; what they do together stands in `Conductor`.
+
+    Signals:
+        arranged(): another layout, with or without the bull's-eye, or the other hand's.
+    """
+
+    arranged = Signal()
 
     def __init__(self, editor: PlanEditor, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -45,7 +54,9 @@ class Workspace(QWidget):
         self.panes = tuple(SlicePane(self.viewing, view, self) for view in ORDER)
         self.scene = SceneView(SceneRenderer(), self)
         self.bullseye = Bullseye(self)
-        self.grid = ViewGrid([*self.panes, self.scene, _Cell(self.bullseye)], self)
+        panes: dict[str, QWidget] = {str(pane.view): pane for pane in self.panes}
+        self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: _Cell(self.bullseye)}, self)
+        self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
         for pane in self.panes:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
         self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
@@ -65,9 +76,35 @@ class Workspace(QWidget):
             self.bullseye, self.exercise_panel, self.status, self.tracker_panel, self.messages
         )
 
+    # --- layouts ------------------------------------------------------------------------------
+    @property
+    def layouts(self) -> tuple[str, ...]:
+        """Names of the layouts whose panes are all there."""
+        return possible(self.grid.names)
+
+    def show_layout(self, name: str) -> None:
+        """Arrange the panes otherwise; the bull's-eye stays if it is there."""
+        self.layout_name = name if name in self.layouts else FOUR.name
+        self._arrange()
+
     def show_bullseye(self, shown: bool) -> None:
-        """Arrange the panes with the bull's-eye, or two by two without it."""
-        self.grid.arrange(FIVE if shown else FOUR)
+        """Give the bull's-eye a place in the layout, or take it away."""
+        self.has_bullseye = shown
+        self._arrange()
+
+    def set_left_handed(self, left_handed: bool) -> None:
+        """Put panel and panes where the left hand at the mouse leaves them free to see."""
+        self.is_left_handed = left_handed
+        self._row.setDirection(_RIGHT_TO_LEFT if left_handed else _LEFT_TO_RIGHT)
+        self._arrange()
+
+    def _arrange(self) -> None:
+        self.grid.arrange(
+            chosen(self.layout_name, self.has_bullseye, self.is_left_handed, self.grid.names)
+        )
+        self.arranged.emit()
+
+    # --- panels -------------------------------------------------------------------------------
 
     def show_exercise(self) -> None:
         """Bring the exercise panel and the bull's-eye to the front."""
@@ -107,7 +144,7 @@ class Workspace(QWidget):
         right.setSpacing(0)
         right.addWidget(self.grid, 1)
         right.addWidget(disclaimer_label(self))
-        row = QHBoxLayout()
+        self._row = row = QHBoxLayout()
         row.setSpacing(3)
         row.addWidget(self.side)
         row.addLayout(right, 1)

@@ -20,6 +20,7 @@ from app.imaging.series import Series
 from app.imaging.volume import Volume
 from app.imaging.window import WindowLevel
 from app.views.grid import ViewGrid
+from app.views.layouts import SCENE
 from app.views.slices.pane import SlicePane
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
@@ -57,7 +58,7 @@ def ours(application: QApplication, volume: Volume) -> dict[str, np.ndarray]:
     """Scroll each view, then drag the window, in the program's own panes."""
     viewing = Viewing(default_window())
     panes = [SlicePane(viewing, view) for view in View]
-    grid = ViewGrid([*panes, QWidget()])
+    grid = ViewGrid({str(pane.view): pane for pane in panes} | {SCENE: QWidget()})
     grid.resize(*SIZE)
     grid.show()
     viewing.set_volume(volume)

@@ -12,7 +12,8 @@ from app.imaging.errors import ImagingError
 from app.imaging.series import Listing
 from app.views import theme
 from app.views.background import run_in_background
-from app.views.grid import FIVE, FOUR, ViewGrid
+from app.views.grid import ViewGrid
+from app.views.layouts import BULLSEYE, CORONAL, FIVE, FOUR
 from app.views.message_bar import MessageBar
 from app.views.progress_strip import ProgressStrip
 from app.views.series_dialog import SeriesDialog
@@ -116,17 +117,18 @@ def test_the_message_bar_says_what_happened_and_keeps_the_details(application):
 
 
 def test_the_grid_arranges_maximises_and_restores(application):
-    panes = [QWidget() for _ in range(5)]
+    panes = {name: QWidget() for name in FIVE.panes}
     grid = ViewGrid(panes)
-    assert [not pane.isHidden() for pane in panes] == [True] * 4 + [False]
+    hidden = lambda: [name for name, pane in panes.items() if pane.isHidden()]  # noqa: E731
+    assert hidden() == [BULLSEYE]
     grid.arrange(FIVE)
-    assert not any(pane.isHidden() for pane in panes)
-    grid.toggle(panes[2])
-    assert [not pane.isHidden() for pane in panes] == [False, False, True, False, False]
-    grid.toggle(panes[2])
-    assert not any(pane.isHidden() for pane in panes)
+    assert not hidden()
+    grid.toggle(panes[CORONAL])
+    assert [name for name in panes if name not in hidden()] == [CORONAL]
+    grid.toggle(panes[CORONAL])
+    assert not hidden()
     grid.arrange(FOUR)
-    assert panes[4].isHidden()
+    assert hidden() == [BULLSEYE]
     grid.deleteLater()
 
 

@@ -14,7 +14,7 @@ from app.imaging import scanning
 from app.imaging.orthogonal import View
 from app.imaging.series import Listing
 from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS
-from app.views.grid import FIVE
+from app.views.layouts import FIVE
 from app.views.needle_overlay import NeedleOverlay
 from app.views.series_dialog import SeriesDialog
 from app.views.shortcuts import ShortcutSheet
@@ -65,7 +65,7 @@ def test_the_plan_is_locked_while_an_attempt_runs(window, patient, services, set
     assert settle(lambda: window.runs.run is not None, 10.0)
     window.workspace.exercise_panel.buttons.start.click()
     assert settle(lambda: window.editor.locked, 5.0)
-    assert window.workspace.grid.cells == FIVE
+    assert window.workspace.grid.shown == FIVE
     window.editor.undo()
     assert "attempt" in window.message_bar.text
 
