@@ -18,12 +18,10 @@ from app.session.measured import across_sigma, is_one_eyed, is_usable, tip_of
 from app.session.ports import DeviceStatePort, FixPort
 from app.tracking.confidence import covariance_radius
 from app.tracking.fusion import DIRECTION_SIGMA
+from app.tracking.motion.depth_filter import HAND_SPEED
 
 ORIENTATION_SIGMA: Final = DIRECTION_SIGMA
 """Standard deviation of the direction [rad]."""
-
-RATE_SIGMA: Final = 0.02
-"""Unknown axial speed while a fix ages [m/s]: an ordinary insertion speed."""
 
 MODEL_SIGMA: Final = 0.03
 """Standard deviation of the model's depth [m]: the needle slides freely in its tube, so the
@@ -149,7 +147,7 @@ def _measured(
     tip = tip_of(fix, fulcrum, axis)
     age = _age(fix.time, now)
     fresh = DepthSource.ONE_CAMERA if is_one_eyed(fix) else DepthSource.TRACKED
-    aged = (RATE_SIGMA * age) ** 2 * np.outer(axis, axis)
+    aged = (HAND_SPEED * age) ** 2 * np.outer(axis, axis)
     both = fix.line_variance is not None
     return NeedlePose(
         p_tip=tip.p_tip,

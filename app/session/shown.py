@@ -12,7 +12,7 @@ import numpy as np
 
 from app.core.arrays import read_only
 from app.session.needle import DepthSource, NeedlePose
-from app.tracking.motion.depth_filter import DepthMotion
+from app.tracking.motion.depth_filter import HAND_SPEED, DepthMotion
 
 DISPLAY_LATENCY: Final = 0.030
 """From a pose to the light of the screen [s]: declared, one frame of 60 Hz and the panel's own."""
@@ -30,7 +30,8 @@ def moment(pose: NeedlePose) -> float:
 def shown(pose: NeedlePose, motion: DepthMotion | None) -> NeedlePose:
     """Return the pose with the depth of `motion`, which stands for `moment(pose)`.
 
-    Only a depth that cameras measured is moved; any other pose is returned as it is.
+    Only a depth that cameras measured is moved; any other pose is returned as it is. The pose's
+    variance allows for a hand that nothing followed since the picture; the filter did follow it.
     """
     by_cameras = pose.measured and pose.depth_source is not DepthSource.NONE
     if motion is None or not by_cameras:
@@ -38,7 +39,9 @@ def shown(pose: NeedlePose, motion: DepthMotion | None) -> NeedlePose:
     change = motion.depth - pose.depth
     along = np.outer(pose.axis, pose.axis)
     present = float(pose.axis @ pose.covariance @ pose.axis)
-    growth = max(0.0, motion.variance - present)
+    followed = min(pose.depth_age, FARTHEST)
+    aged = HAND_SPEED**2 * (pose.depth_age**2 - (pose.depth_age - followed) ** 2)
+    growth = max(motion.variance - present, -min(aged, present))
     return replace(
         pose,
         p_tip=read_only(pose.p_tip + change * pose.axis),

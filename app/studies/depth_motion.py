@@ -62,8 +62,11 @@ PATHS: Final[dict[str, Path]] = {
 }
 
 
-def shown_error(filter_: DepthFilter, path: Path, seed: int = 3) -> float:
-    """RMS error [mm] of the depth on the screen, after the first second."""
+def shown_errors(filter_: DepthFilter, path: Path, seed: int = 3) -> FloatArray:
+    """Errors of the depth on the screen after the first second, and their claims [mm], (n, 2).
+
+    A claim is the filter's standard deviation at that moment.
+    """
     random = np.random.default_rng(seed)
     captures = np.arange(0.0, _SECONDS, _PERIOD)
     depths = path(captures) + random.normal(0.0, _NOISE, captures.size)
@@ -75,8 +78,14 @@ def shown_error(filter_: DepthFilter, path: Path, seed: int = 3) -> float:
         seen = now + _DISPLAY
         motion = filter_.at(float(seen))
         if motion is not None:
-            errors.append(motion.depth - float(path(np.array(seen))))
-    return float(np.sqrt(np.mean(np.square(errors)))) / MILLIMETRE
+            off = motion.depth - float(path(np.array(seen)))
+            errors.append((off, np.sqrt(motion.variance)))
+    return np.array(errors) / MILLIMETRE
+
+
+def shown_error(filter_: DepthFilter, path: Path, seed: int = 3) -> float:
+    """RMS error [mm] of the depth on the screen, after the first second."""
+    return float(np.sqrt(np.mean(shown_errors(filter_, path, seed)[:, 0] ** 2)))
 
 
 _FILTERS: Final[dict[str, tuple[str, Callable[[], DepthFilter]]]] = {

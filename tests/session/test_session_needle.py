@@ -14,11 +14,11 @@ from app.device.state import DeviceState
 from app.session.needle import (
     MODEL_SIGMA,
     ORIENTATION_SIGMA,
-    RATE_SIGMA,
     DepthSource,
     fuse,
     tip_covariance,
 )
+from app.tracking.motion.depth_filter import HAND_SPEED
 
 
 def device(
@@ -131,7 +131,7 @@ def test_the_variance_along_the_needle_is_that_of_the_fix_grown_by_its_age() -> 
     axis = unit(0.5, 0.1)
     covariance = np.diag([1e-8, 4e-8, 9e-8])
     pose = fuse(device(axis=axis), FakeFix(FULCRUM, 9.9, covariance=covariance), 10.0)
-    expected = axis @ covariance @ axis + (RATE_SIGMA * 0.1) ** 2
+    expected = axis @ covariance @ axis + (HAND_SPEED * 0.1) ** 2
     assert axis @ pose.covariance @ axis == pytest.approx(expected)
 
 

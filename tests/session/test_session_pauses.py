@@ -1,6 +1,7 @@
 """Attempts pause without cameras, go on with them; what is shown is ahead of what is recorded."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from app.session.needle import DepthSource, NeedlePose
 from app.session.pauses import BACK, LOST, Pauses
 from app.session.recording import read_recording
 from app.session.shown import DISPLAY_LATENCY, FARTHEST, moment, shown
-from app.tracking.motion.depth_filter import DepthMotion
+from app.tracking.motion.depth_filter import HAND_SPEED, DepthMotion
 
 DOWN = np.array([0.0, 0.0, -1.0])
 
@@ -174,6 +175,21 @@ def test_the_shown_pose_is_ahead_by_age_and_display_and_says_so() -> None:
     np.testing.assert_allclose(ahead.p_tip, measured.p_tip + 0.0035 * DOWN)
     assert ahead.covariance[2, 2] == pytest.approx(4e-9)
     assert ahead.covariance[0, 0] == pytest.approx(1e-9)
+
+
+def test_a_depth_that_a_filter_follows_is_known_better_than_one_that_nothing_followed() -> None:
+    measured = pose(10.0)
+    aged = (HAND_SPEED * measured.depth_age) ** 2
+    allowed = measured.covariance + aged * np.outer(measured.axis, measured.axis)
+    measured = replace(measured, covariance=allowed)
+    followed = shown(measured, DepthMotion(moment(measured), measured.depth, 0.0, 1e-10))
+    assert followed.covariance[2, 2] == pytest.approx(allowed[2, 2] - aged)
+    assert np.linalg.eigvalsh(followed.covariance).min() > 0.0
+    aged = (HAND_SPEED * 0.18) ** 2
+    allowed = 1e-9 * np.eye(3) + aged * np.outer(measured.axis, measured.axis)
+    old = replace(measured, depth_age=0.18, covariance=allowed)
+    late = shown(old, DepthMotion(moment(old), old.depth, 0.0, 1e-10))
+    assert late.covariance[2, 2] == pytest.approx((HAND_SPEED * (0.18 - FARTHEST)) ** 2, rel=0.3)
 
 
 def test_an_old_depth_is_predicted_no_further_than_its_limit() -> None:

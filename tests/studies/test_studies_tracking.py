@@ -66,3 +66,14 @@ def test_the_study_of_the_marker_orders_the_ways_and_none_is_below_the_bound(mon
     rows = result.findings.sheets[0].rows
     assert {row[1] for row in rows} == {"bound: position alone", "bound: joint", *error}
     assert all(row[4] > 0.7 for row in rows)
+
+
+@pytest.mark.parametrize(
+    ("name", "least", "claim"),
+    [("strokes", 0.90, 1.0), ("pushes", 0.87, 3.0), ("rest", 0.99, 0.6), ("steady", 0.99, 0.6)],
+)
+def test_the_shown_depth_claims_little_at_rest_and_enough_when_a_hand_pushes(name, least, claim):
+    make = depth_motion._FILTERS["Kalman, 2e-4 m²/s³"][1]
+    errors, claims = depth_motion.shown_errors(make(), depth_motion.PATHS[name]).T
+    assert np.mean(np.abs(errors) <= 1.96 * claims) >= least
+    assert np.median(claims) < claim  # [mm]

@@ -170,7 +170,9 @@ def test_the_kalman_filters_variance_holds_its_own_error_and_grows_with_the_time
         seen = filter_.at(39 * PERIOD + PERIOD)
         errors.append(seen.depth - true)
         variances.append(seen.variance)
-    assert np.mean(np.square(errors)) == pytest.approx(np.mean(variances), rel=0.3)
+    assert (
+        0.3 < np.mean(np.square(errors)) / np.mean(variances) < 1.0
+    )  # surprises count for a while
     assert filter_.at(39 * PERIOD + ahead).variance > 2.0 * filter_.at(39 * PERIOD).variance
 
 

@@ -14,9 +14,17 @@ FASTEST: Final = 0.5
 """Speed [m/s] beyond which no hand pushes a needle; a rate is limited to it."""
 
 
+HAND_SPEED: Final = 0.02
+"""Standard deviation of the speed [m/s] with which a hand goes on where nothing followed it: an
+ordinary insertion's."""
+
+
 @dataclass(frozen=True, slots=True)
 class DepthMotion:
-    """Depth and its rate at one moment: at `time` [s], [m], [m/s]; variance of the depth [m²]."""
+    """Depth and its rate at one moment: at `time` [s], [m], [m/s].
+
+    `variance` is that of the depth [m²], with all that the hand may have done since the newest fix.
+    """
 
     time: float
     depth: float

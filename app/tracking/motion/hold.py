@@ -1,6 +1,6 @@
 """No filter: the newest depth, and no idea of where the tip is going."""
 
-from app.tracking.motion.depth_filter import DepthFilter
+from app.tracking.motion.depth_filter import HAND_SPEED, DepthFilter
 
 
 class Hold(DepthFilter):
@@ -22,4 +22,4 @@ class Hold(DepthFilter):
         self._begin(depth, variance)
 
     def _ahead(self, dt: float) -> tuple[float, float, float]:
-        return self._depth, 0.0, self._variance
+        return self._depth, 0.0, self._variance + (HAND_SPEED * dt) ** 2

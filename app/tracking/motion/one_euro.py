@@ -4,9 +4,9 @@ Casiez, Roussel, Vogel: 1 € filter, CHI 2012. At rest it is calm, in motion it
 no account of how exact each depth is.
 """
 
-from math import pi
+import math
 
-from app.tracking.motion.depth_filter import FASTEST, DepthFilter
+from app.tracking.motion.depth_filter import FASTEST, HAND_SPEED, DepthFilter
 
 
 class OneEuro(DepthFilter):
@@ -47,10 +47,10 @@ class OneEuro(DepthFilter):
 
     def _ahead(self, dt: float) -> tuple[float, float, float]:
         # How wrong the rate may be is not known to this filter: all of it counts.
-        unknown = self._rate * (dt + self._lag)
+        unknown = math.hypot(self._rate, HAND_SPEED) * (dt + self._lag)
         return self._depth + self._rate * dt, self._rate, self._variance + unknown**2
 
 
 def _share(cutoff: float, dt: float) -> float:
     """Weight of a new value in an exponential low pass of a cutoff [Hz]."""
-    return 1.0 / (1.0 + 1.0 / (2.0 * pi * cutoff * dt))
+    return 1.0 / (1.0 + 1.0 / (2.0 * math.pi * cutoff * dt))
