@@ -1,40 +1,61 @@
-"""Pixels of one file: read straight from their offset, or decoded by the plugin named for them."""
+"""Stored values of one image: copied from their place in the file, or decoded."""
 
-import warnings
-from typing import Any
+import os
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, BinaryIO
 
 import numpy as np
-import pydicom
 from numpy.typing import NDArray
-from pydicom.pixels.decoders.base import get_decoder
-from pydicom.pixels.utils import pixel_array
 
+from app.imaging.deflated import Inflater
+from app.imaging.encapsulation import Place, frame_bytes, frame_places, walk
 from app.imaging.errors import FileDamagedError
 from app.imaging.header import SliceHeader
-from app.imaging.pixel_data import DECODERS, DEFLATED, EXPLICIT_BIG, RAW, PixelFormat
+from app.imaging.pixel_data import (
+    DEFLATED,
+    EXPLICIT_BIG,
+    RAW,
+    PixelData,
+    PixelFormat,
+    Stamp,
+    keep_bits,
+)
 
 Stored = NDArray[Any]
 
 
 def read_stored(header: SliceHeader, out: Stored) -> None:
-    """Read the stored values of one single-frame file.
+    """Read the stored values of one image.
 
     Args:
-        header: of a file without damage.
+        header: of an image without damage.
         out: C-contiguous, shape (rows, columns), of the type `stored_type` gives; filled in place.
 
     Raises:
-        FileDamagedError: if the file cannot be read or decoded, or is not of the size it says.
+        FileDamagedError: if the file cannot be read or decoded, has changed since its header was
+            read, or is not of the size it says.
     """
     try:
-        if header.pixels.syntax in RAW:
-            _read_raw(header, out)
-        else:
-            _decode(header, out)
+        with header.path.open("rb", buffering=0) as stream:
+            _check_unchanged(header, stream)
+            if header.pixels.syntax in RAW:
+                _read_raw(header, stream, out)
+            elif header.pixels.syntax == DEFLATED:
+                _read_deflated(header, stream, out)
+            else:
+                _decode(header, stream, out)
     except OSError as error:
+        if isinstance(error, FileDamagedError):
+            raise
         raise FileDamagedError(
             f"{header.path} cannot be read: {error.strerror or error}"
         ) from error
+
+
+def is_raw(header: SliceHeader) -> bool:
+    """Whether the pixels are copied from the file as they stand: nothing is decoded."""
+    return header.pixels.syntax in RAW
 
 
 def stored_type(pixel_format: PixelFormat) -> np.dtype[Any]:
@@ -43,65 +64,79 @@ def stored_type(pixel_format: PixelFormat) -> np.dtype[Any]:
     return np.dtype(f"{kind}{pixel_format.bits_allocated // 8}")
 
 
-def _read_raw(header: SliceHeader, out: Stored) -> None:
+def _check_unchanged(header: SliceHeader, stream: BinaryIO) -> None:
+    """Refuse a file swapped since the scan: it would be read at the places of the old one."""
+    stamp = header.pixels.stamp
+    if stamp is not None and stamp != Stamp.of(stream):
+        raise FileDamagedError(
+            f"{header.path} has changed since the folder was searched; search it again"
+        )
+
+
+def _read_raw(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
     if header.pixels.offset is None:
         raise FileDamagedError(f"{header.path}: {header.pixels.damage or 'no pixels'}")
-    with header.path.open("rb", buffering=0) as stream:
-        stream.seek(header.pixels.offset)
-        view = out.reshape(-1).view(np.uint8).data
-        got = 0
-        while got < len(view) and (count := stream.readinto(view[got:])):
-            got += count
+    stream.seek(header.pixels.offset + header.frame * header.format.frame_bytes)
+    view = out.reshape(-1).view(np.uint8).data
+    got = 0
+    while got < len(view) and (count := stream.readinto(view[got:])):  # type: ignore[attr-defined]
+        got += count
     if got < len(view):
         raise FileDamagedError(
             f"{header.path} ends {len(view) - got} bytes too early; read it again"
         )
+    _finish_raw(header, out)
+
+
+def _finish_raw(header: SliceHeader, out: Stored) -> None:
     if header.pixels.syntax == EXPLICIT_BIG and out.itemsize == 2:
         out.byteswap(inplace=True)
-    _drop_unused_bits(header.format, out)
+    keep_bits(out, header.format.bits_stored, header.format.high_bit)
 
 
-def _drop_unused_bits(form: PixelFormat, out: Stored) -> None:
-    """Keep the stored bits only; the others are not part of the value (PS3.5 8.1.1)."""
-    if form.bits_stored == form.bits_allocated:
-        return
-    np.left_shift(out, form.bits_allocated - 1 - form.high_bit, out=out)
-    np.right_shift(out, form.bits_allocated - form.bits_stored, out=out)  # keeps the sign
-
-
-def _decode(header: SliceHeader, out: Stored) -> None:
+def _read_deflated(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
+    form = header.format
+    at, needed = header.frame * form.frame_bytes, form.frame_bytes
     try:
-        with warnings.catch_warnings():  # what a decoder grumbles about is for nobody's screen
-            warnings.simplefilter("ignore")
-            decoded = (
-                _inflated(header, out) if header.pixels.syntax == DEFLATED else _plugin(header)
-            )
-    except (OSError, FileDamagedError):
-        raise
+        if form.frames > 1:
+            data = _inflated(header.path, header.pixels, form.frames * needed)[at : at + needed]
+        else:
+            data = _inflate(stream, header.pixels, needed)
+    except (FileDamagedError, MemoryError) as error:
+        raise FileDamagedError(f"{header.path}: {error or 'needs too much memory'}") from error
+    if len(data) < needed:
+        raise FileDamagedError(f"{header.path} inflates to {needed - len(data)} bytes too few")
+    np.copyto(out, np.frombuffer(data, out.dtype).reshape(out.shape))
+    _finish_raw(header, out)
+
+
+def _inflate(stream: BinaryIO, pixels: PixelData, needed: int) -> bytes:
+    return Inflater(stream, pixels.start).read_at(pixels.offset or 0, needed)
+
+
+@lru_cache(maxsize=1)
+def _inflated(path: Path, pixels: PixelData, needed: int) -> bytes:
+    """Pixels of all frames; kept for the next frame of the same file."""
+    with path.open("rb") as stream:
+        return _inflate(stream, pixels, needed)
+
+
+def _decode(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
+    from app.imaging.codecs import decode
+
+    try:
+        places = _places(header.path, header.pixels, header.format.frames)
+        decode(frame_bytes(stream, places[header.frame]), header.pixels.syntax, header.format, out)
+    except FileDamagedError as error:
+        raise FileDamagedError(f"{header.path}: {error}") from error
     except Exception as error:  # a decoder meets hostile bytes: nearly anything can come
         brief = " ".join(f"{type(error).__name__}: {error}".split())[:200]
         raise FileDamagedError(f"{header.path} cannot be decoded ({brief})") from error
-    if decoded.shape != out.shape:
-        raise FileDamagedError(
-            f"{header.path} decodes to {decoded.shape}, its header says {out.shape}"
-        )
-    np.copyto(out, decoded.astype(out.dtype, copy=False))
-    if header.pixels.syntax == DEFLATED:
-        _drop_unused_bits(header.format, out)
 
 
-def _plugin(header: SliceHeader) -> Stored:
-    wanted = DECODERS[header.pixels.syntax]
-    installed = get_decoder(header.pixels.syntax).available_plugins
-    usable = [name for name in wanted if name in installed]
-    if not usable:
-        raise FileDamagedError(
-            f"{header.path} needs a decoder for transfer syntax {header.pixels.syntax}; install "
-            f"one of pydicom's plugins {', '.join(wanted)}"
-        )
-    return pixel_array(header.path, raw=True, decoding_plugin=usable[0])
-
-
-def _inflated(header: SliceHeader, out: Stored) -> Stored:
-    data = pydicom.dcmread(header.path, force=True).PixelData
-    return np.frombuffer(data, out.dtype, count=out.size).reshape(out.shape)
+@lru_cache(maxsize=2)
+def _places(path: Path, pixels: PixelData, frames: int) -> tuple[tuple[Place, ...], ...]:
+    """Where each frame of a file lies; kept for the next frame of the same file."""
+    with path.open("rb") as stream:
+        size = os.fstat(stream.fileno()).st_size
+        return frame_places(stream, walk(stream, pixels.offset or 0, size), frames)

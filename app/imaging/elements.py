@@ -13,8 +13,16 @@ from pydicom.dataset import Dataset
 from pydicom.filereader import data_element_generator
 from pydicom.tag import BaseTag
 
+from app.imaging.deflated import inflated_head
 from app.imaging.errors import FileDamagedError
-from app.imaging.pixel_data import DECODERS, EXPLICIT_BIG, EXPLICIT_LITTLE, IMPLICIT_LITTLE
+from app.imaging.pixel_data import (
+    DECODERS,
+    DEFLATED,
+    EXPLICIT_BIG,
+    EXPLICIT_LITTLE,
+    IMPLICIT_LITTLE,
+    RAW,
+)
 
 _PREAMBLE: Final = 132
 _TRANSFER_SYNTAX: Final = 0x00020010
@@ -28,10 +36,14 @@ class Elements:
     Attributes:
         values: raw elements by tag.
         syntax: transfer syntax UID.
+        inflated: head of a deflated data set, standing at the pixels; None for any other.
+        start: byte in the file at which a deflated data set starts.
     """
 
     values: Mapping[int, Any]
     syntax: str
+    inflated: BinaryIO | None = None
+    start: int = 0
 
 
 def read_elements(stream: BinaryIO, wanted: Sequence[int], forced: bool) -> Elements:
@@ -60,7 +72,9 @@ def _quick(stream: BinaryIO, wanted: Sequence[int]) -> Elements | None:
         stream, False, True, _after_meta, None, "iso8859", [_TRANSFER_SYNTAX]
     )
     syntax = text(Elements({int(e.tag): e for e in meta}, ""), _TRANSFER_SYNTAX)
-    if syntax not in DECODERS and syntax not in (IMPLICIT_LITTLE, EXPLICIT_LITTLE, EXPLICIT_BIG):
+    if syntax == DEFLATED:
+        return _inflate(stream, wanted)
+    if syntax not in DECODERS and syntax not in RAW:
         return None
     start = stream.read(6)
     stream.seek(-len(start), 1)
@@ -71,6 +85,14 @@ def _quick(stream: BinaryIO, wanted: Sequence[int]) -> Elements | None:
         stream, implicit, little, _at_pixels, None, "iso8859", list(wanted)
     )
     return Elements({int(element.tag): element for element in found}, syntax)
+
+
+def _inflate(stream: BinaryIO, wanted: Sequence[int]) -> Elements:
+    """Read the elements of a deflated data set, which is explicit and little endian (PS3.5 A.5)."""
+    start = stream.tell()
+    body = inflated_head(stream)
+    found = data_element_generator(body, False, True, _at_pixels, None, "iso8859", list(wanted))
+    return Elements({int(element.tag): element for element in found}, DEFLATED, body, start)
 
 
 def _after_meta(tag: BaseTag, vr: str | None, length: int) -> bool:

@@ -47,12 +47,13 @@ class Rescale:
 
 @dataclass(frozen=True, slots=True)
 class SliceHeader:
-    """One file of a series.
+    """One image of a series: a file, or one frame of a multi-frame file.
 
     Attributes:
         plane: None where position, orientation or spacing is absent.
         rescale: None where the file gives no Hounsfield units.
         damage: what makes the file unreadable; empty when nothing does.
+        frame: which frame of the file, from 0.
     """
 
     path: Path
@@ -63,3 +64,4 @@ class SliceHeader:
     windows: tuple[tuple[float, float], ...]
     pixels: PixelData
     damage: str
+    frame: int = 0

@@ -1,7 +1,6 @@
 """Reading the header of one DICOM image file."""
 
 import hashlib
-import os
 from pathlib import Path
 from typing import BinaryIO, Final
 
@@ -9,7 +8,8 @@ from app.imaging import elements
 from app.imaging.elements import Elements
 from app.imaging.errors import FileDamagedError
 from app.imaging.header import Identity, Plane, Rescale, SliceHeader
-from app.imaging.pixel_data import PixelFormat, find_pixels
+from app.imaging.pixel_data import PixelFormat
+from app.imaging.pixel_finding import find_pixels
 
 _TAGS: Final = {
     "SOPClassUID": 0x00080016,
@@ -67,8 +67,7 @@ def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader
     problems: list[str] = []
     identity = _identity(header)
     pixel_format = _guarded(_format, header, problems) or PixelFormat.unknown()
-    size = os.fstat(stream.fileno()).st_size
-    pixels = find_pixels(stream, size, header.syntax, pixel_format)
+    pixels = find_pixels(stream, header, pixel_format)
     plane = _guarded(_plane, header, problems)
     rescale = _guarded(_rescale, header, problems)
     damage = "; ".join([*problems, *([pixels.damage] if pixels.damage else [])])

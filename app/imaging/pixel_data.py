@@ -1,32 +1,35 @@
 """How the pixels of a file are stored and where: raw at an offset, or encoded."""
 
-import struct
+import os
 from dataclasses import dataclass
-from typing import BinaryIO, Final
+from typing import Any, BinaryIO, Final
+
+import numpy as np
+from numpy.typing import NDArray
 
 IMPLICIT_LITTLE: Final = "1.2.840.10008.1.2"
 EXPLICIT_LITTLE: Final = "1.2.840.10008.1.2.1"
 EXPLICIT_BIG: Final = "1.2.840.10008.1.2.2"
 DEFLATED: Final = "1.2.840.10008.1.2.1.99"
 
+RLE: Final = "1.2.840.10008.1.2.5"
+
+JPEG: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (50, 51, 53, 55, 57, 70))
+"""Baseline, extended (12 bits too), two retired progressive ones, and the lossless ones."""
+
+_JPEG_LS: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (80, 81))
+_JPEG_2000: Final = tuple(f"1.2.840.10008.1.2.4.{n}" for n in (90, 91, 201, 202, 203))
+
 DECODERS: Final = {
-    "1.2.840.10008.1.2.5": ("pylibjpeg", "pydicom"),  # RLE
-    "1.2.840.10008.1.2.4.50": ("gdcm",),  # JPEG baseline
-    "1.2.840.10008.1.2.4.51": ("gdcm",),  # JPEG extended
-    "1.2.840.10008.1.2.4.57": ("gdcm",),  # JPEG lossless
-    "1.2.840.10008.1.2.4.70": ("gdcm",),  # JPEG lossless, first-order prediction
-    "1.2.840.10008.1.2.4.80": ("pyjpegls", "gdcm"),  # JPEG-LS lossless
-    "1.2.840.10008.1.2.4.81": ("pyjpegls", "gdcm"),  # JPEG-LS near-lossless
-    "1.2.840.10008.1.2.4.90": ("pylibjpeg", "gdcm"),  # JPEG 2000 lossless
-    "1.2.840.10008.1.2.4.91": ("pylibjpeg", "gdcm"),  # JPEG 2000
+    RLE: ("pylibjpeg-rle",),
+    **dict.fromkeys(JPEG, ("python-gdcm",)),
+    **dict.fromkeys(_JPEG_LS, ("pyjpegls", "python-gdcm")),
+    **dict.fromkeys(_JPEG_2000, ("pylibjpeg-openjpeg", "python-gdcm")),
 }
-"""Encoded transfer syntax -> the pydicom plugins that decode it, the quickest first."""
+"""Encoded transfer syntax -> the packages that decode it, the quickest first."""
 
 RAW: Final = (IMPLICIT_LITTLE, EXPLICIT_LITTLE, EXPLICIT_BIG)
 """Transfer syntaxes whose pixels can be read straight from the file."""
-
-_PIXEL_DATA: Final = (0x7FE0, 0x0010)
-_UNDEFINED: Final = 0xFFFFFFFF
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,72 +70,54 @@ class PixelFormat:
 
 
 @dataclass(frozen=True, slots=True)
+class Stamp:
+    """What changes when a file is written anew.
+
+    Attributes:
+        size: bytes.
+        changed_ns: time of the last writing [ns].
+    """
+
+    size: int
+    changed_ns: int
+
+    @classmethod
+    def of(cls, stream: BinaryIO) -> "Stamp":
+        """Return the stamp of an open file."""
+        found = os.fstat(stream.fileno())
+        return cls(found.st_size, found.st_mtime_ns)
+
+
+@dataclass(frozen=True, slots=True)
 class PixelData:
     """Where the pixels lie.
 
     Attributes:
         syntax: transfer syntax UID.
-        offset: byte in the file at which raw pixels start; None if encoded or absent.
+        offset: byte at which they start: raw ones in the file or, if it is deflated, in the
+            inflated data set; encoded ones with the item of the offset table. None if absent.
         damage: what is wrong with them; empty when nothing is.
+        start: byte in the file at which a deflated data set starts.
+        stamp: of the file when it was looked at; None if not known.
     """
 
     syntax: str
     offset: int | None
     damage: str
+    start: int = 0
+    stamp: Stamp | None = None
 
 
-def find_pixels(stream: BinaryIO, size: int, syntax: str, pixel_format: PixelFormat) -> PixelData:
-    """Find the pixel data, `stream` standing where the header ended.
+def keep_bits(out: NDArray[Any], stored: int, high: int) -> None:
+    """Keep the stored bits only; the others are not part of the value (PS3.5 8.1.1).
 
     Args:
-        stream: the file.
-        size: its length in bytes.
-        syntax: its transfer syntax.
-        pixel_format: as its header gives it.
+        out: changed in place; a signed type keeps the sign of the highest stored bit.
+        stored: number of bits kept.
+        high: place of the highest of them.
     """
-    if syntax == DEFLATED:  # the whole data set is one compressed stream
-        return PixelData(syntax, None, "")
-    if syntax not in RAW and syntax not in DECODERS:
-        return PixelData(syntax, None, f"no decoder for transfer syntax {syntax}")
-    little = syntax != EXPLICIT_BIG
-    length = _element_length(stream, little, syntax == IMPLICIT_LITTLE)
-    if length is None:
-        return PixelData(syntax, None, f"truncated: {size} bytes and no pixels in them")
-    if syntax in RAW:
-        return _raw(syntax, stream.tell(), size, length, pixel_format)
-    return PixelData(syntax, None, _fragments_damage(stream, size))
-
-
-def _element_length(stream: BinaryIO, little: bool, implicit: bool) -> int | None:
-    head = stream.read(8)
-    order = "<" if little else ">"
-    if len(head) < 8 or struct.unpack(order + "HH", head[:4]) != _PIXEL_DATA:
-        return None
-    if implicit:
-        return int(struct.unpack("<L", head[4:])[0])
-    tail = stream.read(4)
-    return int(struct.unpack(order + "L", tail)[0]) if len(tail) == 4 else None
-
-
-def _raw(syntax: str, offset: int, size: int, length: int, wanted: PixelFormat) -> PixelData:
-    needed = wanted.frame_bytes * max(wanted.frames, 1)
-    if size - offset < min(length, needed):
-        missing = needed - (size - offset)
-        return PixelData(syntax, None, f"truncated: the last {missing} bytes of pixels are missing")
-    if length < needed:
-        return PixelData(syntax, None, f"{length} bytes of pixels where {needed} are needed")
-    return PixelData(syntax, offset, "")
-
-
-def _fragments_damage(stream: BinaryIO, size: int) -> str:
-    """Walk the items of encapsulated pixel data to their end (PS3.5 A.4)."""
-    while len(head := stream.read(8)) == 8:
-        group, element, length = struct.unpack("<HHL", head)
-        if (group, element) == (0xFFFE, 0xE0DD):
-            return ""
-        if (group, element) != (0xFFFE, 0xE000) or length == _UNDEFINED:
-            return "its compressed pixels are damaged"
-        if stream.tell() + length > size:
-            break
-        stream.seek(length, 1)
-    return "truncated: its compressed pixels do not end"
+    allocated = 8 * out.itemsize
+    if stored == allocated:
+        return
+    np.left_shift(out, allocated - 1 - high, out=out)
+    np.right_shift(out, allocated - stored, out=out)

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray, read_only
 from app.core.progress import Progress
 from app.imaging import stack
-from app.imaging.decoding import stored_type
 from app.imaging.errors import (
     FileDamagedError,
     FolderError,
@@ -19,8 +18,9 @@ from app.imaging.errors import (
     SeriesRefusedError,
     SeriesUnknownError,
 )
+from app.imaging.filling import filled
 from app.imaging.header import SliceHeader
-from app.imaging.rescaling import NotExactError, fill_slice, fresh_array, integral
+from app.imaging.rescaling import NotExactError, integral
 from app.imaging.scanning import scan_folder
 from app.imaging.series import Listing, Series
 from app.imaging.volume import Volume
@@ -111,22 +111,10 @@ def read_series(series: Series, progress: Progress | None = None) -> Volume:
 def _hounsfield(series: Series, progress: Progress) -> NDArray[Any]:
     if all(integral(header) for header in series.slices):
         try:
-            return _filled(series, np.dtype(np.int16), progress)
+            return filled(series.slices, np.dtype(np.int16), progress)
         except NotExactError:
             progress.report(0.0, "values beyond 16 bits: reading as float32")
-    return _filled(series, np.dtype(np.float32), progress)
-
-
-def _filled(series: Series, dtype: np.dtype[Any], progress: Progress) -> NDArray[Any]:
-    columns, rows, count = series.size
-    hu = fresh_array((count, rows, columns), dtype)
-    stored: dict[np.dtype[Any], NDArray[Any]] = {}
-    for k, header in enumerate(series.slices):
-        progress.report(k / count, f"slice {k + 1} of {count}")
-        wanted = stored_type(header.format)
-        fill_slice(header, hu[k], stored.setdefault(wanted, np.empty((rows, columns), wanted)))
-    progress.report(1.0, f"{count} slices read")
-    return hu
+    return filled(series.slices, np.dtype(np.float32), progress)
 
 
 def pixel_lps_mm(
@@ -183,13 +171,7 @@ def _instance(listing: Listing, sop_uid: str) -> SliceHeader:
 
 
 def _single(header: SliceHeader) -> NDArray[Any]:
-    shape = (header.format.rows, header.format.columns)
-    stored = np.empty(shape, stored_type(header.format))
     if integral(header):
         with contextlib.suppress(NotExactError):  # then a wider type is needed
-            hu: NDArray[Any] = np.empty(shape, np.int16)
-            fill_slice(header, hu, stored)
-            return hu
-    hu = np.empty(shape, np.float32)
-    fill_slice(header, hu, stored)
-    return hu
+            return filled((header,), np.dtype(np.int16))[0]
+    return filled((header,), np.dtype(np.float32))[0]

@@ -1,25 +1,18 @@
 """Finding DICOM series in a folder: by content, at any depth, headers only."""
 
 import os
-import stat
-import struct
 from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO, Final
 
 import numpy as np
 
 from app.core.progress import Progress
 from app.imaging import stack
-from app.imaging.errors import FileDamagedError, FolderError
+from app.imaging.errors import FolderError
+from app.imaging.examining import examine, why
 from app.imaging.header import Plane, Point, SliceHeader
-from app.imaging.header_reading import read_header
 from app.imaging.series import Ignored, Listing, Series
 from app.imaging.suitability import refusal
-
-_PREAMBLE: Final = 132
-_FIRST_GROUPS: Final = (0x0002, 0x0008)
-_DICOMDIR: Final = b"1.2.840.10008.1.3.10"
 
 
 def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
@@ -40,11 +33,11 @@ def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
     headers: list[SliceHeader] = []
     for index, file in enumerate(files):
         progress.report(index / len(files), f"{index} of {len(files)} files")
-        found = _examine(file)
-        if isinstance(found, SliceHeader):
-            headers.append(found)
-        else:
+        found = examine(file)
+        if isinstance(found, Ignored):
             ignored.append(found)
+        else:
+            headers.extend(found)
     groups: dict[str, list[SliceHeader]] = {}
     for header in headers:
         groups.setdefault(header.identity.series_uid, []).append(header)
@@ -61,10 +54,10 @@ def _files(root: Path, ignored: list[Ignored], progress: Progress) -> list[Path]
     except NotADirectoryError:
         raise FolderError(f"{root} is a file; name the folder it is in") from None
     except (OSError, ValueError) as error:
-        raise FolderError(f"{root} cannot be read: {_why(error)}") from error
+        raise FolderError(f"{root} cannot be read: {why(error)}") from error
 
     def unreadable(error: OSError) -> None:
-        ignored.append(Ignored(Path(error.filename), f"folder cannot be read: {_why(error)}"))
+        ignored.append(Ignored(Path(error.filename), f"folder cannot be read: {why(error)}"))
 
     found: list[Path] = []
     for folder, folders, names in os.walk(root, onerror=unreadable):
@@ -72,50 +65,6 @@ def _files(root: Path, ignored: list[Ignored], progress: Progress) -> list[Path]
         folders.sort()
         found.extend(Path(folder, name) for name in sorted(names))
     return found
-
-
-def _why(error: Exception) -> str:
-    return getattr(error, "strerror", None) or str(error)
-
-
-def _examine(path: Path) -> SliceHeader | Ignored:
-    try:
-        if not stat.S_ISREG(path.stat().st_mode):  # opening a pipe would wait for ever
-            return Ignored(path, "not a regular file")
-        with path.open("rb") as stream:
-            return _read(path, stream)
-    except OSError as error:
-        return Ignored(path, f"cannot be read: {_why(error)}")
-    except FileDamagedError as error:
-        return Ignored(path, f"damaged DICOM file: {error}")
-
-
-def _read(path: Path, stream: BinaryIO) -> SliceHeader | Ignored:
-    head = stream.read(512)
-    preamble = head[_PREAMBLE - 4 : _PREAMBLE] == b"DICM"
-    if not preamble and not _plausible(head):
-        return Ignored(path, "empty file" if not head else "not a DICOM file")
-    if _DICOMDIR in head:
-        return Ignored(path, "DICOM directory (DICOMDIR), not an image")
-    stream.seek(0)
-    header = read_header(path, stream, forced=not preamble)
-    if header is None:
-        what = "DICOM, but truncated or of no series (no SeriesInstanceUID)"
-        return Ignored(path, what if preamble else "not a DICOM file")
-    return header
-
-
-def _plausible(head: bytes) -> bool:
-    """Whether bytes without a preamble start like a data set: a low group, a VR or a length."""
-    if len(head) < 16:
-        return False
-    for order in "<>":
-        group, element, length = struct.unpack_from(order + "HHL", head)
-        if group in _FIRST_GROUPS and element <= 0x0100:
-            explicit = head[4:6].isalpha() and head[4:6].isupper()
-            if explicit or length < 4096:
-                return True
-    return False
 
 
 def _series(headers: list[SliceHeader], root: Path) -> Series:

@@ -1,0 +1,117 @@
+"""What an encoded frame says of itself: size and precision, from the head of its code stream."""
+
+import struct
+from dataclasses import dataclass
+
+from app.imaging.errors import FileDamagedError
+from app.imaging.pixel_data import RLE, PixelFormat
+
+HEAD = 4096
+"""Bytes in which the head of a code stream is looked for."""
+
+_JPEG_START = b"\xff\xd8"
+_J2K_START = b"\xff\x4f\xff\x51"
+_NO_FRAME = (0xC4, 0xC8, 0xCC)  # Huffman tables, reserved, arithmetic conditioning
+_BARE = (0x01, *range(0xD0, 0xD9))  # markers without a length
+
+
+@dataclass(frozen=True, slots=True)
+class Codestream:
+    """One encoded frame.
+
+    Attributes:
+        precision: bits of a sample.
+    """
+
+    rows: int
+    columns: int
+    samples: int
+    precision: int
+
+
+def describe(data: bytes) -> Codestream | None:
+    """Read the head of a JPEG, JPEG-LS or JPEG 2000 code stream; None if it is not in `data`.
+
+    Sources: ITU-T T.81 B.2.2 (SOF), T.87 C.2.2 (SOF55), T.800 A.5.1 (SIZ).
+    """
+    if data[:2] == _JPEG_START:
+        return _jpeg(data)
+    start = data.find(_J2K_START, 0, HEAD)  # some writers put a JP2 file around it
+    return None if start < 0 else _jpeg_2000(data[start:])
+
+
+def _jpeg(data: bytes) -> Codestream | None:
+    at = 2
+    while at + 4 <= len(data):
+        if data[at] != 0xFF:
+            return None
+        marker = data[at + 1]
+        if marker == 0xFF or marker in _BARE:
+            at += 1 if marker == 0xFF else 2
+            continue
+        if (0xC0 <= marker <= 0xCF and marker not in _NO_FRAME) or marker == 0xF7:
+            if at + 10 > len(data):
+                return None
+            precision, rows, columns, samples = struct.unpack_from(">BHHB", data, at + 4)
+            return Codestream(rows, columns, samples, precision)
+        at += 2 + int(struct.unpack_from(">H", data, at + 2)[0])
+    return None
+
+
+def _jpeg_2000(data: bytes) -> Codestream | None:
+    if len(data) < 43:
+        return None
+    right, bottom, left, top = struct.unpack_from(">LLLL", data, 8)
+    samples, depth = struct.unpack_from(">HB", data, 40)
+    return Codestream(bottom - top, right - left, samples, (depth & 0x7F) + 1)
+
+
+def contradiction(data: bytes, syntax: str, form: PixelFormat) -> str:
+    """How the head of a frame contradicts the file's header; "" where it does not.
+
+    A frame larger than its header says is not decoded: it may be made to fill the memory.
+
+    Args:
+        data: the frame, or its first `HEAD` bytes.
+        syntax: transfer syntax of the file.
+        form: as the header gives it.
+    """
+    if syntax == RLE:
+        return _rle_contradiction(data, form)
+    found = describe(data)
+    if found is None:
+        return "" if len(data) >= HEAD else "its compressed pixels are damaged (no frame header)"
+    if (found.rows, found.columns) != (form.rows, form.columns):
+        return (
+            f"its compressed picture is {found.columns} × {found.rows}, "
+            f"its header says {form.columns} × {form.rows}"
+        )
+    if found.samples != form.samples:
+        return f"{found.samples} samples per compressed pixel, its header says {form.samples}"
+    if not 1 <= found.precision <= form.bits_allocated:
+        return (
+            f"{found.precision} bits per compressed pixel do not fit "
+            f"BitsAllocated {form.bits_allocated}"
+        )
+    return ""
+
+
+def _rle_contradiction(data: bytes, form: PixelFormat) -> str:
+    """PS3.5 G.5: one segment for each byte of a pixel."""
+    if len(data) < 64:
+        return "its compressed pixels are damaged (no RLE header)"
+    segments = int(struct.unpack_from("<L", data)[0])
+    wanted = form.samples * form.bits_allocated // 8
+    return "" if segments == wanted else f"{segments} RLE segments where {wanted} are needed"
+
+
+def precision(data: bytes, syntax: str, form: PixelFormat) -> int:
+    """Bits of a sample, checked against the header.
+
+    Raises:
+        FileDamagedError: if the frame contradicts the header; says how.
+    """
+    if wrong := contradiction(data, syntax, form):
+        raise FileDamagedError(wrong)
+    found = None if syntax == RLE else describe(data)
+    return form.bits_stored if found is None else found.precision

@@ -1,0 +1,64 @@
+"""What one file holds: the headers of its images, or why it belongs to no series."""
+
+import stat
+import struct
+from pathlib import Path
+from typing import BinaryIO
+
+from app.imaging.errors import FileDamagedError
+from app.imaging.header import SliceHeader
+from app.imaging.header_reading import read_header
+from app.imaging.series import Ignored
+
+_PREAMBLE = 132
+_FIRST_GROUPS = (0x0002, 0x0008)
+_DICOMDIR = b"1.2.840.10008.1.3.10"
+
+
+def examine(path: Path) -> tuple[SliceHeader, ...] | Ignored:
+    """Read the headers of one file: an image, or each frame of it; or why it holds none.
+
+    Whatever stands in the file ends in one of the two; nothing is raised.
+    """
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):  # opening a pipe would wait for ever
+            return Ignored(path, "not a regular file")
+        with path.open("rb") as stream:
+            return _read(path, stream)
+    except OSError as error:
+        return Ignored(path, f"cannot be read: {why(error)}")
+    except FileDamagedError as error:
+        return Ignored(path, f"damaged DICOM file: {error}")
+
+
+def _read(path: Path, stream: BinaryIO) -> tuple[SliceHeader, ...] | Ignored:
+    head = stream.read(512)
+    preamble = head[_PREAMBLE - 4 : _PREAMBLE] == b"DICM"
+    if not preamble and not _plausible(head):
+        return Ignored(path, "empty file" if not head else "not a DICOM file")
+    if _DICOMDIR in head:
+        return Ignored(path, "DICOM directory (DICOMDIR), not an image")
+    stream.seek(0)
+    header = read_header(path, stream, forced=not preamble)
+    if header is None:
+        what = "DICOM, but truncated or of no series (no SeriesInstanceUID)"
+        return Ignored(path, what if preamble else "not a DICOM file")
+    return (header,)
+
+
+def _plausible(head: bytes) -> bool:
+    """Whether bytes without a preamble start like a data set: a low group, a VR or a length."""
+    if len(head) < 16:
+        return False
+    for order in "<>":
+        group, element, length = struct.unpack_from(order + "HHL", head)
+        if group in _FIRST_GROUPS and element <= 0x0100:
+            explicit = head[4:6].isalpha() and head[4:6].isupper()
+            if explicit or length < 4096:
+                return True
+    return False
+
+
+def why(error: Exception) -> str:
+    """Return the system's words for an error of a file."""
+    return getattr(error, "strerror", None) or str(error)

@@ -1,0 +1,117 @@
+"""Finding the pixels of a file, and what is wrong with them, without decoding any."""
+
+import struct
+from dataclasses import replace
+from typing import BinaryIO
+
+from app.imaging import codestream
+from app.imaging.deflated import HEAD_BYTES
+from app.imaging.elements import Elements
+from app.imaging.encapsulation import Place, frame_bytes, frame_places, walk
+from app.imaging.errors import FileDamagedError
+from app.imaging.pixel_data import (
+    DECODERS,
+    DEFLATED,
+    EXPLICIT_BIG,
+    IMPLICIT_LITTLE,
+    RAW,
+    PixelData,
+    PixelFormat,
+    Stamp,
+)
+
+_PIXEL_DATA = (0x7FE0, 0x0010)
+
+
+def find_pixels(stream: BinaryIO, header: Elements, form: PixelFormat) -> PixelData:
+    """Find the pixel data, `stream` standing where the header ended.
+
+    Args:
+        stream: the file.
+        header: its elements.
+        form: as they give it.
+    """
+    stamp = Stamp.of(stream)
+    found = _find(stream, stamp.size, header, form)
+    return replace(found, stamp=stamp)
+
+
+def _find(stream: BinaryIO, size: int, header: Elements, form: PixelFormat) -> PixelData:
+    syntax = header.syntax
+    if syntax not in RAW and syntax not in DECODERS and syntax != DEFLATED:
+        return PixelData(syntax, None, f"no decoder for transfer syntax {_named(syntax)}")
+    body = header.inflated or stream
+    length = _element_length(body, syntax != EXPLICIT_BIG, syntax == IMPLICIT_LITTLE)
+    if length is None:
+        return PixelData(syntax, None, f"truncated: {size} bytes and no pixels in them")
+    if header.inflated is not None:
+        return _deflated(header.inflated, header.start, length, form)
+    if syntax in RAW:
+        return _raw(syntax, stream.tell(), size, length, form)
+    return _encoded(syntax, stream, size, form)
+
+
+def _named(syntax: str) -> str:
+    from pydicom.uid import UID
+
+    name = UID(syntax).name
+    return syntax if name == syntax else f"{syntax} ({name})"
+
+
+def _element_length(stream: BinaryIO, little: bool, implicit: bool) -> int | None:
+    head = stream.read(8)
+    order = "<" if little else ">"
+    if len(head) < 8 or struct.unpack(order + "HH", head[:4]) != _PIXEL_DATA:
+        return None
+    if implicit:
+        return int(struct.unpack("<L", head[4:])[0])
+    tail = stream.read(4)
+    return int(struct.unpack(order + "L", tail)[0]) if len(tail) == 4 else None
+
+
+def _needed(form: PixelFormat) -> int:
+    return form.frame_bytes * max(form.frames, 1)
+
+
+def _raw(syntax: str, offset: int, size: int, length: int, form: PixelFormat) -> PixelData:
+    needed = _needed(form)
+    if size - offset < min(length, needed):
+        missing = needed - (size - offset)
+        return PixelData(syntax, None, f"truncated: the last {missing} bytes of pixels are missing")
+    return PixelData(syntax, offset, _too_short(length, needed))
+
+
+def _too_short(length: int, needed: int) -> str:
+    return f"{length} bytes of pixels where {needed} are needed" if length < needed else ""
+
+
+def _deflated(body: BinaryIO, start: int, length: int, form: PixelFormat) -> PixelData:
+    """Judge as far as the data set was inflated; what is behind shows when it is read."""
+    offset, needed = body.tell(), _needed(form)
+    inflated = body.seek(0, 2)
+    damage = _too_short(length, needed)
+    if inflated < HEAD_BYTES and inflated - offset < min(length, needed):
+        missing = needed - (inflated - offset)
+        damage = f"truncated: the last {missing} bytes of pixels are missing"
+    return PixelData(DEFLATED, offset, damage, start)
+
+
+def _encoded(syntax: str, stream: BinaryIO, size: int, form: PixelFormat) -> PixelData:
+    start = stream.tell()
+    try:
+        places = frame_places(stream, walk(stream, start, size), max(form.frames, 1))
+        wrong = codestream.contradiction(_head(stream, places[0]), syntax, form)
+    except FileDamagedError as error:
+        wrong = str(error)
+    return PixelData(syntax, start, wrong)
+
+
+def _head(stream: BinaryIO, places: tuple[Place, ...]) -> bytes:
+    """First bytes of a frame, whose fragments may be as short as they like."""
+    wanted, parts = codestream.HEAD, []
+    for at, length in places:
+        parts.append((at, min(length, wanted)))
+        wanted -= parts[-1][1]
+        if not wanted:
+            break
+    return frame_bytes(stream, parts)
