@@ -52,10 +52,11 @@ def _find(stream: BinaryIO, size: int, header: Elements, form: PixelFormat) -> P
 
 
 def _named(syntax: str) -> str:
+    from pydicom import config
     from pydicom.uid import UID
 
-    name = UID(syntax).name
-    return syntax if name == syntax else f"{syntax} ({name})"
+    name = UID(syntax, config.IGNORE).name
+    return repr(syntax[:64]) if name == syntax else f"{syntax} ({name})"
 
 
 def _element_length(stream: BinaryIO, little: bool, implicit: bool) -> int | None:
