@@ -57,7 +57,14 @@ TRAJECTORY_COLUMNS: Final = (
 """Columns of a trajectory; positions in the world frame."""
 
 _FORMULA: Final = ("=", "+", "-", "@", "\t", "\r", "\n")
-_UNIT_NAMES: Final = {"%": "percent", "°": "deg", "N·s": "ns", "": "ratio", "1": "ratio"}
+_UNIT_NAMES: Final = {
+    "%": "percent",
+    "°": "deg",
+    "N·s": "ns",
+    "scans": "count",
+    "": "ratio",
+    "1": "ratio",
+}
 
 
 def score_table(summaries: Iterable[Summary]) -> str:

@@ -33,6 +33,18 @@ class View(StrEnum):
     """Where breathing moves the target."""
 
 
+TELLING = frozenset(
+    {
+        View.LIVE_OVERLAY,
+        View.BULLSEYE,
+        View.CAMERAS,
+        View.FORCE_GAUGE,
+        View.TARGET_MOTION,
+    }
+)
+"""Views that tell where the needle or its target is now: none of them where control scans guide."""
+
+
 class PhantomCt(Strict):
     """The procedural torso: one patient for each seed."""
 

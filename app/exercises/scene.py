@@ -2,14 +2,15 @@
 
 import numpy as np
 
-from app.exercises.parts import PlanPoints
+from app.exercises.guidance import GuidanceMode
+from app.exercises.parts import PlanPoints, View
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile, load_profile
 from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
 from app.scoring import metrics
 from app.simulation.compiler import compile as compile_scene
-from app.simulation.consumers import Consumer, DevicePort
+from app.simulation.consumers import VIEW_READS, Consumer, DevicePort
 from app.simulation.plan import SimulationPlan
 from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Layer, Needle, Scene
 
@@ -91,9 +92,17 @@ def compile_exercise(
     return compile_scene(
         scene_of(exercise, profile),
         DevicePort(profile.name, renders, simulated),
-        [view.value for view in exercise.views],
+        _watching(exercise),
         metric_consumers(exercise),
     )
+
+
+def _watching(exercise: Exercise) -> list[str | Consumer]:
+    """List the views that show something, and the control scans: these show the target too."""
+    views: list[str | Consumer] = [view.value for view in exercise.shown_views]
+    if exercise.guidance_mode is GuidanceMode.CONTROL_CT:
+        views.append(Consumer("control scans show it", VIEW_READS[View.TARGET_MOTION.value]))
+    return views
 
 
 def law_requests(exercise: Exercise) -> dict[str, dict[str, float]]:

@@ -8,7 +8,9 @@ from typing import Annotated
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from app.core.configuration import Strict
+from app.exercises.guidance import GuidanceMode, GuidancePart, Purpose
 from app.exercises.parts import (
+    TELLING,
     Ct,
     EffectPart,
     LawPart,
@@ -50,6 +52,9 @@ class Exercise(Strict):
         target_organ: where the target lies; an effect on another organ is dropped.
         tolerances: metric -> bands and weight.
         rules: pass mark, and when a score is void.
+        purpose: practice, or an assessment; the latter guides by control scans alone unless
+            `guidance.mode` says otherwise.
+        guidance: what pictures the student has of the needle.
         views: what is shown.
         seed: of everything random in the attempt.
     """
@@ -72,6 +77,8 @@ class Exercise(Strict):
     target_organ: str = ""
     tolerances: Mapping[str, Tolerance] = Field(default_factory=lambda: dict(DEFAULT_TOLERANCES))
     rules: Rules = Rules()
+    purpose: Purpose = Purpose.PRACTICE
+    guidance: GuidancePart = GuidancePart()
     views: tuple[View, ...] = (View.LIVE_OVERLAY, View.BULLSEYE, View.THREE_D)
     seed: Annotated[int, Field(ge=0)] = 1
 
@@ -107,6 +114,20 @@ class Exercise(Strict):
                 "plan phantom_default needs ct: {phantom: ...}; give entry_mm and target_mm"
             )
         return self
+
+    @property
+    def guidance_mode(self) -> GuidanceMode:
+        """What the student sees of the needle: as said, else by the purpose."""
+        if self.guidance.mode is not None:
+            return self.guidance.mode
+        return GuidanceMode.CONTROL_CT if self.purpose is Purpose.ASSESSMENT else GuidanceMode.LIVE
+
+    @property
+    def shown_views(self) -> tuple[View, ...]:
+        """Views that show something: with control scans alone, none that tells of the needle."""
+        if self.guidance_mode is GuidanceMode.LIVE:
+            return self.views
+        return tuple(view for view in self.views if view not in TELLING)
 
     def placed_as(self, placement: Placement) -> Exercise:
         """Return the exercise with the patient placed otherwise."""

@@ -58,3 +58,7 @@ class InvalidEntryError(ImagingError, ValueError):
 
 class BeadError(ImagingError, ValueError):
     """No bead where one was clicked: nothing bright, too large, or cut off by the CT's edge."""
+
+
+class ScanOrderError(ImagingError, ValueError):
+    """A control scan that no scanner takes: too few or too many slices, or of no thickness."""

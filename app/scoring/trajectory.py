@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from app.core.arrays import FloatArray, read_only
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import MetricUnavailableError, TrajectoryError
+from app.scoring.scans import ScanMark
 
 LAST_SEEN = 1.0
 """The tip counts as known at the end if the cameras saw it within this time before [s]."""
@@ -56,6 +57,7 @@ class Trajectory:
         target_shift: displacement of the target from its place at rest [m], shape (n, 3); None if
             it does not move.
         aborted: why the attempt was aborted; empty if it was not.
+        scans: control scans, in order.
 
     Raises:
         TrajectoryError: naming the array and the first bad sample.
@@ -73,6 +75,7 @@ class Trajectory:
     guide: FloatArray | None = None
     target_shift: FloatArray | None = None
     aborted: str = ""
+    scans: tuple[ScanMark, ...] = ()
 
     def __post_init__(self) -> None:
         time = _samples(self.time, "time", None, ())

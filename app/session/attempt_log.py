@@ -10,6 +10,7 @@ from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
 from app.scoring.trajectory import Trajectory
 from app.session import sample as encoding
+from app.session.control_scan import scan_marks
 from app.session.curves import curves
 from app.session.errors import RecordingError
 from app.session.header import Attachment
@@ -71,7 +72,8 @@ class AttemptLog:
         path, score, unscored = None, None, ""
         try:
             renders = renders_force(self.recorder.header.metadata)
-            path = trajectory(samples, self.placed, attempt.reason, renders)
+            scans = scan_marks(self.events)
+            path = trajectory(samples, self.placed, attempt.reason, renders, scans)
             score = self.scorer(path)
         except AcusError as error:
             unscored = str(error)

@@ -11,6 +11,10 @@ class IllegalTransitionError(SessionError):
     """An event that the attempt's state does not know; the message names the legal ones."""
 
 
+class ScanNotPossibleError(SessionError):
+    """A control scan while nobody knows where the needle is; it is not counted."""
+
+
 class NotReadyError(SessionError):
     """The robot's loop has not reported yet (its kernels are being loaded)."""
 

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 from app.core.arrays import FloatArray
 from app.core.events import EventQueue
 from app.core.latest import Stamped
+from app.imaging.scan_order import ScanOrder
 from app.scoring.rows import Rules
 from app.scoring.tolerance import Tolerance
 from app.session.device_ports import ClearancePort, DeviceStatePort, InboxPort, LoopPort
@@ -104,6 +105,14 @@ class TrackerPort(Protocol):
         ...
 
 
+class GuidancePort(Protocol):
+    """How an exercise guides by pictures (`exercises.guidance.GuidancePart`)."""
+
+    def dose(self, order: ScanOrder) -> float:
+        """Notional dose-length product of a scan [mGy·cm]: a teaching estimate."""
+        ...
+
+
 class ExercisePort(Protocol):
     """The exercise (`exercises.Exercise`)."""
 
@@ -130,6 +139,11 @@ class ExercisePort(Protocol):
     @property
     def tolerances(self) -> Mapping[str, Tolerance]:
         """What each metric is judged by."""
+        ...
+
+    @property
+    def guidance(self) -> GuidancePort:
+        """What control scans cost."""
         ...
 
     @property

@@ -13,6 +13,7 @@ from app.core.arrays import read_only
 from app.core.events import Event
 from app.planning.placement import PlacedPlan
 from app.scoring.trajectory import Trajectory
+from app.session.control_scan import scan_marks
 from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
 from app.session.samples import Samples, floats, vectors, words
@@ -70,7 +71,8 @@ class Recording:
         """
         reason = self.metadata.get("result", {}).get("reason", "")
         renders = renders_force(self.metadata)
-        return trajectory(self.samples, self.placed_plan(), reason, renders)
+        scans = scan_marks(self.events)
+        return trajectory(self.samples, self.placed_plan(), reason, renders, scans)
 
     def placed_plan(self) -> PlacedPlan:
         """Plan in the robot's frame.

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.core.build import BUILD
 from app.session.blocks import INPUTS
+from app.session.control_scan import ControlScan, scans_of
 from app.session.recording import Recording
 from app.session.replay import is_simulated, why_not
 
@@ -28,6 +29,8 @@ class ReplayContents:
         missed: deadlines missed during the attempt.
         gaps: (first tick, count) of every stretch of ticks that is missing.
         build: what recorded it.
+        scans: control scans with an order.
+        origin: monotonic time of the beginning, which their times are told from [s].
     """
 
     session: str
@@ -41,6 +44,8 @@ class ReplayContents:
     missed: int
     gaps: tuple[tuple[int, int], ...]
     build: Mapping[str, str]
+    scans: tuple[ControlScan, ...] = ()
+    origin: float = 0.0
 
     def sentences(self) -> list[str]:
         """Say it, one line each."""
@@ -55,6 +60,7 @@ class ReplayContents:
         inputs = ", ".join(f"{name} ({count})" for name, count in self.changing.items())
         lines.append(f"inputs that change (how often): {inputs or 'none'}")
         lines += [f"{count} ticks from tick {first} on are missing" for first, count in self.gaps]
+        lines += [scan.sentence(self.origin) for scan in self.scans]
         build = ", ".join(f"{name} {value}" for name, value in self.build.items())
         return [*lines, f"build: {build or 'not recorded'}"]
 
@@ -73,6 +79,7 @@ class ReplayContents:
             "missed": self.missed,
             "gaps": [{"first_tick": first, "ticks": count} for first, count in self.gaps],
             "build": dict(self.build),
+            "scans": [scan.document(self.origin) for scan in self.scans],
         }
 
 
@@ -96,6 +103,8 @@ def contents(recording: Recording) -> ReplayContents:
         missed=int(missed[-1] - missed[0]),
         gaps=inputs.gaps(),
         build=recording.metadata.get(BUILD, {}),
+        scans=scans_of(recording.events),
+        origin=recording.origin,
     )
 
 

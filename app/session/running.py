@@ -1,7 +1,8 @@
 """The present attempt: its state, its log, and the events that the window drains."""
 
 from app.core.events import Event, EventQueue
-from app.session import machine
+from app.imaging.scan_order import ScanOrder
+from app.session import control_scan, machine
 from app.session.attempt_log import AttemptLog
 from app.session.depth_news import DepthNews
 from app.session.errors import IllegalTransitionError
@@ -85,18 +86,27 @@ class Running:
         log.sample(seen.sample(self.attempt.state, inputs))
         return ""
 
-    def scan(self, seen: Observation | None, now: float) -> int:
-        """Count a control scan at `now` [s].
+    def scan(
+        self, seen: Observation | None, now: float, order: ScanOrder | None = None,
+        dose: float = 0.0,
+    ) -> int:  # fmt: skip
+        """Take a control scan at `now` [s]; without an order it is only counted.
+
+        `dose` is notional, of the whole scan [mGy·cm].
 
         Raises:
             IllegalTransitionError: if no attempt is running.
+            ScanNotPossibleError: if nobody knows where the needle is.
         """
         if self.log is None or not self.attempt.running:
             raise IllegalTransitionError(
                 f"a control scan is not possible while {self.attempt.state}: begin an attempt first"
             )
-        self.log.scans += 1
-        data: dict[str, object] = {"number": self.log.scans}
+        number = self.log.scans + 1
+        data: dict[str, object] = {"number": number}
+        if order is not None:
+            data |= control_scan.take(number, order, dose, now, seen, self.log.placed).data()
+        self.log.scans = number
         if seen is not None and seen.pose.valid:
             data["tip_m"] = seen.pose.p_tip.tolist()
         self.say("scan", f"control scan {self.log.scans}", now, data)

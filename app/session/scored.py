@@ -8,6 +8,7 @@ import numpy as np
 
 from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
+from app.scoring.scans import ScanMark
 from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
 from app.session.errors import SessionError
@@ -22,8 +23,9 @@ def renders_force(metadata: Mapping[str, Mapping[str, str]]) -> bool:
 
 
 def trajectory(
-    samples: Samples, placed: PlacedPlan, aborted: str = "", renders: bool = True
-) -> Trajectory:
+    samples: Samples, placed: PlacedPlan, aborted: str = "", renders: bool = True,
+    scans: tuple[ScanMark, ...] = (),
+) -> Trajectory:  # fmt: skip
     """Turn samples into what scoring wants: those without a valid pose are left out.
 
     A force that the robot did not report counts as zero; hub point and fixture are given only if
@@ -34,6 +36,7 @@ def trajectory(
         placed: its plan.
         aborted: why it was aborted; empty if it was not.
         renders: whether something could push the hand; see `renders_force`.
+        scans: control scans, in order.
 
     Raises:
         SessionError: if no sample has a valid pose.
@@ -56,6 +59,7 @@ def trajectory(
         guide=guide if np.isfinite(guide).all() else None,
         target_shift=target - placed.p_target if np.isfinite(target).all() else None,
         aborted=aborted,
+        scans=scans,
     )
 
 

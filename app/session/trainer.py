@@ -6,6 +6,7 @@ from typing import Final
 
 from app.core.clock import Clock, SystemClock
 from app.core.events import EventQueue
+from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.arming import Arming, ClearanceOf
 from app.session.attempt_log import AttemptLog
@@ -162,14 +163,16 @@ class Trainer:
                 return None
             return self._finish(Event.ABORT, reason)
 
-    def scan(self) -> int:
-        """Take a control scan; returns how many were taken.
+    def scan(self, order: ScanOrder | None = None) -> int:
+        """Take a control scan; returns how many were taken. Without an order it is only counted.
 
         Raises:
             IllegalTransitionError: if no attempt is running.
+            ScanNotPossibleError: if there is an order and nobody knows where the needle is.
         """
+        dose = 0.0 if order is None else self._exercise.guidance.dose(order)
         with self._lock:
-            return self._running.scan(self._watch.seen, self._clock.now())
+            return self._running.scan(self._watch.seen, self._clock.now(), order, dose)
 
     # --- intents ----------------------------------------------------------------------------------
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:

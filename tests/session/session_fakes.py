@@ -15,6 +15,7 @@ from app.core.events import EventQueue
 from app.core.latest import Latest
 from app.device.checkpoint import Checkpoint
 from app.device.state import DeviceState
+from app.exercises.guidance import GuidancePart
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.scoring.defaults import DEFAULT_TOLERANCES
@@ -32,6 +33,7 @@ EXERCISE = SimpleNamespace(
     assistance=0.5,
     tolerances=DEFAULT_TOLERANCES,
     rules=Rules(),
+    guidance=GuidancePart(),
 )
 
 

@@ -9,6 +9,9 @@ from app.views import theme
 from app.views.debrief.review import Review
 from app.views.text import tr
 
+COUNTED = ("scans",)
+"""Units of values that are counted: whole numbers."""
+
 BAND_LOOKS = {
     Band.EXPERT: (theme.GOOD, "★"),
     Band.GOOD: (theme.GOOD, "✔"),
@@ -75,6 +78,8 @@ def number(value: float) -> str:
 
 def with_unit(value: float, unit: str) -> str:
     """Say a value with its unit; the degree sign stands close."""
+    if unit in COUNTED:
+        return f"{value:.0f} {unit}"
     gap = "" if unit in ("°", "") else " "
     return f"{number(value)}{gap}{unit}"
 

@@ -1,0 +1,220 @@
+"""A control scan as a picture: a few axial slices of the CT with the needle in them as metal.
+
+What a scanner would show, and no more. A slice is the mean of the CT over its thickness. The
+needle fills each voxel by the share of it that its cylinder takes (partial volume), so that a shaft
+that merely grazes a slice is faint, and a tip outside the range changes nothing. The streak is a
+likeness, not physics: the dark band with bright sides that a scanner makes beyond both ends of a
+needle lying in the slice; the longer the piece in the slice, the darker (beam hardening and photon
+starvation; Barrett and Keat 2004, RadioGraphics 24:1679).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import ceil
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.core.arrays import FloatArray, frozen
+from app.imaging.orthogonal import nearest_axes
+from app.imaging.scan_order import ScanNeedle, ScanOrder
+from app.imaging.volume import Volume
+
+METAL_HU = 3071.0
+"""Steel is beyond the end of a 12 bit scanner's scale, which is where it shows it."""
+
+AIR_HU = -1024.0
+SUBSLICE_MM = 1.0
+"""A slice is the mean of planes no farther apart than this."""
+
+LARGEST = 1024
+"""Pixels along one side of a picture; a CT with more is shown coarser."""
+
+FINE = 6
+"""A pixel that the needle may touch is looked at in so many parts each way."""
+
+FINE_MM = 0.25
+"""And in so thin layers."""
+
+STREAK_HU = 450.0
+STREAK_LENGTH_MM = 40.0
+STREAK_WIDTH_MM = 3.0
+STREAK_PIECE_MM = 25.0
+"""Depth, length and width of the dark band, and the piece of needle that gives 63 % of it."""
+
+
+def scan_image(
+    volume: Volume,
+    order: ScanOrder,
+    needle: ScanNeedle | None = None,
+    streak: bool = False,
+    shift_mm: ArrayLike = (0.0, 0.0, 0.0),
+) -> Volume:
+    """Take a control scan.
+
+    Args:
+        volume: the patient's CT.
+        order: which slices.
+        needle: where the needle is, LPS; None for a scan without one.
+        streak: whether the metal leaves its streak.
+        shift_mm: how far the patient's inside has moved since the CT, LPS, shape (3,). All of the
+            picture moves by it, skin and bones too; the needle does not.
+
+    Returns:
+        Slices of `order`, int16, pixels along L and P, slices towards the head.
+
+    Raises:
+        NumericalError: if `shift_mm` is not finite.
+    """
+    grid = _grid(volume, order)
+    hu = _tissue(volume, order, grid, frozen(shift_mm, (3,), "shift_mm"))
+    if needle is not None:
+        if streak:
+            _add_streaks(hu, order, needle, grid)
+        _add_metal(hu, order, needle, grid)
+    picture = np.clip(np.rint(hu), AIR_HU, METAL_HU).astype(np.int16)
+    size = (picture.shape[2], picture.shape[1], picture.shape[0])
+    x, y, z = grid[:3, 3].tolist()
+    series = replace(
+        volume.series, size=size, spacing_mm=(grid[0, 0], grid[1, 1], grid[2, 2]),
+        origin_mm=(x, y, z), direction=(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), slices=(),
+    )  # fmt: skip
+    return Volume(picture, grid, series)
+
+
+def _grid(volume: Volume, order: ScanOrder) -> FloatArray:
+    """Affine of the scan: the CT's own pixels where it is straight, else as fine, shape (4, 4)."""
+    axes, _ = nearest_axes(volume.direction)
+    corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    ends = volume.lps_mm(corners * (np.array(volume.size) - 1.0))
+    low, high = ends.min(axis=0), ends.max(axis=0)
+    spacing = [float(volume.spacing_mm[axes[a]]) for a in (0, 1)]
+    pixel = [max(s, (high[a] - low[a]) / (LARGEST - 1)) for a, s in enumerate(spacing)]
+    affine = np.diag([*pixel, order.slice_mm, 1.0])
+    affine[:3, 3] = (low[0], low[1], order.middles_mm[0])
+    return affine
+
+
+def _counts(volume: Volume, grid: FloatArray) -> tuple[int, int]:
+    """Columns and rows that reach across the CT."""
+    corners = np.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    ends = volume.lps_mm(corners * (np.array(volume.size) - 1.0))
+    reach = ends.max(axis=0) - ends.min(axis=0)
+    return round(float(reach[0] / grid[0, 0])) + 1, round(float(reach[1] / grid[1, 1])) + 1
+
+
+def _tissue(
+    volume: Volume, order: ScanOrder, grid: FloatArray, shift_mm: FloatArray
+) -> NDArray[np.float32]:
+    """Mean of the CT over each slice, shape (slices, rows, columns)."""
+    from app.imaging.oblique import Plane, oblique_image  # compiled: only who scans waits for it
+
+    columns, rows = _counts(volume, grid)
+    layers = max(1, ceil(order.slice_mm / SUBSLICE_MM - 1e-9))
+    offsets = ((np.arange(layers) + 0.5) / layers - 0.5) * order.slice_mm
+    hu = np.zeros((order.slices, rows, columns), np.float32)
+    layer = np.empty((rows, columns), np.float32)
+    for k, middle in enumerate(order.middles_mm):
+        for offset in offsets:
+            corner = np.array([grid[0, 3], grid[1, 3], middle + offset]) - shift_mm
+            plane = Plane(corner, grid[:3, 0], grid[:3, 1], columns, rows)
+            hu[k] += oblique_image(volume, plane, outside_hu=AIR_HU, out=layer) / layers
+    return hu
+
+
+def _add_metal(
+    hu: NDArray[np.float32], order: ScanOrder, needle: ScanNeedle, grid: FloatArray
+) -> None:
+    """Fill each voxel by the share of it that lies in the needle's cylinder."""
+    layers = max(FINE, ceil(order.slice_mm / FINE_MM))
+    for k, middle in enumerate(order.middles_mm):
+        half = order.slice_mm / 2
+        rows, columns = _candidates(hu.shape[1:], needle, grid, (middle - half, middle + half))
+        if not len(rows):
+            continue
+        share = _share(rows, columns, float(middle), layers, order, needle, grid)
+        tissue = hu[k, rows, columns]
+        hu[k, rows, columns] = tissue + share * (METAL_HU - tissue)
+
+
+def _candidates(
+    shape: tuple[int, ...], needle: ScanNeedle, grid: FloatArray, faces: tuple[float, float]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Rows and columns of the pixels that the needle may touch between two axial planes."""
+    reach = needle.radius_mm + float(np.hypot(grid[0, 0], grid[1, 1]))
+    piece = needle.within(faces[0] - needle.radius_mm, faces[1] + needle.radius_mm)
+    nobody: NDArray[np.intp] = np.empty(0, np.intp)
+    if piece is None:
+        return nobody, nobody
+    ends = (np.array(piece)[:, :2] - grid[:2, 3]) / (grid[0, 0], grid[1, 1])
+    wide = np.array([reach / grid[0, 0], reach / grid[1, 1]])
+    limits = (shape[1] - 1, shape[0] - 1)
+    low = np.clip(np.floor(ends.min(axis=0) - wide), 0, limits).astype(int)
+    high = np.clip(np.ceil(ends.max(axis=0) + wide), 0, limits).astype(int)
+    rows, columns = np.mgrid[low[1] : high[1] + 1, low[0] : high[0] + 1]
+    at = np.stack([columns, rows], axis=-1) * (grid[0, 0], grid[1, 1]) + grid[:2, 3]
+    near = _distance(at, piece[0][:2], piece[1][:2]) <= reach + needle.radius_mm
+    return rows[near], columns[near]
+
+
+def _distance(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """Distance of points in a plane from a segment, shape (..., 2) -> (...)."""
+    along = end - start
+    length2 = float(along @ along)
+    share = np.zeros(points.shape[:-1])
+    if length2 > 1e-12:
+        share = np.clip((points - start) @ along / length2, 0.0, 1.0)
+    result: FloatArray = np.linalg.norm(points - start - share[..., None] * along, axis=-1)
+    return result
+
+
+def _share(
+    rows: NDArray[np.intp],
+    columns: NDArray[np.intp],
+    middle: float,
+    layers: int,
+    order: ScanOrder,
+    needle: ScanNeedle,
+    grid: FloatArray,
+) -> NDArray[np.float64]:
+    """Share of each voxel in the needle's cylinder, 0…1, shape (n,)."""
+    parts = (np.arange(FINE) + 0.5) / FINE - 0.5
+    depths = ((np.arange(layers) + 0.5) / layers - 0.5) * order.slice_mm
+    inside = np.zeros(len(rows))
+    x0, y0 = grid[0, 3] + columns * grid[0, 0], grid[1, 3] + rows * grid[1, 1]
+    for depth in depths:
+        for dy in parts:
+            for dx in parts:
+                offset = np.stack([x0 + dx * grid[0, 0], y0 + dy * grid[1, 1],
+                                   np.full(len(rows), middle + depth)], axis=1)  # fmt: skip
+                offset -= needle.hub_mm
+                along = offset @ needle.axis
+                across2 = np.einsum("ij,ij->i", offset, offset) - along**2
+                hit = (along >= 0.0) & (along <= needle.length_mm)
+                inside += hit & (across2 <= needle.radius_mm**2)
+    return inside / (layers * FINE * FINE)
+
+
+def _add_streaks(
+    hu: NDArray[np.float32], order: ScanOrder, needle: ScanNeedle, grid: FloatArray
+) -> None:
+    """Darken what lies beyond both ends of the needle's piece in each slice."""
+    rows, columns = np.mgrid[0 : hu.shape[1], 0 : hu.shape[2]]
+    x, y = grid[0, 3] + columns * grid[0, 0], grid[1, 3] + rows * grid[1, 1]
+    for k, middle in enumerate(order.middles_mm):
+        piece = needle.within(middle - order.slice_mm / 2, middle + order.slice_mm / 2)
+        if piece is None:
+            continue
+        start, end = piece[0][:2], piece[1][:2]
+        length = float(np.linalg.norm(end - start))
+        if length < 1.0:  # upright in the slice: a dot has no direction to streak along
+            continue
+        along = (end - start) / length
+        depth = STREAK_HU * (1.0 - np.exp(-length / STREAK_PIECE_MM))
+        for tail, way in ((end, along), (start, -along)):
+            s = (x - tail[0]) * way[0] + (y - tail[1]) * way[1]
+            across = ((x - tail[0]) * way[1] - (y - tail[1]) * way[0]) / STREAK_WIDTH_MM
+            profile = (1.0 - 2.0 * across**2) * np.exp(-(across**2))
+            faded = np.where(s > 0.0, np.exp(-np.maximum(s, 0.0) / STREAK_LENGTH_MM), 0.0)
+            hu[k] -= (depth * profile * faded).astype(np.float32)

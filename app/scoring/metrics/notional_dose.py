@@ -1,0 +1,13 @@
+"""Sum of the notional dose-length products of the control scans: a teaching estimate."""
+
+from app.scoring.trajectory import Trajectory
+
+NAME = "notional_dose"
+LABEL = "Dose (teaching estimate)"
+UNIT = "mGy·cm"
+HIGHER_IS_BETTER = False
+
+
+def compute(trajectory: Trajectory) -> float:
+    """Dose [mGy·cm]: slices of all control scans times what the exercise says of one."""
+    return float(sum(scan.dose for scan in trajectory.scans))

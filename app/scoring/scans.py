@@ -1,0 +1,29 @@
+"""A control scan as scoring sees it."""
+
+from dataclasses import dataclass
+from math import isfinite
+
+from app.scoring.errors import TrajectoryError
+
+
+@dataclass(frozen=True, slots=True)
+class ScanMark:
+    """One control scan.
+
+    Attributes:
+        time: monotonic time [s].
+        dose: notional dose-length product [mGy·cm]: a teaching estimate.
+
+    Raises:
+        TrajectoryError: if a number is not finite, or the dose is negative.
+    """
+
+    time: float
+    dose: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not (isfinite(self.time) and isfinite(self.dose) and self.dose >= 0.0):
+            raise TrajectoryError(
+                f"a control scan at {self.time} s of dose {self.dose} mGy·cm: both must be finite "
+                "numbers, the dose not negative"
+            )
