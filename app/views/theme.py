@@ -75,6 +75,9 @@ class Mark:
 AXIAL = Mark("#ff5c57")
 SAGITTAL = Mark("#ffd84d", dash=(8.0, 4.0))
 CORONAL = Mark("#35c46a", dash=(2.0, 3.0))
+IN_PLANE = Mark("#c9a2ff")
+IN_PLANE_90 = Mark("#5fd0c5", dash=(8.0, 4.0))
+PROBE = Mark("#f0f0f0", dash=(2.0, 3.0))
 # The rest: Okabe and Ito's colour-blind-safe hues, lightened for black.
 NEEDLE = Mark("#ff9f1c", width=3.0)
 NEEDLE_TIP = Mark("#35d6ed", symbol=Symbol.DIAMOND, width=2.0)

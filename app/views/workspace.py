@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.imaging.orthogonal import View
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseViews
 from app.views.exercise.messages import MessageList
@@ -30,12 +29,12 @@ from app.views.scene.renderer import SceneRenderer
 from app.views.scene.view import SceneView
 from app.views.shortcuts import disclaimer_label
 from app.views.slices.pane import SlicePane
+from app.views.slices.panes import MPR_PANES
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
 from app.views.text import tr
 
 SIDE_WIDTH = 376
-ORDER = (View.AXIAL, View.SAGITTAL, View.CORONAL)
 _LEFT_TO_RIGHT, _RIGHT_TO_LEFT = QBoxLayout.Direction.LeftToRight, QBoxLayout.Direction.RightToLeft
 
 
@@ -51,10 +50,10 @@ class Workspace(QWidget):
     def __init__(self, editor: PlanEditor, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.viewing = Viewing(default_window(), self)
-        self.panes = tuple(SlicePane(self.viewing, view, self) for view in ORDER)
+        self.panes = tuple(SlicePane(self.viewing, pane, self) for pane in MPR_PANES)
         self.scene = SceneView(SceneRenderer(), self)
         self.bullseye = Bullseye(self)
-        panes: dict[str, QWidget] = {str(pane.view): pane for pane in self.panes}
+        panes: dict[str, QWidget] = {str(pane.pane): pane for pane in self.panes}
         self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: _Cell(self.bullseye)}, self)
         self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
         for pane in self.panes:

@@ -22,6 +22,7 @@ from app.imaging.window import WindowLevel
 from app.views.grid import ViewGrid
 from app.views.layouts import SCENE
 from app.views.slices.pane import SlicePane
+from app.views.slices.panes import MPR_PANES
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
 from app.views.theme import apply_theme
@@ -57,15 +58,15 @@ def measure(application: QApplication, step: Callable[[int], None]) -> np.ndarra
 def ours(application: QApplication, volume: Volume) -> dict[str, np.ndarray]:
     """Scroll each view, then drag the window, in the program's own panes."""
     viewing = Viewing(default_window())
-    panes = [SlicePane(viewing, view) for view in View]
-    grid = ViewGrid({str(pane.view): pane for pane in panes} | {SCENE: QWidget()})
+    panes = [SlicePane(viewing, pane) for pane in MPR_PANES]
+    grid = ViewGrid({str(pane.pane): pane for pane in panes} | {SCENE: QWidget()})
     grid.resize(*SIZE)
     grid.show()
     viewing.set_volume(volume)
     application.processEvents()
     found = {
-        f"scroll {view}": measure(application, lambda n, v=view: viewing.show_slice(v, 50 + n))
-        for view in View
+        f"scroll {pane}": measure(application, lambda n, v=pane: viewing.show_slice(v, 50 + n))
+        for pane in MPR_PANES
     }
     found["window/level"] = measure(
         application, lambda n: viewing.set_window(WindowLevel(300.0 + 2 * n, 40.0 + n))

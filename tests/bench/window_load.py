@@ -10,9 +10,9 @@ from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
 from app.compose import Desktop
-from app.imaging.orthogonal import View
 from app.session.needle import DepthSource
 from app.views.application import start
+from app.views.slices.panes import PaneId
 from app.views.window import MainWindow
 
 
@@ -58,7 +58,7 @@ class Session:
         def scroll() -> None:
             nonlocal count
             count += 1
-            viewing.show_slice(View.AXIAL, 20 + count % 200)
+            viewing.show_slice(PaneId.AXIAL, 20 + count % 200)
 
         def turn() -> None:
             scene.set_orbit(scene.orbit.turned(3.0, 0.0))

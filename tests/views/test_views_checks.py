@@ -236,31 +236,31 @@ def test_the_morning_page_without_a_run_says_what_to_do(application):
 
 
 def test_the_ellipse_round_the_target_is_drawn_where_it_was_checked(application, volume, destroy):
-    from app.imaging.orthogonal import View
     from app.planning.draft import DraftPlan
     from app.views.slices.pane import SlicePane
+    from app.views.slices.panes import PaneId
     from app.views.slices.presets import default_window
     from app.views.slices.viewing import Viewing
 
     viewing = Viewing(default_window())
-    pane = SlicePane(viewing, View.AXIAL)
+    pane = SlicePane(viewing, PaneId.AXIAL)
     destroy(pane)
     pane.resize(300, 240)
     viewing.set_volume(volume)
     middle = viewing.cursor_mm
     viewing.set_draft(DraftPlan(tuple(middle - [0, 20, 0]), tuple(middle)))
     canvas = pane.canvas
-    assert not canvas._errors.target.isVisible()
+    assert not canvas.layers.errors.target.isVisible()
     viewing.set_target_error(ErrorOverlay(middle, np.diag([4.0, 1.0, 1.0])))
-    item = canvas._errors.target
+    item = canvas.layers.errors.target
     assert item.isVisible()
     reach = 2.0 * np.sqrt(chi_square_quantile(0.95, 3))
     assert item._line.boundingRect().width() == pytest.approx(2 * reach, rel=0.02)
-    assert canvas._plan.target._label.startswith("Target, TRE 95 %")
+    assert canvas.layers.plan.target._label.startswith("Target, TRE 95 %")
     assert not pane.grab().isNull()
     viewing.set_shows_errors(False)
     assert not item.isVisible()
-    assert canvas._plan.target._label == "Target"
+    assert canvas.layers.plan.target._label == "Target"
 
 
 def test_the_window_opens_both_checks_without_a_run(window, settle):

@@ -5,10 +5,10 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QMainWindow, QWidget
 
-from app.imaging.orthogonal import View
 from app.views.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar
 from app.views.notices import Notices
 from app.views.slices.pane import SlicePane
+from app.views.slices.panes import PaneId
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Tool, Viewing
 
@@ -121,7 +121,7 @@ def test_another_patient_clears_the_bar_but_for_an_attempt_that_waits(window):
 def test_the_tool_stays_for_another_try_when_the_point_was_refused(volume, destroy, refused):
     viewing = Viewing(default_window())
     viewing.set_volume(volume)
-    pane = SlicePane(viewing, View.AXIAL)
+    pane = SlicePane(viewing, PaneId.AXIAL)
     destroy(pane)
     pane.resize(400, 300)
     viewing.set_volume(volume)

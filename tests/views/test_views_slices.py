@@ -18,7 +18,8 @@ from app.views.slices import items
 from app.views.slices.camera import Camera, ruler
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.pane import SlicePane
-from app.views.slices.plane import SlicePlane
+from app.views.slices.panes import PaneId
+from app.views.slices.plane import OrthogonalPlane
 from app.views.slices.presets import default_window, keyed_window, menu_windows
 from app.views.slices.slab import PlanePoint, pieces
 from app.views.slices.viewing import Tool, Viewing
@@ -38,7 +39,7 @@ def viewing(application, volume):
 
 @pytest.fixture
 def pane(viewing, volume, settle, destroy):
-    pane = SlicePane(viewing, View.AXIAL)
+    pane = SlicePane(viewing, PaneId.AXIAL)
     destroy(pane)
     pane.resize(400, 300)
     pane.show()
@@ -120,7 +121,7 @@ def test_a_segment_in_the_slice_is_one_solid_piece():
 
 @pytest.mark.parametrize("view", list(View))
 def test_the_middle_of_a_pixel_is_half_a_pixel_from_its_edge(viewing, view):
-    plane = SlicePlane(viewing.slicer, view)
+    plane = OrthogonalPlane(viewing.slicer, view)
     point = plane.point(viewing.slicer.to_lps_mm(view, 3, 0, 0), 3)
     width, height = viewing.slicer.pixel_size_mm(view)
     assert_allclose((point.x, point.y, point.distance), (width / 2, height / 2, 0.0), atol=1e-9)
@@ -128,13 +129,13 @@ def test_the_middle_of_a_pixel_is_half_a_pixel_from_its_edge(viewing, view):
 
 @pytest.mark.parametrize("view", list(View))
 def test_plane_and_patient_coordinates_are_inverse_of_each_other(viewing, view):
-    plane = SlicePlane(viewing.slicer, view)
+    plane = OrthogonalPlane(viewing.slicer, view)
     back = plane.point(plane.lps_mm(12.3, 7.7, 5.0), 5.0)
     assert_allclose((back.x, back.y, back.distance), (12.3, 7.7, 0.0), atol=1e-9)
 
 
 def test_distance_is_told_with_the_patients_side(viewing):
-    plane = SlicePlane(viewing.slicer, View.AXIAL)
+    plane = OrthogonalPlane(viewing.slicer, View.AXIAL)
     above = viewing.slicer.to_lps_mm(View.AXIAL, 8, 0, 0)
     assert plane.point(above, 5).distance == pytest.approx(6.0)
     assert plane.towards(6.0) == "S"
@@ -302,7 +303,7 @@ def test_slices_follow_the_tip_with_a_dead_band(viewing):
 
 
 def test_entry_and_target_are_shown_in_every_view(viewing, destroy):
-    panes = [SlicePane(viewing, view) for view in View]
+    panes = [SlicePane(viewing, PaneId(view)) for view in View]
     for pane in panes:
         destroy(pane)
         pane.resize(300, 200)
@@ -324,11 +325,11 @@ def test_an_equal_window_is_not_announced_again(viewing):
 def test_the_value_under_a_resting_mouse_follows_the_slice(pane, viewing):
     pane.readouts.show_cursor(viewing.cursor_mm)
     before = pane.readouts.cursor.text
-    viewing.show_slice(pane.view, 0)
+    viewing.show_slice(pane.pane, 0)
     assert "-1000 HU" in pane.readouts.cursor.text
     assert pane.readouts.cursor.text != before
     pane.readouts.clear_cursor()
-    viewing.show_slice(pane.view, 3)
+    viewing.show_slice(pane.pane, 3)
     assert pane.readouts.cursor.text == ""
 
 

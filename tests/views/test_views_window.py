@@ -11,13 +11,13 @@ from window_rig import plan
 from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
 from app.imaging import scanning
-from app.imaging.orthogonal import View
 from app.imaging.series import Listing
 from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS
 from app.views.layouts import FIVE
 from app.views.needle_overlay import NeedleOverlay
 from app.views.series_dialog import SeriesDialog
 from app.views.shortcuts import ShortcutSheet
+from app.views.slices.panes import PaneId
 from app.views.slices.viewing import Tool
 from app.views.window import MainWindow
 
@@ -241,5 +241,5 @@ def test_an_overlay_comes_from_world_to_patient():
 
 
 def test_the_slices_are_axial_sagittal_and_coronal_in_this_order(window):
-    order = [pane.view for pane in window.workspace.panes]
-    assert order == [View.AXIAL, View.SAGITTAL, View.CORONAL]
+    order = [pane.pane for pane in window.workspace.panes]
+    assert order == [PaneId.AXIAL, PaneId.SAGITTAL, PaneId.CORONAL]

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 
 Point = tuple[float, float, float]
 
+OWN_TOOLS = (Tool.ENTRY, Tool.TARGET)
+"""Tools whose points the plan takes."""
+
 
 @dataclass(frozen=True, slots=True)
 class Edit:
@@ -132,8 +135,11 @@ class PlanEditor(QObject):
         self.changed.emit()
 
     def place(self, tool: Tool, point: Point, starts_step: bool) -> None:
-        """Set entry (on the skin next to `point`) or target; one drag is one step to undo."""
-        if self._refuse_locked():
+        """Set entry (on the skin next to `point`) or target; one drag is one step to undo.
+
+        Points of other tools are somebody else's: nothing happens.
+        """
+        if tool not in OWN_TOOLS or self._refuse_locked():
             return
         self._fresh = self._fresh or starts_step
         try:

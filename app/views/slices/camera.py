@@ -28,11 +28,12 @@ class Camera:
             raise NumericalError(f"camera ({self.x}, {self.y}) at {self.scale} px/mm is not usable")
 
     @classmethod
-    def fit(cls, extent_mm: tuple[float, float], pane_px: tuple[int, int]) -> Camera:
-        """Show the whole image of this width and height [mm], centred in the pane."""
+    def fit(cls, bounds_mm: tuple[float, float, float, float], pane_px: tuple[int, int]) -> Camera:
+        """Show a whole rectangle (left, top, width, height) [mm], centred in the pane."""
+        left, top, across, down = bounds_mm
         width, height = (max(1.0, float(size)) for size in pane_px)
-        scale = min(width / max(extent_mm[0], 1e-3), height / max(extent_mm[1], 1e-3))
-        return cls(extent_mm[0] / 2, extent_mm[1] / 2, min(max(scale, SMALLEST), LARGEST))
+        scale = min(width / max(across, 1e-3), height / max(down, 1e-3))
+        return cls(left + across / 2, top + down / 2, min(max(scale, SMALLEST), LARGEST))
 
     def panned(self, right_px: float, down_px: float) -> Camera:
         """Move the image by so many pixels."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -12,12 +13,11 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QTransform, QWhe
 from PySide6.QtWidgets import QFrame, QGraphicsView, QWidget
 
 from app.core.arrays import FloatArray
-from app.imaging.orthogonal import View
 from app.views import theme
 from app.views.slices.camera import Camera
-from app.views.slices.error_layer import ErrorLayer
-from app.views.slices.items import ImageItem
-from app.views.slices.layers import CrosshairLayer, Labels, NeedleLayer, PlanLayer
+from app.views.slices.items import ImageItem, MarkItem
+from app.views.slices.layer_stack import Layer, LayerStack
+from app.views.slices.panes import PaneId, others
 from app.views.slices.plane import SlicePlane
 from app.views.slices.viewing import Viewing
 
@@ -39,21 +39,23 @@ class Gestures(Protocol):
 
 
 class SliceCanvas(pyqtgraph.GraphicsView):
-    """Draws the slice of `view` that passes through the crosshair.
+    """Draws the slice of one pane.
 
     Signals:
         changed(): slice, window, zoom or pan is another: the read-outs are out of date.
+        plane_taken(): the plane is another one, or gone.
         left(): the mouse left the pane.
         double_clicked(): for maximising.
     """
 
     changed = Signal()
+    plane_taken = Signal()
     left = Signal()
     double_clicked = Signal()
 
-    def __init__(self, viewing: Viewing, view: View, parent: QWidget | None = None) -> None:
+    def __init__(self, viewing: Viewing, pane: PaneId, parent: QWidget | None = None) -> None:
         super().__init__(parent, useOpenGL=False, background=theme.IMAGE_BACKGROUND)
-        self.viewing, self.view = viewing, view
+        self.viewing, self.pane = viewing, PaneId(pane)
         self.plane: SlicePlane | None = None
         self.camera = Camera(0.0, 0.0, 1.0)
         self.gestures: Gestures | None = None
@@ -65,13 +67,11 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         scene.setItemIndexMethod(scene.ItemIndexMethod.NoIndex)  # a dozen items, moved often
         self._image = ImageItem()
         scene.addItem(self._image)
-        self._crosshair = CrosshairLayer(scene, view)
-        self._plan, self._needle = PlanLayer(scene), NeedleLayer(scene)
-        self._errors = ErrorLayer(scene)
-        self._labels = Labels((self._plan.target, self._plan.entry, self._needle.tip))
+        self.layers = LayerStack(scene, viewing, self.pane)
         self._set_up_view()
         viewing.volume_changed.connect(self.show_volume)
         viewing.cursor_changed.connect(self._show_cursor)
+        viewing.plane_changed.connect(self._show_plane)
         viewing.window_changed.connect(self._show_cursor)
         viewing.plan_changed.connect(self._show_plan)
         viewing.needle_changed.connect(self._show_needle)
@@ -86,17 +86,53 @@ class SliceCanvas(pyqtgraph.GraphicsView):
 
     # --- what is shown ------------------------------------------------------------------------
     @property
-    def index(self) -> int:
-        """Slice that is shown."""
-        return self.viewing.index(self.view)
+    def index(self) -> float:
+        """Slice that is shown; whole where the volume's own slices are."""
+        return self.viewing.index(self.pane)
+
+    def add_layer(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
+        """Draw something more over the slice.
+
+        Args:
+            layer: placed whenever slice, plane or zoom change; its items stand in `scene()`. Who
+                changes what it shows calls `refresh`.
+            marks: those of its marks whose names shall be arranged with the others'.
+        """
+        self.layers.add(layer, marks)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Place the added layers anew, because what they show has changed."""
+        if self.plane is not None:
+            self.layers.place_added(self.plane, self.index, self.camera.scale)
+            self._arrange_labels()
 
     def show_volume(self) -> None:
         """Take the viewing's volume and fit it."""
-        slicer = self.viewing.slicer
-        self.plane = None if slicer is None else SlicePlane(slicer, self.view)
-        self._shown = ()
+        self._take_plane()
         self.fit()
         self._show_cursor()
+
+    def _show_plane(self, pane: PaneId) -> None:
+        """Take another plane, or show another's trace; zoom and pan stay."""
+        if pane is not self.pane:
+            if pane in others(self.pane):
+                self._place_crosshair()
+            return
+        first = self.plane is None
+        self._take_plane()
+        if first:
+            self.fit()
+        self._show_cursor()
+
+    def _take_plane(self) -> None:
+        plane = self.viewing.plane(self.pane)
+        if plane is not self.plane:
+            self.plane, self._shown = plane, ()
+            self.plane_taken.emit()
+        if plane is None:
+            self._image.clear()
+            self.layers.hide()
 
     def _show_cursor(self) -> None:
         if self.plane is None:
@@ -107,51 +143,39 @@ class SliceCanvas(pyqtgraph.GraphicsView):
             self._shown = (index, window)
             if moved:  # kept contiguous: changing the window then needs no second gather
                 self._hu = np.ascontiguousarray(self.plane.image(index))
-            self._image.set_slice(self._hu, window, self.plane.extent_mm)
+            self._image.set_slice(self._hu, window, self.plane.bounds_mm)
             self.changed.emit()
-        point = self.plane.point(self.viewing.cursor_mm, index)
-        self._crosshair.place(point, self.plane.extent_mm, self.camera.scale)
+        self._place_crosshair()
         if moved:
-            self._show_plan()
-            self._show_needle()
+            self.layers.place_plan(self.plane, index, self.camera.scale)
+            self.layers.place_needle(self.plane, index, self.camera.scale)
+            self.refresh()
+
+    def _place_crosshair(self) -> None:
+        if self.plane is not None:
+            self.layers.place_crosshair(self.plane, self.index, self.camera.scale)
 
     def _show_plan(self) -> None:
         if self.plane is not None:
-            scale, viewing = self.camera.scale, self.viewing
-            error = viewing.target_error if viewing.shows_errors else None
-            self._plan.place(viewing.draft, self.plane, self.index, scale, error is not None)
-            self._errors.place_target(error, self.plane, self.index, scale)
+            self.layers.place_plan(self.plane, self.index, self.camera.scale)
             self._arrange_labels()
 
     def _show_needle(self) -> None:
         if self.plane is not None:
-            needle, scale = self.viewing.needle, self.camera.scale
-            shown = needle is not None and self.viewing.shows_errors
-            self._needle.place(needle, self.plane, self.index, scale)
-            self._errors.place_tip(
-                needle.error if needle and shown else None, self.plane, self.index, scale
-            )
+            self.layers.place_needle(self.plane, self.index, self.camera.scale)
             self._arrange_labels()
 
     def _arrange_labels(self) -> None:
-        """Put the names of the marks where they cover nothing and nothing cuts them."""
-        plane, draft, needle = self.plane, self.viewing.draft, self.viewing.needle
-        if plane is None:
-            return
-        lines = [] if needle is None else [(needle.start_mm, needle.tip_mm)]
-        if draft.entry_mm is not None and draft.target_mm is not None:
-            lines.append((np.asarray(draft.entry_mm), np.asarray(draft.target_mm)))
-        places = [[plane.point(point, self.index) for point in line] for line in lines]
-        ends = [(self.pixel_at(a.x, a.y), self.pixel_at(b.x, b.y)) for a, b in places]
-        size = (float(self.viewport().width()), float(self.viewport().height()))
-        self._labels.arrange(size, self.pixel_at, ends)
+        if self.plane is not None:
+            size = (float(self.viewport().width()), float(self.viewport().height()))
+            self.layers.arrange_labels(self.plane, self.index, size, self.pixel_at)
 
     # --- pan and zoom -------------------------------------------------------------------------
     def fit(self) -> None:
         """Show the whole image, and keep doing so when the pane is resized."""
         if self.plane is not None:
             size = (self.viewport().width(), self.viewport().height())
-            self.set_camera(Camera.fit(self.plane.extent_mm, size))
+            self.set_camera(Camera.fit(self.plane.bounds_mm, size))
             self._fitted = True
 
     def set_camera(self, camera: Camera) -> None:
@@ -164,8 +188,10 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         self.setSceneRect(QRectF(*self.camera.visible(size)))
         self.setTransform(QTransform.fromScale(self.camera.scale, self.camera.scale))
         self._show_cursor()
-        self._show_plan()
-        self._show_needle()
+        if self.plane is not None:
+            self.layers.place_plan(self.plane, self.index, self.camera.scale)
+            self.layers.place_needle(self.plane, self.index, self.camera.scale)
+        self.refresh()
         self.changed.emit()
 
     def resizeEvent(self, event: QResizeEvent | None) -> None:

@@ -67,20 +67,25 @@ class ErrorLayer:
             scene.addItem(item)
 
     def place_target(
-        self, error: ErrorOverlay | None, plane: SlicePlane, index: int, scale: float
+        self, error: ErrorOverlay | None, plane: SlicePlane, index: float, scale: float
     ) -> None:
         """Show the target's, or none."""
         _place(self.target, error, plane, index, scale)
 
     def place_tip(
-        self, error: ErrorOverlay | None, plane: SlicePlane, index: int, scale: float
+        self, error: ErrorOverlay | None, plane: SlicePlane, index: float, scale: float
     ) -> None:
         """Show the tip's, or none."""
         _place(self.tip, error, plane, index, scale)
 
+    def hide(self) -> None:
+        """Show nothing."""
+        self.target.setVisible(False)
+        self.tip.setVisible(False)
+
 
 def _place(
-    item: OutlineItem, error: ErrorOverlay | None, plane: SlicePlane, index: int, scale: float
+    item: OutlineItem, error: ErrorOverlay | None, plane: SlicePlane, index: float, scale: float
 ) -> None:
     if error is None:
         item.setVisible(False)

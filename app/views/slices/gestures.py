@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from enum import Enum, auto
 from math import hypot
+from typing import Protocol
 
 from PySide6.QtCore import QObject, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import QMouseEvent, QWheelEvent
@@ -29,6 +30,23 @@ class _Drag(Enum):
     PAN = auto()
     ZOOM = auto()
     POINT = auto()
+    GRIP = auto()
+
+
+class Grip(Protocol):
+    """Something over a slice that the left button can take hold of and drag."""
+
+    def grab(self, position: QPointF, event: QMouseEvent) -> bool:
+        """Take hold of what lies under a pixel of the pane, if it is this grip's; say whether."""
+
+    def drag(self, position: QPointF) -> None:
+        """Follow the mouse."""
+
+    def drop(self, position: QPointF) -> None:
+        """Let go."""
+
+    def hover(self, position: QPointF) -> bool:
+        """Say whether `grab` would take hold here, for the cursor's shape."""
 
 
 class SliceGestures(QObject):
@@ -48,10 +66,16 @@ class SliceGestures(QObject):
         self._level_sign = -1.0 if level_rises_upwards else 1.0  # pixels count downwards
         self._drag = _Drag.NONE
         self._point = Tool.ENTRY
+        self._grips: list[Grip] = []
+        self._held: Grip | None = None
         self._started = False
         self._offset = QPointF()  # from the mouse to the middle of the mark that is dragged
         self._pressed, self._last = QPointF(), QPointF()
         self._notches = 0
+
+    def add_grip(self, grip: Grip) -> None:
+        """Let the left button drag something more; who was added last is asked first."""
+        self._grips.insert(0, grip)
 
     # --- events -------------------------------------------------------------------------------
     def press(self, event: QMouseEvent) -> None:
@@ -78,6 +102,8 @@ class SliceGestures(QObject):
             self._canvas.set_camera(self._canvas.camera.zoomed(ZOOM_PER_PX ** -step.y(), x, y))
         elif self._drag is _Drag.POINT:
             self._place(event.position())
+        elif self._drag is _Drag.GRIP and self._held is not None:
+            self._held.drag(event.position())
         elif event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
             self._canvas.viewing.set_cursor(self._lps(event.position()))
         self.hovered.emit(self._lps(event.position()))
@@ -85,7 +111,10 @@ class SliceGestures(QObject):
     def release(self, event: QMouseEvent) -> None:
         """End the drag; a right click that did not move asks for the menu."""
         drag, self._drag = self._drag, _Drag.NONE
-        if drag is _Drag.POINT:
+        if drag is _Drag.GRIP and self._held is not None:
+            held, self._held = self._held, None
+            held.drop(event.position())
+        elif drag is _Drag.POINT:
             self._started = False
             if not self._canvas.viewing.point_refused:
                 self._canvas.viewing.set_tool(Tool.NAVIGATE)
@@ -104,7 +133,7 @@ class SliceGestures(QObject):
             steps = int(self._notches / NOTCH)  # touch pads send parts of a notch
             self._notches -= steps * NOTCH
             if steps:
-                self._canvas.viewing.show_slice(self._canvas.view, self._canvas.index + steps)
+                self._canvas.viewing.show_slice(self._canvas.pane, self._canvas.index + steps)
         event.accept()
 
     # --- meaning ------------------------------------------------------------------------------
@@ -121,6 +150,9 @@ class SliceGestures(QObject):
         if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
             self._canvas.viewing.set_cursor(self._lps(event.position()))
             return _Drag.NONE
+        self._held = next((g for g in self._grips if g.grab(event.position(), event)), None)
+        if self._held is not None:
+            return _Drag.GRIP
         self._offset = QPointF()
         tool = self._canvas.viewing.tool
         point = tool if tool is not Tool.NAVIGATE else self._grabbed(event.position())

@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
-from PySide6.QtGui import QFont, QFontMetrics, QImage, QPainter, QPen
+from PySide6.QtGui import QFont, QFontMetrics, QImage, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
 from app.imaging.window import WindowLevel, to_grey
 from app.views import theme
 from app.views.slices.labels import Placed, Wanted
+from app.views.slices.slab import chord
 from app.views.theme import Mark, Symbol
 
 GAP_PX = 14.0
@@ -33,15 +34,23 @@ class ImageItem(QGraphicsItem):
         self._stale: tuple[NDArray[Any], WindowLevel] | None = None
 
     def set_slice(
-        self, hu: NDArray[Any], window: WindowLevel, extent_mm: tuple[float, float]
+        self,
+        hu: NDArray[Any],
+        window: WindowLevel,
+        bounds_mm: tuple[float, float, float, float],
     ) -> None:
-        """Show Hounsfield units, shape (rows, columns), on this width and height [mm]."""
-        rect = QRectF(0.0, 0.0, *extent_mm)
+        """Show Hounsfield units, shape (rows, columns), on this left, top, width, height [mm]."""
+        rect = QRectF(*bounds_mm)
         if rect != self._rect:
             self.prepareGeometryChange()
             self._rect = rect
         self._stale = (hu, window)
         self.update()
+
+    def clear(self) -> None:
+        """Show nothing."""
+        self.prepareGeometryChange()
+        self._rect, self._stale = QRectF(), None
 
     def image(self) -> QImage:
         """Return the slice in grey."""
@@ -62,6 +71,8 @@ class ImageItem(QGraphicsItem):
         self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
     ) -> None:
         """Draw the image."""
+        if self._rect.isEmpty():
+            return
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
         painter.drawImage(self._rect, self.image())
 
@@ -69,38 +80,61 @@ class ImageItem(QGraphicsItem):
 class CrossLine(QGraphicsItem):
     """One line of the crosshair through the whole plane, with a gap around the point."""
 
-    def __init__(self, mark: Mark, vertical: bool) -> None:
+    def __init__(self, mark: Mark) -> None:
         super().__init__()
         self._pen = mark.pen(alpha=0.9)
-        self._vertical = vertical
-        self._at, self._along, self._length, self._gap = 0.0, 0.0, 0.0, 0.0
+        self._state: tuple[float, ...] = ()
+        self._ends: tuple[tuple[QPointF, QPointF], ...] = ()
+        self._rect = QRectF()
         self.setZValue(1)
 
-    def place(self, at: float, along: float, length: float, scale: float) -> None:
-        """Stand at `at` across and leave the gap at `along` [mm]; `length` [mm] of the plane."""
-        state = (at, along, length, GAP_PX / scale)
-        if state != (self._at, self._along, self._length, self._gap):
-            self.prepareGeometryChange()
-            self._at, self._along, self._length, self._gap = state
+    def place(
+        self,
+        at: tuple[float, float],
+        direction: tuple[float, float],
+        bounds_mm: tuple[float, float, float, float],
+        scale: float,
+    ) -> None:
+        """Run through a point and leave the gap there.
+
+        Args:
+            at: the point [mm].
+            direction: of the line, unit.
+            bounds_mm: rectangle (left, top, width, height) that the line fills.
+            scale: zoom [px/mm].
+        """
+        gap = GAP_PX / scale
+        state = (*at, *direction, *bounds_mm, gap)
+        self.setVisible(True)
+        if state == self._state:
+            return
+        self.prepareGeometryChange()
+        self._state = state
+        first, last = chord(at, direction, bounds_mm)
+        halves = ((first, min(-gap, last)), (max(gap, first), last))
+        x, y, (dx, dy) = *at, direction
+        self._ends = tuple(
+            (QPointF(x + a * dx, y + a * dy), QPointF(x + b * dx, y + b * dy))
+            for a, b in halves
+            if b > a
+        )
+        # A narrow strip: moving an upright or flat line repaints no more than two of them.
+        half = max(0.2 * gap, 1e-3)
+        corners = [point for ends in self._ends for point in ends]
+        strip = QPolygonF(corners).boundingRect()
+        self._rect = strip.adjusted(-half, -half, half, half) if corners else QRectF()
 
     def boundingRect(self) -> QRectF:
-        """Return a strip around the line, so that moving it repaints no more than two strips."""
-        half = max(0.2 * self._gap, 1e-3)
-        if self._vertical:
-            return QRectF(self._at - half, 0.0, 2 * half, self._length)
-        return QRectF(0.0, self._at - half, self._length, 2 * half)
+        """Return the line's surroundings."""
+        return self._rect
 
     def paint(
         self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
     ) -> None:
         """Draw the two halves of the line."""
         painter.setPen(self._pen)
-        for start, end in ((0.0, self._along - self._gap), (self._along + self._gap, self._length)):
-            if end > start:
-                painter.drawLine(self._point(start), self._point(end))
-
-    def _point(self, along: float) -> QPointF:
-        return QPointF(self._at, along) if self._vertical else QPointF(along, self._at)
+        for start, end in self._ends:
+            painter.drawLine(start, end)
 
 
 class SegmentItem(QGraphicsItem):

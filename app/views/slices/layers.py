@@ -9,45 +9,55 @@ from PySide6.QtCore import QPointF
 from PySide6.QtGui import QPen
 from PySide6.QtWidgets import QGraphicsScene
 
-from app.imaging.orthogonal import View
+from app.imaging.reformat import Frame, trace
 from app.planning.draft import DraftPlan
 from app.views import theme
 from app.views.needle_overlay import NeedleOverlay
 from app.views.slices.items import CrossLine, MarkItem, SegmentItem
 from app.views.slices.labels import arrange
+from app.views.slices.panes import PANE_MARKS, PaneId, others
 from app.views.slices.plane import SlicePlane
-from app.views.slices.slab import PlanePoint, pieces
+from app.views.slices.slab import PlanePoint, crossing, pieces
+from app.views.slices.viewing import Viewing
 from app.views.text import tr
 from app.views.theme import Mark
 
 FADED = 0.75
 LINE_POINTS = 24
-PLANE_MARKS = {
-    View.AXIAL: theme.AXIAL,
-    View.SAGITTAL: theme.SAGITTAL,
-    View.CORONAL: theme.CORONAL,
-}
-_LINES = {
-    View.AXIAL: (View.SAGITTAL, View.CORONAL),
-    View.SAGITTAL: (View.CORONAL, View.AXIAL),
-    View.CORONAL: (View.SAGITTAL, View.AXIAL),
-}
-"""Planes whose traces stand upright and lie flat in each view."""
 
 
 class CrosshairLayer:
-    """The traces of the other two planes, in their colours."""
+    """The traces of the two other panes of the family, in their colours."""
 
-    def __init__(self, scene: QGraphicsScene, view: View) -> None:
-        upright, flat = (PLANE_MARKS[other] for other in _LINES[view])
-        self._upright, self._flat = CrossLine(upright, True), CrossLine(flat, False)
-        scene.addItem(self._upright)
-        scene.addItem(self._flat)
+    def __init__(self, scene: QGraphicsScene, viewing: Viewing, pane: PaneId) -> None:
+        self._viewing = viewing
+        self._lines = {other: CrossLine(PANE_MARKS[other]) for other in others(pane)}
+        for line in self._lines.values():
+            line.setVisible(False)
+            scene.addItem(line)
 
-    def place(self, point: PlanePoint, extent_mm: tuple[float, float], scale: float) -> None:
-        """Cross at `point`."""
-        self._upright.place(point.x, point.y, extent_mm[1], scale)
-        self._flat.place(point.y, point.x, extent_mm[0], scale)
+    def place(self, plane: SlicePlane, index: float, scale: float) -> None:
+        """Cross where the three planes meet."""
+        this = plane.frame(index)
+        traces = {other: self._trace(this, other) for other in self._lines}
+        first, second = traces.values()
+        meeting = None if first is None or second is None else crossing(first, second)
+        for other, line in self._lines.items():
+            cut = traces[other]
+            if cut is None:
+                line.setVisible(False)
+                continue
+            at = meeting or cut[:2]
+            line.place(at, cut[2:], plane.bounds_mm, scale)
+
+    def hide(self) -> None:
+        """Show nothing."""
+        for line in self._lines.values():
+            line.setVisible(False)
+
+    def _trace(self, this: Frame, other: PaneId) -> tuple[float, float, float, float] | None:
+        frame = self._viewing.frame(other)
+        return None if frame is None else trace(this, frame)
 
 
 class SegmentLayer:
@@ -99,7 +109,7 @@ class PlanLayer:
         self,
         draft: DraftPlan,
         plane: SlicePlane,
-        index: int,
+        index: float,
         scale: float,
         with_error: bool = False,
     ) -> None:
@@ -113,6 +123,12 @@ class PlanLayer:
             self._path.hide()
         else:
             self._path.place(entry, target, plane.half_slab_mm, scale)
+
+    def hide(self) -> None:
+        """Show nothing."""
+        self._path.hide()
+        self.entry.setVisible(False)
+        self.target.setVisible(False)
 
 
 class NeedleLayer:
@@ -130,7 +146,7 @@ class NeedleLayer:
         scene.addItem(self.tip)
 
     def place(
-        self, needle: NeedleOverlay | None, plane: SlicePlane, index: int, scale: float
+        self, needle: NeedleOverlay | None, plane: SlicePlane, index: float, scale: float
     ) -> None:
         """Show the needle, grey where its pose is not valid."""
         self._shaft.hide()
@@ -143,6 +159,12 @@ class NeedleLayer:
         shaft.place(start, tip, plane.half_slab_mm, scale)
         _place_mark(self.tip, tip, "" if needle.valid else tr("not tracked"), plane)
 
+    def hide(self) -> None:
+        """Show nothing."""
+        self._shaft.hide()
+        self._doubtful.hide()
+        self.tip.setVisible(False)
+
 
 class Labels:
     """The names of several marks, the most important first; pure arrangement is in `labels`."""
@@ -150,6 +172,10 @@ class Labels:
     def __init__(self, marks: tuple[MarkItem, ...]) -> None:
         self._marks = marks
         self._arranged: tuple[object, ...] = ()
+
+    def add(self, marks: Sequence[MarkItem]) -> None:
+        """Take more marks, less important than those already there."""
+        self._marks = (*self._marks, *marks)
 
     def arrange(
         self,

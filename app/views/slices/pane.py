@@ -1,4 +1,4 @@
-"""A slice pane: canvas, read-outs, mouse, keys and context menu of one view."""
+"""A slice pane: canvas, read-outs, mouse, keys and context menu of one plane."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ from PySide6.QtCore import QPoint, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QFrame, QMenu, QVBoxLayout, QWidget
 
-from app.imaging.orthogonal import View
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.gestures import SliceGestures
-from app.views.slices.layers import PLANE_MARKS
+from app.views.slices.panes import PANE_MARKS, PaneId
 from app.views.slices.presets import default_window, keyed_window, menu_windows
 from app.views.slices.readouts import Readouts
 from app.views.slices.viewing import Tool, Viewing
@@ -21,7 +20,7 @@ PAGE = 10
 
 
 class SlicePane(QFrame):
-    """Shows one view of the viewing's volume and lets mouse and keys work on it.
+    """Shows one plane of the viewing's volume and lets mouse and keys work on it.
 
     Signals:
         maximise_wanted(): double click.
@@ -29,10 +28,10 @@ class SlicePane(QFrame):
 
     maximise_wanted = Signal()
 
-    def __init__(self, viewing: Viewing, view: View, parent: QWidget | None = None) -> None:
+    def __init__(self, viewing: Viewing, pane: PaneId, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.viewing, self.view = viewing, view
-        self.canvas = SliceCanvas(viewing, view, self)
+        self.viewing, self.pane = viewing, PaneId(pane)
+        self.canvas = SliceCanvas(viewing, self.pane, self)
         self.readouts = Readouts(self.canvas)
         self.gestures = SliceGestures(self.canvas)
         self.canvas.gestures = self.gestures
@@ -40,7 +39,7 @@ class SlicePane(QFrame):
         self.gestures.hovered.connect(self.readouts.show_cursor)
         self.gestures.menu_wanted.connect(self.show_menu)
         viewing.tool_changed.connect(self._show_tool)
-        self.setStyleSheet(f"SlicePane {{ border-top: 2px solid {PLANE_MARKS[view].colour}; }}")
+        self.setStyleSheet(f"SlicePane {{ border-top: 2px solid {PANE_MARKS[self.pane].colour}; }}")
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 2, 0, 0)
         layout.addWidget(self.canvas)
@@ -49,12 +48,12 @@ class SlicePane(QFrame):
         """Scroll, choose a preset, fit or reset; other keys go to the window."""
         steps = {_K.Key_Up: 1, _K.Key_Right: 1, _K.Key_Down: -1, _K.Key_Left: -1,
                  _K.Key_PageUp: PAGE, _K.Key_PageDown: -PAGE}  # fmt: skip
-        ends = {_K.Key_Home: 0, _K.Key_End: 10**9}
+        ends = {_K.Key_Home: -1e9, _K.Key_End: 1e9}
         key = _K(event.key())
         if key in steps:
-            self.viewing.show_slice(self.view, self.canvas.index + steps[key])
+            self.viewing.show_slice(self.pane, self.canvas.index + steps[key])
         elif key in ends:
-            self.viewing.show_slice(self.view, ends[key])
+            self.viewing.show_slice(self.pane, ends[key])
         elif key is _K.Key_Equal:
             self.canvas.fit()
         elif key is _K.Key_Space:

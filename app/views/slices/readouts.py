@@ -5,21 +5,14 @@ from __future__ import annotations
 from PySide6.QtCore import QEvent, QObject, Qt
 
 from app.core.arrays import FloatArray
-from app.imaging.orthogonal import View
 from app.views import theme
 from app.views.coordinates import lps_words
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.corners import PADDING, Overlay, Ruler
-from app.views.slices.layers import PLANE_MARKS
+from app.views.slices.panes import PANE_MARKS, pane_name
 from app.views.text import tr
 
 _A = Qt.AlignmentFlag
-
-
-def view_name(view: View) -> str:
-    """Name of a view for people."""
-    names = {View.AXIAL: tr("Axial"), View.SAGITTAL: tr("Sagittal"), View.CORONAL: tr("Coronal")}
-    return names[view]
 
 
 class Readouts(QObject):
@@ -41,18 +34,20 @@ class Readouts(QObject):
         port.installEventFilter(self)
         canvas.changed.connect(self.refresh)
         canvas.left.connect(self.clear_cursor)
-        canvas.viewing.volume_changed.connect(self.show_volume)
+        canvas.plane_taken.connect(self.show_plane)
 
-    def show_volume(self) -> None:
-        """Write what stays the same for a volume."""
+    def show_plane(self) -> None:
+        """Write what stays the same for a plane; nothing where there is none."""
         plane, volume = self._canvas.plane, self._canvas.viewing.volume
         if plane is None or volume is None:
+            for overlay in (self.window, self.cursor, self.slice, *self.letters):
+                overlay.set_lines()
             return
         series = volume.series
         thickness = tr("{step:.2f} mm slices", step=plane.step_mm)
-        colour = PLANE_MARKS[self._canvas.view].colour
+        pane = self._canvas.pane
         self.title.set_lines(
-            view_name(self._canvas.view), f"{series.pseudonym}", thickness, first=colour
+            pane_name(pane), series.pseudonym, thickness, first=PANE_MARKS[pane].colour
         )
         for overlay, letter in zip(self.letters, plane.letters(), strict=True):
             overlay.set_lines(letter)
@@ -70,7 +65,7 @@ class Readouts(QObject):
         )
         self.slice.set_lines(
             tr("{position} mm", position=self._position()),
-            tr("Slice {number} / {count}", number=index + 1, count=plane.count),
+            tr("Slice {number} / {count}", number=round(index) + 1, count=plane.count),
         )
         self.ruler.set_scale(self._canvas.camera.scale)
         self._follow_slice()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 
@@ -41,6 +42,45 @@ def pieces(start: PlanePoint, end: PlanePoint, half_mm: float) -> list[Piece]:
         if b - a > 1e-9
         for inside in [abs(_mix(start.distance, end.distance, (a + b) / 2)) <= half_mm]
     ]
+
+
+def chord(
+    at: tuple[float, float],
+    direction: tuple[float, float],
+    bounds: tuple[float, float, float, float],
+) -> tuple[float, float]:
+    """Where a line enters and leaves a rectangle, as distances along it from a point.
+
+    Args:
+        at: the point.
+        direction: of the line, unit.
+        bounds: left, top, width, height.
+
+    Returns:
+        First and last distance, the first beyond the last where the line passes by.
+    """
+    first, last = -inf, inf
+    for position, rate, low, size in zip(at, direction, bounds[:2], bounds[2:], strict=True):
+        if abs(rate) < 1e-12:
+            if not low <= position <= low + size:
+                return inf, -inf
+            continue
+        one, other = sorted(((low - position) / rate, (low + size - position) / rate))
+        first, last = max(first, one), min(last, other)
+    return first, last
+
+
+def crossing(
+    one: tuple[float, float, float, float], other: tuple[float, float, float, float]
+) -> tuple[float, float] | None:
+    """Point where two lines (point x, y, unit direction dx, dy) meet; None if they are parallel."""
+    x, y, dx, dy = one
+    u, v, du, dv = other
+    sine = dx * dv - dy * du
+    if abs(sine) < 1e-6:
+        return None
+    along = ((u - x) * dv - (v - y) * du) / sine
+    return x + along * dx, y + along * dy
 
 
 def _crossings(first: float, last: float, half_mm: float) -> list[float]:

@@ -1,4 +1,4 @@
-"""What the three slice panes share: one volume, one crosshair, one window, one tool."""
+"""What the slice panes share: one volume, one crosshair, their planes, one window, one tool."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from PySide6.QtCore import QObject, Signal
 
 from app.core.arrays import FloatArray, frozen
 from app.imaging.orthogonal import OrthogonalSlicer, View
+from app.imaging.reformat import Frame
 from app.imaging.volume import Volume
 from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
 from app.views.error_overlay import ErrorOverlay
 from app.views.needle_overlay import NeedleOverlay
+from app.views.slices.panes import MPR_PANES, PaneId
+from app.views.slices.plane import OrthogonalPlane, ReformatPlane, SlicePlane
 
 FOLLOW_DEAD_BAND_MM = 0.3
 """Slices that follow the tip stay while it moves less than this, so that they do not tremble."""
@@ -31,13 +34,16 @@ class Tool(StrEnum):
 class Viewing(QObject):
     """State of the slice views; panes draw it and change it through its methods.
 
-    The crosshair is the one point that all slices pass through: scrolling a pane moves it along
-    that pane's normal, so slices and crosshairs cannot disagree.
+    The crosshair is the one point that axial, sagittal and coronal pass through, turned or not:
+    scrolling one of them moves it along that pane's normal, so slices and crosshairs cannot
+    disagree. The needle's panes stand off their own plane by a number of slices of their own.
 
     Signals:
         volume_changed, cursor_changed, window_changed, tool_changed, plan_changed, needle_changed.
-        point_placed(Tool, tuple, bool): entry or target was clicked or dragged to an LPS point
-            [mm]; the flag is True for the first event of a gesture, a new step to undo.
+        plane_changed(PaneId): a pane's plane is another one, or is scrolled away from its needle.
+        point_placed(Tool, tuple, bool): with any tool but `NAVIGATE`, a point was clicked or
+            dragged to in LPS [mm]; the flag is True for the first event of a gesture, a new step
+            to undo. Who listens takes the tools that are his and leaves the others.
     """
 
     volume_changed = Signal()
@@ -46,12 +52,15 @@ class Viewing(QObject):
     tool_changed = Signal()
     plan_changed = Signal()
     needle_changed = Signal()
+    plane_changed = Signal(object)
     point_placed = Signal(object, object, bool)
 
     def __init__(self, window: WindowLevel, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.volume: Volume | None = None
         self.slicer: OrthogonalSlicer | None = None
+        self._planes: dict[PaneId, SlicePlane] = {}
+        self._own_index: dict[PaneId, float] = {}
         self.cursor_mm: FloatArray = frozen(np.zeros(3))
         self.window = window
         self.tool = Tool.NAVIGATE
@@ -65,6 +74,8 @@ class Viewing(QObject):
     def set_volume(self, volume: Volume) -> None:
         """Show another volume; the crosshair goes to its middle."""
         self.volume, self.slicer = volume, OrthogonalSlicer(volume)
+        self._planes = {pane: OrthogonalPlane(self.slicer, View(pane)) for pane in MPR_PANES}
+        self._own_index = {}
         middle = [(count - 1) / 2 for count in volume.size]
         self.cursor_mm = frozen(volume.lps_mm(middle))
         self.volume_changed.emit()
@@ -78,17 +89,59 @@ class Viewing(QObject):
         self.cursor_mm = frozen(self.volume.lps_mm(voxel))
         self.cursor_changed.emit()
 
-    def index(self, view: View) -> int:
-        """Slice shown in `view`: the one nearest to the crosshair."""
-        return 0 if self.slicer is None else self.slicer.nearest_index(view, self.cursor_mm)
+    # --- planes -------------------------------------------------------------------------------
+    def plane(self, pane: PaneId) -> SlicePlane | None:
+        """Plane of a pane; None without a volume, or while a needle pane has no needle."""
+        return self._planes.get(pane)
 
-    def show_slice(self, view: View, index: int) -> None:
-        """Move the crosshair along the normal of `view` onto slice `index`, kept in range."""
-        if self.slicer is None:
+    def set_frame(self, pane: PaneId, frame: Frame | None, ahead: ArrayLike | None = None) -> None:
+        """Lay a pane's plane along a frame.
+
+        Args:
+            pane: whose.
+            frame: where; None goes back to the volume's own slices, or takes the needle away.
+            ahead: side of the frame towards which slices count up; for None into the screen with a
+                needle's pane, and where the pane's slices went so far with the others.
+        """
+        if self.volume is None or self.slicer is None:
             return
-        _, column, row = self.slicer.from_lps_mm(view, self.cursor_mm)
-        index = min(max(index, 0), self.slicer.count(view) - 1)
-        self.cursor_mm = frozen(self.slicer.to_lps_mm(view, index, column, row))
+        before = self._planes.pop(pane, None)
+        if frame is not None:
+            if ahead is None and before is not None and not pane.is_needle:
+                ahead = before.ahead
+            self._planes[pane] = ReformatPlane(self.volume, frame, pane, ahead, pane.is_needle)
+        elif not pane.is_needle:
+            self._planes[pane] = OrthogonalPlane(self.slicer, View(pane))
+        self.plane_changed.emit(pane)
+
+    def index(self, pane: PaneId) -> float:
+        """Slice shown in a pane: the one at the crosshair, or so many away from the needle."""
+        plane = self._planes.get(pane)
+        if plane is None or pane.is_needle:
+            return self._own_index.get(pane, 0.0)
+        return plane.index_at(self.cursor_mm)
+
+    def frame(self, pane: PaneId) -> Frame | None:
+        """Plane of a pane as it cuts the others: through the crosshair, or at its own slice."""
+        plane = self._planes.get(pane)
+        if plane is None:
+            return None
+        frame = plane.frame(self.index(pane))
+        if pane.is_needle:
+            return frame
+        return frame.moved(frame.point(self.cursor_mm)[2])
+
+    def show_slice(self, pane: PaneId, index: float) -> None:
+        """Go to a slice of a pane, kept in the volume; the crosshair goes along if it is linked."""
+        plane = self._planes.get(pane)
+        if plane is None:
+            return
+        if pane.is_needle:
+            self._own_index[pane] = plane.kept(index, plane.frame(0.0).origin_mm)
+            self.plane_changed.emit(pane)
+            return
+        at = plane.point(self.cursor_mm, 0.0)
+        self.cursor_mm = frozen(plane.lps_mm(at.x, at.y, plane.kept(index, self.cursor_mm)))
         self.cursor_changed.emit()
 
     def set_window(self, window: WindowLevel) -> None:

@@ -1,0 +1,102 @@
+"""The layers over one slice, and when each of them is placed anew."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+import numpy as np
+from PySide6.QtCore import QPointF
+from PySide6.QtWidgets import QGraphicsScene
+
+from app.views.slices.error_layer import ErrorLayer
+from app.views.slices.items import MarkItem
+from app.views.slices.layers import CrosshairLayer, Labels, NeedleLayer, PlanLayer
+from app.views.slices.panes import PaneId
+from app.views.slices.plane import SlicePlane
+from app.views.slices.viewing import Viewing
+
+
+class Layer(Protocol):
+    """Something drawn over a slice: owns graphics items in plane millimetres."""
+
+    def place(self, plane: SlicePlane, index: float, scale: float) -> None:
+        """Put the items where they belong.
+
+        Args:
+            plane: of the pane.
+            index: of the slice.
+            scale: zoom [px/mm].
+        """
+
+    def hide(self) -> None:
+        """Show nothing: the pane has no plane."""
+
+
+class LayerStack:
+    """Owns the layers of one canvas, and what others add.
+
+    Attributes:
+        crosshair, plan, needle, errors: its own layers.
+    """
+
+    def __init__(self, scene: QGraphicsScene, viewing: Viewing, pane: PaneId) -> None:
+        self._viewing, self._pane = viewing, pane
+        self.crosshair = CrosshairLayer(scene, viewing, pane)
+        self.plan, self.needle = PlanLayer(scene), NeedleLayer(scene)
+        self.errors = ErrorLayer(scene)
+        self._labels = Labels((self.plan.target, self.plan.entry, self.needle.tip))
+        self._added: list[Layer] = []
+
+    def add(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
+        """Take another layer; names of its `marks` are arranged after those already there."""
+        self._added.append(layer)
+        self._labels.add(marks)
+
+    def hide(self) -> None:
+        """Show nothing."""
+        self.crosshair.hide()
+        self.plan.hide()
+        self.needle.hide()
+        self.errors.hide()
+        for layer in self._added:
+            layer.hide()
+
+    def place_crosshair(self, plane: SlicePlane, index: float, scale: float) -> None:
+        """Show the traces of the other panes."""
+        self.crosshair.place(plane, index, scale)
+
+    def place_plan(self, plane: SlicePlane, index: float, scale: float) -> None:
+        """Show entry, target and path."""
+        viewing = self._viewing
+        error = viewing.target_error if viewing.shows_errors else None
+        self.plan.place(viewing.draft, plane, index, scale, error is not None)
+        self.errors.place_target(error, plane, index, scale)
+
+    def place_needle(self, plane: SlicePlane, index: float, scale: float) -> None:
+        """Show the live needle."""
+        needle = self._viewing.needle
+        self.needle.place(needle, plane, index, scale)
+        error = needle.error if needle is not None and self._viewing.shows_errors else None
+        self.errors.place_tip(error, plane, index, scale)
+
+    def place_added(self, plane: SlicePlane, index: float, scale: float) -> None:
+        """Show what others have added."""
+        for layer in self._added:
+            layer.place(plane, index, scale)
+
+    def arrange_labels(
+        self,
+        plane: SlicePlane,
+        index: float,
+        size_px: tuple[float, float],
+        pixel_at: Callable[[float, float], QPointF],
+    ) -> None:
+        """Put the names of the marks where they cover nothing and nothing cuts them."""
+        draft, needle = self._viewing.draft, self._viewing.needle
+        lines = [] if needle is None else [(needle.start_mm, needle.tip_mm)]
+        if draft.entry_mm is not None and draft.target_mm is not None:
+            lines.append((np.asarray(draft.entry_mm), np.asarray(draft.target_mm)))
+        places = [[plane.point(point, index) for point in line] for line in lines]
+        ends = [(pixel_at(a.x, a.y), pixel_at(b.x, b.y)) for a, b in places]
+        self._labels.arrange(size_px, pixel_at, ends)
