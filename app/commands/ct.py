@@ -136,6 +136,12 @@ def _series(series: "Series") -> dict[str, Any]:
         "files": len(series.files),
         "usable": series.usable,
         "reason": series.reason,
+        "key": series.key,
+        "part": series.part,
+        "remedy": series.remedy,
+        "notes": list(series.notes),
+        "unit": series.unit,
+        "tilt_deg": series.tilt_deg,
     }
 
 
@@ -154,8 +160,10 @@ def _line(series: "Series") -> str:
         f"spacing {spacing} mm" if spacing else "",
         f"origin {origin} mm" if origin else "",
         f"direction {direction}" if direction else "",
-        f"{series.label}, {series.pseudonym}, {series.uid}",
+        f"{series.label}, {series.pseudonym}, {series.key}",
         series.reason,
+        *series.notes,
+        "" if series.remedy == "none" else f"on request: {series.remedy}",
     ]
     return "  ".join(part for part in parts if part)
 

@@ -7,7 +7,7 @@ from typing import BinaryIO
 
 from app.imaging.errors import FileDamagedError
 from app.imaging.header import SliceHeader
-from app.imaging.header_reading import read_header
+from app.imaging.header_reading import read_headers
 from app.imaging.series import Ignored
 
 _PREAMBLE = 132
@@ -39,11 +39,11 @@ def _read(path: Path, stream: BinaryIO) -> tuple[SliceHeader, ...] | Ignored:
     if _DICOMDIR in head:
         return Ignored(path, "DICOM directory (DICOMDIR), not an image")
     stream.seek(0)
-    header = read_header(path, stream, forced=not preamble)
-    if header is None:
+    headers = read_headers(path, stream, forced=not preamble)
+    if not headers:
         what = "DICOM, but truncated or of no series (no SeriesInstanceUID)"
         return Ignored(path, what if preamble else "not a DICOM file")
-    return (header,)
+    return headers
 
 
 def _plausible(head: bytes) -> bool:

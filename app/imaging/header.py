@@ -7,6 +7,14 @@ from app.imaging.pixel_data import PixelData, PixelFormat
 
 Point = tuple[float, float, float]
 
+MULTI_FRAME = {
+    "1.2.840.10008.5.1.4.1.1.2.1": "enhanced CT",
+    "1.2.840.10008.5.1.4.1.1.2.2": "legacy converted enhanced CT",
+    "1.2.840.10008.5.1.4.1.1.4.1": "enhanced MR",
+    "1.2.840.10008.5.1.4.1.1.4.4": "legacy converted enhanced MR",
+}
+"""SOP classes whose files hold a frame for each slice."""
+
 
 @dataclass(frozen=True, slots=True)
 class Identity:
@@ -53,7 +61,11 @@ class SliceHeader:
         plane: None where position, orientation or spacing is absent.
         rescale: None where the file gives no Hounsfield units.
         damage: what makes the file unreadable; empty when nothing does.
-        frame: which frame of the file, from 0.
+        frame: index of the frame in its file, from 0; 0 for a file of one image.
+        thickness_mm: of the slice; None where it is not given.
+        marks: what tells several passes over the same places apart, as (name, value) pairs:
+            acquisition, time position and the like; never shown as they are.
+        obstacle: why a frame cannot be used though nothing is damaged; empty mostly.
     """
 
     path: Path
@@ -65,3 +77,6 @@ class SliceHeader:
     pixels: PixelData
     damage: str
     frame: int = 0
+    thickness_mm: float | None = None
+    marks: tuple[tuple[str, str], ...] = ()
+    obstacle: str = ""

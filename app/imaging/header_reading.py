@@ -1,4 +1,4 @@
-"""Reading the header of one DICOM image file."""
+"""Reading the header of one DICOM image file: one image, or one for each frame."""
 
 import hashlib
 from pathlib import Path
@@ -7,7 +7,7 @@ from typing import BinaryIO, Final
 from app.imaging import elements
 from app.imaging.elements import Elements
 from app.imaging.errors import FileDamagedError
-from app.imaging.header import Identity, Plane, Rescale, SliceHeader
+from app.imaging.header import MULTI_FRAME, Identity, Plane, Rescale, SliceHeader
 from app.imaging.pixel_data import PixelFormat
 from app.imaging.pixel_finding import find_pixels
 
@@ -15,16 +15,22 @@ _TAGS: Final = {
     "SOPClassUID": 0x00080016,
     "SOPInstanceUID": 0x00080018,
     "ImageType": 0x00080008,
+    "AcquisitionTime": 0x00080032,
     "Modality": 0x00080060,
     "PatientID": 0x00100020,
     "BodyPartExamined": 0x00180015,
+    "SliceThickness": 0x00180050,
+    "EchoNumbers": 0x00180086,
+    "TriggerTime": 0x00181060,
     "ConvolutionKernel": 0x00181210,
     "StudyInstanceUID": 0x0020000D,
     "SeriesInstanceUID": 0x0020000E,
     "SeriesNumber": 0x00200011,
+    "AcquisitionNumber": 0x00200012,
     "ImagePositionPatient": 0x00200032,
     "ImageOrientationPatient": 0x00200037,
     "FrameOfReferenceUID": 0x00200052,
+    "TemporalPositionIdentifier": 0x00200100,
     "SamplesPerPixel": 0x00280002,
     "PhotometricInterpretation": 0x00280004,
     "NumberOfFrames": 0x00280008,
@@ -46,21 +52,42 @@ _TAGS: Final = {
 _TAG_LIST: Final = list(_TAGS.values())
 
 
-def read_header(path: Path, stream: BinaryIO, forced: bool) -> SliceHeader | None:
-    """Read the header of one file up to its pixels; None if it is no instance of a series.
+_MARKS: Final = {
+    "acquisition": "AcquisitionNumber",
+    "time-position": "TemporalPositionIdentifier",
+    "trigger": "TriggerTime",
+    "echo": "EchoNumbers",
+    "image-type": "ImageType",
+    "kernel": "ConvolutionKernel",
+    "acquisition-time": "AcquisitionTime",
+}
+_AS_STORED: Final = Rescale(1.0, 0.0)
+
+
+def read_headers(path: Path, stream: BinaryIO, forced: bool) -> tuple[SliceHeader, ...]:
+    """Read the header of one file up to its pixels; nothing if it is no instance of a series.
 
     Args:
         path: the file, for messages.
         stream: the file, opened for reading at its start.
         forced: read although the DICOM preamble is missing.
 
+    Returns:
+        One header for each image: one, or for a multi-frame file that says where its frames lie
+        one for each.
+
     Raises:
         FileDamagedError: if the header cannot be parsed.
     """
     header = elements.read_elements(stream, _TAG_LIST, forced)
     if not elements.text(header, _TAGS["SeriesInstanceUID"]):
-        return None
-    return _slice_header(path, stream, header)
+        return ()
+    found = _slice_header(path, stream, header)
+    if found.identity.sop_class not in MULTI_FRAME or found.damage:
+        return (found,)
+    from app.imaging.enhanced import frames_of
+
+    return frames_of(found, stream)
 
 
 def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader:
@@ -71,9 +98,33 @@ def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader
     plane = _guarded(_plane, header, problems)
     rescale = _guarded(_rescale, header, problems)
     damage = "; ".join([*problems, *([pixels.damage] if pixels.damage else [])])
+    if identity.modality == "MR" and rescale is None:
+        rescale = _AS_STORED  # MR has no unit to be scaled to
     return SliceHeader(
-        path, identity, pixel_format, plane, rescale, _windows(header), pixels, damage
+        path,
+        identity,
+        pixel_format,
+        plane,
+        rescale,
+        _windows(header),
+        pixels,
+        damage,
+        thickness_mm=_thickness(header),
+        marks=_marks(header),
     )
+
+
+def _thickness(header: Elements) -> float | None:
+    """SliceThickness, which nothing is placed by; one that cannot be read is none."""
+    try:
+        return next(iter(elements.numbers(header, _TAGS["SliceThickness"], "SliceThickness")), None)
+    except FileDamagedError:
+        return None
+
+
+def _marks(header: Elements) -> tuple[tuple[str, str], ...]:
+    values = ((mark, elements.text(header, _TAGS[name])) for mark, name in _MARKS.items())
+    return tuple((mark, value) for mark, value in values if value)
 
 
 def _guarded(read, header: Elements, problems: list[str]):  # type: ignore[no-untyped-def]
@@ -154,11 +205,16 @@ def _plane(header: Elements) -> Plane | None:
         return None
     if min(spacing) <= 0.0:
         raise FileDamagedError(f"PixelSpacing is {spacing}; both must be above zero")
-    _check_orientation(orientation)
+    check_orientation(orientation)
     return Plane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
 
 
-def _check_orientation(orientation: tuple[float, ...]) -> None:
+def check_orientation(orientation: tuple[float, ...]) -> None:
+    """See that direction cosines are what they should be, to a thousandth.
+
+    Raises:
+        FileDamagedError: if they are not two perpendicular unit vectors.
+    """
     row, column = orientation[:3], orientation[3:]
     norms = [sum(v * v for v in vector) ** 0.5 for vector in (row, column)]
     dot = sum(a * b for a, b in zip(row, column, strict=True))
@@ -172,7 +228,8 @@ def _rescale(header: Elements) -> Rescale | None:
     slope = elements.numbers(header, _TAGS["RescaleSlope"], "RescaleSlope", 1)
     intercept = elements.numbers(header, _TAGS["RescaleIntercept"], "RescaleIntercept", 1)
     kind = elements.text(header, _TAGS["RescaleType"]).upper()
-    if not (slope and intercept) or kind not in ("", "HU"):
+    is_mr = elements.text(header, _TAGS["Modality"]) == "MR"
+    if not (slope and intercept) or (kind not in ("", "HU") and not is_mr):
         return None
     if slope[0] == 0.0:
         raise FileDamagedError("RescaleSlope is 0; every pixel would have the same value")

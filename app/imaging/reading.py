@@ -20,9 +20,10 @@ from app.imaging.errors import (
 )
 from app.imaging.filling import filled
 from app.imaging.header import SliceHeader
-from app.imaging.rescaling import NotExactError, integral
+from app.imaging.reduction import reduced_block
+from app.imaging.rescaling import NotExactError, fresh_array, integral
 from app.imaging.scanning import scan_folder
-from app.imaging.series import Listing, Series
+from app.imaging.series import Listing, Remedy, Series
 from app.imaging.volume import Volume
 
 
@@ -47,8 +48,13 @@ def load_ct(
     return read_series(choose(listing, series_uid), progress.part(0.4, 1.0))
 
 
-def choose(listing: Listing, series_uid: str | None = None) -> Series:
-    """Pick the series named, or the only usable one.
+def choose(listing: Listing, series_uid: str | None = None, remedy: Remedy = Remedy.NONE) -> Series:
+    """Pick the series named (UID, or UID#part), or the only usable one.
+
+    Args:
+        listing: what the folder holds.
+        series_uid: which series; may be None where only one is usable.
+        remedy: what will be asked for in reading it: then those that it mends count as usable too.
 
     Raises:
         SeriesUnknownError: if the folder has no such series.
@@ -59,17 +65,17 @@ def choose(listing: Listing, series_uid: str | None = None) -> Series:
     if not listing.series:
         raise FolderError(_nothing(listing))
     if series_uid is not None:
-        return _named(listing, series_uid)
-    if len(listing.usable) > 1:
-        uids = ", ".join(f"{series.uid} ({series.label})" for series in listing.usable)
+        return _named(listing, series_uid, remedy)
+    usable = tuple(s for s in listing.series if s.usable or remedy is s.remedy is not Remedy.NONE)
+    if len(usable) > 1:
+        uids = ", ".join(f"{series.key} ({series.label})" for series in usable)
         raise SeriesAmbiguousError(
-            f"{listing.path} holds {len(listing.usable)} usable CT series; name one: {uids}",
-            listing.usable,
+            f"{listing.path} holds {len(usable)} usable CT series; name one: {uids}", usable
         )
-    if not listing.usable:
+    if not usable:
         reasons = "; ".join(f"{series.label}: {series.reason}" for series in listing.series[:4])
         raise SeriesRefusedError(f"no usable CT series in {listing.path}. {reasons}")
-    return listing.usable[0]
+    return usable[0]
 
 
 def _nothing(listing: Listing) -> str:
@@ -83,14 +89,31 @@ def _nothing(listing: Listing) -> str:
     )
 
 
-def _named(listing: Listing, series_uid: str) -> Series:
-    for series in listing.series:
-        if series.uid == series_uid:
-            if not series.usable:
-                raise SeriesRefusedError(f"series {series_uid} cannot be used: {series.reason}")
-            return series
-    valid = ", ".join(series.uid for series in listing.series)
-    raise SeriesUnknownError(f"no series {series_uid} in {listing.path}; it holds {valid}")
+def _named(listing: Listing, series_uid: str, remedy: Remedy) -> Series:
+    named = [s for s in listing.series if series_uid in (s.uid, s.key)]
+    exact = [s for s in named if s.key == series_uid]
+    found = exact or [s for s in named if s.usable] or named[:1]
+    if not found:
+        valid = ", ".join(series.key for series in listing.series)
+        raise SeriesUnknownError(f"no series {series_uid} in {listing.path}; it holds {valid}")
+    if len(found) > 1:
+        parts = ", ".join(series.key for series in found)
+        raise SeriesAmbiguousError(
+            f"series {series_uid} holds {len(found)} passes over the same places; name one: "
+            f"{parts}",
+            tuple(found),
+        )
+    if remedy is Remedy.NONE and not found[0].usable:
+        raise SeriesRefusedError(_refusal(found[0]))
+    return found[0]
+
+
+def _refusal(series: Series) -> str:
+    """Why a series is not read as it is, and what could be asked for instead."""
+    offer = (
+        "" if series.remedy is Remedy.NONE else f"; it can be read if you ask to {series.remedy}"
+    )
+    return f"series {series.key} cannot be used: {series.reason}{offer}"
 
 
 def read_series(series: Series, progress: Progress | None = None) -> Volume:
@@ -102,23 +125,69 @@ def read_series(series: Series, progress: Progress | None = None) -> Volume:
         Cancelled: if `progress` was cancelled.
     """
     if not series.usable:
-        raise SeriesRefusedError(f"series {series.uid} cannot be used: {series.reason}")
+        raise SeriesRefusedError(_refusal(series))
+    hu = read_pixels(series, progress)
+    return Volume(read_only(hu), grid_of(series).affine_mm, series, unit=series.unit)
+
+
+def grid_of(series: Series) -> stack.Stack:
+    """Grid of the slices of a series, in their order."""
+    planes = [header.plane for header in series.slices if header.plane]
+    return stack.stack(planes, (series.size[0], series.size[1]))
+
+
+def read_pixels(
+    series: Series, progress: Progress | None = None, factors: tuple[int, int, int] = (1, 1, 1)
+) -> NDArray[Any]:
+    """Values of all slices in their order, whatever lies between them.
+
+    Args:
+        series: usable, or refused for the places of its slices only.
+        progress: told how far it is; cancels.
+        factors: so many voxels along i, j and k are averaged to one; what is left over at the far
+            ends is left out.
+
+    Returns:
+        Shape (K, J, I), int16 where every value fits exactly, else float32. Averages are rounded
+        where int16 is used.
+
+    Raises:
+        FileDamagedError: if a file has changed since the scan or cannot be decoded; names it.
+        SeriesRefusedError: if the memory does not suffice.
+        Cancelled: if `progress` was cancelled.
+    """
     progress = progress or Progress()
-    slices = stack.stack([header.plane for header in series.slices if header.plane])
-    return Volume(read_only(_hounsfield(series, progress)), slices.affine_mm, series)
-
-
-def _hounsfield(series: Series, progress: Progress) -> NDArray[Any]:
     if all(integral(header) for header in series.slices):
         try:
-            return filled(series.slices, np.dtype(np.int16), progress)
+            return _filled(series, np.dtype(np.int16), progress, factors)
         except NotExactError:
             progress.report(0.0, "values beyond 16 bits: reading as float32")
-    return filled(series.slices, np.dtype(np.float32), progress)
+    return _filled(series, np.dtype(np.float32), progress, factors)
+
+
+def _filled(
+    series: Series, dtype: np.dtype[Any], progress: Progress, factors: tuple[int, int, int]
+) -> NDArray[Any]:
+    if factors == (1, 1, 1):
+        return filled(series.slices, dtype, progress)
+    columns, rows, count = series.size
+    i, j, k = (max(1, min(f, n)) for f, n in zip(factors, series.size, strict=True))
+    hu = fresh_array((count // k, rows // j, columns // i), dtype)
+    for block in range(len(hu)):  # never more than a few slices at full size in memory
+        progress.report(block / len(hu), f"slice {block * k + 1} of {count}")
+        whole = filled(series.slices[block * k : (block + 1) * k], dtype)
+        hu[block] = reduced_block(whole, (i, j))
+    progress.report(1.0, f"{count} slices read, {i} × {j} × {k} voxels taken together")
+    return hu
 
 
 def pixel_lps_mm(
-    path: Path | str, sop_uid: str, column: int, row: int, progress: Progress | None = None
+    path: Path | str,
+    sop_uid: str,
+    column: int,
+    row: int,
+    progress: Progress | None = None,
+    frame: int = 0,
 ) -> tuple[FloatArray, float]:
     """Where one pixel of one file lies, by that file's own position and orientation.
 
@@ -130,6 +199,7 @@ def pixel_lps_mm(
         column: of the pixel, from 0.
         row: of the pixel, from 0.
         progress: told how far the search is; cancels it.
+        frame: of a multi-frame file, from 0.
 
     Returns:
         The point [mm, LPS], shape (3,), and the Hounsfield value.
@@ -141,7 +211,7 @@ def pixel_lps_mm(
         FileDamagedError: if its pixels cannot be read.
     """
     listing = scan_folder(path, progress)
-    header = _instance(listing, sop_uid)
+    header = _instance(listing, sop_uid, frame)
     form = header.format
     if not (0 <= column < form.columns and 0 <= row < form.rows):
         raise OutsideImageError(
@@ -150,9 +220,9 @@ def pixel_lps_mm(
         )
     if header.damage:
         raise FileDamagedError(f"{header.path}: {header.damage}")
-    if header.plane is None or header.rescale is None or form.samples > 1 or form.frames > 1:
+    if header.plane is None or header.rescale is None or form.samples > 1:
         raise SeriesRefusedError(
-            f"{header.path.name} is no single CT image with position, orientation, spacing and "
+            f"{header.path.name} is no CT image with position, orientation, spacing and "
             "rescale; choose a file that is"
         )
     affine = stack.plane_affine(header.plane, stack.normal(header.plane))
@@ -160,14 +230,15 @@ def pixel_lps_mm(
     return affine[:3, :3] @ (column, row, 0.0) + affine[:3, 3], float(value)
 
 
-def _instance(listing: Listing, sop_uid: str) -> SliceHeader:
+def _instance(listing: Listing, sop_uid: str, frame: int) -> SliceHeader:
     if not listing.series:
         raise FolderError(_nothing(listing))
     for series in listing.series:
         for header in series.slices:
-            if header.identity.sop_uid == sop_uid:
+            if header.identity.sop_uid == sop_uid and header.frame == frame:
                 return header
-    raise SeriesUnknownError(f"no file with SOPInstanceUID {sop_uid} in {listing.path}")
+    which = f" and frame {frame}" if frame else ""
+    raise SeriesUnknownError(f"no file with SOPInstanceUID {sop_uid}{which} in {listing.path}")
 
 
 def _single(header: SliceHeader) -> NDArray[Any]:

@@ -8,11 +8,12 @@ import numpy as np
 
 from app.core.progress import Progress
 from app.imaging import stack
+from app.imaging.acquisitions import Group, split
 from app.imaging.errors import FolderError
 from app.imaging.examining import examine, why
 from app.imaging.header import Plane, Point, SliceHeader
-from app.imaging.series import Ignored, Listing, Series
-from app.imaging.suitability import refusal
+from app.imaging.series import Ignored, Listing, Remedy, Series
+from app.imaging.suitability import Verdict, is_mr, judge
 
 
 def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
@@ -41,7 +42,9 @@ def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
     groups: dict[str, list[SliceHeader]] = {}
     for header in headers:
         groups.setdefault(header.identity.series_uid, []).append(header)
-    series = tuple(_series(group, root) for _, group in sorted(groups.items()))
+    series = tuple(
+        _series(part, root) for _, group in sorted(groups.items()) for part in split(group)
+    )
     progress.report(1.0, f"{len(series)} series")
     return Listing(root, series, tuple(ignored))
 
@@ -67,29 +70,43 @@ def _files(root: Path, ignored: list[Ignored], progress: Progress) -> list[Path]
     return found
 
 
-def _series(headers: list[SliceHeader], root: Path) -> Series:
-    reason = refusal(headers, root)
+def _series(group: Group, root: Path) -> Series:
+    headers = list(group.headers)
+    verdict = judge(group, root)
     planes = [header.plane for header in headers if header.plane is not None]
     grid = _Grid()
     if len(planes) == len(headers) and not stack.mixed(planes):
-        slices = stack.stack(planes)
+        size = (headers[0].format.columns, headers[0].format.rows)
+        slices = stack.stack(planes, size)
         headers = [headers[index] for index in slices.order]
         grid = _grid(planes[0], slices)
+    if verdict.reason and verdict.remedy is Remedy.NONE:
+        headers.extend(group.copies)  # of what cannot be read every file is named
+    return _described(headers, grid, group, verdict)
+
+
+def _described(headers: list[SliceHeader], grid: "_Grid", group: Group, verdict: Verdict) -> Series:
     first = headers[0]
+    part = group.part.replace("-", " ")
     return Series(
         uid=first.identity.series_uid,
         modality=first.identity.modality,
-        label=first.identity.label,
+        label=", ".join(filter(None, (first.identity.label, part))),
         size=(first.format.columns, first.format.rows, len(headers)),
         spacing_mm=grid.spacing_mm,
         origin_mm=grid.origin_mm,
         direction=grid.direction,
-        usable=not reason,
-        reason=reason,
+        usable=not verdict.reason,
+        reason=verdict.reason,
         slices=tuple(headers),
         pseudonym=first.identity.pseudonym,
         frame_of_reference=_shared_frame(headers),
         windows=first.windows,
+        part=group.part,
+        remedy=verdict.remedy,
+        notes=verdict.notes,
+        unit="" if is_mr(headers) else "HU",
+        tilt_deg=verdict.tilt_deg,
     )
 
 

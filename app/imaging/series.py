@@ -1,9 +1,20 @@
 """What a folder holds: series, usable or not, and the files that belong to none."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from enum import StrEnum
 from pathlib import Path
+from typing import Any
 
 from app.imaging.header import Point, SliceHeader
+
+
+class Remedy(StrEnum):
+    """What can be done on request with a series that cannot, or need not, be read as it is."""
+
+    NONE = "none"
+    RESAMPLE = "resample"
+    STRAIGHTEN = "straighten"
+    HALVE = "halve"
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,7 +27,7 @@ class Ignored:
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """One DICOM series of a folder.
+    """One series of a folder, or one pass of a series that holds several over the same places.
 
     Attributes:
         uid: SeriesInstanceUID.
@@ -32,6 +43,13 @@ class Series:
         pseudonym: stands for patient and study.
         frame_of_reference: FrameOfReferenceUID; empty where the files do not share one.
         windows: (width, level) pairs of the files [HU].
+        part: which pass of the series, such as "acquisition-2"; empty where it is all of it.
+        remedy: what makes a refused series readable on request, or a usable one better.
+        notes: what a reader should know though it keeps nothing from being read.
+        unit: of the values, "HU"; empty for MR and others without one.
+        tilt_deg: angle between the slices' normal and their stacking direction (gantry tilt);
+            0 below what counts as one.
+        volume_file: the file of a format that holds a whole volume (NIfTI); then no `slices`.
     """
 
     uid: str
@@ -47,20 +65,41 @@ class Series:
     pseudonym: str
     frame_of_reference: str
     windows: tuple[tuple[float, float], ...]
+    part: str = ""
+    remedy: Remedy = Remedy.NONE
+    notes: tuple[str, ...] = ()
+    unit: str = "HU"
+    tilt_deg: float = 0.0
+    volume_file: Path | None = None
+
+    @property
+    def key(self) -> str:
+        """Name of the series in its folder: its UID, with `#part` where it is one pass of it."""
+        return f"{self.uid}#{self.part}" if self.part else self.uid
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """Files of the series, in the order of `slices`."""
-        return tuple(header.path for header in self.slices)
+        """Files of the series, each once, in the order of `slices`."""
+        if self.volume_file is not None:
+            return (self.volume_file,)
+        return tuple(dict.fromkeys(header.path for header in self.slices))
 
 
 @dataclass(frozen=True, slots=True)
 class Listing:
-    """Everything found in a folder."""
+    """Everything found in a folder.
+
+    Attributes:
+        path: what was searched.
+        series: usable or not.
+        ignored: files that belong to none.
+        keeper: holds the files of an unpacked archive for as long as the listing lives.
+    """
 
     path: Path
     series: tuple[Series, ...]
     ignored: tuple[Ignored, ...]
+    keeper: Any = field(default=None, compare=False, repr=False)
 
     @property
     def usable(self) -> tuple[Series, ...]:

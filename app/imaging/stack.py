@@ -1,4 +1,9 @@
-"""Geometry of a stack of slices, from IPP, IOP and PixelSpacing alone (PS3.3 C.7.6.2.1.1)."""
+"""Geometry of a stack of slices, from IPP, IOP and PixelSpacing alone (PS3.3 C.7.6.2.1.1).
+
+Where a file puts a pixel is what equation C.7.6.2.1-1 says with the file's own numbers as they
+stand, rounding of the direction cosines included. A stack may be read as one grid only where the
+grid puts every voxel of every slice within `TOLERANCE_MM` of that.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,31 +14,55 @@ import numpy as np
 from app.core.arrays import FloatArray, frozen
 from app.imaging.header import Plane
 
-ABSOLUTE_MM: Final = 0.01
-"""Slice positions may deviate from even spacing by this much [mm] ..."""
-
-RELATIVE: Final = 0.01
-"""... or by this share of the spacing, whichever is more."""
+TOLERANCE_MM: Final = 0.01
+"""How far a voxel of a grid may lie from where its own file puts it, anywhere in the picture."""
 
 TILT_DEG: Final = 0.1
-"""Angle between slice normal and stacking direction above which a series counts as tilted."""
+"""Angle between slice normal and stacking direction from which a series is said to be tilted."""
 
-_SAME_DIRECTION: Final = 1e-4
+SAME_DIRECTION: Final = 1e-3
+"""Orientations and pixel spacings that differ by more than this belong to different stacks."""
+
+_GAP_SHARE: Final = 0.02
+_HOLE: Final = 1.5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stack:
-    """Slices in the order of their projection on the slice normal.
+    """Slices in the order of their projection on the slice normal, and the grid that fits them.
 
     Attributes:
         order: index of the slice in the input, for each place in the stack, shape (K,).
         positions_mm: IPP in that order, shape (K, 3).
         affine_mm: (i, j, k) -> LPS, shape (4, 4), read-only.
+        off_mm: how far the grid is from each slice's own corners at most [mm], shape (K,).
+        turned_mm: how far the corners of each slice are turned or scaled away from the usual
+            direction and size [mm], shape (K,).
     """
 
     order: tuple[int, ...]
     positions_mm: FloatArray
     affine_mm: FloatArray
+    off_mm: FloatArray
+    turned_mm: FloatArray
+
+    @property
+    def normal(self) -> FloatArray:
+        """Unit normal of the slices, shape (3,)."""
+        return _unit(np.cross(self.affine_mm[:3, 0], self.affine_mm[:3, 1]))
+
+    @property
+    def gaps_mm(self) -> FloatArray:
+        """Distance of each slice to the next along the normal, shape (K - 1,)."""
+        gaps: FloatArray = np.diff(self.positions_mm @ self.normal)
+        return gaps
+
+    @property
+    def tilt_deg(self) -> float:
+        """Angle between the normal and the stacking direction [degrees]; 0 where negligible."""
+        along, drift = _drift(self)
+        angle = float(np.degrees(np.arctan2(drift, along)))
+        return angle if angle > TILT_DEG and drift > 2.0 * TOLERANCE_MM else 0.0
 
 
 def plane_affine(plane: Plane, step: FloatArray) -> FloatArray:
@@ -52,94 +81,164 @@ def plane_affine(plane: Plane, step: FloatArray) -> FloatArray:
 
 def normal(plane: Plane) -> FloatArray:
     """Slice normal: cross product of the row and column directions, unit vector, shape (3,)."""
-    cross = np.cross(plane.orientation[:3], plane.orientation[3:])
-    result: FloatArray = cross / np.linalg.norm(cross)
-    return result
+    return _unit(np.cross(plane.orientation[:3], plane.orientation[3:]))
 
 
-def stack(planes: Sequence[Plane]) -> Stack:
-    """Sort planes along the normal of the first; all must share orientation and spacing."""
+def stack(planes: Sequence[Plane], size: tuple[int, int] = (1, 1)) -> Stack:
+    """Sort planes along the normal of the first, and fit one grid to them.
+
+    Args:
+        planes: of one direction and pixel spacing, see `mixed`.
+        size: columns and rows of the pictures; the grid is held against their corners.
+    """
     positions = np.array([plane.position_mm for plane in planes])
     order = np.argsort(positions @ normal(planes[0]), kind="stable")
-    positions = positions[order]
-    step = normal(planes[0])
-    if len(planes) > 1 and (extent := positions[-1] - positions[0]).any():
-        step = extent / (len(planes) - 1)
-    first = planes[int(order[0])]
-    return Stack(tuple(int(i) for i in order), positions, plane_affine(first, step))
+    ordered = [planes[int(index)] for index in order]
+    corners = _corners(ordered, size)
+    best = _end_to_end(ordered)
+    off = _off(best, corners, size)
+    if len(planes) > 2 and off.max() > TOLERANCE_MM:
+        fitted = _fitted(ordered)
+        if (again := _off(fitted, corners, size)).max() < off.max():
+            best, off = fitted, again
+    in_picture = corners - corners[:, :1]
+    turned_mm = np.linalg.norm(in_picture - np.median(in_picture, axis=0), axis=2).max(axis=1)
+    return Stack(tuple(int(i) for i in order), positions[order], best, off, turned_mm)
+
+
+def _end_to_end(ordered: Sequence[Plane]) -> FloatArray:
+    """Grid from the first slice with the mean step: exact for a stack that is even."""
+    first, last = ordered[0], ordered[-1]
+    step = normal(first)
+    extent = np.subtract(last.position_mm, first.position_mm)
+    if len(ordered) > 1 and extent.any():
+        step = extent / (len(ordered) - 1)
+    return plane_affine(first, step)
+
+
+def _fitted(ordered: Sequence[Plane]) -> FloatArray:
+    """Grid that spreads the rounding of many slices: least squares, then centred."""
+    each = np.array([plane_affine(plane, np.zeros(3))[:3] for plane in ordered])
+    number = np.arange(len(ordered), dtype=np.float64)
+    slope, start = np.polyfit(number, each[:, :, 3], 1)
+    residual = each[:, :, 3] - start - number[:, None] * slope
+    affine = np.eye(4)
+    affine[:3, :2] = (each[:, :, :2].max(axis=0) + each[:, :, :2].min(axis=0)) / 2.0
+    affine[:3, 2] = slope
+    affine[:3, 3] = start + (residual.max(axis=0) + residual.min(axis=0)) / 2.0
+    return frozen(affine, (4, 4), "affine")
+
+
+def _pixels(size: tuple[int, int]) -> FloatArray:
+    columns, rows = max(size[0] - 1, 0), max(size[1] - 1, 0)
+    return np.array([(i, j, 0.0, 1.0) for i in (0, columns) for j in (0, rows)], np.float64)
+
+
+def _corners(ordered: Sequence[Plane], size: tuple[int, int]) -> FloatArray:
+    """Where the files put the corners of their pictures, shape (K, 4, 3)."""
+    each = np.array([plane_affine(plane, np.zeros(3))[:3] for plane in ordered])
+    corners: FloatArray = np.einsum("kab,cb->kca", each, _pixels(size))
+    return corners
+
+
+def _off(affine: FloatArray, corners: FloatArray, size: tuple[int, int]) -> FloatArray:
+    """Largest distance from the grid over each picture (it is at a corner), shape (K,)."""
+    slices = np.arange(len(corners))[:, None, None] * affine[:3, 2]
+    grid = _pixels(size) @ affine[:3].T + slices
+    distance: FloatArray = np.linalg.norm(corners - grid, axis=2).max(axis=1)
+    return distance
+
+
+def same_plane(a: Plane, b: Plane) -> bool:
+    """Whether two planes may belong to one stack: the same direction and pixel spacing."""
+    if a.orientation == b.orientation and a.pixel_spacing_mm == b.pixel_spacing_mm:
+        return True
+    turn = np.abs(np.subtract(a.orientation, b.orientation)).max()
+    scale = np.abs(np.divide(a.pixel_spacing_mm, b.pixel_spacing_mm) - 1.0).max()
+    return bool(max(turn, scale) <= SAME_DIRECTION)
 
 
 def mixed(planes: Sequence[Plane]) -> str:
     """Why planes cannot share one stack: another orientation or pixel spacing; "" if they can."""
     first = planes[0]
     for plane in planes:
-        if plane.orientation == first.orientation and (
-            plane.pixel_spacing_mm == first.pixel_spacing_mm
-        ):
+        if same_plane(plane, first):
             continue
-        turn = np.abs(np.subtract(plane.orientation, first.orientation)).max()
-        if turn > _SAME_DIRECTION:
+        if np.abs(np.subtract(plane.orientation, first.orientation)).max() > SAME_DIRECTION:
             return f"mixed orientations: {first.orientation} and {plane.orientation}"
-        scale = np.divide(plane.pixel_spacing_mm, first.pixel_spacing_mm)
-        if np.abs(scale - 1.0).max() > _SAME_DIRECTION:
-            return f"mixed pixel spacings: {first.pixel_spacing_mm} and {plane.pixel_spacing_mm} mm"
+        return f"mixed pixel spacings: {first.pixel_spacing_mm} and {plane.pixel_spacing_mm} mm"
     return ""
 
 
+def doubled(slices: Stack, names: Sequence[str]) -> str:
+    """Which slices lie at the same place; "" if none do."""
+    gaps = slices.gaps_mm
+    k = int(np.argmin(gaps))
+    if gaps[k] >= TOLERANCE_MM:
+        return ""
+    count = int((gaps < TOLERANCE_MM).sum())
+    more = f" (and {count - 1} more)" if count > 1 else ""
+    return (
+        f"doubled slices: {names[k]} and {names[k + 1]} lie at the same position and differ{more}"
+    )
+
+
+def turned(slices: Stack, names: Sequence[str]) -> str:
+    """Why slices do not lie side by side: each turned or scaled a little; "" if they do.
+
+    Nothing mends that: between slices that are not parallel there is no place to interpolate at.
+    """
+    if slices.off_mm.max() <= TOLERANCE_MM:
+        return ""
+    k = int(np.argmax(slices.turned_mm))
+    if slices.turned_mm[k] <= TOLERANCE_MM:
+        return ""
+    return (
+        f"slices turned against each other: the corners of {names[k]} lie "
+        f"{slices.turned_mm[k]:.3f} mm off (limit {TOLERANCE_MM:g} mm)"
+    )
+
+
 def irregular(slices: Stack, names: Sequence[str]) -> str:
-    """Why the stack is no regular grid: doubled, tilted, gap, uneven; "" if it is one.
+    """Why the stack is no even grid though it can be resampled to one; "" if it is one.
 
     Args:
         slices: the sorted stack, of two slices at least.
         names: file names in the order of the stack, for the message.
     """
-    plane_normal = _unit(np.cross(slices.affine_mm[:3, 0], slices.affine_mm[:3, 1]))
-    gaps = np.diff(slices.positions_mm @ plane_normal)
-    return (
-        _doubled(gaps, names)
-        or _tilted(slices, plane_normal)
-        or _missing(gaps, names)
-        or _uneven(slices, gaps, names)
-    )
+    return _missing(slices.gaps_mm, names) or _uneven(slices, names)
 
 
-def tolerance_mm(spacing_mm: float) -> float:
-    """Deviation from even spacing that is still accepted [mm]."""
-    return max(ABSOLUTE_MM, RELATIVE * spacing_mm)
+def holes(gaps: FloatArray) -> tuple[int, ...]:
+    """Gaps that are no spacing but missing slices: half as wide again as both their neighbours.
+
+    Args:
+        gaps: distance of each slice to the next [mm], shape (K - 1,).
+    """
+    found = []
+    for k in range(len(gaps)):
+        beside = [float(gaps[n]) for n in (k - 1, k + 1) if 0 <= n < len(gaps)]
+        if beside and gaps[k] >= _HOLE * max(beside):
+            found.append(k)
+    return tuple(found)
 
 
 def _unit(vector: FloatArray) -> FloatArray:
     return vector / np.linalg.norm(vector)
 
 
-def _doubled(gaps: FloatArray, names: Sequence[str]) -> str:
-    k = int(np.argmin(gaps))
-    if gaps[k] >= ABSOLUTE_MM:
-        return ""
-    count = int((gaps < ABSOLUTE_MM).sum())
-    more = f" (and {count - 1} more)" if count > 1 else ""
-    return f"doubled slices: {names[k]} and {names[k + 1]} lie at the same position{more}"
-
-
-def _tilted(slices: Stack, plane_normal: FloatArray) -> str:
+def _drift(slices: Stack) -> tuple[float, float]:
+    """Way from the first slice to the last: along the normal, and beside it [mm]."""
     extent = slices.positions_mm[-1] - slices.positions_mm[0]
-    along = float(extent @ plane_normal)
-    drift = float(np.linalg.norm(extent - along * plane_normal))
-    angle = float(np.degrees(np.arctan2(drift, along)))
-    if angle <= TILT_DEG or drift <= 2.0 * ABSOLUTE_MM:
-        return ""
-    return (
-        f"tilted: the slices stack up at {angle:.2f} deg to their normal (gantry tilt; limit "
-        f"{TILT_DEG} deg), so that each lies {drift / (len(slices.order) - 1):.3f} mm "
-        "beside the one before"
-    )
+    along = float(extent @ slices.normal)
+    return along, float(np.linalg.norm(extent - along * slices.normal))
 
 
 def _missing(gaps: FloatArray, names: Sequence[str]) -> str:
     usual = float(np.sort(gaps)[(len(gaps) - 1) // 2])  # lower median: of two gaps the smaller
     for k, gap in enumerate(gaps):
         times = round(float(gap) / usual)
-        if times >= 2 and abs(gap - times * usual) <= times * tolerance_mm(usual):
+        if times >= 2 and abs(gap - times * usual) <= times * _GAP_SHARE * usual:
             plural = "slice is" if times == 2 else "slices are"
             return (
                 f"gap: {times - 1} {plural} missing between {names[k]} and {names[k + 1]} "
@@ -148,16 +247,12 @@ def _missing(gaps: FloatArray, names: Sequence[str]) -> str:
     return ""
 
 
-def _uneven(slices: Stack, gaps: FloatArray, names: Sequence[str]) -> str:
-    step = slices.affine_mm[:3, 2]
-    spacing = float(np.linalg.norm(step))
-    even = slices.positions_mm[0] + np.arange(len(slices.order))[:, None] * step
-    off = np.linalg.norm(slices.positions_mm - even, axis=1)
-    limit = tolerance_mm(spacing)
-    if off.max() <= limit and np.abs(gaps - spacing).max() <= limit:
+def _uneven(slices: Stack, names: Sequence[str]) -> str:
+    if slices.off_mm.max() <= TOLERANCE_MM:
         return ""
+    gaps = slices.gaps_mm
     return (
         f"uneven spacing: slices {gaps.min():.3f} to {gaps.max():.3f} mm apart, up to "
-        f"{off.max():.3f} mm off an even grid at {names[int(np.argmax(off))]} "
-        f"(limit {limit:.3f} mm)"
+        f"{slices.off_mm.max():.3f} mm off an even grid at {names[int(np.argmax(slices.off_mm))]} "
+        f"(limit {TOLERANCE_MM:g} mm)"
     )

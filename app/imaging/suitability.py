@@ -1,33 +1,63 @@
-"""Why a group of files is not a CT series that a volume can be made of."""
+"""Why a group of images is not a series that a volume can be made of, and what can be done."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from app.imaging import stack
-from app.imaging.header import SliceHeader
+from app.imaging import memory, stack
+from app.imaging.acquisitions import SECONDARY_CAPTURE, Group
+from app.imaging.header import MULTI_FRAME, SliceHeader
+from app.imaging.series import Remedy
 
 _CT_IMAGE: Final = "1.2.840.10008.5.1.4.1.1.2"
-_MULTI_FRAME_CT: Final = (
-    "1.2.840.10008.5.1.4.1.1.2.1",  # enhanced
-    "1.2.840.10008.5.1.4.1.1.2.2",  # legacy converted enhanced
-)
-_SECONDARY_CAPTURE: Final = "1.2.840.10008.5.1.4.1.1.7"
+_MR_IMAGE: Final = "1.2.840.10008.5.1.4.1.1.4"
+PRACTICE: Final = "MR, for practice only: its values are no Hounsfield units"
+
+_NOT_UNIT: Final = 1e-5
 
 Headers = Sequence[SliceHeader]
 
 
-def refusal(headers: Headers, root: Path) -> str:
-    """First reason against reading these files as one CT volume, in plain words; "" if none.
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What came of looking at a group.
+
+    Attributes:
+        reason: first reason against reading it as a volume, in plain words; empty if none.
+        remedy: what would make it readable, or better, on request.
+        notes: what should be known of it all the same.
+        tilt_deg: gantry tilt [degrees].
+    """
+
+    reason: str
+    remedy: Remedy = Remedy.NONE
+    notes: tuple[str, ...] = ()
+    tilt_deg: float = 0.0
+
+
+def judge(group: Group, root: Path) -> Verdict:
+    """Whether these images make a volume.
 
     Args:
-        headers: every file of one SeriesInstanceUID.
+        group: images of one series.
         root: the folder that was searched; files are named relative to it.
     """
-    for judge in _JUDGES:
-        if reason := judge(headers, root):
-            return reason
-    return ""
+    headers = group.headers
+    for wrong in _JUDGES:
+        if reason := wrong(headers, root):
+            return Verdict(reason, notes=group.notes)
+    slices = _stack(headers)
+    tilt = slices.tilt_deg
+    names = [_name(headers[index], root) for index in slices.order]
+    if reason := stack.doubled(slices, names) or stack.turned(slices, names):
+        return Verdict(reason, notes=group.notes, tilt_deg=tilt)
+    notes = (*group.notes, *_notes(headers, tilt))
+    if reason := stack.irregular(slices, names):
+        return Verdict(reason, Remedy.RESAMPLE, notes, tilt)
+    if reason := memory.need(headers).reason:
+        return Verdict(reason, Remedy.HALVE, notes, tilt)
+    return Verdict("", Remedy.STRAIGHTEN if tilt else Remedy.NONE, notes, tilt)
 
 
 def display_name(header: SliceHeader, root: Path) -> str:
@@ -38,32 +68,68 @@ def display_name(header: SliceHeader, root: Path) -> str:
         return str(header.path)
 
 
+def is_mr(headers: Headers) -> bool:
+    """Whether all images are MR."""
+    return all(header.identity.modality == "MR" for header in headers)
+
+
+def _name(header: SliceHeader, root: Path) -> str:
+    name = display_name(header, root)
+    return f"{name} frame {header.frame + 1}" if header.format.frames > 1 else name
+
+
+def _stack(headers: Headers) -> stack.Stack:
+    planes = [header.plane for header in headers if header.plane]
+    return stack.stack(planes, (headers[0].format.columns, headers[0].format.rows))
+
+
+def _notes(headers: Headers, tilt_deg: float) -> list[str]:
+    notes = [PRACTICE] if is_mr(headers) else []
+    if tilt_deg:
+        notes.append(f"gantry tilt {tilt_deg:.1f}°")
+    plane = headers[0].plane
+    if plane is not None:
+        row, column = plane.orientation[:3], plane.orientation[3:]
+        off = max(abs(sum(v * v for v in vector) - 1.0) for vector in (row, column))
+        if off > 2.0 * _NOT_UNIT:
+            notes.append("direction cosines not of length one: taken as they are written")
+    return notes
+
+
 def _first(headers: Headers, root: Path, wrong: Callable[[SliceHeader], str]) -> str:
     """First complaint over all files, with the file and how many more there are."""
     found = [(header, reason) for header in headers if (reason := wrong(header))]
     if not found:
         return ""
     more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
-    return f"{found[0][1]}: {display_name(found[0][0], root)}{more}"
+    return f"{found[0][1]}: {_name(found[0][0], root)}{more}"
 
 
 def _modality(headers: Headers, root: Path) -> str:
-    others = sorted({header.identity.modality or "none given" for header in headers} - {"CT"})
+    found = {header.identity.modality or "none given" for header in headers}
+    if found == {"MR"}:
+        return ""
+    others = sorted(found - {"CT"})
     return f"not CT (modality {', '.join(others)})" if others else ""
 
 
 def _object(header: SliceHeader) -> str:
     kind, image_type = header.identity.sop_class, header.identity.image_type
-    if kind in _MULTI_FRAME_CT or header.format.frames > 1:
-        frames = header.format.frames
-        return f"enhanced multi-frame CT ({frames} frames in a file), which is not read yet"
+    modality, frames = header.identity.modality, header.format.frames
+    if header.obstacle:
+        return header.obstacle
     if header.format.samples > 1 or header.format.photometric not in ("MONOCHROME1", "MONOCHROME2"):
         what = header.format.photometric or "no photometric interpretation"
         return f"not a CT image but a picture ({what}, secondary capture)"
-    if kind.startswith(_SECONDARY_CAPTURE):
+    if kind.startswith(SECONDARY_CAPTURE):
         return "secondary capture, not an original CT image"
-    if kind != _CT_IMAGE:
-        return f"not a CT image (SOP class {kind or 'missing'})"
+    if kind in MULTI_FRAME and modality in MULTI_FRAME[kind]:
+        return ""
+    if frames > 1:
+        return f"multi-frame file ({frames} frames) that does not say where each of them lies"
+    if kind != (_MR_IMAGE if modality == "MR" else _CT_IMAGE):
+        what = "not CT but MR, and not an MR image" if modality == "MR" else "not a CT image"
+        return f"{what} (SOP class {kind or 'missing'})"
     if "LOCALIZER" in image_type:
         return "localizer (scout view), not a volume"
     return ""
@@ -106,12 +172,8 @@ def _mixed(headers: Headers, root: Path) -> str:
     return stack.mixed([header.plane for header in headers if header.plane])
 
 
-def _geometry(headers: Headers, root: Path) -> str:
-    if len(headers) < 2:
-        return "a single slice; a volume needs at least two"
-    slices = stack.stack([header.plane for header in headers if header.plane])
-    names = [display_name(headers[index], root) for index in slices.order]
-    return stack.irregular(slices, names)
+def _single(headers: Headers, root: Path) -> str:
+    return "a single slice; a volume needs at least two" if len(headers) < 2 else ""
 
 
-_JUDGES: Final = (_modality, _wrong_object, _damaged, _wrong_pixels, _mixed, _geometry)
+_JUDGES: Final = (_modality, _wrong_object, _damaged, _wrong_pixels, _mixed, _single)

@@ -13,6 +13,9 @@ from app.core.units import MILLIMETRE
 from app.imaging.interpolation import Interpolation, interpolate
 from app.imaging.series import Series
 
+SHEAR_MM = 0.01
+"""Drift of the slices over the whole volume from which it counts as sheared [mm]."""
+
 
 @dataclass(frozen=True, eq=False)
 class Volume:
@@ -23,6 +26,11 @@ class Volume:
         affine_mm: voxel (i, j, k) -> patient LPS [mm], shape (4, 4), read-only. Integer indices
             are voxel centres.
         series: where it comes from.
+        made: what was done to the files' own values to get here, in words; empty where nothing was.
+        unit: of the values, "HU"; empty for MR and others without one.
+
+    The axes of i and j are perpendicular but for what the files themselves say; that of k leaves
+    their normal where the gantry was tilted (`tilt_deg`).
 
     Raises:
         NumericalError: if the affine is not finite or cannot be inverted.
@@ -31,6 +39,8 @@ class Volume:
     hu: NDArray[Any]
     affine_mm: FloatArray
     series: Series
+    made: tuple[str, ...] = ()
+    unit: str = "HU"
 
     def __post_init__(self) -> None:
         affine = frozen(self.affine_mm, (4, 4), "affine_mm")
@@ -52,8 +62,27 @@ class Volume:
 
     @cached_property
     def direction(self) -> FloatArray:
-        """Unit vectors of i, j and k in LPS as columns, shape (3, 3)."""
+        """Unit vectors of i, j, k in LPS as columns, shape (3, 3); no rotation where sheared."""
         return frozen(self.affine_mm[:3, :3] / self.spacing_mm)
+
+    @cached_property
+    def tilt_deg(self) -> float:
+        """Angle between the slices' normal and the direction in which they stack [degrees]."""
+        normal = np.cross(self.affine_mm[:3, 0], self.affine_mm[:3, 1])
+        along = abs(float(normal @ self.affine_mm[:3, 2]))
+        beside = float(np.linalg.norm(np.cross(normal, self.affine_mm[:3, 2])))
+        return float(np.degrees(np.arctan2(beside, along)))
+
+    @property
+    def is_sheared(self) -> bool:
+        """Whether the slices drift by more than `SHEAR_MM` beside their normal."""
+        length = float(self.spacing_mm[2]) * max(self.size[2] - 1, 1)
+        return float(np.sin(np.radians(self.tilt_deg))) * length > SHEAR_MM
+
+    @property
+    def is_left_handed(self) -> bool:
+        """Whether i, j, k form a left-handed frame, as some formats other than DICOM allow."""
+        return float(np.linalg.det(self.affine_mm[:3, :3])) < 0.0
 
     @property
     def origin_mm(self) -> FloatArray:

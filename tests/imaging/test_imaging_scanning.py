@@ -104,9 +104,12 @@ def test_rounding_of_positions_is_no_unevenness(tmp_path):
     assert scan_folder(tmp_path).usable
 
 
-def test_gantry_tilt_is_refused_with_its_angle(tmp_path):
+def test_gantry_tilt_is_kept_and_said_with_its_angle(tmp_path):
     Slices(shear=0.25).write(tmp_path)
-    assert "tilted: the slices stack up at 14.04 deg" in reason(tmp_path)
+    (series,) = scan_folder(tmp_path).series
+    assert series.usable
+    assert series.notes == ("gantry tilt 14.0°",)
+    assert series.remedy == "straighten"
 
 
 @pytest.mark.parametrize(
@@ -174,13 +177,15 @@ def test_the_study_of_a_phantom_is_sorted_out(shared_data):
 
 
 def test_tilt_and_gap_of_real_series_are_never_guessed(shared_data):
-    reasons = sorted(
-        series.reason for series in scan_folder(shared_data / "ct_must_not_guess").series
-    )
-    assert reasons[0].startswith("gap: 1 slice is missing")
-    assert reasons[1].startswith("tilted: the slices stack up at 14.00 deg")
+    series = sorted(scan_folder(shared_data / "ct_must_not_guess").series, key=lambda s: s.usable)
+    assert series[0].reason.startswith("gap: 1 slice is missing")
+    assert (series[0].size[2], series[0].part, series[0].remedy) == (4, "", "resample")
+    assert series[1].notes == ("gantry tilt 14.0°",)
+
+
+def test_a_perfusion_map_in_an_enhanced_file_is_refused_by_that_name(shared_data):
     (enhanced,) = scan_folder(shared_data / "ct_enhanced").series
-    assert "multi-frame" in enhanced.reason
+    assert enhanced.reason.startswith("perfusion map (RCBF, ml/100ml/s), no Hounsfield units")
 
 
 def test_a_pixel_of_the_tilted_real_series_follows_the_standard(shared_data):
