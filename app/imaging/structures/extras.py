@@ -1,0 +1,27 @@
+"""Packages of extras, imported when a file of their kind is met."""
+
+from importlib import import_module
+from typing import Any
+
+from app.imaging.structures.errors import ExtraMissingError
+
+_EXTRAS = {"highdicom": "structures", "nrrd": "structures", "nibabel": "nifti"}
+
+
+def extra(module: str, what: str) -> Any:
+    """Import a package of an extra.
+
+    Args:
+        module: its name.
+        what: what needs it, for the message.
+
+    Raises:
+        ExtraMissingError: if it is not installed; names the extra.
+    """
+    try:
+        return import_module(module)
+    except ImportError as error:
+        name = _EXTRAS[module]
+        raise ExtraMissingError(
+            f"{what} need the extra {name}: pip install 'acus[{name}]'"
+        ) from error

@@ -1,0 +1,192 @@
+"""From the grid of a file onto the grid of a CT, by the geometry of both and nothing else."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import permutations, product
+
+import numpy as np
+from scipy import ndimage
+
+from app.core.arrays import FloatArray
+from app.imaging.structures.errors import FrameOfReferenceError, StructureError
+from app.imaging.structures.structure import (
+    COLOURS,
+    Colour,
+    Kind,
+    Mask,
+    Structure,
+    StructureSet,
+    cropped,
+    free_name,
+)
+from app.imaging.volume import Volume
+
+SAME_MM = 0.02
+"""Grids whose voxels lie this near to each other are the same."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Labelled:
+    """What a file holds of one structure, on the file's own grid.
+
+    Attributes:
+        name, kind, colour, warn_mm: as the file says; `colour` None where it says nothing.
+        mask: shape (K, J, I).
+        affine_mm: voxel (i, j, k) -> LPS [mm], shape (4, 4).
+    """
+
+    name: str
+    mask: Mask
+    affine_mm: FloatArray
+    kind: Kind | None = None
+    colour: Colour | None = None
+    warn_mm: float | None = None
+
+
+def place(
+    found: list[Labelled], frame_of_reference: str, volume: Volume, notes: tuple[str, ...] = ()
+) -> StructureSet:
+    """Put structures of a file onto a CT.
+
+    Args:
+        found: on grids of their own.
+        frame_of_reference: FrameOfReferenceUID of the file; empty where it carries none.
+        volume: the CT.
+        notes: what the reader has to say.
+
+    Raises:
+        FrameOfReferenceError: if file and CT name different ones.
+        StructureError: if none of the structures has a voxel in the CT.
+    """
+    own = volume.series.frame_of_reference
+    if frame_of_reference and own and frame_of_reference != own:
+        raise FrameOfReferenceError(
+            "the structures were drawn on another frame of reference "
+            f"(…{frame_of_reference[-12:]}) than that of this CT (…{own[-12:]}): "
+            "open the CT that they belong to"
+        )
+    said = list(notes)
+    if not frame_of_reference:
+        said.append("the file names no frame of reference: placed by its coordinates alone")
+    placed = StructureSet()
+    for number, labelled in enumerate(found):
+        mask, note = _onto(labelled, volume)
+        if note:
+            said.append(note)
+        if mask is None or not mask.any():
+            continue
+        name = free_name(_clean(labelled.name, number), [one.name for one in placed])
+        kind = labelled.kind or guessed_kind(name)
+        colour = labelled.colour or COLOURS[number % len(COLOURS)]
+        structure = Structure.of(name, mask, volume, kind, colour, labelled.warn_mm)
+        placed = placed.with_one(structure)
+    if found and not len(placed):
+        raise StructureError(
+            "none of the structures in the file lies in this CT: they belong to another patient "
+            "or another scan"
+        )
+    return StructureSet(placed.structures, tuple(said))
+
+
+def _clean(name: str, number: int) -> str:
+    return " ".join("".join(c if c.isprintable() else " " for c in name).split())[:60] or (
+        f"structure {number + 1}"
+    )
+
+
+def _onto(labelled: Labelled, volume: Volume) -> tuple[Mask | None, str]:
+    """Mask on the grid of the CT, None where nothing of it lies there, and what was lost."""
+    if not labelled.mask.any():
+        return None, f"{labelled.name} is empty in the file and was left out"
+    box, corner = cropped(labelled.mask)
+    affine = np.array(labelled.affine_mm, np.float64)
+    affine[:3, 3] += affine[:3, :3] @ np.asarray(corner, np.float64)
+    to_volume = volume.inverse_mm @ affine  # voxel of the box -> voxel of the CT
+    exact = _exact(box, to_volume, volume)
+    mask = exact if exact is not None else _resampled(box, to_volume, volume)
+    if mask is None or not mask.any():
+        return None, f"{labelled.name} lies outside this CT and was left out"
+    there = abs(np.linalg.det(affine[:3, :3])) * box.sum()
+    here = abs(np.linalg.det(volume.affine_mm[:3, :3])) * mask.sum()
+    at = np.argwhere(box)[:, ::-1] @ to_volume[:3, :3].T + to_volume[:3, 3]
+    outside = ((at < -0.5) | (at > np.array(volume.size) - 0.5)).any(axis=1).mean()
+    if outside > 0.005:
+        return mask, f"{100.0 * outside:.0f} % of {labelled.name} lie outside this CT"
+    if exact is None and abs(here / there - 1.0) > 0.1:
+        return mask, (
+            f"{labelled.name} has {here / 1000.0:.2f} ml on the grid of this CT, "
+            f"{there / 1000.0:.2f} ml in the file"
+        )
+    return mask, ""
+
+
+def _exact(box: Mask, to_volume: FloatArray, volume: Volume) -> Mask | None:
+    """Return the mask itself where the grids differ in order and direction of the axes only."""
+    linear, offset = to_volume[:3, :3], to_volume[:3, 3]
+    turn = np.rint(linear)
+    if not any(np.array_equal(abs(turn), np.eye(3)[list(p)]) for p in permutations(range(3))):
+        return None
+    size = np.array(box.shape[::-1])
+    ends = np.array(list(product(*((0, n - 1) for n in size))), np.float64)
+    miss = ends @ (linear - turn).T + offset - np.rint(offset)
+    if (np.abs(miss) * volume.spacing_mm).max() > SAME_MM:
+        return None
+    ijk = np.argwhere(box)[:, ::-1] @ turn.T.astype(np.intp) + np.rint(offset).astype(np.intp)
+    ijk = ijk[((ijk >= 0) & (ijk < np.array(volume.size))).all(axis=1)]
+    mask = np.zeros(volume.hu.shape, bool)
+    mask[ijk[:, 2], ijk[:, 1], ijk[:, 0]] = True
+    return mask
+
+
+def _resampled(box: Mask, to_volume: FloatArray, volume: Volume) -> Mask | None:
+    """Voxels of the CT of which at least half lies inside, or that hold a whole thin part."""
+    size = np.array(box.shape[::-1])
+    corners = np.array(list(np.ndindex(2, 2, 2))) * size - 0.5
+    reach = corners @ to_volume[:3, :3].T + to_volume[:3, 3]
+    low = np.maximum(np.floor(reach.min(axis=0)).astype(int), 0)
+    high = np.minimum(np.ceil(reach.max(axis=0)).astype(int) + 1, volume.size)
+    if (high <= low).any():
+        return None
+    flip = np.eye(3)[::-1]
+    back = np.linalg.inv(to_volume)
+    values = np.pad(box.astype(np.float32), 1)
+    # a CT coarser than the file: the mean over a voxel, not the one point in its middle
+    half = np.rint((np.abs(back[:3, :3]).sum(axis=1)[::-1] - 1.0) / 2.0).astype(int).clip(0)
+    values = ndimage.uniform_filter(
+        np.pad(values, [(int(h), int(h)) for h in half]),
+        tuple(int(2 * h + 1) for h in half),
+        mode="constant",
+    )
+    offset = (back[:3, :3] @ low + back[:3, 3])[::-1] + 1.0 + half
+    share = ndimage.affine_transform(
+        values, flip @ back[:3, :3] @ flip, offset, output_shape=tuple((high - low)[::-1]), order=1
+    )
+    mask = np.zeros(volume.hu.shape, bool)
+    inside = share >= 0.5
+    if not inside.any():
+        inside = (share > 0.0) & (share >= share.max())
+    mask[low[2] : high[2], low[1] : high[1], low[0] : high[0]] = inside
+    return mask
+
+
+_WORDS = {
+    Kind.TARGET: ("lesion", "tumor", "tumour", "target", "gtv", "ctv", "ptv", "nodule", "metasta",
+                  "cyst", "mass"),
+    Kind.VESSEL: ("vessel", "aort", "vena", "arter", "vein", "portal", "caval", "cava"),
+    Kind.BONE: ("rib", "bone", "vertebra", "spine", "sternum", "pelvis", "sacrum", "femur",
+                "scapula", "clavic", "humer", "costa"),
+    Kind.RISK: ("lung", "heart", "bowel", "gut", "colon", "duodenum", "stomach", "kidney", "nerve",
+                "spleen", "pancreas", "gall", "oesoph", "esoph", "trachea", "bronch", "spinal",
+                "cord", "bladder", "ureter", "pleura", "diaphragm", "avoid", "risk"),
+}  # fmt: skip
+
+
+def guessed_kind(name: str) -> Kind:
+    """Kind that a name speaks for; `other` where it says nothing. The user can change it."""
+    lower = name.lower()
+    for kind in (Kind.TARGET, Kind.RISK, Kind.VESSEL, Kind.BONE):
+        words = _WORDS[kind]
+        if any(lower.startswith(word) or f" {word}" in lower.replace("_", " ") for word in words):
+            return kind
+    return Kind.OTHER

@@ -1,0 +1,203 @@
+"""Segmentations of 3D Slicer, `.seg.nrrd`: label maps in layers, one dictionary of segments.
+
+Keys and their meaning as Slicer's `vtkMRMLSegmentationStorageNode` writes them.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray
+from app.imaging.structures.errors import StructureFileError
+from app.imaging.structures.extras import extra
+from app.imaging.structures.placing import Labelled
+from app.imaging.structures.structure import Colour, Kind, StructureSet
+from app.imaging.volume import Volume
+
+LARGEST = 2_000_000_000
+"""Most voxels that a file may claim."""
+
+_SPACES = {
+    "left-posterior-superior": (1.0, 1.0, 1.0), "lps": (1.0, 1.0, 1.0),
+    "right-anterior-superior": (-1.0, -1.0, 1.0), "ras": (-1.0, -1.0, 1.0),
+    "left-anterior-superior": (1.0, -1.0, 1.0), "las": (1.0, -1.0, 1.0),
+}  # fmt: skip
+
+
+def read_nrrd(path: Path) -> list[Labelled]:
+    """Read the segments of a `.seg.nrrd` file, or the labels of a plain label map.
+
+    Raises:
+        StructureFileError: if the file is damaged, has no place in space, or is no label map.
+        ExtraMissingError: without the extra `structures`.
+    """
+    nrrd = extra("nrrd", ".seg.nrrd files")
+    try:
+        with path.open("rb") as file:
+            header = nrrd.read_header(file)
+            _check_size(header, path)
+            values = nrrd.read_data(header, file, str(path), index_order="F")
+    except StructureFileError:
+        raise
+    except Exception as error:  # pynrrd raises whatever the bytes lead it to
+        raise StructureFileError(f"{path.name} cannot be read as NRRD: {error}") from error
+    if values.dtype.kind not in "iub":
+        raise StructureFileError(
+            f"{path.name} holds {values.dtype} values; a label map holds whole numbers"
+        )
+    affine, layers = _geometry(header, values, path)
+    return _segments(header, layers, affine, path)
+
+
+def _check_size(header: Any, path: Path) -> None:
+    sizes = [int(n) for n in header.get("sizes", [])]
+    if header.get("data file") or header.get("datafile"):
+        raise StructureFileError(
+            f"{path.name} keeps its data in other files; only attached data are read"
+        )
+    if len(sizes) not in (3, 4) or min(sizes) < 1 or np.prod(sizes, dtype=np.float64) > LARGEST:
+        raise StructureFileError(
+            f"{path.name} has sizes {sizes}; three of a label map, and layers, are read"
+        )
+
+
+def _geometry(header: Any, values: NDArray[Any], path: Path) -> tuple[FloatArray, NDArray[Any]]:
+    """Affine voxel -> LPS [mm], and the layers, shape (n, K, J, I)."""
+    space = str(header.get("space", "")).lower()
+    signs = _SPACES.get(space)
+    directions = np.asarray(header.get("space directions", ()), np.float64)
+    origin = np.asarray(header.get("space origin", ()), np.float64)
+    if signs is None or directions.shape != (values.ndim, 3) or origin.shape != (3,):
+        raise StructureFileError(
+            f"{path.name} does not say where it lies: space {space or 'missing'!r}, "
+            f"{directions.shape} directions; left-posterior-superior or its like is needed"
+        )
+    spatial = np.isfinite(directions).all(axis=1)
+    if spatial.sum() != 3 or not np.isfinite(origin).all():
+        raise StructureFileError(f"{path.name} has {spatial.sum()} axes in space; 3 are needed")
+    if values.ndim == 4:
+        values = np.moveaxis(values, int(np.flatnonzero(~spatial)[0]), 0)
+    else:
+        values = values[None]
+    affine = np.eye(4)
+    affine[:3, :3] = (directions[spatial] * signs).T
+    affine[:3, 3] = origin * signs
+    if abs(np.linalg.det(affine[:3, :3])) < 1e-9:
+        raise StructureFileError(f"{path.name}: its axes span no volume")
+    return affine, values.transpose(0, 3, 2, 1)
+
+
+def _segments(header: Any, layers: NDArray[Any], affine: FloatArray, path: Path) -> list[Labelled]:
+    numbers = sorted(int(m[1]) for key in header if (m := re.fullmatch(r"Segment(\d+)_ID", key)))
+    if not numbers:
+        labels = np.unique(layers[0])
+        if len(labels) > 257:
+            raise StructureFileError(f"{path.name} holds {len(labels)} labels: not a label map")
+        return [Labelled(f"label {n}", layers[0] == n, affine) for n in labels.tolist() if n]
+    found = []
+    for number in numbers:
+
+        def value(key: str, number: int = number, default: str = "") -> str:
+            return str(header.get(f"Segment{number}_{key}", default))
+
+        try:
+            layer, label = int(value("Layer", default="0")), int(value("LabelValue", default="1"))
+        except ValueError as error:
+            raise StructureFileError(f"{path.name}, segment {number}: {error}") from error
+        if not 0 <= layer < len(layers):
+            raise StructureFileError(
+                f"{path.name}, segment {number}: layer {layer} of {len(layers)}"
+            )
+        kind, warn = _tags(value("Tags"))
+        name = value("Name") or f"segment {number + 1}"
+        found.append(Labelled(name, layers[layer] == label, affine, kind, _colour(value("Color")),
+                              warn))  # fmt: skip
+    return found
+
+
+def _colour(text: str) -> Colour | None:
+    try:
+        r, g, b = (round(255 * min(1.0, max(0.0, float(part)))) for part in text.split())
+    except (ValueError, OverflowError):
+        return None
+    return r, g, b
+
+
+def _tags(text: str) -> tuple[Kind | None, float | None]:
+    tags = dict(tag.split(":", 1) for tag in text.split("|") if ":" in tag)
+    kind = tags.get("Acus.Kind", "")
+    try:
+        warn = float(tags["Acus.WarnMm"])
+    except (KeyError, ValueError):
+        warn = -1.0
+    return (
+        Kind(kind) if kind in {k.value for k in Kind} else None,
+        warn if 0.0 <= warn <= 50.0 else None,
+    )
+
+
+def write_nrrd(path: Path, structures: StructureSet, volume: Volume) -> None:
+    """Write structures as a `.seg.nrrd` on the grid of their CT; ones that overlap in layers.
+
+    Raises:
+        StructureFileError: if there is nothing to write, or it cannot be written.
+        ExtraMissingError: without the extra `structures`.
+    """
+    nrrd = extra("nrrd", ".seg.nrrd files")
+    if not len(structures):
+        raise StructureFileError("there are no structures to write")
+    layers: list[NDArray[np.uint8]] = []
+    header: dict[str, Any] = {}
+    for number, structure in enumerate(structures):
+        mask = structure.full(volume.hu.shape)
+        fits = [n for n, known in enumerate(layers) if not known[mask].any()]
+        if not fits:
+            layers.append(np.zeros(volume.hu.shape, np.uint8))
+        layer = fits[0] if fits else len(layers) - 1
+        label = int(layers[layer].max()) + 1
+        layers[layer][mask] = label
+        i, j, k = structure.corner
+        depth, height, width = structure.mask.shape
+        extent = (i, i + width - 1, j, j + height - 1, k, k + depth - 1)
+        values = {
+            "ID": f"Segment_{number + 1}", "Name": structure.name, "NameAutoGenerated": "0",
+            "Color": " ".join(f"{c / 255:.6g}" for c in structure.colour),
+            "ColorAutoGenerated": "0", "Extent": " ".join(map(str, extent)),
+            "LabelValue": str(label), "Layer": str(layer),
+            "Tags": f"Acus.Kind:{structure.kind}|Acus.WarnMm:{structure.warn_mm:g}|",
+        }  # fmt: skip
+        header |= {f"Segment{number}_{key}": value for key, value in values.items()}
+    _write(nrrd, path, layers, header, volume)
+
+
+def _write(
+    nrrd: Any, path: Path, layers: list[NDArray[np.uint8]], header: dict[str, Any], volume: Volume
+) -> None:
+    directions = [column.tolist() for column in volume.affine_mm[:3, :3].T]
+    values = layers[0].T if len(layers) == 1 else np.stack([layer.T for layer in layers])
+    if len(layers) > 1:
+        directions.insert(0, [np.nan] * 3)
+    header |= {
+        "space": "left-posterior-superior",
+        "space directions": np.array(directions),
+        "space origin": volume.origin_mm,
+        "kinds": [*(["list"] if len(layers) > 1 else []), "domain", "domain", "domain"],
+        "encoding": "gzip",
+        "Segmentation_ContainedRepresentationNames": "Binary labelmap|",
+        "Segmentation_MasterRepresentation": "Binary labelmap",
+        "Segmentation_ReferenceImageExtentOffset": "0 0 0",
+    }
+    try:
+        with tempfile.TemporaryDirectory(dir=path.parent, prefix=".acus-") as folder:
+            part = Path(folder) / "structures.seg.nrrd"
+            nrrd.write(str(part), np.asfortranarray(values), header, index_order="F")
+            os.replace(part, path)
+    except OSError as error:
+        raise StructureFileError(f"{path} cannot be written: {error.strerror or error}") from error

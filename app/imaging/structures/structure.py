@@ -1,0 +1,247 @@
+"""A structure on the grid of a CT, and the set of those that belong together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.core.arrays import FloatArray, frozen, read_only
+from app.imaging.structures.errors import StructureError
+from app.imaging.volume import Volume
+
+Mask = NDArray[np.bool_]
+Colour = tuple[int, int, int]
+Index = tuple[int, int, int]
+
+LONGEST_NAME = 64
+"""Characters of a name: what a DICOM segment label holds."""
+
+
+class Kind(StrEnum):
+    """What a structure means for a needle."""
+
+    RISK = "risk"
+    VESSEL = "vessel"
+    BONE = "bone"
+    TARGET = "target"
+    OTHER = "other"
+
+    @property
+    def warn_mm(self) -> float:
+        """Usual distance [mm] from which a needle is warned; 0 for what may be met."""
+        return {Kind.RISK: 5.0, Kind.VESSEL: 3.0, Kind.BONE: 2.0}.get(self, 0.0)
+
+    @property
+    def is_avoided(self) -> bool:
+        """Whether a path should keep away from it."""
+        return self.warn_mm > 0.0
+
+
+COLOURS: tuple[Colour, ...] = (
+    (230, 159, 0), (86, 180, 233), (0, 178, 135), (240, 228, 66),
+    (213, 94, 0), (204, 121, 167), (150, 170, 255), (190, 190, 190),
+)  # fmt: skip
+"""For structures whose file names none: Okabe and Ito's, told apart by colour-blind people too."""
+
+
+@dataclass(frozen=True, eq=False)
+class Structure:
+    """Voxels of a CT that belong together.
+
+    Attributes:
+        name: for people; 1 to 64 characters, one line.
+        kind: what it means for a needle.
+        colour: red, green, blue, 0 to 255.
+        mask: shape (K', J', I'), the box of the CT that holds it, read-only.
+        corner: voxel (i, j, k) of the CT at the mask's first one.
+        affine_mm: voxel (i, j, k) of the CT -> LPS [mm], shape (4, 4), read-only.
+        warn_mm: a needle nearer than this is warned of it [mm]; 0 never.
+
+    Raises:
+        StructureError: if it holds no voxel, has no usable name, or the distance is not 0 to 50 mm.
+    """
+
+    name: str
+    kind: Kind
+    colour: Colour
+    mask: Mask
+    corner: Index
+    affine_mm: FloatArray
+    warn_mm: float = 0.0
+
+    def __post_init__(self) -> None:
+        name = " ".join(self.name.split())
+        if not name or len(name) > LONGEST_NAME:
+            raise StructureError(
+                f"{name[:80]!r} is no name for a structure: 1 to {LONGEST_NAME} characters are"
+            )
+        if not 0.0 <= self.warn_mm <= 50.0:
+            raise StructureError(f"warning distance {self.warn_mm:g} mm of {name}: 0 to 50 mm are")
+        if self.mask.ndim != 3 or not self.mask.any():
+            raise StructureError(f"structure {name} holds no voxel of this CT")
+        object.__setattr__(self, "name", name)
+        object.__setattr__(self, "kind", Kind(self.kind))
+        object.__setattr__(self, "affine_mm", frozen(self.affine_mm, (4, 4), "affine_mm"))
+        self.mask.setflags(write=False)
+
+    @classmethod
+    def of(
+        cls,
+        name: str,
+        mask: Mask,
+        volume: Volume,
+        kind: Kind = Kind.OTHER,
+        colour: Colour = COLOURS[0],
+        warn_mm: float | None = None,
+    ) -> Structure:
+        """Structure of a mask on the whole grid of a CT, shape (K, J, I)."""
+        if mask.shape != volume.hu.shape:
+            raise StructureError(f"mask of {mask.shape} voxels on a CT of {volume.hu.shape}")
+        box, corner = cropped(mask)
+        warn = kind.warn_mm if warn_mm is None else warn_mm
+        return cls(name, kind, colour, box, corner, volume.affine_mm, warn)
+
+    @cached_property
+    def grid_mm(self) -> FloatArray:
+        """Voxel (i, j, k) of the mask -> LPS [mm], shape (4, 4)."""
+        affine = np.array(self.affine_mm)
+        affine[:3, 3] += affine[:3, :3] @ np.asarray(self.corner, np.float64)
+        return frozen(affine)
+
+    @cached_property
+    def occupancy(self) -> NDArray[np.float32]:
+        """The mask as 0 and 1 with one layer of 0 around, float32, read-only."""
+        return read_only(np.pad(self.mask.astype(np.float32), 1))
+
+    @cached_property
+    def box_mm(self) -> FloatArray:
+        """Corners of the mask's voxels in LPS [mm], shape (8, 3)."""
+        size = np.array(self.mask.shape[::-1])
+        corners = np.array(list(np.ndindex(2, 2, 2))) * size - 0.5
+        result: FloatArray = corners @ self.grid_mm[:3, :3].T + self.grid_mm[:3, 3]
+        return read_only(result)
+
+    @property
+    def millilitres(self) -> float:
+        """Volume [ml]."""
+        return float(self.mask.sum() * abs(np.linalg.det(self.affine_mm[:3, :3])) / 1000.0)
+
+    @property
+    def centre_mm(self) -> FloatArray:
+        """Centre of its voxels in LPS [mm], shape (3,)."""
+        middle = np.argwhere(self.mask).mean(axis=0)[::-1]
+        result: FloatArray = self.grid_mm[:3, :3] @ middle + self.grid_mm[:3, 3]
+        return result
+
+    def holds(self, lps_mm: ArrayLike) -> Mask:
+        """Whether patient points [mm], shape (n, 3), lie in one of its voxels, shape (n,)."""
+        inverse = np.linalg.inv(self.grid_mm)
+        at = np.asarray(lps_mm, np.float64) @ inverse[:3, :3].T + inverse[:3, 3]
+        index = np.floor(at + 0.5).astype(np.intp)[:, ::-1]
+        inside: Mask = ((index >= 0) & (index < self.mask.shape)).all(axis=1)
+        inside[inside] = self.mask[tuple(index[inside].T)]
+        return inside
+
+    def full(self, shape: tuple[int, int, int]) -> Mask:
+        """Return its mask on the whole grid, shape (K, J, I)."""
+        mask = np.zeros(shape, bool)
+        i, j, k = self.corner
+        depth, height, width = self.mask.shape
+        mask[k : k + depth, j : j + height, i : i + width] = self.mask
+        return mask
+
+    def changed(self, **fields: Any) -> Structure:
+        """Return it with other fields."""
+        return replace(self, **fields)
+
+
+def cropped(mask: Mask) -> tuple[Mask, Index]:
+    """Return the smallest box that holds all of a mask, and its corner (i, j, k).
+
+    Raises:
+        StructureError: if the mask is empty.
+    """
+    spans = []
+    for axis in range(3):
+        filled = np.flatnonzero(mask.any(axis=tuple(a for a in range(3) if a != axis)))
+        if not filled.size:
+            raise StructureError("a structure needs at least one voxel")
+        spans.append(slice(int(filled[0]), int(filled[-1]) + 1))
+    k, j, i = (span.start for span in spans)
+    return mask[tuple(spans)].copy(), (i, j, k)
+
+
+@dataclass(frozen=True, eq=False)
+class StructureSet:
+    """Structures of one CT, in the order of their file; names are unique.
+
+    Attributes:
+        structures: them.
+        notes: what was done or left out on the way here, for people.
+    """
+
+    structures: tuple[Structure, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        names = [structure.name for structure in self.structures]
+        double = {name for name in names if names.count(name) > 1}
+        if double:
+            raise StructureError(f"structure {min(double)} is there twice: rename one")
+
+    def __iter__(self) -> Iterator[Structure]:
+        """Iterate over the structures."""
+        return iter(self.structures)
+
+    def __len__(self) -> int:
+        """Return how many there are."""
+        return len(self.structures)
+
+    def find(self, name: str) -> Structure:
+        """Return the structure of a name.
+
+        Raises:
+            StructureError: if there is none; lists those that are.
+        """
+        for structure in self.structures:
+            if structure.name == name:
+                return structure
+        names = ", ".join(structure.name for structure in self.structures) or "none"
+        raise StructureError(f"there is no structure {name!r}; there are: {names}")
+
+    def with_one(self, structure: Structure, instead_of: str | None = None) -> StructureSet:
+        """Return the set with one more structure, or with it in the place of another."""
+        old = structure.name if instead_of is None else instead_of
+        if all(known.name != old for known in self.structures):
+            return replace(self, structures=(*self.structures, structure))
+        kept = (structure if known.name == old else known for known in self.structures)
+        return replace(self, structures=tuple(kept))
+
+    def without(self, name: str) -> StructureSet:
+        """Return the set without the structure of a name."""
+        kept = tuple(structure for structure in self.structures if structure.name != name)
+        return replace(self, structures=kept)
+
+    def united(self, other: StructureSet) -> StructureSet:
+        """Return both sets as one; a name that is taken gets a number."""
+        result = self
+        for structure in other:
+            name = free_name(structure.name, [known.name for known in result])
+            result = result.with_one(structure.changed(name=name))
+        return replace(result, notes=(*self.notes, *other.notes))
+
+
+def free_name(name: str, taken: list[str]) -> str:
+    """Return `name`, or with a number behind it where it is taken."""
+    if name not in taken:
+        return name
+    number = 2
+    while f"{name[:58]} {number}" in taken:
+        number += 1
+    return f"{name[:58]} {number}"
