@@ -155,7 +155,7 @@ def numbers(header: Elements, tag: int, name: str, count: int | None = None) -> 
         values = (math.nan,)
     wanted = f" (needs {count})" if count else ""
     if not all(map(math.isfinite, values)) or (count and len(values) != count):
-        raise FileDamagedError(f"{name} is {text(header, tag)[:80]!r}: not finite numbers{wanted}")
+        raise FileDamagedError(f"{name} does not hold finite numbers{wanted}")
     return values
 
 
@@ -196,4 +196,4 @@ def _integer_string(value: bytes, name: str) -> int | None:
     try:
         return int(float(string))
     except (ValueError, OverflowError):
-        raise FileDamagedError(f"{name} is {string[:40]!r}: not an integer") from None
+        raise FileDamagedError(f"{name} is not an integer") from None

@@ -18,7 +18,10 @@ MULTI_FRAME = {
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """Which object a file holds. Patient and study appear only inside the pseudonym."""
+    """Which object a file holds. Patient and study appear only inside the pseudonym.
+
+    `former` is the pseudonym that earlier versions wrote: only to find old records by.
+    """
 
     sop_uid: str
     sop_class: str
@@ -28,6 +31,7 @@ class Identity:
     label: str
     pseudonym: str
     frame_of_reference: str
+    former: str = ""
 
 
 @dataclass(frozen=True, slots=True)

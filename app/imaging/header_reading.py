@@ -1,6 +1,5 @@
 """Reading the header of one DICOM image file: one image, or one for each frame."""
 
-import hashlib
 from pathlib import Path
 from typing import BinaryIO, Final
 
@@ -10,6 +9,9 @@ from app.imaging.errors import FileDamagedError
 from app.imaging.header import MULTI_FRAME, Identity, Plane, Rescale, SliceHeader
 from app.imaging.pixel_data import PixelFormat
 from app.imaging.pixel_finding import find_pixels
+from app.imaging.privacy.forms import fits
+from app.imaging.privacy.profile import profile
+from app.imaging.privacy.pseudonyms import former_pseudonym, pseudonym
 
 _TAGS: Final = {
     "SOPClassUID": 0x00080016,
@@ -25,6 +27,7 @@ _TAGS: Final = {
     "ConvolutionKernel": 0x00181210,
     "StudyInstanceUID": 0x0020000D,
     "SeriesInstanceUID": 0x0020000E,
+    "StudyID": 0x00200010,
     "SeriesNumber": 0x00200011,
     "AcquisitionNumber": 0x00200012,
     "ImagePositionPatient": 0x00200032,
@@ -146,21 +149,20 @@ def _identity(header: Elements) -> Identity:
         modality=get("Modality"),
         image_type=elements.parts(header, _TAGS["ImageType"]),
         label=_label(get("SeriesNumber"), get("BodyPartExamined"), get("ConvolutionKernel")),
-        pseudonym=pseudonym(get("PatientID"), get("StudyInstanceUID")),
+        pseudonym=pseudonym(get("PatientID"), get("StudyInstanceUID"), get("StudyID")),
+        former=former_pseudonym(get("PatientID"), get("StudyInstanceUID")),
         frame_of_reference=get("FrameOfReferenceUID"),
     )
 
 
-def pseudonym(patient_id: str, study_uid: str) -> str:
-    """Name for a patient's study: tells nothing about the patient, the same at every reading."""
-    digest = hashlib.sha256(f"acus pseudonym\0{patient_id}\0{study_uid}".encode())
-    return f"CT-{digest.hexdigest()[:6].upper()}"
-
-
 def _label(number: str, body_part: str, kernel: str) -> str:
-    """Built from coded elements only: the free-text SeriesDescription may hold a name."""
-    kernel = f"kernel {kernel.split(chr(92))[0]}" if kernel else ""
-    return ", ".join(part for part in (f"Series {number or '?'}", body_part, kernel) if part)
+    """Built from coded elements, and of these from known words only: free text may hold a name."""
+    kept = profile().kept
+    number = number if number.isdigit() and len(number) <= 5 else "?"
+    body_part = body_part if body_part in kept[_TAGS["BodyPartExamined"]].words else ""
+    first = kernel.split(chr(92))[0]
+    kernel = f"kernel {first}" if first and fits(kept[_TAGS["ConvolutionKernel"]], first) else ""
+    return ", ".join(part for part in (f"Series {number}", body_part, kernel) if part)
 
 
 def _format(header: Elements) -> PixelFormat:

@@ -102,6 +102,7 @@ def _described(headers: list[SliceHeader], grid: "_Grid", group: Group, verdict:
         pseudonym=first.identity.pseudonym,
         frame_of_reference=_shared_frame(headers),
         windows=first.windows,
+        former=first.identity.former,
         part=group.part,
         remedy=verdict.remedy,
         notes=verdict.notes,

@@ -6,6 +6,7 @@ window's thread.
 
 import logging
 import threading
+import traceback
 from collections.abc import Callable
 from typing import Any, Protocol, TypeVar
 
@@ -126,7 +127,9 @@ class _Box:
         except Cancelled as error:
             self.error = error
         except Exception as error:  # handed to on_error on the window's thread
-            _log.info("background work failed", exc_info=error)
+            # Where it failed, not its message: that may hold a path with a patient's name.
+            where = "".join(traceback.format_tb(error.__traceback__))
+            _log.info("background work failed: %s\n%s", type(error).__name__, where)
             self.error = error
         finally:
             self.done.set()

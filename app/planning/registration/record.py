@@ -140,17 +140,18 @@ class Registrations:
             yield load(path, RegistrationRecord)
 
     def newest(
-        self, calibration: str, rig: str, simulated: bool, series: str = ""
+        self, calibration: str, rig: str, simulated: bool, series: str = "", former: str = ""
     ) -> RegistrationRecord | None:
         """Newest check that says something of these cameras, and of this CT where it used one.
 
         A check holds for the calibration it was made with: with another one the cameras' frame is
-        another, and nothing was checked.
+        another, and nothing was checked. `former` is the CT's pseudonym by earlier versions.
         """
         for record in self.records():
             same = (record.calibration, record.rig, record.simulated) == (
                 calibration, rig, simulated,
             )  # fmt: skip
-            if same and (not record.picked or record.series == series):
+            ours = record.series == series or (bool(former) and record.series == former)
+            if same and (not record.picked or ours):
                 return record
         return None

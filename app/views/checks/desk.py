@@ -174,10 +174,10 @@ class ChecksDesk(QObject):
         if seen is None:
             return
         self._looked, volume, self._known = True, self.volume(), seen.uncertainty_known
-        series = volume.series.pseudonym if volume is not None else ""
+        names = (volume.series.pseudonym, volume.series.former) if volume is not None else ()
         try:
             record = Registrations.own().newest(
-                seen.calibration, seen.rig, not run.is_real, series
+                seen.calibration, seen.rig, not run.is_real, *names
             )  # fmt: skip
             if record is not None:
                 self._take(record)

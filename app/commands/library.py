@@ -1,0 +1,113 @@
+"""`acus ct import` and `acus ct library`: CTs taken in de-identified."""
+
+import json
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from app.commands.ct import AsJson, Folder
+from app.commands.ct import app as ct
+from app.core.errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from app.core.progress import Progress
+    from app.imaging.library import Entry, Imported
+    from app.imaging.privacy.burned_in import Box
+
+
+def register(root: typer.Typer) -> None:
+    """Add `import` and `library` to `acus ct`, which its own file adds to the command line."""
+    names = {command.name for command in ct.registered_commands}
+    if "import" not in names:
+        ct.command("import")(import_ct)
+        ct.command("library")(library)
+
+
+def import_ct(
+    folder: Folder,
+    series: Annotated[
+        str | None, typer.Option(help="SeriesInstanceUID, where several fit.")
+    ] = None,
+    mask: Annotated[
+        list[str] | None,
+        typer.Option(metavar="COL,ROW,WIDTH,HEIGHT", help="Pixels to blacken; may be repeated."),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Take a series into the library, de-identified (DICOM PS3.15), whole or not at all."""
+    from app.commands.calibrate import with_progress
+    from app.imaging.library import CtLibrary
+    from app.imaging.reading import choose
+    from app.imaging.scanning import scan_folder
+
+    boxes = [_box(text) for text in mask or ()]
+
+    def work(progress: "Progress") -> "Imported":
+        listing = scan_folder(folder, progress.part(0.0, 0.2))
+        chosen = choose(listing, series)
+        return CtLibrary().import_series(chosen, boxes, progress.part(0.2, 1.0))
+
+    imported = with_progress(work, as_json)
+    if as_json:
+        typer.echo(json.dumps(document(imported), indent=2))
+        return
+    for line in lines(imported):
+        typer.echo(line)
+
+
+def library(
+    remove: Annotated[str | None, typer.Option(metavar="NAME", help="Delete this CT.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """List the CTs of the library, or delete one."""
+    from app.imaging.library import CtLibrary
+
+    own = CtLibrary()
+    if remove is not None:
+        own.remove(remove)
+    entries = own.entries()
+    if as_json:
+        typer.echo(json.dumps({"entries": [_entry(entry) for entry in entries]}, indent=2))
+        return
+    for entry in entries:
+        typer.echo(f"{entry.name}  {entry.label}  {entry.files} files  {entry.folder}")
+    if not entries:
+        typer.echo("the library is empty; `acus ct import DIR` takes a CT in")
+
+
+def document(imported: "Imported") -> dict[str, Any]:
+    """Return what `acus ct import --json` and `acus pacs get --json` print."""
+    return {
+        **_entry(imported.entry),
+        "again": imported.again,
+        "report": imported.report.document(),
+    }
+
+
+def lines(imported: "Imported") -> list[str]:
+    """Return the same as text."""
+    entry = imported.entry
+    what = "was in the library already" if imported.again else "taken into the library"
+    head = f"{entry.name}: {entry.label}, {entry.files} files {what}"
+    return [head, *(f"  {line}" for line in imported.report.lines()), f"  {entry.folder}"]
+
+
+def _entry(entry: "Entry") -> dict[str, Any]:
+    return {
+        "name": entry.name,
+        "label": entry.label,
+        "files": entry.files,
+        "folder": str(entry.folder),
+    }
+
+
+def _box(text: str) -> "Box":
+    from app.imaging.privacy.burned_in import Box
+
+    try:
+        column, row, columns, rows = (int(part) for part in text.split(","))
+    except ValueError:
+        raise ConfigurationError(
+            f"--mask {text!r} is not COL,ROW,WIDTH,HEIGHT: four whole numbers, no blanks"
+        ) from None
+    return Box(column, row, columns, rows)

@@ -1,0 +1,26 @@
+"""Faces: a head scan can be rendered to a likeness; that is said, never quietly dealt with."""
+
+import re
+
+from pydicom.dataset import Dataset
+
+_HEAD = re.compile(
+    "HEAD|HEADNECK|NECK|BRAIN|SKULL|FACE|EAR|EYE|IAC|JAW|MANDIBLE|MAXILLA|ORBIT|SINUS|CSPINE"
+    "|CAROTID|NECKCHEST|NECKCHESTABDOMEN|NECKCHESTABDPELV|WHOLEBODY"
+)
+
+
+def warning(dataset: Dataset) -> str:
+    """Return what to say about a face in these slices; empty where none is to be expected."""
+    part = str(dataset.get("BodyPartExamined", "") or "").strip().upper()
+    if _HEAD.fullmatch(part):
+        return (
+            f"a face may be recognisable in the 3D view (body part {part}): nothing was removed "
+            "from the pictures; keep this CT where patients' pictures may be kept"
+        )
+    if not part:
+        return (
+            "the files do not say which body part they show: if it is the head, a face may be "
+            "recognisable in the 3D view"
+        )
+    return ""

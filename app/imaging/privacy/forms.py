@@ -1,0 +1,53 @@
+"""The form that the value of a kept attribute must have: numbers, words of a list, no free text."""
+
+import math
+import re
+from typing import Any
+
+from pydicom.multival import MultiValue
+
+from app.imaging.privacy.profile import Kept
+
+_STANDARD_UID = re.compile(r"1\.2\.840\.10008\.[0-9.]{1,50}")
+_KERNEL = re.compile(
+    r"(?i:STANDARD|STND|SOFT|LUNG|BONE|BONEPLUS|DETAIL|EDGE|ULTRA|CHEST|SMOOTH|SHARP|BRAIN|HEAD)"
+    r"|BODY|ABDOMEN|HD|[A-FL]|[USYE][A-D]"
+    r"|[A-Z][A-Za-z]?\d{1,3}[a-z]{0,2}|\d"
+)
+_LONGEST_NUMBER = 16
+
+
+def values(value: Any) -> list[Any]:
+    """Return the values of an element, one or many, as a list."""
+    if isinstance(value, MultiValue | list | tuple):
+        return list(value)
+    return [] if value is None or value == "" or value == b"" else [value]
+
+
+def fits(kept: Kept, value: Any) -> bool:
+    """Whether a value has the form in which its attribute may be kept; dates and ages aside."""
+    found = values(value)
+    if kept.kind == "number":
+        return all(_is_number(item) for item in found)
+    if kept.kind == "uid":
+        return all(_STANDARD_UID.fullmatch(str(item)) for item in found)
+    if kept.kind == "words":
+        return all(str(item).strip() in kept.words for item in found)
+    if kept.kind == "kernel":
+        return all(_is_kernel(str(item)) for item in found)
+    return kept.kind == "tag" and all(int(item) >> 16 & 1 == 0 for item in found)
+
+
+def _is_number(value: Any) -> bool:
+    text = str(getattr(value, "original_string", value)).strip()
+    try:
+        return math.isfinite(float(text)) and (
+            len(text) <= _LONGEST_NUMBER or isinstance(value, float)
+        )
+    except ValueError:
+        return False
+
+
+def _is_kernel(text: str) -> bool:
+    """Whether it reads like a reconstruction kernel: a known word, or a letter and a number."""
+    return _KERNEL.fullmatch(text.strip()) is not None

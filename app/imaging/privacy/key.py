@@ -1,0 +1,69 @@
+"""The key of this installation: pseudonyms, UIDs and dates are derived with it, and only with it.
+
+Without the key nobody can tell by trying identifiers whose pseudonym one is (a plain digest of an
+eight-digit number is guessed in a second); with it the same patient gets the same pseudonym at
+every import.
+"""
+
+import contextlib
+import hashlib
+import hmac
+import os
+import secrets
+from pathlib import Path
+from uuid import uuid4
+
+from app.core import paths
+from app.imaging.privacy.errors import KeyDamagedError
+
+BYTES = 32
+
+
+def key_path() -> Path:
+    """File of the key, readable by its owner only."""
+    return paths.settings() / "privacy.key"
+
+
+def installation_key() -> bytes:
+    """Key of this installation, 32 bytes; made at the first call.
+
+    Raises:
+        KeyDamagedError: if it cannot be read or made, or is not a key.
+    """
+    path = key_path()
+    try:
+        if not path.exists():
+            _make(path)
+        key = path.read_bytes()
+    except OSError as error:
+        raise KeyDamagedError(
+            f"the privacy key {path} cannot be read or made: {error.strerror or error}; "
+            "pseudonyms need it: make the folder writable"
+        ) from error
+    if len(key) != BYTES:
+        raise KeyDamagedError(
+            f"the privacy key {path} has {len(key)} bytes, {BYTES} are needed; put the kept copy "
+            "back, or delete it: then every patient gets a new pseudonym"
+        )
+    return key
+
+
+def _make(path: Path) -> None:
+    """Write beside and link: of two processes at once the second takes the first one's key."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    beside = path.with_name(f".{path.name}.{uuid4().hex}")
+    try:
+        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
+            file.write(secrets.token_bytes(BYTES))
+            file.flush()
+            os.fsync(file.fileno())
+        with contextlib.suppress(FileExistsError):
+            os.link(beside, path)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def derived(key: bytes, purpose: str, *parts: str) -> bytes:
+    """HMAC-SHA256 (RFC 2104) of a purpose and what it is about, 32 bytes."""
+    message = "\0".join((purpose, *parts)).encode()
+    return hmac.new(key, message, hashlib.sha256).digest()

@@ -1,0 +1,37 @@
+"""Names that stand for patients and studies and tell nothing of them."""
+
+import hashlib
+import re
+
+from app.imaging.privacy.key import derived, installation_key
+
+_OWN = re.compile(r"CT-[0-9A-F]{8}")
+
+
+def pseudonym(patient_id: str, study_uid: str, study_id: str = "") -> str:
+    """Name of a patient's study, `CT-` and eight hexadecimal digits; the same at every reading.
+
+    Args:
+        patient_id: PatientID.
+        study_uid: StudyInstanceUID.
+        study_id: StudyID; in a file that Acus itself de-identified it is the pseudonym.
+
+    Raises:
+        KeyDamagedError: if this installation has no usable key.
+    """
+    if _OWN.fullmatch(study_id):
+        return study_id
+    digest = derived(installation_key(), "pseudonym", patient_id, study_uid)
+    return f"CT-{digest.hex()[:8].upper()}"
+
+
+def patient_pseudonym(key: bytes, patient_id: str, study_uid: str) -> str:
+    """Name of a patient over all studies; of one study where the patient has no identifier."""
+    digest = derived(key, "patient", patient_id or f"study {study_uid}")
+    return f"P-{digest.hex()[:8].upper()}"
+
+
+def former_pseudonym(patient_id: str, study_uid: str) -> str:
+    """Name that earlier versions wrote, without a key: only to recognise it in old records."""
+    digest = hashlib.sha256(f"acus pseudonym\0{patient_id}\0{study_uid}".encode())
+    return f"CT-{digest.hexdigest()[:6].upper()}"

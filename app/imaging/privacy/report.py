@@ -1,0 +1,95 @@
+"""What de-identification did, in counts: never a value of a header."""
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(slots=True)
+class Tally:
+    """Counts while files are treated; each counter maps an attribute's keyword to how often."""
+
+    removed: Counter[str] = field(default_factory=Counter)
+    emptied: Counter[str] = field(default_factory=Counter)
+    replaced: Counter[str] = field(default_factory=Counter)
+    shifted: Counter[str] = field(default_factory=Counter)
+    unfit: Counter[str] = field(default_factory=Counter)
+    private: int = 0
+    masked: int = 0
+    files: int = 0
+    warnings: dict[str, None] = field(default_factory=dict)
+
+    def warn(self, text: str) -> None:
+        """Note a warning once, in the order in which they came."""
+        self.warnings[text] = None
+
+    def report(self) -> "Report":
+        """Freeze the counts."""
+        return Report(
+            removed=dict(sorted(self.removed.items())),
+            emptied=dict(sorted(self.emptied.items())),
+            replaced=dict(sorted(self.replaced.items())),
+            shifted=dict(sorted(self.shifted.items())),
+            unfit=dict(sorted(self.unfit.items())),
+            private=self.private,
+            masked=self.masked,
+            files=self.files,
+            warnings=tuple(self.warnings),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What was done to the files of a series.
+
+    Attributes:
+        removed: attributes taken out, and from how many places.
+        emptied: attributes that must stand there, written empty.
+        replaced: identifiers and UIDs written anew.
+        shifted: dates moved by the patient's offset.
+        unfit: attributes that would be kept but whose value had another form: taken out.
+        private: how many private attributes were taken out.
+        masked: files whose pixels were blackened where an instructor drew.
+        files: how many were written.
+        warnings: what a person must look at.
+    """
+
+    removed: Mapping[str, int]
+    emptied: Mapping[str, int]
+    replaced: Mapping[str, int]
+    shifted: Mapping[str, int]
+    unfit: Mapping[str, int]
+    private: int
+    masked: int
+    files: int
+    warnings: tuple[str, ...]
+
+    def lines(self) -> tuple[str, ...]:
+        """Return the report as text, without any value of the files."""
+        parts = (
+            ("removed", self.removed),
+            ("written empty", self.emptied),
+            ("replaced", self.replaced),
+            ("dates moved", self.shifted),
+            ("removed, because the value had another form", self.unfit),
+        )
+        lines = [f"{title}: {', '.join(counts)}" for title, counts in parts if counts]
+        lines.append(f"private attributes removed: {self.private}")
+        if self.masked:
+            lines.append(f"pixels blackened in {self.masked} files")
+        return (*lines, *(f"look at this: {warning}" for warning in self.warnings))
+
+    def document(self) -> dict[str, Any]:
+        """Return the report for JSON; keys in docs/json.md."""
+        return {
+            "files": self.files,
+            "removed": dict(self.removed),
+            "emptied": dict(self.emptied),
+            "replaced": dict(self.replaced),
+            "shifted": dict(self.shifted),
+            "unfit": dict(self.unfit),
+            "private": self.private,
+            "masked": self.masked,
+            "warnings": list(self.warnings),
+        }

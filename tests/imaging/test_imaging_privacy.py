@@ -1,0 +1,432 @@
+"""De-identification: the table, what is kept, what is refused, the library whole or not at all."""
+
+import csv
+import os
+import shutil
+import subprocess
+import sys
+from datetime import date, timedelta
+
+import numpy as np
+import pydicom
+import pytest
+from dicom_factory import SERIES, Slices
+from pydicom.datadict import keyword_for_tag, tag_for_keyword
+from pydicom.dataset import Dataset
+
+from app.core import paths
+from app.core.progress import Cancelled, Progress
+from app.imaging.errors import SeriesUnknownError
+from app.imaging.library import CtLibrary, ImportFailedError
+from app.imaging.privacy import dates, verify
+from app.imaging.privacy.burned_in import Box
+from app.imaging.privacy.errors import BurnedInError, KeyDamagedError, NotCleanError
+from app.imaging.privacy.forms import fits
+from app.imaging.privacy.key import installation_key, key_path
+from app.imaging.privacy.profile import profile
+from app.imaging.privacy.pseudonyms import former_pseudonym, pseudonym
+from app.imaging.privacy.uids import UidMap
+from app.imaging.reading import load_ct, read_series
+from app.imaging.scanning import scan_folder
+
+DATES = {"StudyDate", "SeriesDate", "AcquisitionDate", "ContentDate"}
+CHARACTERISTICS = {"PatientSex", "PatientAge", "PatientSize", "PatientWeight"}
+
+
+def series_of(folder, recipe=None, **tags):
+    (recipe or Slices(tags=tags)).write(folder)
+    return scan_folder(folder).series[0]
+
+
+def written(entry):
+    return [pydicom.dcmread(path) for path in sorted(entry.folder.glob("*.dcm"))]
+
+
+def test_every_row_of_the_table_names_an_attribute_of_the_dictionary():
+    with (paths.resources() / "dicom" / "basic-profile.csv").open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(line for line in stream if not line.startswith("#")))
+    assert len(rows) > 450
+    assert all(keyword_for_tag(int(row["tag"], 16)) == row["attribute"] for row in rows)
+    assert len({row["tag"] for row in rows}) == len(rows)
+
+
+def test_nothing_that_the_profile_removes_is_kept_but_for_the_two_declared_options():
+    tables = profile()
+    for tag, kept in tables.kept.items():
+        action = tables.actions.get(tag, "K")
+        if kept.keyword in DATES or kept.keyword in CHARACTERISTICS:
+            assert action != "K"
+        else:
+            assert action in ("K", "U"), kept.keyword
+
+
+def test_the_table_agrees_with_another_reading_of_the_standard():
+    module = pytest.importorskip(
+        "dicomanonymizer.dicom_anonymization_databases.dicomfields_2026c",
+        reason="dicom-anonymizer, the independent table, is not installed",
+    )
+    tables = profile()
+    groups = {"X_TAGS": "X", "Z_TAGS": "Z", "D_TAGS": "D", "U_TAGS": "U", "X_Z_TAGS": "X/Z"}
+    groups |= {"X_D_TAGS": "X/D", "Z_D_TAGS": "Z/D", "X_Z_D_TAGS": "X/Z/D"}
+    for group, action in groups.items():
+        for field in getattr(module, group):
+            tag = (field[0] << 16) + field[1]
+            if len(field) == 2:  # rows of newer editions are covered by not being kept
+                assert tables.actions.get(tag, action) == action, f"{tag:08X}"
+                assert tag in tables.actions or tag not in tables.kept, f"{tag:08X}"
+
+
+def test_a_series_comes_back_with_the_same_voxels_in_the_same_places(tmp_path):
+    series = series_of(tmp_path / "in")
+    before = read_series(series)
+    imported = CtLibrary().import_series(series)
+    after = load_ct(imported.entry.folder)
+    np.testing.assert_array_equal(before.hu, after.hu)
+    np.testing.assert_array_equal(before.affine_mm, after.affine_mm)
+    assert after.series.pseudonym == series.pseudonym
+    assert after.series.windows == series.windows
+
+
+def test_names_identifiers_and_free_text_are_gone_and_it_is_said_what_was_done(tmp_path):
+    tags = {"OperatorsName": "Op^Erator", "PatientBirthDate": "19500101", "StudyTime": "101112"}
+    imported = CtLibrary().import_series(series_of(tmp_path / "in", **tags))
+    for dataset in written(imported.entry):
+        text = str(dataset)
+        assert "Secret" not in text
+        assert "SECRET" not in text
+        assert "OperatorsName" not in dataset
+        assert dataset.PatientBirthDate == ""
+        assert dataset.StudyTime == ""
+        assert dataset.PatientIdentityRemoved == "YES"
+        assert {item.CodeValue for item in dataset.DeidentificationMethodCodeSequence} == {
+            "113100", "113107", "113108",
+        }  # fmt: skip
+        assert dataset.LongitudinalTemporalInformationModified == "MODIFIED"
+    report = "\n".join(imported.report.lines())
+    assert "SeriesDescription" in report
+    assert "OperatorsName" in report
+    assert "Secret" not in report
+
+
+def test_uids_are_new_the_same_at_every_import_and_shared_by_what_was_shared(tmp_path):
+    imported = CtLibrary().import_series(series_of(tmp_path / "in"))
+    files = written(imported.entry)
+    assert len({file.SeriesInstanceUID for file in files}) == 1
+    assert len({file.SOPInstanceUID for file in files}) == 5
+    for file in files:
+        assert file.file_meta.MediaStorageSOPInstanceUID == file.SOPInstanceUID
+        assert file.SeriesInstanceUID.startswith("2.25.")
+        assert file.SeriesInstanceUID != SERIES
+        assert len(file.SOPInstanceUID) <= 64
+    again = CtLibrary().import_series(scan_folder(tmp_path / "in").series[0])
+    assert again.again
+    assert again.entry == imported.entry
+    uids = UidMap(installation_key())
+    assert uids.new(SERIES) == files[0].SeriesInstanceUID
+    assert UidMap(b"another key").new(SERIES) != files[0].SeriesInstanceUID
+    assert uids.new("1.2.840.10008.1.2.1") == "1.2.840.10008.1.2.1"
+
+
+def test_private_attributes_curves_overlays_and_unknown_ones_go(tmp_path):
+    series = series_of(tmp_path / "in")
+    for path in series.files:
+        dataset = pydicom.dcmread(path)
+        dataset.private_block(0x0009, "MAKER", create=True).add_new(1, "LO", "Private^Name")
+        dataset.add_new(0x50000010, "US", 1)
+        dataset.add_new(0x60003000, "OW", b"\0\0")
+        dataset.add_new(0x60004000, "LT", "Overlay^Name")
+        dataset.save_as(path)
+    imported = CtLibrary().import_series(scan_folder(tmp_path / "in").series[0])
+    for dataset in written(imported.entry):
+        assert all(not e.tag.is_private and e.tag.group not in (0x5000, 0x6000) for e in dataset)
+    assert imported.report.private == 10
+
+
+def test_the_preamble_is_emptied(tmp_path):
+    series = series_of(tmp_path / "in")
+    for path in series.files:
+        raw = path.read_bytes()
+        path.write_bytes(b"Secret^Name".ljust(128, b" ") + raw[128:])
+    entry = CtLibrary().import_series(scan_folder(tmp_path / "in").series[0]).entry
+    assert all(p.read_bytes()[:128] == b"\0" * 128 for p in entry.folder.glob("*.dcm"))
+
+
+def test_dates_move_by_one_offset_of_the_patient_and_intervals_stay(tmp_path):
+    key = installation_key()
+    shift = dates.shift_of(key, "SECRET-ID", "2.25.1")
+    assert timedelta(days=-3650) <= shift <= timedelta(days=-30)
+    assert shift == dates.shift_of(key, "SECRET-ID", "another study")
+    assert shift != dates.shift_of(key, "OTHER", "2.25.1")
+    imported = CtLibrary().import_series(
+        series_of(tmp_path / "in", StudyDate="20240229", SeriesDate="20240310")
+    )
+    one = written(imported.entry)[0]
+    expected = date(2024, 2, 29) + shift
+    assert one.StudyDate == expected.strftime("%Y%m%d")
+    assert imported.report.shifted == {"SeriesDate": 5, "StudyDate": 5}
+
+
+@pytest.mark.parametrize(
+    ("value", "result"),
+    [("", ""), ("2024", ""), ("20241301", ""), ("00010101", ""), ("2024.03.01", "20240130")],
+)
+def test_a_date_that_cannot_be_moved_is_left_out(value, result):
+    assert dates.shifted(value, timedelta(days=-31)) == result
+
+
+@pytest.mark.parametrize(
+    ("age", "result"),
+    [("041Y", "041Y"), ("089Y", "089Y"), ("090Y", "090Y"), ("103Y", "090Y"), ("018M", "018M"),
+     ("old", ""), ("", "")],
+)  # fmt: skip
+def test_ages_above_89_become_90(age, result):
+    assert dates.capped_age(age) == result
+
+
+def test_kept_attributes_keep_only_values_of_their_form(tmp_path):
+    tags = {
+        "BodyPartExamined": "MUELLER", "ConvolutionKernel": "MUELLERIN", "RotationDirection": "CW",
+        "KVP": "120", "PatientAge": "097Y", "PatientSex": "F",
+    }  # fmt: skip
+    series = series_of(tmp_path / "in", **tags)
+    assert "MUELLER" not in series.label
+    imported = CtLibrary().import_series(series)
+    one = written(imported.entry)[0]
+    assert "BodyPartExamined" not in one
+    assert "ConvolutionKernel" not in one
+    assert (one.RotationDirection, one.KVP, one.PatientAge, one.PatientSex) == (
+        "CW", 120, "090Y", "F",
+    )  # fmt: skip
+    assert set(imported.report.unfit) >= {"BodyPartExamined", "ConvolutionKernel"}
+
+
+@pytest.mark.parametrize("kernel", ["B30f", "Br40d\\3", "FC08", "STANDARD", "B", "YA", "I30f\\3"])
+def test_kernels_of_the_makers_are_recognised(kernel):
+    assert fits(profile().kept[tag_for_keyword("ConvolutionKernel")], kernel.split("\\"))
+
+
+def test_a_number_that_repeats_an_identifier_is_taken_out(tmp_path):
+    imported = CtLibrary().import_series(
+        series_of(tmp_path / "in", PatientID="4711081", KVP="4711081")
+    )
+    assert written(imported.entry)[0].KVP is None
+    assert imported.report.unfit["KVP"] == 5
+
+
+def test_writing_in_the_picture_is_refused_and_blackened_only_where_drawn(tmp_path):
+    series = series_of(tmp_path / "in", BurnedInAnnotation="YES")
+    with pytest.raises(BurnedInError, match="--mask"):
+        CtLibrary().import_series(series)
+    assert CtLibrary().entries() == ()
+    imported = CtLibrary().import_series(series, [Box(2, 3, 4, 5)])
+    before, after = read_series(series).hu, load_ct(imported.entry.folder).hu
+    inside = np.zeros(before.shape, bool)
+    inside[:, 3:8, 2:6] = True
+    np.testing.assert_array_equal(before[~inside], after[~inside])
+    for k in range(5):
+        assert (after[k][inside[k]] == before[k].min()).all()
+    assert imported.report.masked == 5
+    with pytest.raises(BurnedInError, match="outside the picture"):
+        CtLibrary().import_series(series, [Box(100, 3, 4, 5)])
+
+
+def test_an_overlay_hidden_in_the_unused_bits_goes(tmp_path):
+    recipe = Slices(tags={"BitsStored": 12, "HighBit": 11})
+    recipe.write(tmp_path / "in")
+    for path in (tmp_path / "in").iterdir():
+        dataset = pydicom.dcmread(path)
+        pixels = np.frombuffer(dataset.PixelData, "<u2") & 0x0FFF
+        dataset.PixelData = (pixels | 0x8000).astype("<u2").tobytes()
+        dataset.add_new(0x60000102, "US", 15)
+        dataset.save_as(path)
+    imported = CtLibrary().import_series(scan_folder(tmp_path / "in").series[0])
+    assert all((one.pixel_array < 0x1000).all() for one in written(imported.entry))
+    assert all(max(np.frombuffer(one.PixelData, "<u2")) < 0x1000 for one in written(imported.entry))
+
+
+def test_a_head_scan_is_warned_for_its_face_and_a_chest_is_not(tmp_path):
+    head = CtLibrary().import_series(series_of(tmp_path / "head", BodyPartExamined="HEAD"))
+    assert "face" in head.report.warnings[0]
+    chest = CtLibrary().import_series(
+        series_of(tmp_path / "chest", BodyPartExamined="CHEST", StudyInstanceUID="2.25.7",
+                  SeriesInstanceUID="2.25.77")
+    )  # fmt: skip
+    assert chest.report.warnings == ()
+
+
+def test_the_second_pass_finds_what_the_first_let_through(tmp_path):
+    entry = CtLibrary().import_series(series_of(tmp_path / "in")).entry
+    path = min(entry.folder.glob("*.dcm"))
+    clean = pydicom.dcmread(path)
+    secrets = verify.Secrets(profile(), {"Secret^Name"})
+    digest = verify.pixel_digest(clean)
+
+    def spoilt(change):
+        dataset = pydicom.dcmread(path)
+        change(dataset)
+        dataset.save_as(tmp_path / "spoilt.dcm")
+        return tmp_path / "spoilt.dcm"
+
+    verify.verify(path, secrets, frozenset({SERIES}), digest)
+    changes = [
+        ("SeriesDescription", lambda d: setattr(d, "SeriesDescription", "free text")),
+        ("SeriesInstanceUID", lambda d: setattr(d, "SeriesInstanceUID", SERIES)),
+        ("original", lambda d: setattr(d, "ConvolutionKernel", "Secret^Name")),
+        ("pixels", lambda d: setattr(d, "PixelData", bytes(len(d.PixelData)))),
+        ("preamble", lambda d: setattr(d, "preamble", b"x" * 128)),
+        ("should have been removed", lambda d: d.private_block(9, "A", create=True)),
+    ]
+    for words, change in changes:
+        with pytest.raises(NotCleanError, match=words) as raised:
+            verify.verify(spoilt(change), secrets, frozenset({SERIES}), digest)
+        assert "Secret" not in str(raised.value)
+
+
+def test_pseudonyms_need_the_key_and_a_lost_key_gives_new_ones(tmp_path):
+    first = pseudonym("SECRET-ID", "2.25.1")
+    assert first == pseudonym("SECRET-ID", "2.25.1")
+    assert first != former_pseudonym("SECRET-ID", "2.25.1")
+    assert pseudonym("", "", first) == first
+    assert key_path().stat().st_mode & 0o077 == 0
+    key_path().unlink()
+    assert pseudonym("SECRET-ID", "2.25.1") != first
+    key_path().write_bytes(b"short")
+    with pytest.raises(KeyDamagedError, match="5 bytes"):
+        pseudonym("SECRET-ID", "2.25.1")
+
+
+def test_compressed_big_endian_and_deflated_files_keep_their_pixels_bit_for_bit(
+    tmp_path, shared_data
+):
+    for name in sorted((shared_data / "ct_transfer_syntaxes").rglob("*.dcm")):
+        header = scan_folder_of(name, tmp_path)
+        if header is None:
+            continue
+        from app.imaging.privacy.actions import Rules
+        from app.imaging.privacy.files import convert
+        from app.imaging.privacy.report import Tally
+
+        rules = Rules(profile(), UidMap(b"k"), timedelta(days=-40), "P-1", "CT-00000001")
+        secrets = verify.Secrets(profile())
+        to = tmp_path / "out.dcm"
+        digest = convert(header, to, rules, (), secrets, Tally())
+        verify.verify(to, secrets, rules.uids.old, digest)
+        old, new = pydicom.dcmread(name, force=True), pydicom.dcmread(to)
+        assert old.PixelData == new.PixelData, name
+        assert new.file_meta.TransferSyntaxUID == header.pixels.syntax
+
+
+def scan_folder_of(name, tmp_path):
+    folder = tmp_path / "alone"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    shutil.copy(name, folder)
+    listing = scan_folder(folder)
+    found = [s for s in listing.series if s.modality == "CT" and s.slices[0].format.rows > 0]
+    return found[0].slices[0] if found else None
+
+
+# --- whole or not at all
+
+
+def nothing_left():
+    folder = CtLibrary().folder
+    return not folder.exists() or list(folder.iterdir()) == []
+
+
+def test_a_full_disk_leaves_nothing(tmp_path, monkeypatch):
+    series = series_of(tmp_path / "in")
+    usage = shutil.disk_usage(tmp_path)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=1000))
+    with pytest.raises(ImportFailedError, match="MB free"):
+        CtLibrary().import_series(series)
+    monkeypatch.undo()
+    assert nothing_left()
+
+
+def test_a_disk_that_fills_in_the_middle_leaves_nothing(tmp_path, monkeypatch):
+    series = series_of(tmp_path / "in")
+    calls = []
+
+    def save(self, path, **options):
+        calls.append(path)
+        if len(calls) == 3:
+            raise OSError(28, "No space left on device")
+        return original(self, path, **options)
+
+    original = pydicom.dataset.FileDataset.save_as
+    monkeypatch.setattr(pydicom.dataset.FileDataset, "save_as", save)
+    with pytest.raises(ImportFailedError, match="full"):
+        CtLibrary().import_series(series)
+    assert nothing_left()
+
+
+def test_a_folder_removed_in_the_middle_leaves_nothing_and_names_no_path(tmp_path):
+    folder = tmp_path / "Secret^Name"
+    series = series_of(folder)
+
+    def look(fraction, text):
+        if text.startswith("file 3"):
+            shutil.rmtree(folder)
+
+    with pytest.raises(ImportFailedError, match="file 3 of 5") as raised:
+        CtLibrary().import_series(series, progress=Progress(look))
+    assert "Secret" not in str(raised.value)
+    assert nothing_left()
+
+
+def test_a_cancelled_import_leaves_nothing(tmp_path):
+    series = series_of(tmp_path / "in")
+    progress = Progress(lambda _, text: progress.cancel() if text.startswith("checking") else None)
+    with pytest.raises(Cancelled):
+        CtLibrary().import_series(series, progress=progress)
+    assert nothing_left()
+
+
+KILLED = """
+import os, signal, sys
+from app.core.progress import Progress
+from app.imaging.library import CtLibrary
+from app.imaging.scanning import scan_folder
+def look(_, text):
+    if text.startswith("file 4"):
+        os.kill(os.getpid(), signal.SIGKILL)
+CtLibrary().import_series(scan_folder(sys.argv[1]).series[0], progress=Progress(look))
+"""
+
+
+def test_a_killed_import_is_swept_at_the_next_look_and_a_living_one_is_not(tmp_path):
+    Slices().write(tmp_path / "in")
+    done = subprocess.run([sys.executable, "-c", KILLED, str(tmp_path / "in")], check=False)
+    assert done.returncode == -9
+    library = CtLibrary()
+    assert [path.name[:9] for path in library.folder.iterdir()] == [".staging-"]
+    assert library.entries() == ()
+    assert nothing_left()
+    series = scan_folder(tmp_path / "in").series[0]
+    swept = []
+    library.import_series(series, progress=Progress(lambda *_: swept.append(library.sweep())))
+    assert set(swept) == {0}
+    assert len(library.entries()) == 1
+
+
+def test_an_entry_is_removed_by_name(tmp_path):
+    library = CtLibrary()
+    entry = library.import_series(series_of(tmp_path / "in")).entry
+    with pytest.raises(SeriesUnknownError, match=entry.name):
+        library.remove("nobody")
+    library.remove(entry.name)
+    assert library.entries() == ()
+    assert nothing_left() or os.listdir(library.folder) == []
+
+
+def test_deep_sequences_are_refused(tmp_path):
+    inner = Dataset()
+    for _ in range(12):
+        outer = Dataset()
+        outer.SharedFunctionalGroupsSequence = [inner]
+        inner = outer
+    series = series_of(tmp_path / "in", SharedFunctionalGroupsSequence=[inner])
+    with pytest.raises(Exception, match="nested deeper"):
+        CtLibrary().import_series(series)
+    assert nothing_left()
