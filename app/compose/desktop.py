@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -79,7 +80,12 @@ class Desktop:
 
     def prepare(self, progress: Progress) -> None:
         """Load what an exercise needs; called beside the window as soon as it is painted."""
+        from app.imaging.errors import WorkerError
+        from app.imaging.worker.pool import shared_worker
+
         load_modules(HEAVY_MODULES, progress)
+        with contextlib.suppress(WorkerError):  # said by the first folder that is opened
+            shared_worker().warm()
 
     def robots(self) -> tuple[RobotPort, ...]:
         """Ports at which a robot may be plugged in now."""

@@ -32,10 +32,18 @@ class Progress:
         Raises:
             Cancelled: if `cancel` was called.
         """
-        if self._cancelled.is_set():
-            raise Cancelled("cancelled")
+        self.check()
         if self._listener is not None:
             self._listener(min(1.0, max(0.0, fraction)), text)
+
+    def check(self) -> None:
+        """Stop here if that was asked for; tells nobody anything.
+
+        Raises:
+            Cancelled: if `cancel` was called.
+        """
+        if self._cancelled.is_set():
+            raise Cancelled("cancelled")
 
     def part(self, start: float, end: float) -> "Progress":
         """Progress of a part of the work, mapped onto [start, end] of this one."""

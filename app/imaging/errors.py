@@ -20,6 +20,14 @@ class FileDamagedError(ImagingError, ValueError):
     """A file cannot be read as the DICOM image that it claims to be."""
 
 
+class WorkerLostError(FileDamagedError):
+    """A file made the process that reads it crash or hang; that process was replaced."""
+
+
+class WorkerError(ImagingError, RuntimeError):
+    """The process that reads files cannot be started, or is not what it should be."""
+
+
 class SeriesRefusedError(ImagingError, ValueError):
     """The series cannot be made into a volume; the message says why."""
 

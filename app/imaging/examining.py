@@ -26,7 +26,7 @@ def examine(path: Path) -> tuple[SliceHeader, ...] | Ignored:
         with path.open("rb") as stream:
             return _read(path, stream)
     except OSError as error:
-        return Ignored(path, f"cannot be read: {why(error)}")
+        return Ignored(path, f"cannot be read: {_why(error)}")
     except FileDamagedError as error:
         return Ignored(path, f"damaged DICOM file: {error}")
 
@@ -59,6 +59,5 @@ def _plausible(head: bytes) -> bool:
     return False
 
 
-def why(error: Exception) -> str:
-    """Return the system's words for an error of a file."""
+def _why(error: Exception) -> str:
     return getattr(error, "strerror", None) or str(error)

@@ -1,15 +1,33 @@
-"""Slices into one array of Hounsfield values."""
+"""Slices into one array of Hounsfield values.
 
-from collections.abc import Sequence
+Pixels that lie in their file as they are get copied here, on two threads: a copy of so many bytes
+from such a place can do no harm. Whatever has to be decoded is decoded in the worker process,
+which writes to the same memory.
+"""
+
+import fcntl
+import math
+import mmap
+import os
+from collections.abc import Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from app.core.progress import Progress
-from app.imaging.decoding import stored_type
+from app.imaging.decoding import is_raw, stored_type
+from app.imaging.errors import SeriesRefusedError
 from app.imaging.header import SliceHeader
 from app.imaging.rescaling import fill_slice, fresh_array
+from app.imaging.worker.service import fill_slices
+
+_THREADS = 2
+_TURN = 8
+"""Slices that a thread copies before it says so."""
+
+_ADD_SEALS, _SHRINK, _GROW = 1033, 0x2, 0x4  # fcntl(2): the child must not change the size
 
 
 def filled(
@@ -28,16 +46,73 @@ def filled(
     Raises:
         NotExactError: if a value does not fit 16 bits and int16 was asked for.
         FileDamagedError: if a file has changed since the scan or cannot be decoded; names it.
+        WorkerError: if the process that decodes cannot be started.
         SeriesRefusedError: if the machine has not enough memory.
         Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
-    rows, columns = headers[0].format.rows, headers[0].format.columns
-    hu = fresh_array((len(headers), rows, columns), dtype)
-    stored: dict[np.dtype[Any], NDArray[Any]] = {}
-    for k, header in enumerate(headers):
-        progress.report(k / len(headers), f"slice {k + 1} of {len(headers)}")
-        wanted = stored_type(header.format)
-        fill_slice(header, hu[k], stored.setdefault(wanted, np.empty((rows, columns), wanted)))
-    progress.report(1.0, f"{len(headers)} slices read")
+    shape = (len(headers), headers[0].format.rows, headers[0].format.columns)
+    encoded = [k for k, header in enumerate(headers) if not is_raw(header)]
+    if not encoded:
+        hu = fresh_array(shape, dtype)
+        _copy(headers, range(len(headers)), hu, progress)
+        return hu
+    descriptor = os.memfd_create("acus-ct", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
+    try:
+        hu = _shared(descriptor, shape, dtype)
+        share = len(encoded) / len(headers)
+        some = [headers[k] for k in encoded]
+        fill_slices(some, encoded, dtype, descriptor, progress.part(0.0, share))
+    finally:
+        os.close(descriptor)
+    rest = sorted(set(range(len(headers))) - set(encoded))
+    _copy(headers, rest, hu, progress.part(share, 1.0))
     return hu
+
+
+def _shared(descriptor: int, shape: tuple[int, int, int], dtype: np.dtype[Any]) -> NDArray[Any]:
+    size = math.prod(shape) * dtype.itemsize
+    try:
+        os.ftruncate(descriptor, size)
+        fcntl.fcntl(descriptor, _ADD_SEALS, _SHRINK | _GROW)
+        memory = mmap.mmap(descriptor, size)
+    except (OSError, ValueError, OverflowError) as error:
+        raise SeriesRefusedError(
+            f"the volume needs {size / 1e9:.1f} GB of memory, which this machine cannot give"
+        ) from error
+    return np.frombuffer(memory, dtype).reshape(shape)
+
+
+def _copy(
+    headers: Sequence[SliceHeader], places: Sequence[int], hu: NDArray[Any], progress: Progress
+) -> None:
+    """Copy raw slices to their places; numpy and the system let both threads work at once."""
+
+    def copy(turn: Sequence[int]) -> int:
+        stored: dict[np.dtype[Any], NDArray[Any]] = {}
+        for k in turn:
+            progress.check()
+            wanted = stored_type(headers[k].format)
+            scratch = stored.setdefault(wanted, np.empty(hu.shape[1:], wanted))
+            fill_slice(headers[k], hu[k], scratch)
+        return len(turn)
+
+    turns = [places[start : start + _TURN] for start in range(0, len(places), _TURN)]
+    done = 0
+    for count in _spread(copy, turns):
+        done += count
+        progress.report(done / len(places), f"slice {done} of {len(places)}")
+
+
+def _spread(copy: Any, turns: Sequence[Sequence[int]]) -> Iterator[int]:
+    if len(turns) < 2:
+        yield from map(copy, turns)
+        return
+    with ThreadPoolExecutor(_THREADS) as threads:
+        futures = [threads.submit(copy, turn) for turn in turns]
+        try:
+            for future in futures:
+                yield future.result()
+        finally:
+            for future in futures:
+                future.cancel()

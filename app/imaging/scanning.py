@@ -10,10 +10,10 @@ from app.core.progress import Progress
 from app.imaging import stack
 from app.imaging.acquisitions import Group, split
 from app.imaging.errors import FolderError
-from app.imaging.examining import examine, why
 from app.imaging.header import Plane, Point, SliceHeader
 from app.imaging.series import Ignored, Listing, Remedy, Series
 from app.imaging.suitability import Verdict, is_mr, judge
+from app.imaging.worker.service import examine_files
 
 
 def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
@@ -32,9 +32,7 @@ def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
     ignored: list[Ignored] = []
     files = _files(root, ignored, progress)
     headers: list[SliceHeader] = []
-    for index, file in enumerate(files):
-        progress.report(index / len(files), f"{index} of {len(files)} files")
-        found = examine(file)
+    for found in examine_files(files, progress):
         if isinstance(found, Ignored):
             ignored.append(found)
         else:
@@ -57,10 +55,10 @@ def _files(root: Path, ignored: list[Ignored], progress: Progress) -> list[Path]
     except NotADirectoryError:
         raise FolderError(f"{root} is a file; name the folder it is in") from None
     except (OSError, ValueError) as error:
-        raise FolderError(f"{root} cannot be read: {why(error)}") from error
+        raise FolderError(f"{root} cannot be read: {_why(error)}") from error
 
     def unreadable(error: OSError) -> None:
-        ignored.append(Ignored(Path(error.filename), f"folder cannot be read: {why(error)}"))
+        ignored.append(Ignored(Path(error.filename), f"folder cannot be read: {_why(error)}"))
 
     found: list[Path] = []
     for folder, folders, names in os.walk(root, onerror=unreadable):
@@ -115,6 +113,10 @@ def _shared_frame(headers: list[SliceHeader]) -> str:
     """Frame of reference of all files; empty where some de-identifier gave each its own."""
     frames = {header.identity.frame_of_reference for header in headers}
     return frames.pop() if len(frames) == 1 else ""
+
+
+def _why(error: Exception) -> str:
+    return getattr(error, "strerror", None) or str(error)
 
 
 @dataclass(frozen=True, slots=True)

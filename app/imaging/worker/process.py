@@ -1,0 +1,176 @@
+"""One child process, seen from the program: tasks out, answers in, and a watchdog."""
+
+import contextlib
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections import deque
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from app.imaging.errors import WorkerError
+from app.imaging.worker.channel import Channel, ChannelError
+from app.imaging.worker.limits import FILE_SECONDS, WAITING_SECONDS, processor_seconds
+
+ENTRY = "app.imaging.worker"
+"""Module that a child runs."""
+
+READY_SECONDS = 60.0
+"""A child that is not ready by then is given up [s]; a machine may be slow."""
+
+_GRACE = 0.5
+"""Nobody is looked at more closely before that [s]."""
+
+_ROOT = Path(__file__).resolve().parents[3]
+
+
+class Lost(Exception):  # noqa: N818  (an event; who waits turns it into an error)
+    """The child crashed, hung or talks nonsense; the text says which."""
+
+
+class Child:
+    """A running child. Tasks are answered in their order; the first one open is worked on.
+
+    Args:
+        module: what it runs; it is given the number of its end of the socket pair.
+
+    Attributes:
+        open: whatever the owner hung on each task that is not answered yet, oldest first.
+        ready: whether it has come up.
+
+    Raises:
+        WorkerError: if it cannot be started.
+    """
+
+    def __init__(self, module: str = ENTRY) -> None:
+        self.open: deque[Any] = deque()
+        ours, theirs = socket.socketpair()
+        self._channel = Channel(ours)
+        with theirs:
+            self._process = _started(module, theirs.fileno(), self._channel)
+        self.ready = False
+        self._mark()
+
+    @property
+    def alive(self) -> bool:
+        """Whether the process runs."""
+        return self._process.poll() is None
+
+    def fileno(self) -> int:
+        """File descriptor, for `select`: readable when an answer has come."""
+        return self._channel.fileno()
+
+    def send(self, task: list[Any], tag: Any) -> None:
+        """Give it a task; `tag` joins `open`.
+
+        Raises:
+            Lost: if it is gone.
+        """
+        if not self.open:
+            self._mark()
+        self.open.append(tag)
+        self._send(task)
+
+    def give(self, descriptor: int) -> None:
+        """Give it the memory that slices are written to.
+
+        Raises:
+            Lost: if it is gone.
+        """
+        self._send(["volume"], descriptor)
+
+    def _send(self, task: list[Any], descriptor: int | None = None) -> None:
+        try:
+            self._channel.send(task, descriptor)
+        except OSError:
+            raise Lost(self._end_of_it()) from None
+
+    def answers(self) -> Iterator[list[Any]]:
+        """Yield what it has answered, after `select` said that there is something.
+
+        Raises:
+            Lost: if it is gone, or what it says is no answer.
+        """
+        try:
+            if not self._channel.fill():
+                raise Lost(self._end_of_it())
+            while (message := self._channel.take()) is not None:
+                self._mark()
+                if not self.ready:
+                    self.ready = True
+                elif isinstance(message, list) and message and isinstance(message[0], str):
+                    yield message
+                else:
+                    raise ChannelError("no answer")
+        except ChannelError as error:
+            raise Lost(f"talked nonsense ({error})") from None
+        except OSError:  # reset: it left without reading what it was sent
+            raise Lost(self._end_of_it()) from None
+
+    def check(self) -> None:
+        """Look whether it still gets on with its task.
+
+        Raises:
+            Lost: if it has worked or waited too long on one file.
+        """
+        waited = time.monotonic() - self._since
+        if waited < _GRACE:
+            return
+        if not self.ready:
+            if waited > READY_SECONDS:
+                raise Lost(f"was not ready within {READY_SECONDS:.0f} s")
+            self._mark(self._since)
+        elif self.open and processor_seconds(self._process.pid) - self._used > FILE_SECONDS:
+            raise Lost(f"took longer than {FILE_SECONDS:.0f} s of computing")
+        elif self.open and waited > WAITING_SECONDS:
+            raise Lost(f"waited longer than {WAITING_SECONDS:.0f} s for it")
+
+    def close(self) -> None:
+        """End it at once; idempotent."""
+        self._channel.close()
+        if self._process.poll() is None:
+            self._process.kill()
+        self._process.wait()
+
+    def _mark(self, since: float | None = None) -> None:
+        self._since = time.monotonic() if since is None else since
+        self._used = processor_seconds(self._process.pid)
+
+    def _end_of_it(self) -> str:
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(1.0)
+        code = self._process.returncode
+        if code is None:
+            return "closed its connection"
+        if code >= 0:
+            return f"ended with code {code}"
+        with contextlib.suppress(ValueError):
+            return f"was ended by {signal.Signals(-code).name}"
+        return f"was ended by signal {-code}"
+
+
+def _started(module: str, descriptor: int, channel: Channel) -> "subprocess.Popen[bytes]":
+    environment = os.environ | {
+        "PYTHONPATH": os.pathsep.join(filter(None, [str(_ROOT), os.environ.get("PYTHONPATH")])),
+        "OPENBLAS_NUM_THREADS": "1",  # each thread would take its share of the memory allowed
+        "OMP_NUM_THREADS": "1",
+    }
+    try:
+        return subprocess.Popen(
+            [sys.executable, "-P", "-m", module, str(descriptor)],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,  # decoders grumble there, and parsers quote headers
+            env=environment,
+            pass_fds=(descriptor,),
+            start_new_session=True,  # Ctrl+C in a terminal is the program's to handle
+        )
+    except OSError as error:
+        channel.close()
+        raise WorkerError(
+            f"the process that reads foreign files cannot be started: {error.strerror or error}"
+        ) from error

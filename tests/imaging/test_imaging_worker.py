@@ -1,0 +1,210 @@
+"""The worker process: what crashes, hangs or fills the memory there is named, and nothing else."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from app.core.progress import Cancelled, Progress
+from app.imaging.errors import FileDamagedError, WorkerError, WorkerLostError
+from app.imaging.examining import examine
+from app.imaging.filling import filled
+from app.imaging.header import Plane, SliceHeader
+from app.imaging.worker import process, service
+from app.imaging.worker.pool import ImagingWorker
+from app.imaging.worker.service import examine_files
+from app.imaging.worker.values import ForeignValueError, plain, reader
+from tests.imaging.dicom_factory import Slices
+
+HOSTILE = "tests.imaging.hostile_child"
+
+
+@pytest.fixture
+def hostile():
+    worker = ImagingWorker(1, HOSTILE)
+    yield worker
+    worker.close()
+
+
+def reasons(worker, *names):
+    paths = [Path("/nowhere", name) for name in names]
+    return [found.reason for found in examine_files(paths, Progress(), worker)]
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("crash", "was ended by SIGABRT"),
+        ("exit", "ended with code 3"),
+        ("nonsense", "talked nonsense"),
+        ("huge", "talked nonsense"),
+        ("memory", "of memory"),
+        ("surprise", "KeyError: 'surprise'"),
+        ("wrong", "talked nonsense"),
+    ],
+)
+def test_a_file_that_breaks_its_reader_is_named_and_the_others_are_read(hostile, name, words):
+    found = reasons(hostile, "a", name, "b", "c")
+    assert words in found[1]
+    assert [found[0], found[2], found[3]] == ["read a", "read b", "read c"]
+
+
+def test_a_file_that_hangs_its_reader_is_given_up_after_two_seconds(hostile):
+    reasons(hostile, "warm")
+    begin = time.monotonic()
+    found = reasons(hostile, "a", "hang", "b")
+    assert "took longer than 2 s" in found[1]
+    assert found[::2] == ["read a", "read b"]
+    assert time.monotonic() - begin < 60.0  # two of computing, and what a busy machine adds
+
+
+def test_a_file_that_never_comes_is_given_up_too(hostile, monkeypatch):
+    monkeypatch.setattr(process, "WAITING_SECONDS", 1.0)
+    assert "waited longer than 1 s" in reasons(hostile, "sleep")[0]
+
+
+def test_many_hostile_files_in_a_row_cost_one_child_each(hostile):
+    found = reasons(hostile, *["crash", "a"] * 4)
+    assert found[1::2] == ["read a"] * 4
+    assert all("SIGABRT" in reason for reason in found[::2])
+
+
+def test_a_child_that_was_killed_while_it_had_nothing_to_do_is_replaced(hostile):
+    reasons(hostile, "a")
+    os.kill(hostile._idle[0]._process.pid, signal.SIGKILL)
+    hostile._idle[0]._process.wait()
+    assert reasons(hostile, "b") == ["read b"]
+
+
+def test_closing_twice_is_closing_once_and_the_next_task_starts_anew(hostile):
+    reasons(hostile, "a")
+    child = hostile._idle[0]
+    hostile.close()
+    hostile.close()
+    assert not child.alive
+    assert reasons(hostile, "b") == ["read b"]
+
+
+def test_a_cancelled_task_leaves_no_child_behind(hostile):
+    progress = Progress()
+    threading.Timer(1.0, progress.cancel).start()
+    with pytest.raises(Cancelled):
+        examine_files([Path("/nowhere/hang")], progress, hostile)
+    assert hostile._idle == []
+    assert reasons(hostile, "a") == ["read a"]
+
+
+def test_more_threads_than_children_wait_for_each_other(hostile):
+    found = []
+    threads = [
+        threading.Thread(target=lambda n=n: found.extend(reasons(hostile, f"{n}", f"{n}")))
+        for n in range(5)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert sorted(found) == sorted([f"read {n}" for n in range(5)] * 2)
+
+
+def test_a_child_that_does_not_come_up_is_an_error_that_says_so():
+    worker = ImagingWorker(1, "no.such.module")
+    with pytest.raises(WorkerError, match="process that reads foreign files ended with code 1"):
+        reasons(worker, "a")
+    worker.close()
+
+
+def test_the_child_ends_when_the_program_is_gone():
+    program = (
+        "import time; from app.imaging.worker.process import Child; c = Child();"
+        "print(c._process.pid, flush=True); time.sleep(60)"
+    )
+    root = Path(__file__).resolve().parents[2]
+    with subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, cwd=root
+    ) as parent:
+        pid = int(parent.stdout.readline())
+        parent.kill()
+    deadline = time.monotonic() + 60.0
+    while time.monotonic() < deadline and Path(f"/proc/{pid}/cmdline").exists():
+        if not Path(f"/proc/{pid}/cmdline").read_bytes():
+            break  # ended, and not yet waited for by whoever inherited it
+        time.sleep(0.1)
+    else:
+        assert not Path(f"/proc/{pid}").exists()
+
+
+def test_the_child_loads_no_kernels_and_no_window():
+    program = (
+        "import sys; import app.imaging.worker.child as c;"
+        "print([n for n in ('numba', 'PySide6', 'vtk', 'scipy', 'cv2') if n in sys.modules])"
+    )
+    root = Path(__file__).resolve().parents[2]
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, cwd=root, text=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_the_program_parses_no_dicom_itself(tmp_path):
+    Slices().write(tmp_path)
+    program = (
+        "import sys; from app.imaging.scanning import scan_folder;"
+        "found = scan_folder(sys.argv[1]); print(len(found.usable), 'pydicom' in sys.modules)"
+    )
+    root = Path(__file__).resolve().parents[2]
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path)], capture_output=True, cwd=root, text=True
+    )
+    assert done.stdout.strip() == "1 False"
+
+
+def test_headers_come_through_the_process_as_they_are(tmp_path):
+    for path in Slices().write(tmp_path):
+        (here,) = examine(path)
+        (there,) = examine_files([path], Progress())[0]
+        assert there == here
+
+
+@pytest.mark.parametrize("spoilt", [[], "text", None, [1, 2], [[1.0, 2.0, "3"], [0.0] * 6, [1, 1]]])
+def test_a_value_of_the_wrong_type_is_refused(spoilt):
+    with pytest.raises(ForeignValueError):
+        reader(Plane)(spoilt)
+
+
+def test_values_keep_their_types():
+    plane = Plane((1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0), (0.5, 0.5))
+    assert reader(Plane | None)(plain(plane)) == plane
+    assert reader(Plane | None)(None) is None
+
+
+def test_a_file_swapped_after_the_scan_is_not_read(tmp_path):
+    path = Slices().write(tmp_path)[0]
+    (header,) = examine(path)
+    path.write_bytes(path.read_bytes() + b"\0\0")
+    with pytest.raises(FileDamagedError, match="has changed since"):
+        filled([header], np.dtype(np.int16))
+
+
+def test_a_file_removed_after_the_scan_is_named(tmp_path):
+    path = Slices().write(tmp_path)[0]
+    (header,) = examine(path)
+    path.unlink()
+    with pytest.raises(FileDamagedError, match=rf"{path.name} cannot be read: No such file"):
+        filled([header], np.dtype(np.int16))
+
+
+def test_a_slice_that_breaks_its_reader_ends_the_load_by_name(tmp_path, monkeypatch):
+    (header,) = examine(Slices().write(tmp_path)[0])
+    encoded: SliceHeader = replace(
+        header, pixels=replace(header.pixels, syntax="1.2.840.10008.1.2.5")
+    )
+    lost = iter([(0, ["lost", "was ended by SIGSEGV"])])
+    monkeypatch.setattr(service.ImagingWorker, "run", lambda *_: lost)
+    with pytest.raises(WorkerLostError, match=r"s000 is damaged or hostile: .* SIGSEGV"):
+        filled([encoded], np.dtype(np.int16))
