@@ -69,8 +69,9 @@ class Tasks:
         except Exception as error:  # hostile bytes can make the parsers raise nearly anything
             return ["damaged", f"it cannot be read ({type(error).__name__}: {error})"[:200]]
 
-    def examined(self, path: str) -> list[Any]:
-        """Answer the headers in a file, or why it has none."""
+    def examined(self, path: str, settings: str) -> list[Any]:
+        """Answer the headers in a file, or why it has none; pseudonyms need the key in settings."""
+        os.environ["ACUS_SETTINGS"] = settings
         found = examine(Path(path))
         if isinstance(found, Ignored):
             return ["ignored", found.reason]
@@ -84,7 +85,7 @@ class Tasks:
         fill_slice(known, hu, self._array("stored", shape, stored_type(known.format)))
         if self._volume is None:
             raise FileDamagedError("there is no volume to write to")
-        view, at = memoryview(hu).cast("B"), place * hu.nbytes
+        view, at = memoryview(hu.data).cast("B"), place * hu.nbytes
         while view:
             written = os.pwrite(self._volume, view, at)
             view, at = view[written:], at + written

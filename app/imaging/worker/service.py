@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from app.core import paths as paths_of_user
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, WorkerLostError
 from app.imaging.header import SliceHeader
+from app.imaging.privacy.key import installation_key
 from app.imaging.rescaling import NotExactError
 from app.imaging.series import Ignored
 from app.imaging.worker.pool import ImagingWorker, shared_worker
@@ -35,9 +37,12 @@ def examine_files(
 
     Raises:
         WorkerError: if the process cannot be started.
+        KeyDamagedError: if the key of the pseudonyms cannot be read or made.
         Cancelled: if `progress` was cancelled.
     """
-    tasks = [["examine", os.path.abspath(path)] for path in paths]
+    installation_key()  # what is wrong with it is told here, not once for each file
+    settings = str(paths_of_user.settings().absolute())
+    tasks = [["examine", os.path.abspath(path), settings] for path in paths]
     found: list[Examined] = [Ignored(path, "not examined") for path in paths]
     for done, (number, answer) in enumerate((worker or shared_worker()).run(tasks, progress), 1):
         found[number] = _examined(paths[number], answer)

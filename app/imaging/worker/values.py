@@ -21,7 +21,8 @@ class ForeignValueError(ValueError):
 def plain(value: Any) -> Any:
     """Turn a value into what JSON holds: a dataclass becomes the list of its fields."""
     if is_dataclass(value):
-        return [plain(getattr(value, name)) for name in _names(type(value))]
+        cls: Any = type(value)
+        return [plain(getattr(value, name)) for name in _names(cls)]
     if isinstance(value, tuple):
         return [plain(item) for item in value]
     return str(value) if isinstance(value, Path) else value
