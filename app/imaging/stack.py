@@ -99,7 +99,7 @@ def stack(planes: Sequence[Plane], size: tuple[int, int] = (1, 1)) -> Stack:
     off = _off(best, corners, size)
     if len(planes) > 2 and off.max() > TOLERANCE_MM:
         fitted = _fitted(ordered)
-        if (again := _off(fitted, corners, size)).max() < off.max():
+        if (again := _off(fitted, corners, size)).max() <= TOLERANCE_MM:
             best, off = fitted, again
     in_picture = corners - corners[:, :1]
     turned_mm = np.linalg.norm(in_picture - np.median(in_picture, axis=0), axis=2).max(axis=1)

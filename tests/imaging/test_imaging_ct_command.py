@@ -25,10 +25,11 @@ def ct(monkeypatch, capsys):
 def test_list_prints_geometry_and_reason_and_no_name(ct, tmp_path):
     Slices().write(tmp_path)
     Slices(series="2.25.7", shear=0.3).write(tmp_path, "t")
+    Slices(series="2.25.8", offsets=(0.0, 2.0, 4.3, 6.0)).write(tmp_path, "u")
     (tmp_path / "note.txt").write_text("x")
     code, out, _ = ct("list", tmp_path, "--json")
     answer = json.loads(out)
-    good, tilted = answer["series"]
+    good, tilted, uneven = answer["series"]
     assert code == 0
     assert good["usable"]
     assert good["reason"] == ""
@@ -36,13 +37,17 @@ def test_list_prints_geometry_and_reason_and_no_name(ct, tmp_path):
     assert good["spacing_mm"] == [0.5, 0.8, 2.0]
     assert good["origin_mm"] == [-20.0, 30.0, -100.0]
     assert good["direction"] == [1, 0, 0, 0, 1, 0, 0, 0, 1]
-    assert not tilted["usable"]
-    assert "tilted" in tilted["reason"]
+    assert tilted["usable"]
+    assert tilted["notes"] == ["gantry tilt 16.7°"]
+    assert tilted["remedy"] == "straighten"
+    assert not uneven["usable"]
+    assert "uneven spacing" in uneven["reason"]
+    assert uneven["remedy"] == "resample"
     assert answer["ignored"] == [{"file": "note.txt", "reason": "not a DICOM file"}]
     code, text, _ = ct("list", tmp_path)
     assert "usable" in text
     assert "refused" in text
-    assert "tilted" in text
+    assert "gantry tilt 16.7°" in text
     assert "ecret" not in (out + text).lower()
 
 
