@@ -14,6 +14,14 @@ if TYPE_CHECKING:
 
 app = typer.Typer(help="List the CT series of a folder; find where a voxel lies.")
 
+Mend = Annotated[
+    str | None,
+    typer.Option(
+        metavar="WORD",
+        help="Read the series on request: resample (uneven slices), straighten (gantry tilt), "
+        "halve (too large).",
+    ),
+]
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder, searched at any depth.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
 
@@ -55,6 +63,7 @@ def point(
     pixel: Annotated[
         str | None, typer.Option(metavar="COL,ROW", help="Pixel of that file.")
     ] = None,
+    remedy: Mend = None,
     as_json: AsJson = False,
 ) -> None:
     """Patient point (LPS, mm) and Hounsfield value of a voxel, or of a pixel of one file."""
@@ -63,7 +72,9 @@ def point(
             "name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW"
         )
     if voxel is not None:
-        lps_mm, hu = _voxel(folder, series, _integers(voxel, 3, "--voxel", "I,J,K"))
+        lps_mm, hu = _voxel(folder, series, remedy, _integers(voxel, 3, "--voxel", "I,J,K"))
+    elif remedy is not None:
+        raise ConfigurationError("--remedy goes with --voxel; a pixel lies where its file puts it")
     elif sop is None or pixel is None:
         raise ConfigurationError("--sop UID and --pixel COL,ROW go together; give both")
     else:
@@ -75,11 +86,12 @@ def point(
         typer.echo(f"LPS {x:.3f} {y:.3f} {z:.3f} mm, {hu:g} HU")
 
 
-def _voxel(folder: Path, series_uid: str | None, ijk: list[int]) -> tuple[list[float], float | int]:
+def _voxel(
+    folder: Path, series_uid: str | None, remedy: str | None, ijk: list[int]
+) -> tuple[list[float], float | int]:
     from app.imaging.errors import OutsideImageError
-    from app.imaging.reading import load_ct
 
-    volume: Volume = load_ct(folder, series_uid)
+    volume = _volume(folder, series_uid, remedy)
     if not all(0 <= index < size for index, size in zip(ijk, volume.size, strict=True)):
         limits = ", ".join(
             f"{name} 0 to {n - 1}" for name, n in zip("IJK", volume.size, strict=True)
@@ -87,6 +99,27 @@ def _voxel(folder: Path, series_uid: str | None, ijk: list[int]) -> tuple[list[f
         raise OutsideImageError(f"voxel {tuple(ijk)} is outside the series: {limits}")
     i, j, k = ijk
     return volume.lps_mm(ijk).tolist(), _plain(volume.hu[k, j, i].item())
+
+
+def _volume(folder: Path, series_uid: str | None, remedy: str | None) -> "Volume":
+    """Read a series; what was done to it on request is said on the error stream."""
+    from app.imaging.reading import choose, load_ct
+    from app.imaging.series import Remedy
+
+    if remedy is None:
+        return load_ct(folder, series_uid)
+    valid = [each.value for each in Remedy if each is not Remedy.NONE]
+    if remedy not in valid:
+        raise ConfigurationError(f"--remedy {remedy!r} is none of {', '.join(valid)}")
+    from app.imaging.resampling import read_with
+    from app.imaging.scanning import scan_folder
+
+    asked = Remedy(remedy)
+    listing = scan_folder(folder)
+    volume = read_with(choose(listing, series_uid, asked), asked)
+    for words in volume.made:
+        typer.echo(words, err=True)
+    return volume
 
 
 def _pixel(folder: Path, sop: str, place: list[int]) -> tuple[list[float], float | int]:

@@ -36,6 +36,7 @@ _STEP_MM: Final = 0.25
 _ITERATIONS: Final = 6
 
 _PAD: Final = 4
+_ROUNDING: Final = 1e-9
 
 _CORNERS: Final = np.argwhere(np.ones((3, 3, 3), bool)) - 1.0
 _AROUND: Final = np.vstack(
@@ -103,8 +104,8 @@ def find_body(volume: Volume, progress: Progress | None = None) -> Body:
                zip(volume.spacing_mm, volume.size, strict=True))  # fmt: skip
     progress.report(0.0, "looking for the body")
     tissue = volume.hu[::k, ::j, ::i] > SKIN_HU
-    spacing = volume.spacing_mm[::-1] * (k, j, i)
-    opened = ndimage.binary_opening(np.pad(tissue, _PAD, mode="edge"), _ball(spacing))
+    cell_mm = volume.affine_mm[:3, :3] * (i, j, k)
+    opened = ndimage.binary_opening(np.pad(tissue, _PAD, mode="edge"), _ball(cell_mm))
     progress.report(0.4, "taking the table away")
     body = _largest(opened[_PAD:-_PAD, _PAD:-_PAD, _PAD:-_PAD])
     progress.report(0.7, "filling the lungs")
@@ -115,12 +116,17 @@ def find_body(volume: Volume, progress: Progress | None = None) -> Body:
     return Body(volume, (i, j, k), read_only(body))
 
 
-def _ball(spacing: FloatArray) -> Mask:
-    """Structuring element of radius `_TABLE_MM` on a grid of this spacing [mm], (k, j, i)."""
-    reach = np.minimum(np.maximum(np.floor(_TABLE_MM / spacing), 0), _PAD).astype(int)
-    grid = np.meshgrid(*(np.arange(-r, r + 1) for r in reach), indexing="ij")
-    distance = sum((axis * step) ** 2 for axis, step in zip(grid, spacing, strict=True))
-    ball: Mask = distance <= _TABLE_MM**2
+def _ball(cell_mm: FloatArray) -> Mask:
+    """Structuring element of radius `_TABLE_MM`, axes (k, j, i).
+
+    Args:
+        cell_mm: vectors between cells along i, j, k as columns, right-angled or not, shape (3, 3).
+    """
+    across = 1.0 / np.linalg.norm(np.linalg.inv(cell_mm), axis=1)  # between planes of cells
+    reach = np.minimum(np.floor(_TABLE_MM / across + _ROUNDING), _PAD).astype(int)
+    grid = np.meshgrid(*(np.arange(-r, r + 1) for r in reach[::-1]), indexing="ij")
+    offsets = np.stack(grid[::-1], axis=-1) @ cell_mm.T
+    ball: Mask = (offsets**2).sum(axis=-1) <= _TABLE_MM**2 + _ROUNDING
     return ball
 
 

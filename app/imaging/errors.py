@@ -32,6 +32,10 @@ class SeriesRefusedError(ImagingError, ValueError):
     """The series cannot be made into a volume; the message says why."""
 
 
+class TooLargeError(SeriesRefusedError):
+    """The volume does not fit the memory; the message says what would."""
+
+
 class SeriesUnknownError(ImagingError, LookupError):
     """No series, or no file, of that identifier is in the folder."""
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, read_only
 from app.core.progress import Progress
-from app.imaging import stack
+from app.imaging import memory, stack
 from app.imaging.errors import (
     FileDamagedError,
     FolderError,
@@ -17,6 +17,7 @@ from app.imaging.errors import (
     SeriesAmbiguousError,
     SeriesRefusedError,
     SeriesUnknownError,
+    TooLargeError,
 )
 from app.imaging.filling import filled
 from app.imaging.header import SliceHeader
@@ -121,11 +122,14 @@ def read_series(series: Series, progress: Progress | None = None) -> Volume:
 
     Raises:
         SeriesRefusedError: if the series is not usable.
+        TooLargeError: if it does not fit the memory that is free now.
         FileDamagedError: if a file has changed since the scan or cannot be decoded; names it.
         Cancelled: if `progress` was cancelled.
     """
     if not series.usable:
         raise SeriesRefusedError(_refusal(series))
+    if too_large := memory.need(series.slices).reason:  # less is free than at the scan
+        raise TooLargeError(f"series {series.key} {too_large}; ask to halve it")
     hu = read_pixels(series, progress)
     return Volume(read_only(hu), grid_of(series).affine_mm, series, unit=series.unit)
 

@@ -107,6 +107,10 @@ class OrthogonalPlane(SlicePlane):
         self.step_mm = slicer.slice_spacing_mm(view)
         self.half_slab_mm = max(HALF_SLAB_MM, self.step_mm / 2)
         self.ahead = frozen((ahead - origin) / np.linalg.norm(ahead - origin))
+        self._is_sheared = slicer.volume.is_sheared
+        if self._is_sheared:  # the way to the next slice is not the way out of this one
+            normal = self.frame(0.0).normal
+            self.ahead = frozen(normal * np.sign(normal @ self.ahead))
 
     def image(self, index: float) -> NDArray[Any]:
         """Hounsfield units of the nearest slice; no copy."""
@@ -114,6 +118,10 @@ class OrthogonalPlane(SlicePlane):
 
     def point(self, lps_mm: ArrayLike, index: float) -> PlanePoint:
         """Where an LPS point [mm] appears in slice `index`, and how far ahead of it it is."""
+        if self._is_sheared:
+            place = self.frame(index)
+            x, y, distance = place.point(lps_mm)
+            return PlanePoint(x, y, distance * float(np.sign(place.normal @ self.ahead)))
         at, column, row = self._slicer.from_lps_mm(self._view, np.asarray(lps_mm, np.float64))
         x, y = (np.array([column, row]) + 0.5) * self._pixel
         return PlanePoint(float(x), float(y), float(at - index) * self.step_mm)
@@ -142,6 +150,18 @@ class OrthogonalPlane(SlicePlane):
         """Patient letters at the left, right, top and bottom edge."""
         letters = self._slicer.letters(self._view)
         return letters.left, letters.right, letters.top, letters.bottom
+
+
+def own_plane(slicer: OrthogonalSlicer, view: View) -> SlicePlane:
+    """Axial, sagittal or coronal plane of a volume, right-angled and to scale in any case.
+
+    Where a gantry tilt shears the volume's own pictures of the view, they are interpolated.
+    """
+    if slicer.is_right_angled(view):
+        return OrthogonalPlane(slicer, view)
+    frame = Frame(slicer.to_lps_mm(view, 0.0, 0.0, 0.0), *slicer.straight_axes(view))
+    ahead = slicer.to_lps_mm(view, 1.0, 0.0, 0.0) - slicer.to_lps_mm(view, 0.0, 0.0, 0.0)
+    return ReformatPlane(slicer.volume, frame, PaneId(view), ahead)
 
 
 class ReformatPlane(SlicePlane):

@@ -17,7 +17,7 @@ from app.planning.draft import DraftPlan
 from app.views.error_overlay import ErrorOverlay
 from app.views.needle_overlay import NeedleOverlay
 from app.views.slices.panes import MPR_PANES, PaneId
-from app.views.slices.plane import OrthogonalPlane, ReformatPlane, SlicePlane
+from app.views.slices.plane import ReformatPlane, SlicePlane, own_plane
 
 FOLLOW_DEAD_BAND_MM = 0.3
 """Slices that follow the tip stay while it moves less than this, so that they do not tremble."""
@@ -74,7 +74,7 @@ class Viewing(QObject):
     def set_volume(self, volume: Volume) -> None:
         """Show another volume; the crosshair goes to its middle."""
         self.volume, self.slicer = volume, OrthogonalSlicer(volume)
-        self._planes = {pane: OrthogonalPlane(self.slicer, View(pane)) for pane in MPR_PANES}
+        self._planes = {pane: own_plane(self.slicer, View(pane)) for pane in MPR_PANES}
         self._own_index = {}
         middle = [(count - 1) / 2 for count in volume.size]
         self.cursor_mm = frozen(volume.lps_mm(middle))
@@ -111,7 +111,7 @@ class Viewing(QObject):
                 ahead = before.ahead
             self._planes[pane] = ReformatPlane(self.volume, frame, pane, ahead, pane.is_needle)
         elif not pane.is_needle:
-            self._planes[pane] = OrthogonalPlane(self.slicer, View(pane))
+            self._planes[pane] = own_plane(self.slicer, View(pane))
         self.plane_changed.emit(pane)
 
     def index(self, pane: PaneId) -> float:

@@ -1,0 +1,214 @@
+"""Series that cannot be read as they are, read on request all the same, and the volume says how.
+
+Resampling puts uneven slices on an even, right-angled grid; straightening does the same with a
+tilted stack. Each value lies between its two neighbouring slices, each sampled where its own file
+puts it: linear along the normal, bilinear in the slice. Where slices are missing nothing is
+invented: the gap stays empty. Halving averages blocks of voxels, so that a volume fits the memory.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from app.core.arrays import FloatArray, read_only
+from app.core.progress import Progress
+from app.imaging import memory, stack
+from app.imaging.errors import SeriesRefusedError, TooLargeError
+from app.imaging.reading import grid_of, read_pixels, read_series
+from app.imaging.reduction import reduced_affine
+from app.imaging.rescaling import fresh_array
+from app.imaging.series import Remedy, Series
+from app.imaging.volume import Volume
+
+EMPTY_HU = -1024.0
+"""Value of voxels that no slice covers, in Hounsfield units; 0 where there is no unit."""
+
+FINEST_MM, COARSEST_MM = 0.1, 20.0
+"""Slice spacings that can be asked for."""
+
+_WHOLE = 1e-4
+"""A sampling place this near to a pixel (or slice) is that pixel, in pixels (or slices)."""
+
+
+def read_with(
+    series: Series,
+    remedy: Remedy = Remedy.NONE,
+    progress: Progress | None = None,
+    spacing_mm: float | None = None,
+) -> Volume:
+    """Read a series as it is, or mended in the way asked for.
+
+    Args:
+        series: usable, or one whose `remedy` is the one asked for.
+        remedy: what is asked for.
+        progress: told how far it is; cancels.
+        spacing_mm: of resampled slices; the usual distance of the series' own where None.
+
+    Raises:
+        SeriesRefusedError: if the series cannot be read that way; says why.
+        FileDamagedError: if a file has changed since the scan or cannot be decoded; names it.
+        Cancelled: if `progress` was cancelled.
+    """
+    progress = progress or Progress()
+    if remedy is Remedy.NONE:
+        return read_series(series, progress)
+    if not series.slices or not (series.usable or series.remedy is remedy):
+        why = series.reason or "it is one file that holds a whole volume"
+        raise SeriesRefusedError(f"asking to {remedy} series {series.key} does not help: {why}")
+    if remedy is Remedy.HALVE:
+        return _halved(series, progress)
+    return _straight(series, spacing_mm, progress)
+
+
+def _halved(series: Series, progress: Progress) -> Volume:
+    factors = memory.need(series.slices).factors
+    grid = grid_of(series)
+    if factors == (1, 1, 1):
+        _, pixel, between = np.linalg.norm(grid.affine_mm[:3, :3], axis=0)
+        factors = (2, 2, 2 if between < 1.5 * pixel else 1)
+    hu = read_pixels(series, progress, factors)
+    i, j, k = factors
+    made = f"reduced: {i} × {j} × {k} voxels averaged to one"
+    affine = reduced_affine(grid.affine_mm, factors)
+    return Volume(read_only(hu), affine, series, (made,), series.unit)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Target:
+    """The right-angled grid that is made.
+
+    Attributes:
+        affine_mm: (i, j, k) -> LPS [mm], shape (4, 4).
+        size: columns, rows, slices.
+        heights_mm: of its slices along the normal, from the first slice of the series, shape (K,).
+    """
+
+    affine_mm: FloatArray
+    size: tuple[int, int, int]
+    heights_mm: FloatArray
+
+
+def _straight(series: Series, spacing_mm: float | None, progress: Progress) -> Volume:
+    grid = grid_of(series)
+    target = _target(series, grid, spacing_mm)
+    both = series.size[0] * series.size[1] * series.size[2] + int(np.prod(target.size))
+    if memory.need_of((both, 1, 1), 2).reason:
+        raise TooLargeError(
+            f"series {series.key} and what would be made of it need "
+            f"{both * 2 / 1e9:.1f} GB of memory; close other programs or read a shorter series"
+        )
+    stored = read_pixels(series, progress.part(0.0, 0.5))
+    empty = EMPTY_HU if series.unit else 0.0
+    hu = fresh_array(target.size[::-1], stored.dtype)
+    gaps = stack.holes(grid.gaps_mm)
+    sampled = _sampler(series, stored, target)
+    heights = (grid.positions_mm - grid.positions_mm[0]) @ grid.normal
+    part = progress.part(0.5, 1.0)
+    for k, height in enumerate(target.heights_mm):
+        part.report(k / len(hu), f"slice {k + 1} of {len(hu)} resampled")
+        picture = _between(heights, float(height), gaps, sampled)
+        picture = np.where(np.isnan(picture), np.float32(empty), picture)
+        hu[k] = np.rint(picture) if stored.dtype.kind == "i" else picture
+    made = _words(series, grid, target, len(gaps))
+    return Volume(read_only(hu), target.affine_mm, series, made, series.unit)
+
+
+def _target(series: Series, grid: stack.Stack, spacing_mm: float | None) -> _Target:
+    """Right-angled grid that holds every slice, from the first one to the last."""
+    columns, rows, _ = series.size
+    gaps = grid.gaps_mm
+    step = float(np.median(gaps)) if spacing_mm is None else spacing_mm
+    if not FINEST_MM <= step <= COARSEST_MM:
+        raise SeriesRefusedError(
+            f"slices {step:g} mm apart cannot be made; ask for {FINEST_MM:g} to {COARSEST_MM:g} mm"
+        )
+    across, normal = grid.affine_mm[:3, 0], grid.normal
+    pixel = np.linalg.norm(grid.affine_mm[:3, :2], axis=0)
+    u = across / pixel[0]
+    axes = np.stack([u, np.cross(normal, u), normal])  # rows: right-handed
+    offsets = (grid.positions_mm - grid.positions_mm[0]) @ axes.T
+    low, high = offsets.min(axis=0), offsets.max(axis=0)
+    more = np.ceil((high[:2] - low[:2]) / pixel - _WHOLE).astype(int)
+    heights = step * np.arange(int(high[2] / step + _WHOLE) + 1, dtype=np.float64)
+    affine = np.eye(4)
+    affine[:3, :3] = axes.T * (*pixel, step)
+    affine[:3, 3] = grid.positions_mm[0] + low[0] * axes[0] + low[1] * axes[1]
+    return _Target(affine, (columns + int(more[0]), rows + int(more[1]), len(heights)), heights)
+
+
+def _sampler(
+    series: Series, stored: NDArray[Any], target: _Target
+) -> Callable[[int], NDArray[np.float32]]:
+    """Slices of the series on the pixels of the target, seen along its normal; NaN beside them."""
+    columns, rows, _ = target.size
+
+    @lru_cache(maxsize=2)
+    def sampled(k: int) -> NDArray[np.float32]:
+        plane = series.slices[k].plane
+        if plane is None:
+            raise SeriesRefusedError(f"{series.slices[k].path} says nothing of its place")
+        own = stack.plane_affine(plane, target.affine_mm[:3, 2])
+        to_own = np.linalg.inv(own) @ target.affine_mm  # along the normal: k drops out
+        matrix = to_own[1::-1, 1::-1]  # (row, column) of the target -> of the slice
+        start = to_own[1::-1, 3]
+        picture = stored[k].astype(np.float32)
+        nearest = np.rint(start)
+        if np.abs(matrix - np.eye(2)).max() * max(columns, rows) < _WHOLE and (
+            np.abs(start - nearest).max() < _WHOLE
+        ):
+            return _placed(picture, -nearest.astype(int), (rows, columns))
+        out = np.empty((rows, columns), np.float32)
+        ndimage.affine_transform(
+            picture, matrix, start, (rows, columns), out, order=1, mode="constant", cval=np.nan
+        )
+        return out
+
+    return sampled
+
+
+def _placed(
+    picture: NDArray[np.float32], at: NDArray[Any], shape: tuple[int, int]
+) -> NDArray[np.float32]:
+    """Put a picture into a larger empty one, pixel on pixel."""
+    out = np.full(shape, np.nan, np.float32)
+    row, column = (int(v) for v in at)
+    out[row : row + picture.shape[0], column : column + picture.shape[1]] = picture
+    return out
+
+
+def _between(
+    heights: FloatArray,
+    height: float,
+    gaps: tuple[int, ...],
+    sampled: Callable[[int], NDArray[np.float32]],
+) -> NDArray[np.float32]:
+    """Picture at a height: of the slice there, or between the two around it; NaN where none is."""
+    k = int(np.clip(np.searchsorted(heights, height) - 1, 0, len(heights) - 2))
+    share = (height - heights[k]) / (heights[k + 1] - heights[k])
+    if share <= _WHOLE:
+        return sampled(k)
+    if share >= 1.0 - _WHOLE:
+        return sampled(k + 1)
+    below, above = sampled(k), sampled(k + 1)
+    if k in gaps:
+        return np.full_like(below, np.nan)
+    return below + np.float32(share) * (above - below)
+
+
+def _words(series: Series, grid: stack.Stack, target: _Target, empty: int) -> tuple[str, ...]:
+    words = []
+    if grid.tilt_deg:
+        words.append(f"straightened from a gantry tilt of {grid.tilt_deg:.1f}°")
+    gaps, step = grid.gaps_mm, float(np.linalg.norm(target.affine_mm[:3, 2]))
+    if not grid.tilt_deg or np.ptp(gaps) > stack.TOLERANCE_MM:
+        words.append(
+            f"resampled from slices {gaps.min():.3g} to {gaps.max():.3g} mm apart to {step:.3g} mm"
+        )
+    if empty:
+        words.append(f"{empty} gap{'s' * (empty > 1)} of missing slices left empty")
+    return tuple(words)
