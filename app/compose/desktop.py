@@ -220,8 +220,10 @@ class DesktopRun:
     def run(self) -> ExerciseRun:
         """What its views need, as the robot's board says it now: it may have come back anew."""
         from app.device.control.velocity import DEFAULT_VELOCITY
+        from app.exercises.guidance import GuidanceMode
         from app.views.exercise.pad_view import rings  # Qt only for who has a window
         from app.views.exercise.run import ExerciseRun
+        from app.views.exercise.shown import Shown
 
         setup, robot = self._rig.setup, self._rig.robot
         return ExerciseRun(
@@ -239,6 +241,8 @@ class DesktopRun:
             readiness=None if robot is None else robot.readiness,
             velocity=DEFAULT_VELOCITY.value,
             held_arming=self._rig.trainer.held_arming,
+            guidance=setup.exercise.guidance,
+            shown=Shown(live=setup.exercise.guidance_mode is GuidanceMode.LIVE),
         )
 
     def place(self, placed: PlacedPlan) -> ExerciseRun:

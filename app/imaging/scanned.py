@@ -21,8 +21,12 @@ from app.imaging.orthogonal import nearest_axes
 from app.imaging.scan_order import ScanNeedle, ScanOrder
 from app.imaging.volume import Volume
 
-METAL_HU = 3071.0
-"""Steel is beyond the end of a 12 bit scanner's scale, which is where it shows it."""
+METAL_HU = 12000.0
+"""Steel on a scale without an end, by order of magnitude: a shaft that fills a quarter of a voxel
+is as bright as the picture can be."""
+
+LAST_HU = 3071.0
+"""End of a 12 bit scanner's scale: whatever is brighter looks like this."""
 
 AIR_HU = -1024.0
 SUBSLICE_MM = 1.0
@@ -73,7 +77,7 @@ def scan_image(
         if streak:
             _add_streaks(hu, order, needle, grid)
         _add_metal(hu, order, needle, grid)
-    picture = np.clip(np.rint(hu), AIR_HU, METAL_HU).astype(np.int16)
+    picture = np.clip(np.rint(hu), AIR_HU, LAST_HU).astype(np.int16)
     size = (picture.shape[2], picture.shape[1], picture.shape[0])
     x, y, z = grid[:3, 3].tolist()
     series = replace(

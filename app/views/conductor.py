@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QObject, Signal
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
-from app.core.transform import RigidTransform
 from app.exercises.scene import device_of, plan_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
@@ -18,20 +15,17 @@ from app.tracking.cameras.settings import CameraSettings
 from app.views.background import Indicator
 from app.views.exercise.controller import ExerciseController
 from app.views.exercise.run import ExerciseRun
-from app.views.needle_overlay import NeedleOverlay
+from app.views.live_needle import LiveNeedle
 from app.views.patient import Patient
 from app.views.plan.editor import PlanEditor
 from app.views.runs import Runs
+from app.views.scan_source import ScanSource
 from app.views.scene.extraction import SurfaceExtraction
-from app.views.scene.robot import RobotShape
 from app.views.services import RobotChoice, RunSetup
 from app.views.slices.slab import as_point
-from app.views.slices.viewing import Tool
+from app.views.slices.viewing import Tool, Viewing
 from app.views.text import tr
 from app.views.workspace import Workspace
-
-SCENE_DEAD_BAND_MM = 0.25
-"""The 3D picture is made anew when the needle moved more than this."""
 
 SIGHT_MM = 2000.0
 
@@ -65,7 +59,8 @@ class Conductor(QObject):
         self._cameras: CameraSettings | None = None
         self._profile: DeviceProfile | None = None
         self._surfaces = SurfaceExtraction(workspace.scene, self)
-        self._drawn: NDArray[np.float64] | None = None
+        self._needle = LiveNeedle(workspace)
+        self.scans = ScanSource(self, workspace)
         self._connect()
 
     def _connect(self) -> None:
@@ -79,11 +74,17 @@ class Conductor(QObject):
         self._runs.gone.connect(self._detach)
         self._surfaces.failed.connect(self.failed)
         self.controller.snapshot_taken.connect(self.show_snapshot)
+        self.scans.connect_all()
 
     @property
     def profile(self) -> DeviceProfile | None:
         """Device of the exercise; None before there is one."""
         return self._profile
+
+    @property
+    def planning(self) -> Viewing:
+        """State of the planning CT's slices."""
+        return self._workspace.viewing
 
     @property
     def settled(self) -> bool:
@@ -191,19 +192,17 @@ class Conductor(QObject):
 
     # --- robot and needle ---------------------------------------------------------------------
     def _attach(self, run: ExerciseRun) -> None:
-        self._drawn = None
+        self._needle.forget()
         self.controller.attach(run)
         self._show_plan()
 
     def _moved(self, run: ExerciseRun) -> None:
-        self._drawn = None
+        self._needle.forget()
         self.controller.replan(run)
 
     def _detach(self) -> None:
         self.controller.detach()
-        self._workspace.viewing.set_needle(None)
-        self._workspace.scene.set_needle(None)
-        self._workspace.scene.set_robot(None, RigidTransform.identity())
+        self._needle.hide()
         self._show_plan()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
@@ -212,20 +211,7 @@ class Conductor(QObject):
         if run is None:
             return
         self._editor_lock(snapshot)
-        pose, transform = snapshot.pose, run.placed.T_world_patient
-        length = run.profile.geometry.needle_length
-        # Without a measured depth only the line is known: it ends at the entry, grey.
-        p_end = pose.p_tip if pose.measured else run.placed.p_entry
-        spread = pose.covariance if pose.measured else None
-        needle = NeedleOverlay.of_world(p_end, pose.axis, length, transform, pose.measured, spread)
-        self._workspace.viewing.set_needle(needle)
-        ends = np.concatenate([needle.start_mm, needle.tip_mm])
-        if self._drawn is None or np.abs(ends - self._drawn).max() > SCENE_DEAD_BAND_MM:
-            self._drawn = ends
-            self._workspace.scene.set_needle(needle)
-            q = None if snapshot.device is None else snapshot.device.q
-            robot = RobotShape.of(run.profile.pantograph, q)
-            self._workspace.scene.set_robot(robot, transform.inverse())
+        self._needle.show(run, snapshot)
 
     def _editor_lock(self, snapshot: Snapshot) -> None:
         running = snapshot.state in RUNNING

@@ -11,10 +11,14 @@ SIDES = (("R", "L"), ("A", "P"), ("I", "S"))
 """Letters of the negative and the positive side of each LPS axis."""
 
 
+def axis_words(axis: int, value_mm: float) -> str:
+    """Say one LPS coordinate [mm] with the letter of its side: `S 310.2`."""
+    value = round(value_mm, 1)
+    return f"{SIDES[axis][value >= 0]} {abs(value):.1f}"
+
+
 def lps_words(lps_mm: ArrayLike) -> str:
     """Say where an LPS point [mm] lies, each letter naming the side: no signs to think about."""
-    x, y, z = (
-        f"{SIDES[axis][value >= 0]} {abs(value):.1f}"
-        for axis, value in enumerate(np.asarray(lps_mm, dtype=np.float64).round(1).tolist())
-    )
+    values = np.asarray(lps_mm, dtype=np.float64).tolist()
+    x, y, z = (axis_words(axis, value) for axis, value in enumerate(values))
     return tr("{x}   {y}   {z} mm", x=x, y=y, z=z)

@@ -15,6 +15,7 @@ from app.views.checks.desk import ChecksDesk
 from app.views.conductor import Conductor
 from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
+from app.views.debrief.scan_picture import ScanPictures
 from app.views.debrief.sessions import SessionsPage
 from app.views.drops import dropped
 from app.views.menus import Menus
@@ -69,6 +70,7 @@ class MainWindow(QMainWindow):
         self.debrief = DebriefController(
             self.debrief_page, self.sessions_page, services.sessions(), parent=self
         )
+        self.scan_pictures = ScanPictures(self.debrief_page, self.conductor)
         self.exercises = {exercise.id: exercise for exercise in services.exercises()}
         self._lay_out()
         self.menus = Menus(self)

@@ -17,7 +17,9 @@ from PySide6.QtWidgets import (
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseViews
 from app.views.exercise.messages import MessageList
+from app.views.exercise.needle_cell import NeedleCell
 from app.views.exercise.panel import ExercisePanel
+from app.views.exercise.scan_view import ScanView
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.tracker_panel import TrackerPanel
 from app.views.grid import ViewGrid
@@ -53,11 +55,15 @@ class Workspace(QWidget):
         self.panes = tuple(SlicePane(self.viewing, pane, self) for pane in MPR_PANES)
         self.scene = SceneView(SceneRenderer(), self)
         self.bullseye = Bullseye(self)
+        self.scan_view = ScanView(self.viewing, self)
+        self.needle_cell = NeedleCell(self.bullseye, self.scan_view)
         panes: dict[str, QWidget] = {str(pane.pane): pane for pane in self.panes}
-        self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: _Cell(self.bullseye)}, self)
+        self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: _Cell(self.needle_cell)}, self)
         self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
         for pane in self.panes:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
+        cell = self.grid.pane(BULLSEYE)
+        self.scan_view.pane.maximise_wanted.connect(lambda: self.grid.toggle(cell))
         self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
         self.plan_panel = PlanPanel(editor, self.viewing, self)
         self.exercise_panel = ExercisePanel(self)

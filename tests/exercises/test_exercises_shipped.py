@@ -21,6 +21,7 @@ SHIPPED = [
     "breathing-liver",
     "past-the-vessel",
     "against-repulsion",
+    "scans-only",
 ]
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 
 from app.core.errors import NumericalError
 from app.core.rotation import rotation_exp
+from app.imaging import scanned
 from app.imaging.errors import ScanOrderError
 from app.imaging.scan_order import ScanNeedle, ScanOrder, Seen, seen
 from app.imaging.scanned import METAL_HU, scan_image
@@ -13,6 +14,12 @@ from app.imaging.series import Series
 from app.imaging.volume import Volume
 
 RADIUS = 0.9
+
+
+@pytest.fixture
+def endless(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A scale that does not end below steel, so that brightness measures metal."""
+    monkeypatch.setattr(scanned, "LAST_HU", 32000.0)
 
 
 def volume_of(hu: NDArray[np.generic], affine: NDArray[np.float64] | None = None) -> Volume:
@@ -44,6 +51,7 @@ def test_a_scan_without_a_needle_is_the_mean_of_the_ct_over_each_slice() -> None
     np.testing.assert_allclose(picture.hu[1], source.hu[28:33].mean(axis=0), atol=0.51)
 
 
+@pytest.mark.usefixtures("endless")
 @pytest.mark.parametrize("direction", [(0, 0, 1), (0, 1, 0), (1, 2, 0.3), (-0.4, 0.8, -0.2)])
 def test_the_metal_in_the_picture_is_as_much_as_in_the_slices(direction: tuple[float, ...]) -> None:
     axis = np.array(direction) / np.linalg.norm(direction)
@@ -91,6 +99,7 @@ def test_a_needle_beside_the_range_changes_nothing(streak: bool) -> None:
     np.testing.assert_array_equal(with_needle.hu, scan_image(flat(), order).hu)
 
 
+@pytest.mark.usefixtures("endless")
 def test_a_grazing_shaft_is_faint() -> None:
     def peak(z: float) -> int:
         ends = np.array([[0.0, -15.0, z], [0.0, 15.0, z]])

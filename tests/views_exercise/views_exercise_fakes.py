@@ -11,6 +11,7 @@ from views_exercise_attempts import placed_plan
 from app.core.arrays import FloatArray
 from app.core.events import Event, EventQueue
 from app.core.state_vector import INDEX, empty_state
+from app.imaging.scan_order import ScanOrder
 from app.mechanisms.profile import load_profile
 from app.planning.placement import PlacedPlan
 from app.session.curves import offset
@@ -103,8 +104,8 @@ class FakeTrainer:
         self.result = SimpleNamespace(state=State.ABORTED)
         return self.result
 
-    def scan(self) -> int:
-        self.calls.append(("scan",))
+    def scan(self, order: ScanOrder | None = None) -> int:
+        self.calls.append(("scan",) if order is None else ("scan", order))
         return 1
 
     def arm(self) -> None:

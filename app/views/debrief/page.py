@@ -9,6 +9,7 @@ from app.views import theme
 from app.views.debrief.curves import CurvesView
 from app.views.debrief.path_view import PathView
 from app.views.debrief.review import Review
+from app.views.debrief.scan_list import ScanList
 from app.views.debrief.score_table import ScoreTable
 from app.views.debrief.score_words import total_text, verdict
 from app.views.exercise.readouts import clock_text
@@ -36,6 +37,7 @@ class DebriefPage(QWidget):
         self._verdict, self._total, self._reason = QLabel(self), QLabel(self), QLabel(self)
         self._problems = QLabel(self)
         self.table = ScoreTable(self)
+        self.scans = ScanList(self)
         self.path = PathView(self)
         self.curves = CurvesView(self)
         self.report = QPushButton(tr("Save report (PDF)"), self)
@@ -60,6 +62,7 @@ class DebriefPage(QWidget):
         self._problems.setText("\n".join(f"▲ {problem}" for problem in review.problems))
         self._problems.setVisible(bool(review.problems))
         self.table.show_score(review.score)
+        self.scans.show_review(review)
         self.path.show_review(review)
         self.curves.show_review(review)
 
@@ -91,6 +94,7 @@ class DebriefPage(QWidget):
         for widget in (self._reason, self._problems):
             column.addWidget(widget)
         column.addWidget(self.table, 3)
+        column.addWidget(self.scans, 2)
         column.addWidget(self.path, 4)
         splitter = QSplitter(Qt.Orientation.Horizontal, self)
         splitter.addWidget(left)

@@ -8,8 +8,10 @@ from PySide6.QtGui import QColor, QFont, QPageLayout, QPageSize, QPainter, QPdfW
 
 from app import __version__
 from app.core.files import write_atomically
+from app.imaging.scan_order import Seen
 from app.scoring.result import Score
 from app.scoring.rows import Row
+from app.session.control_scan import TEACHING_ESTIMATE
 from app.views.debrief.curves import curves_of
 from app.views.debrief.page import date_text
 from app.views.debrief.print_path import paint_path
@@ -100,7 +102,7 @@ def _facts(painter: QPainter, review: Review, y: float) -> float:
         (tr("Session"), review.id),
         (tr("State"), state_word(review.state) + (f": {review.reason}" if review.reason else "")),
         (tr("Duration"), clock_text(review.duration)),
-        (tr("Control scans"), str(review.scans)),
+        (tr("Control scans"), scans_text(review)),
         (tr("Path"), tr("{mm:.1f} mm from entry to target", mm=1e3 * review.placed.length)),
         (tr("Tip measured to"), radius_text(review.tip_radius)),
         (tr("Recorded with"), f"Acus {review.software}"),
@@ -110,6 +112,19 @@ def _facts(painter: QPainter, review: Review, y: float) -> float:
         _text(painter, MARGIN + 130.0, y, value, font(9.5))
         y += 15.0
     return y + 16.0
+
+
+def scans_text(review: Review) -> str:
+    """Say how many control scans there were, how many showed the tip, and their notional dose."""
+    scans = review.control_scans
+    if not scans:
+        return str(review.scans)
+    tips = sum(scan.seen is Seen.TIP for scan in scans)
+    return tr(
+        "{n}, {tips} of them with the tip; {dose:.1f} mGy·cm ({estimate})",
+        n=review.scans, tips=tips, dose=sum(scan.dose for scan in scans),
+        estimate=tr(TEACHING_ESTIMATE),
+    )  # fmt: skip
 
 
 def radius_text(radius: float | None) -> str:

@@ -14,6 +14,7 @@ from app.scoring.errors import ScoreFormatError
 from app.scoring.result import Score
 from app.scoring.trajectory import Phase
 from app.session.calibration_flag import CalibrationFlags
+from app.session.control_scan import ControlScan, scans_of
 from app.session.curves import Curves, curves
 from app.session.errors import SessionError
 from app.session.needle import FROM_CAMERAS
@@ -71,6 +72,9 @@ class Review:
         measured_force: force across the needle that a gauge measured [N], shape (n,), NaN where it
             did not; None if there was none: then the force is the estimate in `curves`.
         renders: whether something could push the hand; without it there is no curve of the force.
+        control_scans: those with slices, in order.
+        origin: moment that their times are told from [s].
+        ct: pseudonym of the CT; empty if not known.
         tip_radius: round the tip that holds the true one with 95 %, median [m]; None if not known.
     """
 
@@ -94,6 +98,9 @@ class Review:
     measured_force: FloatArray | None = None
     tip_radius: float | None = None
     renders: bool = True
+    control_scans: tuple[ControlScan, ...] = ()
+    origin: float = 0.0
+    ct: str = ""
 
     @property
     def rings(self) -> tuple[float, float]:
@@ -161,6 +168,9 @@ def review(recording: Recording) -> Review:
         measured_force=samples.measured if np.isfinite(samples.measured).any() else None,
         tip_radius=samples.tip_radius(),
         renders=renders_force(recording.metadata),
+        control_scans=scans_of(recording.events),
+        origin=origin,
+        ct=recording.metadata.get("ct", {}).get("pseudonym", ""),
     )
 
 
@@ -210,6 +220,8 @@ def review_of_result(result: AttemptResult) -> Review:
         tip=path.tip,
         force_limit=FORCE_LIMIT,
         renders=path.felt is not None,
+        control_scans=scans_of(result.events),
+        origin=float(path.time[0]),
     )
 
 

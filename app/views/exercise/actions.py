@@ -25,7 +25,7 @@ class AttemptActions(QWidget):
         super().__init__(parent)
         self.start = _button(tr("Start attempt"), tr("Arm the robot and begin recording (F5)"))
         self.start.setProperty("role", "primary")
-        self.scan = _button(tr("Control scan (S)"), tr("Freeze the needle's place as a scan would"))
+        self.scan = _button(tr("Control scan (S)"), _counts())
         self.end = _button(tr("End attempt (Enter)"), tr("The needle stays as it is and is scored"))
         self.abort = _button(
             tr("Abort (hold Esc)"), tr("Force to zero at once; the attempt is kept but not scored")
@@ -36,6 +36,10 @@ class AttemptActions(QWidget):
         self._lay_out()
         self._connect()
         self.show_state(None, False)
+
+    def set_pedal(self, scans: bool) -> None:
+        """Say what the scan's key does: it takes slices, or counts a scan only."""
+        self.scan.setToolTip(_takes() if scans else _counts())
 
     def watch(self, window: QWidget) -> None:
         """Listen for Esc held down anywhere in `window`."""
@@ -75,6 +79,14 @@ class AttemptActions(QWidget):
                 shortcut.setAutoRepeat(False)
                 shortcut.activated.connect(button.click)
                 self._keys.append((shortcut, button))
+
+
+def _counts() -> str:
+    return tr("Counts a scan and keeps the needle's place with it")
+
+
+def _takes() -> str:
+    return tr("The pedal: takes the slices that are set below, with the needle where it is now")
 
 
 def _button(text: str, help_text: str) -> QPushButton:

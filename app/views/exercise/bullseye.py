@@ -33,7 +33,7 @@ class Bullseye(QWidget):
         self._scene: PadScene | None = None
         self._view: PadView | None = None
         self._hand: Hand | None = None
-        self._interactive = self._depth_only = False
+        self._interactive = self._depth_only = self._blind = False
         self.pad = PadCanvas(self)
         self.depth_bar = DepthBar(self)
         self._remaining = _label(theme.FONT_PX + 6)
@@ -68,9 +68,17 @@ class Bullseye(QWidget):
         for label in (self._remaining, self._in_plane, self._out_of_plane, self._source):
             label.clear()
 
+    def set_blind(self, blind: bool) -> None:
+        """Show nothing of needle, hand and path from the next scene on; the hand still moves."""
+        self._blind = blind
+        self.pad.set_blind(blind)
+        self.depth_bar.setVisible(not blind)
+        for label in (self._remaining, self._in_plane, self._out_of_plane, self._source):
+            label.setVisible(not blind)
+
     def show_view(self, view: PadView) -> None:
         """Draw a new moment. Without a hand so far, the first measured one gives it the needle."""
-        if self._scene is None:
+        if self._scene is None or self._blind:
             return
         self._view = view
         if self._hand is None and view.measured:
@@ -114,10 +122,11 @@ class Bullseye(QWidget):
             self._move(lambda hand: hand.follow(view.direction, depth))
 
     def _move(self, change: HandChange) -> None:
-        if self._hand is None or self._scene is None or self._view is None:
+        if self._hand is None or self._scene is None or (self._view is None and not self._blind):
             return
         change(self._hand)
-        self._show(self._scene, self._view)
+        if self._view is not None:
+            self._show(self._scene, self._view)
         if not self._intent.isActive():
             self._intent.start()
 

@@ -30,6 +30,7 @@ class ExerciseController(QObject):
         needle_moved(NeedlePose): at every look, while the pose is valid.
         snapshot_taken(Snapshot): at every look.
         event_seen(Event): each event of the trainer, once.
+        attached(): another run, or none, is served.
         began(str): session id of an attempt that began.
         finished(AttemptResult): an attempt ended or was aborted, once each.
         failed(str): something that the user asked for did not work, in one line.
@@ -39,6 +40,7 @@ class ExerciseController(QObject):
     needle_moved = Signal(object)
     snapshot_taken = Signal(object)
     event_seen = Signal(object)
+    attached = Signal()
     began = Signal(str)
     finished = Signal(object)
     failed = Signal(str)
@@ -66,12 +68,13 @@ class ExerciseController(QObject):
         self._run, self._seen = run, run.trainer.result
         self._beat = self._clock.now()
         self._display.begin()
-        self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
+        self._display.show_run(run)
         self._views.panel.set_ready(True)
         self._views.panel.enable.set_wanted(run.held_arming)
         self._views.panel.energy.begin(run.is_real)
         self._views.panel.set_assistance(run.trainer.snapshot().assistance)
         self._timer.start()
+        self.attached.emit()
 
     def detach(self) -> None:
         """Let go of the trainer, without closing it; idempotent."""
@@ -82,11 +85,12 @@ class ExerciseController(QObject):
         self._views.panel.set_ready(False)
         self._views.panel.show_figures(None)
         self._views.status.show_items(())
+        self.attached.emit()
 
     def replan(self, run: ExerciseRun) -> None:
         """Take another plan of the same trainer: the pad is drawn anew, the rest goes on."""
         self._run = run
-        self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
+        self._display.show_run(run)
 
     @property
     def run(self) -> ExerciseRun | None:
@@ -120,10 +124,12 @@ class ExerciseController(QObject):
             self._blind = ""
             self.worked.emit()
         self._drain(run)
-        self._display.show(run, snapshot, now, late)
-        self.snapshot_taken.emit(snapshot)
-        if snapshot.pose.valid:
-            self.needle_moved.emit(snapshot.pose)
+        self._display.take_hand(snapshot)
+        shown = run.shown.of(snapshot)  # nobody beyond this line knows more than may be told
+        self._display.show(run, shown, now, late)
+        self.snapshot_taken.emit(shown)
+        if shown.pose.valid:
+            self.needle_moved.emit(shown.pose)
         self._look_for_result(run)
 
     def _go_blind(self, why: str) -> None:
@@ -134,7 +140,8 @@ class ExerciseController(QObject):
 
     def _drain(self, run: ExerciseRun) -> None:
         for event in run.trainer.events.drain():
-            self._views.messages.add_event(event)
+            if run.shown.tells(event.kind, event.data.get("state")):
+                self._views.messages.add_event(event)
             self.event_seen.emit(event)
 
     def _look_for_result(self, run: ExerciseRun) -> None:
@@ -165,10 +172,11 @@ class ExerciseController(QObject):
         self._views.bullseye.pad.setFocus()
 
     def scan(self) -> None:
-        """Take a control scan."""
-        if self._run is not None:
+        """Take a control scan: of the slices that are set, where scans guide; else count one."""
+        run = self._run
+        if run is not None:
             try:
-                self._run.trainer.scan()
+                run.trainer.scan(None if run.shown.live else self._views.panel.scan.order)
             except AcusError as error:
                 self._fail(str(error))
                 return

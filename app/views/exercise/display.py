@@ -55,6 +55,20 @@ class ExerciseDisplay:
         """Begin with another trainer."""
         self._rates = LoopRates()
 
+    def show_run(self, run: ExerciseRun) -> None:
+        """Draw what stays the same during an attempt; nothing of the needle where scans guide."""
+        live = run.shown.live
+        self._views.bullseye.set_blind(not live)
+        self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
+        self._views.panel.set_guidance(None if live else run.guidance, run.placed.plan)
+
+    def take_hand(self, snapshot: Snapshot) -> None:
+        """Let the simulated hand go on from where the loop has it; draws nothing."""
+        bullseye = self._views.bullseye
+        hand = hand_pose(snapshot) if bullseye.hand is None else None
+        if hand is not None:
+            bullseye.take_hand(hand)
+
     def show(self, run: ExerciseRun, snapshot: Snapshot, now: float, late: float) -> None:
         """Show a snapshot.
 
@@ -65,7 +79,7 @@ class ExerciseDisplay:
             late: since the look before [s].
         """
         limit = force_limit(snapshot, run.profile.limits.hand_force)
-        self._show_panel(snapshot, limit)
+        self._show_panel(snapshot, limit, not run.shown.live)
         self._show_pad(run, snapshot, limit)
         rate, missing = self.rates = self._rates.read(snapshot, now)
         self._show_tracker(run, snapshot, now)
@@ -74,18 +88,15 @@ class ExerciseDisplay:
             items = status_items(snapshot, rate, missing, late)
             self._views.status.show_items((*self.extra_items(snapshot), *items))
 
-    def _show_panel(self, snapshot: Snapshot, limit: float) -> None:
+    def _show_panel(self, snapshot: Snapshot, limit: float, hidden: bool) -> None:
         views = self._views
-        views.panel.show_figures(figures(snapshot, limit))
+        views.panel.show_figures(figures(snapshot, limit, hidden))
         views.bullseye.source.set_locked(snapshot.state in RUNNING)
         views.panel.energy.show_energy(energy_figures(snapshot))
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
 
     def _show_pad(self, run: ExerciseRun, snapshot: Snapshot, limit: float) -> None:
         bullseye = self._views.bullseye
-        hand = hand_pose(snapshot) if bullseye.hand is None else None
-        if hand is not None:
-            bullseye.take_hand(hand)
         view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
         if view is not None:
             bullseye.show_view(view)
@@ -94,5 +105,6 @@ class ExerciseDisplay:
         tracker = self._views.tracker
         if tracker.due(now):
             wanted = tracker.overlays
-            seen = run.inspect(wanted.mask, wanted.epipolar) if run.inspect is not None else None
+            may = run.inspect is not None and run.shown.live  # a picture tells as much as a number
+            seen = run.inspect(wanted.mask, wanted.epipolar) if may and run.inspect else None
             tracker.show_tracker(seen, tracker_figures(snapshot), now)

@@ -25,6 +25,7 @@ class LiveFigures:
         deflection: of the tip from the straight needle, as both cameras see it [m]; None where it
             is not known.
         deflection_sigma: its standard deviation [m].
+        hidden: whether nothing of the needle may be told: only time and scans count then.
     """
 
     state: State | None
@@ -41,3 +42,4 @@ class LiveFigures:
     radius: float | None = None
     deflection: float | None = None
     deflection_sigma: float = 0.0
+    hidden: bool = False

@@ -9,7 +9,13 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QWheelE
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.views import theme
-from app.views.exercise.pad_painter import PadArea, paint_background, paint_hand, paint_needle
+from app.views.exercise.pad_painter import (
+    PadArea,
+    paint_background,
+    paint_blind,
+    paint_hand,
+    paint_needle,
+)
 from app.views.exercise.pad_view import PadScene, PadView
 from app.views.text import tr
 
@@ -49,6 +55,7 @@ class PadCanvas(QWidget):
         self._hand: ArrayLike | None = None
         self._last: QPointF | None = None
         self._wheel = 0
+        self._blind = False
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(180, 180)
@@ -61,6 +68,11 @@ class PadCanvas(QWidget):
     def set_scene(self, scene: PadScene | None) -> None:
         """Take a new path; None clears the pad."""
         self._scene, self._view, self._hand = scene, None, None
+        self.update()
+
+    def set_blind(self, blind: bool) -> None:
+        """Draw neither path nor needle; mouse and keys work as ever."""
+        self._blind = blind
         self.update()
 
     def show_view(self, view: PadView, hand_tilts: ArrayLike | None) -> None:
@@ -80,6 +92,9 @@ class PadCanvas(QWidget):
         if self._scene is None:
             painter.setPen(theme.ROBOT.qcolor())
             painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, tr("No planned path"))
+            return
+        if self._blind:
+            paint_blind(painter, self.area, tr("Move the hand here: it is not shown"))
             return
         paint_background(painter, self.area, self._scene)
         if self._view is not None:

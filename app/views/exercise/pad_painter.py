@@ -40,6 +40,18 @@ class PadArea:
         return self.centre + QPointF(shrink * x, -shrink * y)
 
 
+def paint_blind(painter: QPainter, area: PadArea, words: str) -> None:
+    """Rim and words: a field to move the hand in that says nothing of where it is."""
+    painter.setPen(QPen(QColor(theme.BORDER), 1.5))
+    painter.setBrush(QColor("#0e1114"))
+    painter.drawEllipse(area.centre, area.radius, area.radius)
+    painter.setPen(QColor(theme.TEXT_DIM))
+    half = 0.7 * area.radius
+    box = QRectF(area.centre.x() - half, area.centre.y() - half, 2 * half, 2 * half)
+    flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+    painter.drawText(box, flags, words)
+
+
 def paint_background(painter: QPainter, area: PadArea, scene: PadScene) -> None:
     """Rim, rings with their sizes, cross, letters, target."""
     painter.setPen(QPen(QColor(theme.BORDER), 1.5))

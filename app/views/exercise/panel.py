@@ -16,6 +16,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.exercises.guidance import GuidancePart
+from app.planning.plan import Plan
 from app.session.machine import RUNNING, State
 from app.views import theme
 from app.views.exercise.actions import AttemptActions
@@ -24,11 +26,16 @@ from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.readouts import Readouts
+from app.views.exercise.scan_panel import ScanPanel
 from app.views.exercise.steps import Steps
 from app.views.text import tr
 
 PSEUDONYM: Final = r"([A-Za-z0-9][A-Za-z0-9._-]{0,31})?"
 """What a pseudonym may look like; empty for an anonymous attempt."""
+
+
+TELLING_NOTHING: Final = frozenset({"elapsed", "scans"})
+"""Read-outs that say nothing of where the needle is."""
 
 
 class ExercisePanel(QWidget):
@@ -57,6 +64,7 @@ class ExercisePanel(QWidget):
         self.steps = Steps(self)
         self.buttons = AttemptActions(self)
         self.enable = EnableSwitch(self)
+        self.scan = ScanPanel(self)
         self.readouts = Readouts(self)
         self.energy = EnergyGauge(self)
         self.exercise.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -89,6 +97,13 @@ class ExercisePanel(QWidget):
         self._note.setText(note)
         self._note.setVisible(bool(note))
         self._enable()
+
+    def set_guidance(self, guidance: GuidancePart | None, plan: Plan) -> None:
+        """Let control scans guide, with the table about the plan's middle; None shows all live."""
+        self.scan.set_guidance(guidance, plan)
+        self.steps.set_blind(guidance is not None)
+        self.readouts.set_telling(None if guidance is None else TELLING_NOTHING)
+        self.buttons.set_pedal(guidance is not None)
 
     def show_figures(self, figures: LiveFigures | None) -> None:
         """Show a moment of the attempt; None without one."""
@@ -129,7 +144,8 @@ class ExercisePanel(QWidget):
         column.setSpacing(theme.SPACING - 2)  # with every part shown it still fits 768 lines
         column.addLayout(form)
         for widget in (
-            self.steps, self._note, self.buttons, self.enable, _line(), self.readouts, self.energy
+            self.steps, self._note, self.buttons, self.enable, self.scan, _line(), self.readouts,
+            self.energy,
         ):  # fmt: skip
             column.addWidget(widget)
         column.addStretch(1)

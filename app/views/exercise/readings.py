@@ -33,8 +33,8 @@ from app.views.text import tr
 _BAD_STATES = (CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED)
 
 
-def figures(snapshot: Snapshot, force_limit: float) -> LiveFigures:
-    """Live figures for the panel; `force_limit` [N]."""
+def figures(snapshot: Snapshot, force_limit: float, hidden: bool = False) -> LiveFigures:
+    """Live figures for the panel; `force_limit` [N]; `hidden`: of a veiled snapshot."""
     force = felt(snapshot)
     return LiveFigures(
         state=snapshot.state,
@@ -51,6 +51,7 @@ def figures(snapshot: Snapshot, force_limit: float) -> LiveFigures:
         radius=snapshot.pose.radius if snapshot.pose.measured else None,
         deflection=snapshot.pose.deflection if snapshot.pose.deflection_sigma > 0.0 else None,
         deflection_sigma=snapshot.pose.deflection_sigma,
+        hidden=hidden,
     )
 
 

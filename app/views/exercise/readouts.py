@@ -20,6 +20,7 @@ class Readouts(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._values: dict[str, QLabel] = {}
+        self._titles: dict[str, QLabel] = {}
         self.force = ForceBar(self)
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
@@ -29,7 +30,8 @@ class Readouts(QWidget):
         for key, (name, help_text) in _rows().items():
             self._add(key, name, help_text)
         row = self._grid.rowCount()
-        self._grid.addWidget(QLabel(tr("Force felt"), self), row, 0, 1, 2)
+        self._force_title = QLabel(tr("Force felt"), self)
+        self._grid.addWidget(self._force_title, row, 0, 1, 2)
         self._grid.addWidget(self.force, row + 1, 0, 1, 2)
 
     def show_figures(self, figures: LiveFigures | None) -> None:
@@ -42,6 +44,14 @@ class Readouts(QWidget):
             self.force.show_force(0.0, 5.0)
         else:
             self.force.show_force(figures.force, figures.force_limit, figures.force_measured)
+
+    def set_telling(self, keys: frozenset[str] | None) -> None:
+        """Leave only these read-outs, None for all with the force: the rest would tell too much."""
+        for key, value in self._values.items():
+            for label in (value, self._titles[key]):
+                label.setVisible(keys is None or key in keys)
+        for widget in (self._force_title, self.force):
+            widget.setVisible(keys is None)
 
     def text(self, key: str) -> str:
         """Text of one read-out: `elapsed`, `depth`, `angle`, `lateral`, `to_target`, `scans`."""
@@ -57,7 +67,7 @@ class Readouts(QWidget):
             label.setToolTip(help_text)
         self._grid.addWidget(title, row, 0)
         self._grid.addWidget(value, row, 1)
-        self._values[key] = value
+        self._values[key], self._titles[key] = value, title
 
 
 def _rows() -> dict[str, tuple[str, str]]:
@@ -83,6 +93,10 @@ def _rows() -> dict[str, tuple[str, str]]:
 
 
 def _texts(figures: LiveFigures) -> dict[str, str]:
+    if figures.hidden:
+        said = {"elapsed": clock_text(figures.elapsed), "scans": str(figures.scans)}
+        return dict.fromkeys(_rows(), _EMPTY) | said
+
     def measured_mm(value: float) -> str:  # a guess is never said as if it were known
         return tr("{mm:.1f} mm", mm=1e3 * value) if figures.measured else "– ◇"
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Protocol
 
 from app.core.arrays import FloatArray
 from app.core.events import EventQueue
+from app.exercises.guidance import GuidancePart
+from app.imaging.scan_order import ScanOrder
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.result import AttemptResult
@@ -15,6 +17,7 @@ from app.session.snapshot import Snapshot
 from app.views.exercise.hand import HandLimits
 from app.views.exercise.pad_geometry import PadScale, path_frame
 from app.views.exercise.pad_view import PadScene, rings
+from app.views.exercise.shown import Shown
 
 if TYPE_CHECKING:
     from app.device.links.link import BoardInfo
@@ -40,8 +43,8 @@ class TrainerPort(Protocol):
         """Break it off."""
         ...
 
-    def scan(self) -> int:
-        """Take a control scan."""
+    def scan(self, order: ScanOrder | None = None) -> int:
+        """Take a control scan; without an order it is only counted."""
         ...
 
     def arm(self) -> None:
@@ -93,6 +96,8 @@ class ExerciseRun:
         readiness: what was commissioned on it; None where nobody tells.
         velocity: name of the estimator of joint velocities; empty where nobody tells.
         held_arming: whether the forces are armed only while key, pedal or button is held.
+        guidance: control scans as the exercise has them.
+        shown: what may be told of the needle.
     """
 
     trainer: TrainerPort
@@ -109,6 +114,8 @@ class ExerciseRun:
     readiness: Readiness | None = None
     velocity: str = ""
     held_arming: bool = False
+    guidance: GuidancePart = field(default_factory=GuidancePart)
+    shown: Shown = field(default_factory=Shown)
 
     @property
     def is_real(self) -> bool:

@@ -11,7 +11,17 @@ from app.views import theme
 from app.views.exercise.state_words import state_word
 from app.views.text import tr
 
-ORDER: Final = (State.READY, State.ALIGNING, State.INSERTING, State.HOLDING, State.ENDED)
+ORDER: Final[tuple[State, ...]] = (
+    State.READY,
+    State.ALIGNING,
+    State.INSERTING,
+    State.HOLDING,
+    State.ENDED,
+)
+
+
+BLIND: Final[tuple[State, ...]] = (State.READY, State.INSERTING, State.ENDED)
+"""Where control scans guide: `inserting` stands for all that happens in between."""
 
 
 class Steps(QWidget):
@@ -20,6 +30,7 @@ class Steps(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._state: State | None = None
+        self._order = ORDER
         self._reached = 0
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setMinimumSize(300, 48)
@@ -28,26 +39,36 @@ class Steps(QWidget):
         """Preferred size."""
         return QSize(330, 48)
 
+    def set_blind(self, blind: bool) -> None:
+        """Show the steps between beginning and end as one: they are read from the needle."""
+        self._order = BLIND if blind else ORDER
+        self._reached = 0
+        state, self._state = self._state, None
+        self.show_state(state)
+        self.update()
+
     def show_state(self, state: State | None) -> None:
         """Show a state; None before there is an attempt."""
         if state is self._state:
             return
-        if state in ORDER:
-            self._reached = ORDER.index(state)
+        if state in self._order:
+            self._reached = self._order.index(state)
         elif state is None:
             self._reached = 0
         self._state = state
-        self.setAccessibleName(state_word(state) if state else tr("No attempt"))
+        blind = self._order is BLIND and state is State.INSERTING
+        word = tr("Under way") if blind else state_word(state) if state else tr("No attempt")
+        self.setAccessibleName(word)
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw the row."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        step = self.width() / len(ORDER)
+        step = self.width() / len(self._order)
         painter.setPen(QPen(QColor(theme.BORDER), 2.0))
         painter.drawLine(QPointF(step / 2, 14), QPointF(self.width() - step / 2, 14))
-        for i, state in enumerate(ORDER):
+        for i, state in enumerate(self._order):
             self._paint_step(painter, i, state, QRectF(i * step, 0, step, self.height()))
 
     def _paint_step(self, painter: QPainter, i: int, state: State, box: QRectF) -> None:
@@ -70,6 +91,8 @@ class Steps(QWidget):
         painter.setFont(_font(painter, theme.SMALL_PX, here))
         painter.setPen(QColor(theme.TEXT if here else theme.TEXT_DIM))
         name = state_word(State.ABORTED) if here and aborted else state_word(state)
+        if self._order is BLIND and state is State.INSERTING:
+            name = tr("Under way")
         name = tr("Paused") if paused else name
         top = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
         painter.drawText(box.adjusted(0, 26, 0, 0), top, name)

@@ -1,0 +1,68 @@
+"""The slices of a past control scan, made again, with needle and plan drawn where they were."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QDialog, QVBoxLayout
+
+from app.core.progress import Progress
+from app.imaging.volume import Volume
+from app.planning.draft import DraftPlan
+from app.session.control_scan import ControlScan
+from app.views.background import run_in_background
+from app.views.conductor import Conductor
+from app.views.debrief.page import DebriefPage
+from app.views.exercise.scan_view import ScanView, caption
+from app.views.needle_overlay import NeedleOverlay
+from app.views.text import tr
+
+
+class ScanPictures(QObject):
+    """Opens a scan of the debrief, if the CT that it was taken of is open."""
+
+    def __init__(self, page: DebriefPage, conductor: Conductor) -> None:
+        super().__init__(page)
+        self._page, self._conductor = page, conductor
+        self.dialog: QDialog | None = None
+        page.scans.scan_wanted.connect(self.open)
+
+    def open(self, scan: ControlScan) -> None:
+        """Make the picture beside the window, then show it."""
+        patient, review = self._conductor.patient, self._page.review
+        if review is None:
+            return
+        known = patient is not None and review.ct in ("", patient.volume.series.pseudonym)
+        if patient is None or not known:
+            self._conductor.failed.emit(
+                tr("The slices are made of the CT that was scanned, {ct}: open it first",
+                   ct=review.ct or tr("which is not open"))
+            )  # fmt: skip
+            return
+        volume, exercise = patient.volume, self._conductor.exercise
+        streak = exercise is not None and exercise.guidance.streak
+
+        def make(_: Progress) -> Volume:
+            from app.imaging.scanned import scan_image  # compiled parts: beside the window
+
+            return scan_image(volume, scan.order, scan.needle, streak, scan.shift_mm)
+
+        run_in_background(
+            self, make, lambda picture: self._show(picture, scan), self._conductor.failed.emit
+        )
+
+    def _show(self, picture: Volume, scan: ControlScan) -> None:
+        review = self._page.review
+        if review is None:
+            return
+        self.dialog = dialog = QDialog(self._page)
+        dialog.setWindowTitle(caption(scan, review.origin))
+        dialog.resize(900, 700)
+        view = ScanView(self._conductor.planning, dialog)
+        view.show_scan(picture, scan, review.origin)
+        view.viewing.set_draft(DraftPlan.of(review.placed.plan))
+        view.viewing.set_needle(NeedleOverlay(scan.needle.hub_mm, scan.needle.tip_mm))
+        column = QVBoxLayout(dialog)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(view)
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()

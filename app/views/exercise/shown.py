@@ -1,0 +1,93 @@
+"""What the window may tell of the needle: everything, or nothing but the control scans.
+
+One value decides, at one place: `ExerciseController` asks it for the snapshot that everybody else
+gets. Where control scans guide, that snapshot holds no pose, no offset, no joint angle and no
+force, so whoever watches, now or later, has nothing to give away.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, is_dataclass, replace
+from types import MappingProxyType
+from typing import Any, Final
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray, read_only
+from app.session.curves import Offset
+from app.session.machine import State
+from app.session.needle import DOWN, NeedlePose
+from app.session.ports import DeviceStatePort
+from app.session.snapshot import Snapshot
+
+HARMLESS: Final = (
+    sv.ENABLED, sv.HEARTBEAT, sv.HOMED, sv.FORCE_CAP, sv.TIME, sv.DT, sv.TICK, sv.LATENESS,
+    sv.MISSED, sv.TICK_COST, sv.INPUT_FAULT, sv.LINK_STATUS, sv.LINK_REPLIES, sv.LINK_ERRORS,
+    sv.LINK_LOST, sv.ROUND_TRIP, sv.BOARD_ERROR, sv.Q_TIME, sv.SAFETY_SCALE, sv.LET_GO_SCALE,
+    sv.LET_GO, sv.ARMING, sv.FAULT,
+)  # fmt: skip
+"""Slots of the loop's state that tell how the robot is, and nothing of where the needle is."""
+
+HIDDEN_STATES: Final = (State.ALIGNING, State.INSERTING, State.HOLDING)
+"""States that the program reads from the needle's place; shown as one."""
+
+
+class _Veiled:
+    """State of the loop without anything about the needle (`session.ports.DeviceStatePort`)."""
+
+    def __init__(self, device: DeviceStatePort) -> None:
+        row = np.zeros_like(device.row)
+        row[list(HARMLESS)] = device.row[list(HARMLESS)]
+        self.row: FloatArray = read_only(row)
+        self.time, self.tick, self.fault = float(row[sv.TIME]), device.tick, device.fault
+        nowhere, nothing = read_only(np.full(3, np.nan)), read_only(np.zeros(3))
+        self.axis = self.tip = self.hub = nowhere
+        self.force = self.guide = self.felt = nothing
+        self.q: FloatArray = read_only(np.full(2, np.nan))
+        self.qd = self.torque = read_only(np.zeros(2))
+        self.depth = float("nan")
+        self.force_measured, self.measured_force = False, 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """What may be told.
+
+    Attributes:
+        live: whether the needle is shown while it moves.
+    """
+
+    live: bool = True
+
+    def of(self, snapshot: Snapshot) -> Snapshot:
+        """Return the snapshot that may be shown."""
+        return snapshot if self.live else veiled(snapshot)
+
+    def tells(self, kind: str, state: object) -> bool:
+        """Whether an event of this kind, with this state among its data, may be listed."""
+        return self.live or not (kind in ("state", "depth") and state in _TELLING)
+
+
+_TELLING: Final = (None, State.INSERTING.value, State.HOLDING.value)
+
+
+def veiled(snapshot: Snapshot) -> Snapshot:
+    """Take everything about the needle, and what follows from it, out of a snapshot."""
+    pose = snapshot.pose
+    nobody = NeedlePose(
+        p_tip=read_only(np.zeros(3)), axis=DOWN, depth=0.0, time=pose.time,
+        orientation_age=pose.orientation_age, depth_age=pose.depth_age,
+        depth_source=pose.depth_source, valid=False, covariance=read_only(np.zeros((3, 3))),
+        reason="control scans only",
+    )  # fmt: skip
+    state = State.INSERTING if snapshot.state in HIDDEN_STATES else snapshot.state
+    device: Any = None if snapshot.device is None else _Veiled(snapshot.device)
+    tracker = snapshot.tracker
+    if is_dataclass(tracker) and not isinstance(tracker, type):
+        tracker = replace(tracker, discrepancy="")  # it says by how much the needle is elsewhere
+    return replace(
+        snapshot, state=state, phases=MappingProxyType({}), pose=nobody, measured_pose=None,
+        offset=Offset(*[0.0] * len(Offset.__dataclass_fields__)), p_target=read_only(np.zeros(3)),
+        device=device, tracker=tracker, messages=(),
+    )  # fmt: skip

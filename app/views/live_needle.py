@@ -1,0 +1,58 @@
+"""The live needle and the robot in slices and 3D, where they may be shown."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.transform import RigidTransform
+from app.session.snapshot import Snapshot
+from app.views.exercise.run import ExerciseRun
+from app.views.needle_overlay import NeedleOverlay
+from app.views.scene.robot import RobotShape
+from app.views.workspace import Workspace
+
+SCENE_DEAD_BAND_MM = 0.25
+"""The 3D picture is made anew when the needle moved more than this."""
+
+
+class LiveNeedle:
+    """Draws needle and robot where a snapshot says they are."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
+        self._drawn: FloatArray | None = None
+        self._hidden = False
+
+    def forget(self) -> None:
+        """Draw everything anew at the next snapshot: another run, or another plan."""
+        self._drawn, self._hidden = None, False
+
+    def show(self, run: ExerciseRun, snapshot: Snapshot) -> None:
+        """Draw a moment; nothing where the run tells nothing of its needle."""
+        if not run.shown.live:
+            if not self._hidden:
+                self.hide()
+            return
+        self._hidden = False
+        pose, transform = snapshot.pose, run.placed.T_world_patient
+        length = run.profile.geometry.needle_length
+        # Without a measured depth only the line is known: it ends at the entry, grey.
+        p_end = pose.p_tip if pose.measured else run.placed.p_entry
+        spread = pose.covariance if pose.measured else None
+        needle = NeedleOverlay.of_world(p_end, pose.axis, length, transform, pose.measured, spread)
+        self._workspace.viewing.set_needle(needle)
+        ends = np.concatenate([needle.start_mm, needle.tip_mm])
+        if self._drawn is None or np.abs(ends - self._drawn).max() > SCENE_DEAD_BAND_MM:
+            self._drawn = ends
+            self._workspace.scene.set_needle(needle)
+            q = None if snapshot.device is None else snapshot.device.q
+            robot = RobotShape.of(run.profile.pantograph, q)
+            self._workspace.scene.set_robot(robot, transform.inverse())
+
+    def hide(self) -> None:
+        """Take the needle, and the robot, whose arms point along it, out of every view."""
+        self._drawn, self._hidden = None, True
+        self._workspace.viewing.set_needle(None)
+        self._workspace.scene.set_needle(None)
+        self._workspace.scene.set_robot(None, RigidTransform.identity())

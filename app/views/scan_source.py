@@ -1,0 +1,101 @@
+"""From the pedal to the picture: a control scan is made beside the window, then shown."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+
+from app.core.events import Event
+from app.core.progress import Progress
+from app.imaging.volume import Volume
+from app.session.control_scan import ControlScan
+from app.views.background import run_in_background
+from app.views.workspace import Workspace
+
+if TYPE_CHECKING:
+    from app.views.conductor import Conductor
+
+
+class ScanSource(QObject):
+    """Connects controller, scan panel and scan view; the newest scan wins."""
+
+    def __init__(self, conductor: Conductor, workspace: Workspace) -> None:
+        super().__init__(conductor)
+        self._conductor, self._workspace = conductor, workspace
+        self._panel, self._view = workspace.exercise_panel.scan, workspace.scan_view
+        self._busy, self._waiting = False, False
+        self._newest: ControlScan | None = None
+        self._origin: float | None = None  # of the attempt: its first event
+
+    def connect_all(self) -> None:
+        """Listen; once the conductor has its controller."""
+        controller = self._conductor.controller
+        controller.event_seen.connect(self._take)
+        controller.began.connect(self._begin)
+        controller.attached.connect(self._attached)
+        self._conductor.patient_changed.connect(self._view.clear)
+        self._panel.crosshair_wanted.connect(
+            lambda: self._panel.set_table(float(self._workspace.viewing.cursor_mm[2]))
+        )
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether a picture is being made."""
+        return self._busy
+
+    def _attached(self) -> None:
+        run = self._conductor.controller.run
+        scanning = run is not None and not run.shown.live
+        has_hand = run is None or run.interactive
+        self._workspace.needle_cell.set_scanning(scanning, has_hand)
+        if not scanning:
+            self._view.clear()
+
+    def _begin(self) -> None:
+        self._newest, self._origin = None, None
+        self._panel.begin()
+        self._view.clear()
+
+    def _take(self, event: Event) -> None:
+        run = self._conductor.controller.run
+        self._origin = event.time if self._origin is None else self._origin
+        scan = ControlScan.of(event)
+        if scan is None or run is None or run.shown.live:
+            return
+        self._newest = scan
+        self._panel.add(scan)
+        if self._busy:
+            self._waiting = True
+        else:
+            self._make(scan)
+
+    def _make(self, scan: ControlScan) -> None:
+        patient, run = self._conductor.patient, self._conductor.controller.run
+        if patient is None or run is None:
+            return
+        self._busy, self._waiting = True, False
+        self._panel.set_busy(True)
+        volume, streak = patient.volume, run.guidance.streak
+
+        def make(_: Progress) -> Volume:
+            from app.imaging.scanned import scan_image  # compiled parts: beside the window
+
+            return scan_image(volume, scan.order, scan.needle, streak, scan.shift_mm)
+
+        run_in_background(self, make, lambda picture: self._show(picture, scan), self._fail)
+
+    def _show(self, picture: Volume, scan: ControlScan) -> None:
+        self._done()
+        if scan is self._newest:
+            self._view.show_scan(picture, scan, self._origin or 0.0)
+
+    def _fail(self, error: Exception) -> None:
+        self._done()
+        self._conductor.failed.emit(error)
+
+    def _done(self) -> None:
+        self._busy = False
+        self._panel.set_busy(False)
+        if self._waiting and self._newest is not None:
+            self._make(self._newest)
