@@ -104,6 +104,22 @@ class OrthogonalSlicer:
         plane: NDArray[Any] = ordered[index]
         return plane[::-1] if screen.flipped_rows else plane
 
+    def images(self, view: View, first: int, last: int) -> NDArray[Any]:
+        """Slices `first` up to `last`, which is left out; shape (slices, rows, columns), no copy.
+
+        Raises:
+            OutsideImageError: if there are no such slices.
+        """
+        screen = _SCREENS[View(view)]
+        if not 0 <= first < last <= self.count(view):
+            raise OutsideImageError(
+                f"{View(view)} slices {first} to {last - 1} do not exist; "
+                f"slices 0 to {self.count(view) - 1} do"
+            )
+        ordered = np.transpose(self._lps_block, (screen.slice, screen.row, screen.column))
+        planes: NDArray[Any] = ordered[first:last]
+        return planes[:, ::-1] if screen.flipped_rows else planes
+
     def pixel_size_mm(self, view: View) -> tuple[float, float]:
         """Width (between columns) and height (between rows) of a pixel."""
         screen = _SCREENS[View(view)]

@@ -14,36 +14,19 @@ from PySide6.QtWidgets import (
 )
 
 from app.views import theme
+from app.views.slices.bindings import Scheme, key_rows, mouse_rows
 from app.views.text import disclaimer, tr
 
 Group = tuple[str, list[tuple[str, str]]]
 
 
-def groups() -> list[Group]:
+def groups(scheme: Scheme) -> list[Group]:
     """Headings with what to press and what it does."""
     return [
+        (tr("Slices: mouse ({scheme})", scheme=scheme.title), mouse_rows(scheme)),
         (
-            tr("Slices: mouse"),
-            [
-                (tr("Left drag"), tr("window (right: wider) and level (up: higher)")),
-                (tr("Wheel"), tr("scroll through slices")),
-                (tr("Right drag, Ctrl+wheel"), tr("zoom")),
-                (tr("Middle drag, Ctrl+left drag"), tr("pan")),
-                (tr("Shift+move, Shift+click"), tr("crosshair in all views")),
-                (tr("Right click"), tr("presets")),
-                (tr("Double click"), tr("maximise or restore a pane")),
-            ],
-        ),
-        (
-            tr("Slices: keys"),
-            [
-                ("↑ ↓", tr("one slice")),
-                (tr("Page Up, Page Down"), tr("ten slices")),
-                (tr("Home, End"), tr("first and last slice")),
-                ("1 … 9", tr("window presets")),
-                ("=", tr("fit to pane")),
-                (tr("Space"), tr("reset zoom and window")),
-            ],
+            tr("Slices: keys ({scheme})", scheme=scheme.title),
+            [*key_rows(scheme), ("1 … 9, 0", tr("window presets, the file's own"))],
         ),
         (
             tr("Plan"),
@@ -74,6 +57,10 @@ def groups() -> list[Group]:
                 (tr("Enter"), tr("end the attempt")),
                 (tr("Hold Esc"), tr("abort: force to zero at once")),
                 (tr("Hold H, or a pedal"), tr("forces on, where they are armed by holding")),
+                (
+                    f"{scheme.menu_keys['follow']}, {scheme.menu_keys['bullseye']}",
+                    tr("slices follow the tip; bull's-eye"),
+                ),
                 (tr("Drag in the bull's-eye"), tr("tilt the needle")),
                 (tr("Wheel, Page keys in the bull's-eye"), tr("depth 1 mm, with Shift 0.2 mm")),
             ],
@@ -84,13 +71,13 @@ def groups() -> list[Group]:
 class ShortcutSheet(QDialog):
     """All keys and buttons on one page."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, scheme: Scheme, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Keys and mouse"))
         columns = QHBoxLayout()
         columns.setSpacing(4 * theme.SPACING)
-        content = groups()
-        for part in ([content[0], content[1], content[3]], [content[2], content[4]]):
+        content = groups(scheme)
+        for part in ([content[0], content[3]], [content[1]], [content[2], content[4]]):
             column = QVBoxLayout()
             for group in part:
                 column.addLayout(_table(group))

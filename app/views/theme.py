@@ -1,4 +1,9 @@
-"""Colours, sizes and the style sheet: dark, readable at arm's length, distinct without colour."""
+"""Colours, sizes and the style sheet: readable at arm's length, distinct without colour.
+
+Words, areas and lines have the colours of the present theme; pictures (slices, 3D, pad, curves)
+stay on black and keep theirs. Read a name here when something is drawn, not at import: the theme
+and the size of the text change while the window is open. `now` brings a colour up to date.
+"""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -9,18 +14,16 @@ from PySide6.QtGui import QColor, QFont, QPalette, QPen
 from PySide6.QtWidgets import QApplication
 
 from app.core import paths
+from app.views.themes import DARK, Theme, restyled, translated
 
-BACKGROUND = "#14171a"
-SURFACE = "#1d2125"
-RAISED = "#282d33"
-BORDER = "#3a4149"
-TEXT = "#e8ecef"
-TEXT_DIM = "#a5afb8"
-ACCENT = "#4aa3df"
+BACKGROUND, SURFACE, RAISED, BORDER = DARK.background, DARK.surface, DARK.raised, DARK.border
+TEXT, TEXT_DIM, ACCENT = DARK.text, DARK.dim, DARK.accent
+GOOD, WARNING, BAD = DARK.good, DARK.warning, DARK.bad
+
 IMAGE_BACKGROUND = "#000000"
-GOOD = "#4cc38a"
-WARNING = "#f2b134"
-BAD = "#ff6b5e"
+IMAGE_GROUND, IMAGE_LINE = DARK.background, DARK.border
+IMAGE_TEXT, IMAGE_DIM, IMAGE_WARNING = DARK.text, DARK.dim, DARK.warning
+"""What stands on pictures, in every theme."""
 
 FONT_PX = 14
 SMALL_PX = 13
@@ -28,6 +31,9 @@ TITLE_PX = 20
 SPACING = 8
 MARGIN = 12
 CONTROL_HEIGHT = 30
+
+LARGE = 1.3
+"""How much larger the text is for a room."""
 
 
 class Symbol(StrEnum):
@@ -91,35 +97,80 @@ BONE = Mark("#efe7d3")
 VERDICTS = {"good": (GOOD, "✔"), "warning": (WARNING, "▲"), "bad": (BAD, "✖")}
 """Colour and symbol of a verdict, so that neither stands alone."""
 
+_present, _scale = DARK, 1.0
+
+
+def present() -> Theme:
+    """Return the theme that is shown."""
+    return _present
+
+
+def scale() -> float:
+    """Return how much larger than usual the text is."""
+    return _scale
+
+
+def now(colour: str) -> str:
+    """Return what a colour of any theme is in the present one; a mark's is readable as text."""
+    return translated(colour, _present)
+
+
+def on_image(colour: str) -> str:
+    """Return what a colour of any theme is on a picture, whatever the present theme."""
+    return translated(colour, DARK)
+
 
 def style_sheet() -> str:
-    """Return the style sheet: `resources/theme/dark.qss` with the colours filled in."""
-    template = (paths.resources() / "theme" / "dark.qss").read_text(encoding="utf-8")
+    """Return the style sheet: `resources/theme/window.qss` with the colours filled in."""
+    template = (paths.resources() / "theme" / "window.qss").read_text(encoding="utf-8")
     return Template(template).substitute(
-        background=BACKGROUND, surface=SURFACE, raised=RAISED, border=BORDER, text=TEXT,
-        dim=TEXT_DIM, accent=ACCENT, bad=BAD, font=FONT_PX, small=SMALL_PX, title=TITLE_PX,
-        inner=CONTROL_HEIGHT - 12,
+        _present.colours(), font=FONT_PX, small=SMALL_PX, title=TITLE_PX, inner=CONTROL_HEIGHT - 12,
     )  # fmt: skip
 
 
-def apply_theme(application: QApplication) -> None:
-    """Give the whole application the dark palette, the font size and the style sheet."""
+def apply_theme(application: QApplication, theme: Theme = DARK, size: float = 1.0) -> None:
+    """Give the whole application, and what is open of it, a theme and a size of the text.
+
+    Args:
+        application: all its widgets are changed.
+        theme: the colours.
+        size: of the text, 1 being the usual one.
+    """
+    zoom = size / _scale
+    _adopt(theme, size)
     application.setStyle("Fusion")
     application.setPalette(_palette())
     font = QFont(application.font())
     font.setPixelSize(FONT_PX)
     application.setFont(font)
     application.setStyleSheet(style_sheet())
+    for widget in application.allWidgets():
+        if sheet := widget.styleSheet():
+            widget.setStyleSheet(restyled(sheet, theme, zoom))
+        widget.update()
+
+
+def _adopt(theme: Theme, size: float) -> None:
+    global _present, _scale, BACKGROUND, SURFACE, RAISED, BORDER, TEXT, TEXT_DIM, ACCENT
+    global GOOD, WARNING, BAD, VERDICTS, FONT_PX, SMALL_PX, TITLE_PX, CONTROL_HEIGHT
+    _present, _scale = theme, size
+    BACKGROUND, SURFACE, RAISED = theme.background, theme.surface, theme.raised
+    BORDER, TEXT, TEXT_DIM, ACCENT = theme.border, theme.text, theme.dim, theme.accent
+    GOOD, WARNING, BAD = theme.good, theme.warning, theme.bad
+    VERDICTS = {"good": (GOOD, "✔"), "warning": (WARNING, "▲"), "bad": (BAD, "✖")}
+    FONT_PX, SMALL_PX, TITLE_PX, CONTROL_HEIGHT = (
+        round(size * usual) for usual in (14, 13, 20, 30)
+    )
 
 
 def _palette() -> QPalette:
     role = QPalette.ColorRole
     palette = QPalette()
     colours = {
-        role.Window: BACKGROUND, role.WindowText: TEXT, role.Base: "#101316", role.Text: TEXT,
+        role.Window: BACKGROUND, role.WindowText: TEXT, role.Base: _present.field, role.Text: TEXT,
         role.AlternateBase: SURFACE, role.Button: RAISED, role.ButtonText: TEXT,
         role.ToolTipBase: RAISED, role.ToolTipText: TEXT, role.Highlight: ACCENT,
-        role.HighlightedText: "#0b0d0f", role.PlaceholderText: TEXT_DIM, role.Link: ACCENT,
+        role.HighlightedText: _present.on_accent, role.PlaceholderText: TEXT_DIM, role.Link: ACCENT,
     }  # fmt: skip
     for name, colour in colours.items():
         palette.setColor(name, QColor(colour))

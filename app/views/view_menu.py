@@ -9,7 +9,9 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu
 
 from app.views.layouts import LAYOUTS, layout_title
-from app.views.slices.presets import menu_windows
+from app.views.slices.bindings import SCHEMES
+from app.views.slices.pane import SlicePane
+from app.views.slices.pane_menu import fill_windows
 from app.views.text import tr
 
 if TYPE_CHECKING:
@@ -23,23 +25,34 @@ class ViewMenu:
         layouts: the layouts by name.
         follow: slices follow the needle's tip.
         bullseye: the bull's-eye beside the slices.
+        schemes: the bindings of mouse and keys by name.
     """
 
     def __init__(self, menu: QMenu, window: MainWindow) -> None:
         self._menu, self._window = menu, window
+        viewing, workspace = window.workspace.viewing, window.workspace
+        self._greys = viewing.greys
         self.layouts = self._layout_menu(menu.addMenu(tr("Layout")))
         presets = menu.addMenu(tr("Window presets"))
         presets.aboutToShow.connect(lambda: self._fill_presets(presets))
-        viewing, workspace = window.workspace.viewing, window.workspace
-        self.follow = self._switch(tr("Slices follow the needle tip"), "F", viewing.set_follows_tip)
-        self.bullseye = self._switch(
-            tr("Bull's-eye beside the slices"), "B", workspace.show_bullseye
-        )
+        self._linked = self._switch(tr("One window for all panes"), "", self._greys.set_linked)
+        self._locked = self._switch(tr("Lock window and level"), "Ctrl+L", self._greys.set_locked)
+        self._inverted = self._switch(tr("Invert grey"), "", self._greys.set_inverted)
         menu.addSeparator()
+        self.follow = self._switch(tr("Slices follow the needle tip"), "", viewing.set_follows_tip)
+        self.bullseye = self._switch(
+            tr("Bull's-eye beside the slices"), "", workspace.show_bullseye
+        )
         self._entry(tr("Crosshair to target"), "", window.cursor_to_target)
-        self._entry(tr("Full screen"), "F11", window.toggle_full_screen)
-        workspace.arranged.connect(self.refresh)
+        menu.addSeparator()
+        self.schemes = self._scheme_menu(menu.addMenu(tr("Mouse and keys")))
+        self._screen_entries()
+        for changed in (workspace.arranged, viewing.window_changed, viewing.scheme_changed):
+            changed.connect(self.refresh)
         self.refresh()
+
+    def _screen_entries(self) -> None:
+        self._entry(tr("Full screen"), "F11", self._window.toggle_full_screen)
 
     def _entry(self, text: str, key: str, command: Callable[[], object]) -> QAction:
         action = self._menu.addAction(text)
@@ -71,23 +84,49 @@ class ViewMenu:
         self._left_handed.toggled.connect(workspace.set_left_handed)
         return actions
 
+    def _scheme_menu(self, menu: QMenu) -> dict[str, QAction]:
+        viewing, actions = self._window.workspace.viewing, {}
+        group = QActionGroup(menu)
+        for scheme in SCHEMES.values():
+            action = group.addAction(menu.addAction(tr("As in {scheme}", scheme=scheme.title)))
+            action.setCheckable(True)
+            action.triggered.connect(lambda _=False, scheme=scheme: viewing.set_scheme(scheme))
+            actions[scheme.name] = action
+        menu.addSeparator()
+        self._reversed = menu.addAction(tr("Level the other way round"))
+        self._reversed.setCheckable(True)
+        self._reversed.toggled.connect(self._reverse_level)
+        return actions
+
+    def _reverse_level(self, reverse: bool) -> None:
+        self._window.workspace.viewing.level_reversed = reverse
+
     def refresh(self) -> None:
         """Check what is shown; a layout whose panes are not there cannot be chosen."""
-        workspace = self._window.workspace
+        workspace, greys = self._window.workspace, self._greys
         for name, action in self.layouts.items():
             action.setVisible(name in workspace.layouts)
             action.setEnabled(name in workspace.layouts)
             action.setChecked(name == workspace.layout_name)
+        scheme = workspace.viewing.scheme
+        for name, action in self.schemes.items():
+            action.setChecked(name == scheme.name)
+        self.follow.setShortcut(QKeySequence(scheme.menu_keys["follow"]))
+        self.bullseye.setShortcut(QKeySequence(scheme.menu_keys["bullseye"]))
         for switch, state in (
-            (self.bullseye, workspace.has_bullseye),
-            (self._left_handed, workspace.is_left_handed),
-        ):
+            (self.bullseye, workspace.has_bullseye), (self._left_handed, workspace.is_left_handed),
+            (self._linked, greys.is_linked), (self._locked, greys.is_locked),
+            (self._inverted, greys.is_inverted),
+            (self._reversed, workspace.viewing.level_reversed),
+        ):  # fmt: skip
             if switch.isChecked() != state:
                 switch.setChecked(state)
 
     def _fill_presets(self, menu: QMenu) -> None:
+        """Offer windows for the pane that has the keyboard, or had it last."""
         menu.clear()
-        viewing = self._window.workspace.viewing
-        for name, key, window in menu_windows(viewing.volume):
-            action = menu.addAction(f"{name}  {window.width:g} / {window.level:g}\t{key}")
-            action.triggered.connect(lambda _=False, w=window: viewing.set_window(w))
+        fill_windows(menu, self._pane())
+
+    def _pane(self) -> SlicePane:
+        panes = self._window.workspace.panes
+        return next((pane for pane in panes if pane.canvas.hasFocus()), panes[0])

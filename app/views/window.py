@@ -145,7 +145,7 @@ class MainWindow(QMainWindow):
 
     def show_shortcuts(self) -> None:
         """Open the sheet of keys."""
-        sheet = ShortcutSheet(self)
+        sheet = ShortcutSheet(self.workspace.viewing.scheme, self)
         sheet.finished.connect(sheet.deleteLater)
         sheet.open()
 

@@ -62,6 +62,7 @@ class Workspace(QWidget):
         self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
         for pane in self.panes:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
+            pane.leave_wanted.connect(lambda on, pane=pane: self._go_on(pane, on))
         cell = self.grid.pane(BULLSEYE)
         self.scan_view.pane.maximise_wanted.connect(lambda: self.grid.toggle(cell))
         self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
@@ -108,6 +109,13 @@ class Workspace(QWidget):
             chosen(self.layout_name, self.has_bullseye, self.is_left_handed, self.grid.names)
         )
         self.arranged.emit()
+
+    def _go_on(self, pane: QWidget, on: bool) -> None:
+        """Give the keyboard to the next pane that is shown, or to the previous one."""
+        shown = [self.grid.pane(name) for name in self.grid.shown.panes]
+        if self.grid.maximised is None and pane in shown:
+            step = 1 if on else -1
+            shown[(shown.index(pane) + step) % len(shown)].setFocus()
 
     # --- panels -------------------------------------------------------------------------------
 

@@ -15,6 +15,7 @@ from app.imaging.window import PRESETS, WindowLevel, to_grey
 from app.planning.draft import DraftPlan
 from app.views.needle_overlay import NeedleOverlay
 from app.views.slices import items
+from app.views.slices.bindings import OHIF, SLICER
 from app.views.slices.camera import Camera, ruler
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.pane import SlicePane
@@ -167,10 +168,16 @@ def test_scrolling_stops_at_the_ends(pane, viewing):
     assert pane.canvas.index == 10
 
 
-def test_dragging_right_widens_and_up_raises(pane, viewing):
+@pytest.mark.parametrize(("scheme", "sign"), [(OHIF, -1), (SLICER, 1)])
+def test_dragging_right_widens_and_the_scheme_says_which_way_raises(pane, viewing, scheme, sign):
+    viewing.set_scheme(scheme)
     drag(pane, (200, 150), (230, 130))
     assert viewing.window.width > default_window().width
-    assert viewing.window.level > default_window().level
+    assert sign * (viewing.window.level - default_window().level) > 0
+    before = viewing.window.level
+    viewing.level_reversed = True
+    drag(pane, (200, 150), (200, 130))
+    assert sign * (viewing.window.level - before) < 0
 
 
 def test_middle_drag_pans_and_right_drag_zooms(pane):

@@ -82,7 +82,7 @@ class CoverageView(QWidget):
 
     def _paint_cells(self, painter: QPainter, frame: QRectF) -> None:
         width, height = frame.width() / COLUMNS, frame.height() / ROWS
-        colour = QColor(theme.GOOD)
+        colour = QColor(theme.on_image(theme.GOOD))
         for row in range(ROWS):
             for k in range(COLUMNS):
                 count = int(self._coverage.cells[row, k])
@@ -97,10 +97,10 @@ class CoverageView(QWidget):
             QPointF(frame.x() + (u + 0.5) * scale, frame.y() + (v + 0.5) * scale)
             for u, v in view.pixels.tolist()
         ]
-        painter.setPen(QPen(QColor(theme.ACCENT), 1.0))
+        painter.setPen(QPen(QColor(theme.on_image(theme.ACCENT)), 1.0))
         painter.drawPolyline(QPolygonF(points))
         painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(QColor(theme.GOOD if self._kept else theme.WARNING))
+        painter.setBrush(QColor(theme.on_image(theme.GOOD if self._kept else theme.WARNING)))
         for point in points:
             painter.drawEllipse(point, 2.5, 2.5)
 
@@ -110,8 +110,8 @@ class CoverageView(QWidget):
                    n=len(self._coverage.views), share=share)  # fmt: skip
         box = QRectF(frame.x(), frame.bottom() - 24.0, frame.width(), 24.0)
         painter.fillRect(box, QColor(0, 0, 0, 150))
-        painter.setPen(QColor(theme.TEXT))
+        painter.setPen(QColor(theme.IMAGE_TEXT))
         painter.drawText(box.adjusted(8, 0, -8, 0), Qt.AlignmentFlag.AlignVCenter, words)
         if self._image is None:
-            painter.setPen(QColor(theme.TEXT_DIM))
+            painter.setPen(QColor(theme.IMAGE_DIM))
             painter.drawText(frame, Qt.AlignmentFlag.AlignCenter, tr("no picture yet"))

@@ -10,12 +10,13 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.views import theme
 from app.views.text import tr
+from app.views.themes import DARK
 
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray
     from app.tracking.cameras.camera import Image
 
-_LINE = QColor(theme.GOOD)
+_LINE = QColor(DARK.good)
 _DARK = QColor(0, 0, 0, 150)
 
 
@@ -63,7 +64,7 @@ class PictureView(QWidget):
         painter.fillRect(self.rect(), QColor(theme.IMAGE_BACKGROUND))
         frame = self._frame()
         if self._image is None:
-            painter.setPen(QColor(theme.TEXT_DIM))
+            painter.setPen(QColor(theme.IMAGE_DIM))
             painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, tr("no picture"))
         else:
             height, width = self._image.shape[:2]

@@ -36,7 +36,7 @@ class StepRow:
             return
         colour, symbol = LOOKS[step.verdict]
         self._symbol.setText(symbol)
-        self._symbol.setStyleSheet(f"color: {colour};")
+        self._symbol.setStyleSheet(f"color: {theme.now(colour)};")
         self._title.setText(tr(step.title))
         self._text.setText(f"{step.found}\n→ {step.todo}" if step.todo else step.found)
 

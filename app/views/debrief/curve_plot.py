@@ -13,6 +13,7 @@ from app.views.debrief.review import Review
 from app.views.debrief.timeline import Mark
 from app.views.exercise.state_words import state_word
 from app.views.text import tr
+from app.views.themes import DARK
 
 PHASE_SHADES: Final = {
     "ready": "#1b1f23",
@@ -35,13 +36,13 @@ def prepare(plot: pg.PlotItem, curve: Curve, last: bool) -> None:
     left = plot.getAxis("left")
     left.setWidth(52)
     for axis in (left, plot.getAxis("bottom")):
-        axis.setPen(theme.BORDER)
-        axis.setTextPen(theme.TEXT_DIM)
+        axis.setPen(theme.IMAGE_LINE)
+        axis.setTextPen(theme.IMAGE_DIM)
         axis.enableAutoSIPrefix(False)  # or a short attempt's seconds become thousandths "(x0.001)"
     plot.showGrid(x=True, y=True, alpha=0.15)
     plot.getAxis("bottom").setStyle(showValues=last)
     if last:
-        plot.setLabel("bottom", tr("Time [s]"), color=theme.TEXT_DIM)
+        plot.setLabel("bottom", tr("Time [s]"), color=theme.IMAGE_DIM)
     title = pg.TextItem(curve.title, color=curve.colour, anchor=(0, 0))
     title.setParentItem(plot.getViewBox())
     title.setPos(6, 2)
@@ -60,7 +61,7 @@ def draw(plot: pg.PlotItem, review: Review, curve: Curve) -> None:
         review.curves.time, curve.values, pen=pg.mkPen(curve.colour, width=2), connect="finite"
     )  # fmt: skip
     for mark in review.marks:
-        pen = pg.mkPen(theme.TEXT, width=1.2, style=Qt.PenStyle.DotLine)
+        pen = pg.mkPen(theme.IMAGE_TEXT, width=1.2, style=Qt.PenStyle.DotLine)
         plot.addItem(pg.InfiniteLine(mark.time, angle=90, pen=pen))
     low, high = value_range(curve)
     plot.setYRange(low, high, padding=0.0)
@@ -74,7 +75,7 @@ def shade(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None:
     for span in review.spans:
         region = QGraphicsRectItem(span.start, low, span.end - span.start, high - low)
         region.setPen(QPen(Qt.PenStyle.NoPen))
-        region.setBrush(QColor(PHASE_SHADES.get(span.state, theme.BACKGROUND)))
+        region.setBrush(QColor(PHASE_SHADES.get(span.state, theme.IMAGE_GROUND)))
         region.setZValue(-20)
         plot.addItem(region, ignoreBounds=True)
     if names:
@@ -86,7 +87,7 @@ def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
     total = time_end(review.curves.time)
     for span in review.spans:
         if span.end - span.start > 0.06 * total:  # a narrower one has no room for its name
-            text = pg.TextItem(state_word(span.state), color=theme.TEXT_DIM, anchor=(0.5, 1))
+            text = pg.TextItem(state_word(span.state), color=theme.IMAGE_DIM, anchor=(0.5, 1))
             text.setPos(0.5 * (span.start + span.end), low)
             plot.addItem(text, ignoreBounds=True)
     for mark in review.marks:
@@ -102,9 +103,11 @@ def _mark_text(mark: Mark, share: float) -> pg.TextItem:
     """
     across = 0.0 if share < 1.0 / 3.0 else 0.5 if share < 2.0 / 3.0 else 1.0
     if mark.kind == "scan":
-        return pg.TextItem(mark.sign, color=theme.TEXT, anchor=(min(0.9, max(0.1, across)), 0))
-    fill = QColor(theme.BACKGROUND)
-    text = pg.TextItem(mark.sign, color=theme.TEXT, anchor=(across, 2.1), fill=fill)
+        return pg.TextItem(
+            mark.sign, color=theme.IMAGE_TEXT, anchor=(min(0.9, max(0.1, across)), 0)
+        )
+    fill = QColor(theme.IMAGE_GROUND)
+    text = pg.TextItem(mark.sign, color=theme.IMAGE_TEXT, anchor=(across, 2.1), fill=fill)
     text.setZValue(5)
     text.setToolTip(mark.label)
     return text
@@ -112,7 +115,7 @@ def _mark_text(mark: Mark, share: float) -> pg.TextItem:
 
 def cursor_of(plot: pg.PlotItem) -> pg.InfiniteLine:
     """Return the line that follows the pointer, hidden."""
-    cursor = pg.InfiniteLine(0.0, angle=90, pen=pg.mkPen(theme.ACCENT, width=1.0))
+    cursor = pg.InfiniteLine(0.0, angle=90, pen=pg.mkPen(DARK.accent, width=1.0))
     cursor.hide()
     plot.addItem(cursor, ignoreBounds=True)
     return cursor

@@ -44,7 +44,7 @@ class CurvesView(QWidget):
         self.readout = QLabel(self)
         self.readout.setProperty("role", "dim")
         self.graphics = pg.GraphicsLayoutWidget(self)
-        self.graphics.setBackground(theme.BACKGROUND)
+        self.graphics.setBackground(theme.IMAGE_GROUND)
         self.graphics.ci.layout.setSpacing(2)
         self.graphics.scene().sigMouseMoved.connect(self._hover)
         column = QVBoxLayout(self)

@@ -61,7 +61,7 @@ def paint_track(
     colour: str,
     width: float,
     mark: float = 8.0,
-    ground: str = theme.BACKGROUND,
+    ground: str = theme.IMAGE_GROUND,
 ) -> None:
     """Draw a track of pad places, shape (n, 2); gaps where there is no number.
 

@@ -51,7 +51,7 @@ class ScoreTable(QTableWidget):
             for column, text in enumerate(cells):
                 item = _cell(text, column)
                 colour = texts.colour if column == 2 else theme.TEXT_DIM if dim else theme.TEXT
-                item.setForeground(QColor(colour))
+                item.setForeground(QColor(theme.now(colour)))
                 item.setToolTip(texts.help)
                 self.setItem(index, column, item)
 

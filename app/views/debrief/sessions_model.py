@@ -75,7 +75,7 @@ class SessionsModel(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole and column in _RIGHT:
             return _RIGHTWARDS
         if role == Qt.ItemDataRole.ForegroundRole and column == STATE:
-            return QColor(_STATE_LOOKS.get(summary.state, (theme.TEXT, ""))[0])
+            return QColor(theme.now(_STATE_LOOKS.get(summary.state, (theme.TEXT, ""))[0]))
         return None
 
 

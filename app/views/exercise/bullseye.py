@@ -153,8 +153,8 @@ class Bullseye(QWidget):
         grid.setColumnStretch(0, 1)
 
 
-def _label(pixels: int, colour: str = theme.TEXT) -> QLabel:
-    label = QLabel()
+def _label(pixels: int, colour: str = "") -> QLabel:
+    label, colour = QLabel(), colour or theme.TEXT
     label.setStyleSheet(f"font-size: {pixels}px; color: {colour};")
     label.setTextFormat(Qt.TextFormat.PlainText)
     return label

@@ -51,7 +51,7 @@ def draw_region(painter: QPainter, region: QRectF) -> None:
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.setPen(QPen(QColor(0, 0, 0, 150), 3.0))
     painter.drawRect(region)
-    painter.setPen(QPen(QColor(theme.TEXT), 1.2, Qt.PenStyle.DotLine))
+    painter.setPen(QPen(QColor(theme.IMAGE_TEXT), 1.2, Qt.PenStyle.DotLine))
     painter.drawRect(region)
 
 
@@ -91,7 +91,7 @@ def draw_magnified(
     if mask is not None:
         painter.drawImage(window, mask_image(mask), source)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    painter.setPen(QPen(QColor(theme.BORDER), 1.5))
+    painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.5))
     painter.drawRect(window)
     scale = side / (2 * _HALF + 1)
     middle = window.topLeft() + QPointF(

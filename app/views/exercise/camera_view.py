@@ -91,7 +91,7 @@ class CameraView(QWidget):
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(theme.IMAGE_BACKGROUND))
         if self._shown is None or self._image.isNull():
-            painter.setPen(QColor(theme.TEXT_DIM))
+            painter.setPen(QColor(theme.IMAGE_DIM))
             painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, tr("No picture"))
             return
         corner, scale = self._placed()
@@ -138,6 +138,7 @@ class CameraView(QWidget):
 def _draw_name(painter: QPainter, corner: QPointF, shown: InspectedPicture) -> None:
     found = shown.found
     colour, symbol = theme.VERDICTS["good" if found else "bad"]
+    colour = theme.on_image(colour)
     name = camera_name(shown.picture.name)
     why = shown.why or tr("marker not seen")
     text = name if found else tr("{name}: {why}", name=name, why=why)

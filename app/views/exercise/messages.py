@@ -42,7 +42,7 @@ class MessageList(QListWidget):
         known = self._origin is not None and event.time >= self._origin
         when = clock_text(event.time - (self._origin or 0.0)) + "  " if known else ""
         item = QListWidgetItem(f"{symbol} {when}{event.message}")
-        item.setForeground(QColor(colour))
+        item.setForeground(QColor(theme.now(colour)))
         self.addItem(item)
         while self.count() > LONGEST:
             self.takeItem(0)

@@ -15,7 +15,6 @@ from app.views.exercise.pad_view import PadScene, PadView
 from app.views.text import tr
 
 _ANGLES_DEG: Final = (10, 30)
-_LETTERS: Final = theme.FONT_PX + 3
 HAND_COLOUR: Final = "#ffffff"
 _LEAD: Final = radians(0.15)
 """Below this angle between hand and needle no spring is drawn [rad]."""
@@ -54,13 +53,13 @@ def paint_blind(painter: QPainter, area: PadArea, words: str) -> None:
 
 def paint_background(painter: QPainter, area: PadArea, scene: PadScene) -> None:
     """Rim, rings with their sizes, cross, letters, target."""
-    painter.setPen(QPen(QColor(theme.BORDER), 1.5))
+    painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.5))
     painter.setBrush(QColor("#0e1114"))
     painter.drawEllipse(area.centre, area.radius, area.radius)
     _cross(painter, area)
     for angle_deg in _ANGLES_DEG:
         radius = scene.scale.radius(radians(angle_deg))
-        _ring(painter, area, radius, theme.BORDER, 1.0, f"{angle_deg}°")
+        _ring(painter, area, radius, theme.IMAGE_LINE, 1.0, f"{angle_deg}°")
     for i, ring in enumerate(scene.rings):
         radius = scene.scale.radius(atan2(ring, scene.scale.length))
         width = 2.5 if i == 0 else 1.6
@@ -126,7 +125,7 @@ def spring(start: QPointF, end: QPointF, amplitude: float, coils: int = 6) -> QP
 
 
 def _cross(painter: QPainter, area: PadArea) -> None:
-    painter.setPen(QPen(QColor(theme.BORDER), 1.0))
+    painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.0))
     for x, y in ((1.0, 0.0), (0.0, 1.0)):
         painter.drawLine(area.point((-x, -y)), area.point((x, y)))
 
@@ -142,13 +141,13 @@ def _ring(
     painter.setFont(_font(painter, theme.SMALL_PX))
     metrics = painter.fontMetrics()
     box = QRectF(corner.x() + 3, corner.y() - 15, metrics.horizontalAdvance(label) + 4, 16)
-    painter.fillRect(box, QColor(theme.BACKGROUND))
-    painter.setPen(QColor(colour if colour != theme.BORDER else theme.TEXT_DIM))
+    painter.fillRect(box, QColor(theme.IMAGE_GROUND))
+    painter.setPen(QColor(colour if colour != theme.IMAGE_LINE else theme.IMAGE_DIM))
     painter.drawText(box, Qt.AlignmentFlag.AlignCenter, label)
 
 
 def _letters(painter: QPainter, area: PadArea, letters: Sequence[str]) -> None:
-    painter.setFont(_font(painter, _LETTERS, bold=True))
+    painter.setFont(_font(painter, theme.FONT_PX + 3, bold=True))
     painter.setPen(QColor(theme.TEXT))
     reach = area.radius + 14
     for text, (x, y) in zip(letters, ((-1, 0), (1, 0), (0, -1), (0, 1)), strict=True):
@@ -165,14 +164,14 @@ def _cross_mark(painter: QPainter, at: QPointF) -> None:
 
 def _hub_mark(painter: QPainter, at: QPointF) -> None:
     painter.setPen(theme.NEEDLE.pen(2.0))
-    painter.setBrush(QColor(theme.BACKGROUND))
+    painter.setBrush(QColor(theme.IMAGE_GROUND))
     painter.drawRect(QRectF(at.x() - 6, at.y() - 6, 12, 12))
 
 
 def _tip_mark(painter: QPainter, at: QPointF, measured: bool) -> None:
     """Diamond; hollow while the depth is not measured."""
     painter.setPen(theme.NEEDLE_TIP.pen(2.0))
-    painter.setBrush(theme.NEEDLE_TIP.qcolor() if measured else QColor(theme.BACKGROUND))
+    painter.setBrush(theme.NEEDLE_TIP.qcolor() if measured else QColor(theme.IMAGE_GROUND))
     corners = ((0, -9), (9, 0), (0, 9), (-9, 0))
     painter.drawPolygon(QPolygonF([at + QPointF(x, y) for x, y in corners]))
 

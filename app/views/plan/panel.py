@@ -144,7 +144,7 @@ class PlanPanel(QWidget):
                 (theme.TARGET, "◉", tr("Target"), self.target, self.place_target))  # fmt: skip
         for row, (mark, symbol, name, value, button) in enumerate(rows):
             head = QLabel(f"{symbol}  {name}")
-            head.setStyleSheet(f"color: {mark.colour}; font-weight: 600;")
+            head.setStyleSheet(f"color: {theme.now(mark.colour)}; font-weight: 600;")
             grid.addWidget(head, 2 * row, 0)
             grid.addWidget(button, 2 * row, 1)
             grid.addWidget(value, 2 * row + 1, 0, 1, 2)

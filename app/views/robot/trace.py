@@ -58,7 +58,7 @@ class Trace(QWidget):
         painter.setFont(font)
         box = QRectF(0, _TITLE, self.width() - 1, self.height() - _TITLE - 2)
         painter.fillRect(box, QColor("#0e1114"))
-        painter.setPen(QPen(QColor(theme.BORDER), 1.0))
+        painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.0))
         painter.drawRect(box)
         painter.drawLine(
             QPointF(box.left(), box.center().y()), QPointF(box.right(), box.center().y())

@@ -36,7 +36,7 @@ def draw_compass(painter: QPainter, orbit: Orbit, middle: QPointF) -> None:
     font.setBold(True)
     painter.setFont(font)
     for letter, (right, down, near) in compass_ends(orbit):
-        colour = QColor(theme.WARNING)
+        colour = QColor(theme.IMAGE_WARNING)
         colour.setAlphaF(0.62 + 0.38 * float(np.clip(near, -1.0, 1.0)))
         painter.setPen(QPen(colour, 1.5))
         tip = middle + QPointF(right, down) * LENGTH_PX

@@ -195,12 +195,12 @@ class SceneView(QWidget):
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
             painter.drawImage(self.rect(), self._image)
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0))
-        painter.setPen(QColor(theme.TEXT))
+        painter.setPen(QColor(theme.IMAGE_TEXT))
         painter.drawText(8, 20, tr("3D"))
         if self._enlargement.scale > 0.0:
             painter.setPen(QColor(theme.NEEDLE_TIP.colour))
             painter.drawText(8, 38, error_note(self._enlargement.scale))
-            painter.setPen(QColor(theme.TEXT))
+            painter.setPen(QColor(theme.IMAGE_TEXT))
         note = self._renderer.error and tr("3D view off: {why}", why=self._renderer.error)
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignBottom
         painter.drawText(self.rect().adjusted(110, 0, -8, -6), flags, note or self.note)

@@ -17,6 +17,7 @@ from app.views import theme
 from app.views.slices.camera import Camera
 from app.views.slices.items import ImageItem, MarkItem
 from app.views.slices.layer_stack import Layer, LayerStack
+from app.views.slices.looks import Turn
 from app.views.slices.panes import PaneId, others
 from app.views.slices.plane import SlicePlane
 from app.views.slices.viewing import Viewing
@@ -46,12 +47,14 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         plane_taken(): the plane is another one, or gone.
         left(): the mouse left the pane.
         double_clicked(): for maximising.
+        ctrl_double_clicked(): for the window that there was at first.
     """
 
     changed = Signal()
     plane_taken = Signal()
     left = Signal()
     double_clicked = Signal()
+    ctrl_double_clicked = Signal()
 
     def __init__(self, viewing: Viewing, pane: PaneId, parent: QWidget | None = None) -> None:
         super().__init__(parent, useOpenGL=False, background=theme.IMAGE_BACKGROUND)
@@ -59,7 +62,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         self.plane: SlicePlane | None = None
         self.camera = Camera(0.0, 0.0, 1.0)
         self.gestures: Gestures | None = None
-        self._fitted = True
+        self._fitted, self._turn = True, Turn()
         self._shown: tuple[object, ...] = ()
         self._hu: NDArray[Any] = np.zeros((1, 1), np.int16)
         self.setCentralItem(None)  # layers stand in the scene itself; its end would crash Qt
@@ -72,6 +75,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         viewing.volume_changed.connect(self.show_volume)
         viewing.cursor_changed.connect(self._show_cursor)
         viewing.plane_changed.connect(self._show_plane)
+        viewing.look_changed.connect(self._show_look)
         viewing.window_changed.connect(self._show_cursor)
         viewing.plan_changed.connect(self._show_plan)
         viewing.needle_changed.connect(self._show_needle)
@@ -89,6 +93,11 @@ class SliceCanvas(pyqtgraph.GraphicsView):
     def index(self) -> float:
         """Slice that is shown; whole where the volume's own slices are."""
         return self.viewing.index(self.pane)
+
+    @property
+    def values(self) -> NDArray[Any]:
+        """Hounsfield units of the picture, on the plane's `bounds_mm`, shape (rows, columns)."""
+        return self._hu
 
     def add_layer(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
         """Draw something more over the slice.
@@ -125,6 +134,13 @@ class SliceCanvas(pyqtgraph.GraphicsView):
             self.fit()
         self._show_cursor()
 
+    def _show_look(self, pane: PaneId) -> None:
+        """Fit what has been turned; a slab leaves zoom and pan."""
+        turn = self.viewing.look(self.pane).turn
+        if pane is self.pane and turn != self._turn:
+            self._turn = turn
+            self.fit()
+
     def _take_plane(self) -> None:
         plane = self.viewing.plane(self.pane)
         if plane is not self.plane:
@@ -137,13 +153,14 @@ class SliceCanvas(pyqtgraph.GraphicsView):
     def _show_cursor(self) -> None:
         if self.plane is None:
             return
-        index, window = self.index, self.viewing.window
+        index, greys = self.index, self.viewing.greys
         moved = self._shown[:1] != (index,)
-        if self._shown != (index, window):
-            self._shown = (index, window)
+        state = (index, greys.of(self.pane), greys.is_inverted, greys.is_locked)
+        if self._shown != state:
+            self._shown = state
             if moved:  # kept contiguous: changing the window then needs no second gather
                 self._hu = np.ascontiguousarray(self.plane.image(index))
-            self._image.set_slice(self._hu, window, self.plane.bounds_mm)
+            self._image.set_slice(self._hu, state[1], self.plane.bounds_mm, greys.is_inverted)
             self.changed.emit()
         self._place_crosshair()
         if moved:
@@ -243,9 +260,10 @@ class SliceCanvas(pyqtgraph.GraphicsView):
             self.gestures.wheel(event)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Ask to be maximised, or restored."""
+        """Ask to be maximised or restored; with Ctrl for the first window."""
         if event.button() is Qt.MouseButton.LeftButton:
-            self.double_clicked.emit()
+            ctrl = event.modifiers() & Qt.KeyboardModifier.ControlModifier
+            (self.ctrl_double_clicked if ctrl else self.double_clicked).emit()
 
     def leaveEvent(self, event: QEvent) -> None:
         """Tell the read-outs."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPointF, QRect, QSize, Qt
+from PySide6.QtCore import QEvent, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen, QPixmap
 from PySide6.QtWidgets import QWidget
 
@@ -21,21 +21,33 @@ class Overlay(QWidget):
         self,
         parent: QWidget,
         alignment: Qt.AlignmentFlag,
-        pixel_size: int = theme.SMALL_PX,
-        colour: str = theme.TEXT,
+        colour: str = theme.IMAGE_TEXT,
         bold: bool = False,
+        larger: int = 0,
     ) -> None:
         super().__init__(parent)
         self._outer = parent
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setAttribute(Qt.WidgetAttribute.WA_NoSystemBackground)
         self._alignment, self._colour = alignment, QColor(colour)
-        self._font = QFont(self.font())
-        self._font.setPixelSize(pixel_size)
-        self._font.setBold(bold)
+        self._larger, self._bold = larger, bold
+        self._font = self._sized_font()
         self._lines: tuple[str, ...] = ()
         self._first: QColor | None = None
         self._picture: QPixmap | None = None
+
+    def _sized_font(self) -> QFont:
+        font = QFont(self.font())
+        font.setPixelSize(theme.SMALL_PX + self._larger)
+        font.setBold(self._bold)
+        return font
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Take another size of the text."""
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "_picture"):
+            self._font, self._picture = self._sized_font(), None
+            self.resize(self.sizeHint())
+            self.place()
 
     def set_lines(self, *lines: str, first: str = "") -> None:
         """Show these lines, the first of them in the colour `first` if given."""
@@ -132,7 +144,7 @@ class Ruler(QWidget):
         painter = QPainter(self)
         right, base = self.width() - 3.0, self.height() - 4.0
         left = right - self._length * self._scale
-        for colour, width in (("#000000", 4.0), (theme.TEXT, 1.5)):
+        for colour, width in (("#000000", 4.0), (theme.IMAGE_TEXT, 1.5)):
             painter.setPen(QPen(QColor(colour), width))
             painter.drawLine(QPointF(left, base), QPointF(right, base))
             for x in (left, right):
@@ -144,5 +156,5 @@ class Ruler(QWidget):
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop
         painter.setPen(QColor("#000000"))
         painter.drawText(box.translated(1, 1), flags, self.text)
-        painter.setPen(QColor(theme.TEXT))
+        painter.setPen(QColor(theme.IMAGE_TEXT))
         painter.drawText(box, flags, self.text)

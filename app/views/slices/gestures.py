@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from enum import Enum, auto
 from math import hypot
 from typing import Protocol
@@ -11,9 +12,11 @@ from PySide6.QtGui import QMouseEvent, QWheelEvent
 
 from app.core.arrays import FloatArray
 from app.imaging.window import WindowLevel
+from app.views.slices.bindings import Drag, Wheel
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool
+from app.views.slices.window_box import WindowBox
 
 GRAB_PX = 12.0
 CLICK_PX = 4.0
@@ -24,11 +27,9 @@ WINDOW_GAIN = 1.0 / 300.0
 """Share of the window by which one pixel changes it: dragging 300 px doubles the width."""
 
 
-class _Drag(Enum):
-    NONE = auto()
-    WINDOW = auto()
-    PAN = auto()
-    ZOOM = auto()
+class _Held(Enum):
+    """What the left button has taken hold of in place of the scheme's drag."""
+
     POINT = auto()
     GRIP = auto()
 
@@ -60,11 +61,12 @@ class SliceGestures(QObject):
     hovered = Signal(object)
     menu_wanted = Signal(QPoint)
 
-    def __init__(self, canvas: SliceCanvas, level_rises_upwards: bool = True) -> None:
+    def __init__(self, canvas: SliceCanvas) -> None:
         super().__init__(canvas)
         self._canvas = canvas
-        self._level_sign = -1.0 if level_rises_upwards else 1.0  # pixels count downwards
-        self._drag = _Drag.NONE
+        self._box = WindowBox(canvas)
+        self._drag: Drag | _Held | None = None
+        self._button = Qt.MouseButton.NoButton
         self._point = Tool.ENTRY
         self._grips: list[Grip] = []
         self._held: Grip | None = None
@@ -80,51 +82,76 @@ class SliceGestures(QObject):
     # --- events -------------------------------------------------------------------------------
     def press(self, event: QMouseEvent) -> None:
         """Decide what this drag does."""
-        if self._canvas.plane is None or self._drag is not _Drag.NONE:
+        if self._canvas.plane is None or self._drag is not None:
             return
         self._pressed = self._last = event.position()
+        self._button = event.button()
         self._drag = self._choose(event)
-        if self._drag is _Drag.POINT and self._canvas.viewing.tool is not Tool.NAVIGATE:
+        if self._drag is _Held.POINT and self._canvas.viewing.tool is not Tool.NAVIGATE:
             self._place(event.position())
+        elif self._drag is Drag.CROSSHAIR:
+            self._canvas.viewing.set_cursor(self._lps(event.position()))
+        elif self._drag is Drag.BOX:
+            self._box.begin(event.position())
 
     def move(self, event: QMouseEvent) -> None:
-        """Go on with the drag; Shift moves the crosshair."""
+        """Go on with the drag; Shift without a button moves the crosshair."""
         if self._canvas.plane is None:
             return
         step = event.position() - self._last
         self._last = event.position()
-        if self._drag is _Drag.WINDOW:
-            self._canvas.viewing.set_window(self._windowed(step))
-        elif self._drag is _Drag.PAN:
-            self._canvas.set_camera(self._canvas.camera.panned(step.x(), step.y()))
-        elif self._drag is _Drag.ZOOM:
-            x, y = self._canvas.plane_at(self._pressed)
-            self._canvas.set_camera(self._canvas.camera.zoomed(ZOOM_PER_PX ** -step.y(), x, y))
-        elif self._drag is _Drag.POINT:
-            self._place(event.position())
-        elif self._drag is _Drag.GRIP and self._held is not None:
-            self._held.drag(event.position())
-        elif event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+        shift = event.modifiers() & Qt.KeyboardModifier.ShiftModifier
+        if self._drag is not None:
+            self._go_on(event.position(), step)
+        elif shift and event.buttons() == Qt.MouseButton.NoButton:
             self._canvas.viewing.set_cursor(self._lps(event.position()))
         self.hovered.emit(self._lps(event.position()))
 
+    def _go_on(self, position: QPointF, step: QPointF) -> None:
+        canvas, drag = self._canvas, self._drag
+        if drag is Drag.WINDOW:
+            canvas.viewing.set_window(self._windowed(step), canvas.pane)
+        elif drag is Drag.PAN:
+            canvas.set_camera(canvas.camera.panned(step.x(), step.y()))
+        elif drag is Drag.ZOOM:
+            x, y = canvas.plane_at(self._pressed)
+            canvas.set_camera(canvas.camera.zoomed(ZOOM_PER_PX ** -step.y(), x, y))
+        elif drag is Drag.CROSSHAIR:
+            canvas.viewing.set_cursor(self._lps(position))
+        elif drag is Drag.BOX:
+            self._box.move(position)
+        elif drag is _Held.POINT:
+            self._place(position)
+        elif self._held is not None:
+            self._held.drag(position)
+
     def release(self, event: QMouseEvent) -> None:
         """End the drag; a right click that did not move asks for the menu."""
-        drag, self._drag = self._drag, _Drag.NONE
-        if drag is _Drag.GRIP and self._held is not None:
+        if event.button() is not self._button and self._button is not Qt.MouseButton.NoButton:
+            return  # another button that was pressed in between
+        drag, self._drag = self._drag, None
+        self._button = Qt.MouseButton.NoButton
+        if drag is _Held.GRIP and self._held is not None:
             held, self._held = self._held, None
             held.drop(event.position())
-        elif drag is _Drag.POINT:
+        elif drag is _Held.POINT:
             self._started = False
             if not self._canvas.viewing.point_refused:
                 self._canvas.viewing.set_tool(Tool.NAVIGATE)
-        elif drag is _Drag.ZOOM and _length(event.position() - self._pressed) < CLICK_PX:
+        elif drag is Drag.BOX:
+            self._box.end()
+        elif event.button() is Qt.MouseButton.RightButton and drag is not None:
+            self._ask_for_menu(event)
+
+    def _ask_for_menu(self, event: QMouseEvent) -> None:
+        if _length(event.position() - self._pressed) < CLICK_PX:
             self.menu_wanted.emit(event.globalPosition().toPoint())
 
     def wheel(self, event: QWheelEvent) -> None:
-        """Scroll through the slices, or zoom with Ctrl."""
+        """Scroll through the slices, zoom, or change the slab, as the scheme has it."""
         delta = event.angleDelta().y()
-        if event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+        does = self._canvas.viewing.scheme.wheel(event.modifiers())
+        if does is Wheel.ZOOM:
             x, y = self._canvas.plane_at(event.position())
             factor = ZOOM_PER_NOTCH ** (delta / NOTCH)
             self._canvas.set_camera(self._canvas.camera.zoomed(factor, x, y))
@@ -132,34 +159,29 @@ class SliceGestures(QObject):
             self._notches += delta
             steps = int(self._notches / NOTCH)  # touch pads send parts of a notch
             self._notches -= steps * NOTCH
-            if steps:
+            if steps and does is Wheel.SLAB:
+                thicken(self._canvas, steps)
+            elif steps:
                 self._canvas.viewing.show_slice(self._canvas.pane, self._canvas.index + steps)
         event.accept()
 
     # --- meaning ------------------------------------------------------------------------------
-    def _choose(self, event: QMouseEvent) -> _Drag:
-        button = event.button()
-        if button is Qt.MouseButton.MiddleButton:
-            return _Drag.PAN
-        if button is Qt.MouseButton.RightButton:
-            return _Drag.ZOOM
-        if button is not Qt.MouseButton.LeftButton:
-            return _Drag.NONE
-        if event.modifiers() & Qt.KeyboardModifier.ControlModifier:
-            return _Drag.PAN
-        if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
-            self._canvas.viewing.set_cursor(self._lps(event.position()))
-            return _Drag.NONE
+    def _choose(self, event: QMouseEvent) -> Drag | _Held | None:
+        viewing, button = self._canvas.viewing, event.button()
+        drag = viewing.scheme.drag(button, event.modifiers())
+        # What the plain left drag does, marks, lines and tools take first.
+        if button is not Qt.MouseButton.LeftButton or drag is not Drag.WINDOW:
+            return drag
         self._held = next((g for g in self._grips if g.grab(event.position(), event)), None)
         if self._held is not None:
-            return _Drag.GRIP
+            return _Held.GRIP
         self._offset = QPointF()
-        tool = self._canvas.viewing.tool
+        tool = viewing.tool
         point = tool if tool is not Tool.NAVIGATE else self._grabbed(event.position())
         if point is None:
-            return _Drag.WINDOW
+            return Drag.ZOOM if viewing.left_zooms else drag
         self._point = point
-        return _Drag.POINT
+        return _Held.POINT
 
     def _grabbed(self, position: QPointF) -> Tool | None:
         """Entry or target under the mouse, if it lies in this slice's slab."""
@@ -184,12 +206,21 @@ class SliceGestures(QObject):
         self._started = True
 
     def _windowed(self, step: QPointF) -> WindowLevel:
-        window = self._canvas.viewing.window
+        viewing = self._canvas.viewing
+        window = viewing.greys.of(self._canvas.pane)
         gain = max(1.0, window.width * WINDOW_GAIN)
-        return window.dragged(gain * step.x(), self._level_sign * gain * step.y())
+        rises = viewing.scheme.level_rises_upwards is not viewing.level_reversed
+        sign = -1.0 if rises else 1.0  # pixels count downwards
+        return window.dragged(gain * step.x(), sign * gain * step.y())
 
     def _lps(self, position: QPointF) -> FloatArray:
         return self._canvas.lps_at(position)
+
+
+def thicken(canvas: SliceCanvas, steps: int) -> None:
+    """Make a pane's slab thicker by so many steps, or thinner."""
+    look = canvas.viewing.look(canvas.pane)
+    canvas.viewing.set_look(canvas.pane, replace(look, slab=look.slab.thicker(steps)))
 
 
 def _length(vector: QPointF) -> float:

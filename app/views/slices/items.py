@@ -32,19 +32,21 @@ class ImageItem(QGraphicsItem):
         self._rect = QRectF()
         self._image = QImage()
         self._stale: tuple[NDArray[Any], WindowLevel] | None = None
+        self._inverted = False
 
     def set_slice(
         self,
         hu: NDArray[Any],
         window: WindowLevel,
         bounds_mm: tuple[float, float, float, float],
+        inverted: bool = False,
     ) -> None:
         """Show Hounsfield units, shape (rows, columns), on this left, top, width, height [mm]."""
         rect = QRectF(*bounds_mm)
         if rect != self._rect:
             self.prepareGeometryChange()
             self._rect = rect
-        self._stale = (hu, window)
+        self._stale, self._inverted = (hu, window), inverted
         self.update()
 
     def clear(self) -> None:
@@ -56,6 +58,8 @@ class ImageItem(QGraphicsItem):
         """Return the slice in grey."""
         if self._stale is not None:
             grey = np.ascontiguousarray(to_grey(*self._stale))
+            if self._inverted:
+                np.subtract(255, grey, out=grey)
             self._stale = None
             rows, columns = grey.shape
             borrowed = QImage(grey.data, columns, rows, columns, QImage.Format.Format_Grayscale8)

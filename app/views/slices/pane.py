@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, Qt, Signal
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtCore import QEvent, QPoint, Qt, Signal
+from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QMenu, QVBoxLayout, QWidget
 
+from app.views import theme
+from app.views.slices.bindings import digit
 from app.views.slices.canvas import SliceCanvas
+from app.views.slices.cine import Cine
 from app.views.slices.gestures import SliceGestures
-from app.views.slices.panes import PANE_MARKS, PaneId
-from app.views.slices.presets import default_window, keyed_window, menu_windows
+from app.views.slices.pane_actions import PaneActions
+from app.views.slices.pane_menu import build_menu
+from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
+from app.views.slices.presets import default_window, keyed_window
 from app.views.slices.readouts import Readouts
 from app.views.slices.viewing import Tool, Viewing
-from app.views.text import tr
 
-_K = Qt.Key
-PAGE = 10
-"""Slices that the Page keys move."""
+EDGE_PX = 2
+"""Width of the ring about the pane that has the keyboard."""
 
 
 class SlicePane(QFrame):
@@ -24,52 +27,67 @@ class SlicePane(QFrame):
 
     Signals:
         maximise_wanted(): double click.
+        leave_wanted(bool): the keyboard shall go to the next pane (True) or the previous one.
+
+    Attributes:
+        canvas, readouts, gestures, cine: its parts.
+        actions_of: what its keys and its menu do.
     """
 
     maximise_wanted = Signal()
+    leave_wanted = Signal(bool)
 
     def __init__(self, viewing: Viewing, pane: PaneId, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.viewing, self.pane = viewing, PaneId(pane)
         self.canvas = SliceCanvas(viewing, self.pane, self)
         self.readouts = Readouts(self.canvas)
-        self.gestures = SliceGestures(self.canvas)
+        self.gestures, self.cine = SliceGestures(self.canvas), Cine(self.canvas)
+        self.actions_of = PaneActions(self)
         self.canvas.gestures = self.gestures
         self.canvas.double_clicked.connect(self.maximise_wanted)
+        self.canvas.ctrl_double_clicked.connect(
+            lambda: viewing.set_window(default_window(), self.pane)
+        )
         self.gestures.hovered.connect(self.readouts.show_cursor)
         self.gestures.menu_wanted.connect(self.show_menu)
+        self.cine.changed.connect(self.readouts.refresh)
         viewing.tool_changed.connect(self._show_tool)
-        self.setStyleSheet(f"SlicePane {{ border-top: 2px solid {PANE_MARKS[self.pane].colour}; }}")
+        self.setAccessibleName(pane_name(self.pane))
+        self.setFocusProxy(self.canvas)
+        self.canvas.installEventFilter(self)
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 2, 0, 0)
+        layout.setContentsMargins(EDGE_PX, EDGE_PX + 1, EDGE_PX, EDGE_PX)
         layout.addWidget(self.canvas)
 
+    # --- keys ---------------------------------------------------------------------------------
+    def event(self, event: QEvent) -> bool:
+        """Claim one's own keys before the menus do."""
+        if event.type() != QEvent.Type.ShortcutOverride or not isinstance(event, QKeyEvent):
+            return super().event(event)
+        own = self.viewing.scheme.action(event) is not None and not _is_shared(event)
+        event.setAccepted(own)
+        return own
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Scroll, choose a preset, fit or reset; other keys go to the window."""
-        steps = {_K.Key_Up: 1, _K.Key_Right: 1, _K.Key_Down: -1, _K.Key_Left: -1,
-                 _K.Key_PageUp: PAGE, _K.Key_PageDown: -PAGE}  # fmt: skip
-        ends = {_K.Key_Home: -1e9, _K.Key_End: 1e9}
-        key = _K(event.key())
-        if key in steps:
-            self.viewing.show_slice(self.pane, self.canvas.index + steps[key])
-        elif key in ends:
-            self.viewing.show_slice(self.pane, ends[key])
-        elif key is _K.Key_Equal:
-            self.canvas.fit()
-        elif key is _K.Key_Space:
-            self.reset()
-        elif key is _K.Key_Escape and self.viewing.tool is not Tool.NAVIGATE:
-            self.viewing.set_tool(Tool.NAVIGATE)
-        elif window := keyed_window(key - _K.Key_0):
-            self.viewing.set_window(window)
+        """Do what the scheme says; other keys go to the window."""
+        action, number = self.viewing.scheme.action(event), digit(event)
+        if action is not None and self.actions_of.do(action):
+            return
+        window = None
+        if number is not None:
+            present = self.viewing.greys.of(self.pane)
+            window = keyed_window(number, self.viewing.volume, present)
+        if window is not None:
+            self.viewing.set_window(window, self.pane)
         else:
             super().keyPressEvent(event)
 
     def reset(self) -> None:
-        """Fit the image and go back to the window that was there at first."""
-        self.canvas.fit()
-        self.viewing.set_window(default_window())
+        """Fit the image and go back to the window and the slice that were there at first."""
+        self.actions_of.reset()
 
+    # --- menu ---------------------------------------------------------------------------------
     def show_menu(self, place: QPoint) -> None:
         """Open the context menu at a point of the screen."""
         menu = self.build_menu()
@@ -78,17 +96,29 @@ class SlicePane(QFrame):
 
     def build_menu(self) -> QMenu:
         """Return the presets and what else the mouse's place offers."""
-        menu = QMenu(self)
-        for name, key, window in menu_windows(self.viewing.volume):
-            action = menu.addAction(f"{name}  {window.width:g} / {window.level:g}\t{key}")
-            action.triggered.connect(lambda _=False, w=window: self.viewing.set_window(w))
-        menu.addSeparator()
-        menu.addAction(tr("Fit to pane") + "\t=").triggered.connect(self.canvas.fit)
-        menu.addAction(tr("Reset view") + "\t" + tr("Space")).triggered.connect(self.reset)
-        menu.addAction(tr("Maximise or restore")).triggered.connect(self.maximise_wanted)
-        return menu
+        return build_menu(self)
+
+    # --- looks --------------------------------------------------------------------------------
+    def eventFilter(self, watched: object, event: QEvent) -> bool:
+        """Show which pane has the keyboard."""
+        if event.type() in (QEvent.Type.FocusIn, QEvent.Type.FocusOut):
+            self.update()
+        return False
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw a line of the plane's colour on top, and a white ring where the keyboard is."""
+        painter = QPainter(self)
+        ring = "#ffffff" if self.canvas.hasFocus() else theme.IMAGE_BACKGROUND
+        painter.fillRect(self.rect(), QColor(ring))
+        top = self.rect().adjusted(0, 0, 0, EDGE_PX + 1 - self.height())
+        painter.fillRect(top, QColor(PANE_MARKS[self.pane].colour))
 
     def _show_tool(self) -> None:
         placing = self.viewing.tool is not Tool.NAVIGATE
         shape = Qt.CursorShape.CrossCursor if placing else Qt.CursorShape.ArrowCursor
         self.canvas.viewport().setCursor(shape)
+
+
+def _is_shared(event: QKeyEvent) -> bool:
+    """Whether an attempt's keys are the same, so that who is there for them decides."""
+    return event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Escape)

@@ -13,6 +13,7 @@ from app.core.arrays import FloatArray, frozen
 from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.reformat import Frame
 from app.imaging.volume import Volume
+from app.views.slices.looks import Slab
 from app.views.slices.panes import PaneId
 from app.views.slices.slab import PlanePoint
 
@@ -116,6 +117,10 @@ class OrthogonalPlane(SlicePlane):
         """Hounsfield units of the nearest slice; no copy."""
         return self._slicer.image(self._view, round(index))
 
+    def block(self, first: int, last: int) -> NDArray[Any]:
+        """Hounsfield units of the slices `first` up to `last`, which is left out; no copy."""
+        return self._slicer.images(self._view, first, last)
+
     def point(self, lps_mm: ArrayLike, index: float) -> PlanePoint:
         """Where an LPS point [mm] appears in slice `index`, and how far ahead of it it is."""
         if self._is_sheared:
@@ -188,6 +193,8 @@ class ReformatPlane(SlicePlane):
             from_origin: index 0 is the frame's own plane, not the first one in the volume.
         """
         self._volume, self._frame, self.pane = volume, frame, pane
+        self._from_origin = from_origin
+        self._slab: Slab | None = None
         normal = frame.normal
         self._sign = 1.0 if ahead is None or float(np.asarray(ahead) @ normal) >= 0.0 else -1.0
         self.ahead = frozen(self._sign * normal)
@@ -203,6 +210,15 @@ class ReformatPlane(SlicePlane):
         self._zero = 0.0 if from_origin else float(offsets[0])
         self._ends = tuple((offsets[[0, -1]] - self._zero) / self.step_mm)
         self.count = int((offsets[-1] - offsets[0]) / self.step_mm) + 1
+
+    def looked_at(self, quarters: int, mirrored: bool, slab: Slab | None) -> ReformatPlane:
+        """Return the same plane turned clockwise by quarters, mirrored before that, and thick."""
+        frame = self._frame.quarter(quarters, mirrored)
+        made = ReformatPlane(self._volume, frame, self.pane, self.ahead, self._from_origin)
+        if slab:
+            made._slab = slab
+            made.half_slab_mm = max(HALF_SLAB_MM, slab.thickness_mm / 2)
+        return made
 
     def image(self, index: float) -> NDArray[np.float32]:
         """Hounsfield units, trilinear, at the volume's finest spacing."""
@@ -227,6 +243,10 @@ class ReformatPlane(SlicePlane):
 
         offset = self._sign * self._offset(index)
         plane = self._frame.pixels(*corner, pixel_mm, columns, rows, offset)
+        if self._slab is not None:
+            from app.imaging.slab import slab_image
+
+            return slab_image(self._volume, plane, self._slab.thickness_mm, self._slab.projection)
         return oblique_image(self._volume, plane)
 
     def point(self, lps_mm: ArrayLike, index: float) -> PlanePoint:

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from PySide6.QtCore import QEvent, QObject, Qt
 
 from app.core.arrays import FloatArray
 from app.views import theme
 from app.views.coordinates import lps_words
+from app.views.names import NAMES
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.corners import PADDING, Overlay, Ruler
 from app.views.slices.panes import PANE_MARKS, pane_name
+from app.views.slices.plane import SlicePlane
+from app.views.slices.shown_plane import ShownPlane
 from app.views.text import tr
 
 _A = Qt.AlignmentFlag
@@ -29,12 +34,15 @@ class Readouts(QObject):
         self.slice = Overlay(port, _A.AlignRight | _A.AlignBottom)
         edges = (_A.AlignLeft | _A.AlignVCenter, _A.AlignRight | _A.AlignVCenter,
                  _A.AlignHCenter | _A.AlignTop, _A.AlignHCenter | _A.AlignBottom)  # fmt: skip
-        self.letters = tuple(Overlay(port, edge, 16, theme.WARNING, bold=True) for edge in edges)
+        self.letters = tuple(
+            Overlay(port, edge, theme.IMAGE_WARNING, bold=True, larger=3) for edge in edges
+        )
         self.ruler = Ruler(port)
         port.installEventFilter(self)
         canvas.changed.connect(self.refresh)
         canvas.left.connect(self.clear_cursor)
         canvas.plane_taken.connect(self.show_plane)
+        NAMES.changed.connect(self.show_plane)
 
     def show_plane(self) -> None:
         """Write what stays the same for a plane; nothing where there is none."""
@@ -46,21 +54,33 @@ class Readouts(QObject):
         series = volume.series
         thickness = tr("{step:.2f} mm slices", step=plane.step_mm)
         pane = self._canvas.pane
-        self.title.set_lines(
-            pane_name(pane), series.pseudonym, thickness, first=PANE_MARKS[pane].colour
-        )
+        lines = [pane_name(pane), NAMES.shown(series.pseudonym), thickness, *self._look(plane)]
+        self.title.set_lines(*lines, first=PANE_MARKS[pane].colour)
         for overlay, letter in zip(self.letters, plane.letters(), strict=True):
             overlay.set_lines(letter)
         self.refresh()
+
+    def _look(self, plane: SlicePlane) -> list[str]:
+        """Say what a reader must not overlook: that it is a slab, that it is turned."""
+        look = self._canvas.viewing.look(self._canvas.pane)
+        slab = look.slab
+        if slab and isinstance(plane, ShownPlane):  # whole slices
+            slab = replace(slab, thickness_mm=round(plane.thickness_mm, 2))
+        notes = (("▣", slab.words()), ("↻", look.turn.words()))
+        return [f"{sign} {words}" for sign, words in notes if words]
 
     def refresh(self) -> None:
         """Write slice, window and zoom."""
         plane = self._canvas.plane
         if plane is None:
             return
-        window, index = self._canvas.viewing.window, self._canvas.index
+        greys, index = self._canvas.viewing.greys, self._canvas.index
+        window = greys.of(self._canvas.pane)
+        notes = [tr("locked")] if greys.is_locked else []
+        notes += [tr("inverted")] if greys.is_inverted else []
         self.window.set_lines(
             tr("W {width:.0f}  L {level:.0f}", width=window.width, level=window.level),
+            *notes,
             tr("Zoom {zoom:.1f} px/mm", zoom=self._canvas.camera.scale),
         )
         self.slice.set_lines(

@@ -16,8 +16,12 @@ from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
 from app.views.error_overlay import ErrorOverlay
 from app.views.needle_overlay import NeedleOverlay
+from app.views.slices.bindings import OHIF, Scheme
+from app.views.slices.greys import Greys
+from app.views.slices.looks import Look
 from app.views.slices.panes import MPR_PANES, PaneId
 from app.views.slices.plane import ReformatPlane, SlicePlane, own_plane
+from app.views.slices.shown_plane import shown
 
 FOLLOW_DEAD_BAND_MM = 0.3
 """Slices that follow the tip stay while it moves less than this, so that they do not tremble."""
@@ -41,6 +45,8 @@ class Viewing(QObject):
     Signals:
         volume_changed, cursor_changed, window_changed, tool_changed, plan_changed, needle_changed.
         plane_changed(PaneId): a pane's plane is another one, or is scrolled away from its needle.
+        look_changed(PaneId): a pane is turned or has another slab; zoom and pan start anew.
+        scheme_changed(): mouse and keys mean something else.
         point_placed(Tool, tuple, bool): with any tool but `NAVIGATE`, a point was clicked or
             dragged to in LPS [mm]; the flag is True for the first event of a gesture, a new step
             to undo. Who listens takes the tools that are his and leaves the others.
@@ -54,6 +60,8 @@ class Viewing(QObject):
     needle_changed = Signal()
     plane_changed = Signal(object)
     point_placed = Signal(object, object, bool)
+    look_changed = Signal(object)
+    scheme_changed = Signal()
 
     def __init__(self, window: WindowLevel, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -62,7 +70,11 @@ class Viewing(QObject):
         self._planes: dict[PaneId, SlicePlane] = {}
         self._own_index: dict[PaneId, float] = {}
         self.cursor_mm: FloatArray = frozen(np.zeros(3))
-        self.window = window
+        self.greys = Greys(window, self)
+        self.greys.changed.connect(self.window_changed)
+        self.scheme, self.left_zooms, self.level_reversed = OHIF, False, False
+        self._looks: dict[PaneId, Look] = {}
+        self._shown: dict[PaneId, SlicePlane] = {}
         self.tool = Tool.NAVIGATE
         self.draft = DraftPlan()
         self.needle: NeedleOverlay | None = None
@@ -71,11 +83,21 @@ class Viewing(QObject):
         self.follows_tip = False
         self.point_refused = False
 
+    @property
+    def window(self) -> WindowLevel:
+        """Window of the panes that have none of their own."""
+        return self.greys.common
+
+    def set_scheme(self, scheme: Scheme) -> None:
+        """Take other bindings of mouse and keys."""
+        self.scheme = scheme
+        self.scheme_changed.emit()
+
     def set_volume(self, volume: Volume) -> None:
         """Show another volume; the crosshair goes to its middle."""
         self.volume, self.slicer = volume, OrthogonalSlicer(volume)
         self._planes = {pane: own_plane(self.slicer, View(pane)) for pane in MPR_PANES}
-        self._own_index = {}
+        self._own_index, self._shown = {}, {}
         middle = [(count - 1) / 2 for count in volume.size]
         self.cursor_mm = frozen(volume.lps_mm(middle))
         self.volume_changed.emit()
@@ -91,8 +113,27 @@ class Viewing(QObject):
 
     # --- planes -------------------------------------------------------------------------------
     def plane(self, pane: PaneId) -> SlicePlane | None:
-        """Plane of a pane; None without a volume, or while a needle pane has no needle."""
-        return self._planes.get(pane)
+        """Plane of a pane as it is looked at, turned and thick; None without a volume, or while a
+        needle pane has no needle.
+        """
+        plane = self._planes.get(pane)
+        if plane is None:
+            return None
+        if pane not in self._shown:
+            self._shown[pane] = shown(plane, self.look(pane))
+        return self._shown[pane]
+
+    def look(self, pane: PaneId) -> Look:
+        """How a pane looks at its plane: slab and turn."""
+        return self._looks.get(pane, Look())
+
+    def set_look(self, pane: PaneId, look: Look) -> None:
+        """Give a pane another slab, or turn it."""
+        if look != self.look(pane):
+            self._looks[pane] = look
+            self._shown.pop(pane, None)
+            self.look_changed.emit(pane)
+            self.plane_changed.emit(pane)
 
     def set_frame(self, pane: PaneId, frame: Frame | None, ahead: ArrayLike | None = None) -> None:
         """Lay a pane's plane along a frame.
@@ -106,6 +147,7 @@ class Viewing(QObject):
         if self.volume is None or self.slicer is None:
             return
         before = self._planes.pop(pane, None)
+        self._shown.pop(pane, None)
         if frame is not None:
             if ahead is None and before is not None and not pane.is_needle:
                 ahead = before.ahead
@@ -144,11 +186,9 @@ class Viewing(QObject):
         self.cursor_mm = frozen(plane.lps_mm(at.x, at.y, plane.kept(index, self.cursor_mm)))
         self.cursor_changed.emit()
 
-    def set_window(self, window: WindowLevel) -> None:
-        """Change width and level of all panes."""
-        if window != self.window:
-            self.window = window
-            self.window_changed.emit()
+    def set_window(self, window: WindowLevel, pane: PaneId | None = None) -> None:
+        """Change width and level of all panes, or of one if each has its own."""
+        self.greys.set(window, pane)
 
     def set_tool(self, tool: Tool) -> None:
         """Choose what the left button does."""

@@ -1,0 +1,105 @@
+"""How a pane looks at its plane: as a slab of some thickness, turned and mirrored."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.imaging.slab import Projection
+
+KINDS = ("mean", "mip", "minip")
+"""Values of `imaging.slab.Projection`, which is compiled and loaded later."""
+
+THINNEST_MM, THICKEST_MM = 1.0, 100.0
+STEP_MM = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Slab:
+    """A thick slice.
+
+    Attributes:
+        kind: mean, mip or minip.
+        thickness_mm: 0 for the slice as it is.
+    """
+
+    kind: str = "mean"
+    thickness_mm: float = 0.0
+
+    def __bool__(self) -> bool:
+        """Whether it is thicker than a slice."""
+        return self.thickness_mm > 0.0
+
+    @property
+    def projection(self) -> Projection:
+        """The way as imaging names it."""
+        from app.imaging.slab import Projection  # compiled: loaded since there is a volume
+
+        return Projection(self.kind)
+
+    def thicker(self, steps: int) -> Slab:
+        """Slab by so many millimetres thicker; below the thinnest it is a slice again."""
+        thickness = self.thickness_mm + steps * STEP_MM
+        if thickness < THINNEST_MM:
+            thickness = 0.0
+        return replace(self, thickness_mm=min(thickness, THICKEST_MM))
+
+    def next_kind(self) -> Slab:
+        """Slab of the next kind; a slice becomes 10 mm thick, so that something is seen."""
+        kind = KINDS[(KINDS.index(self.kind) + 1) % len(KINDS)] if self else self.kind
+        return Slab(kind, self.thickness_mm or 10.0)
+
+    def words(self) -> str:
+        """Kind and thickness for people; nothing for a slice."""
+        if not self:
+            return ""
+        return tr("{kind} {thickness:g} mm", kind=kind_name(self.kind), thickness=self.thickness_mm)
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """How what is seen is turned.
+
+    Attributes:
+        quarters: clockwise, 0 to 3.
+        mirrored: left and right are swapped before that.
+    """
+
+    quarters: int = 0
+    mirrored: bool = False
+
+    def __bool__(self) -> bool:
+        """Whether anything is turned."""
+        return self.quarters != 0 or self.mirrored
+
+    def turned(self, quarters: int) -> Turn:
+        """Turn on, clockwise."""
+        return replace(self, quarters=(self.quarters + quarters) % 4)
+
+    def flipped(self, upright: bool = False) -> Turn:
+        """Swap left and right as they are seen, or top and bottom."""
+        # mirror after a turn = mirror before it, and the turn the other way
+        quarters = (-self.quarters + (2 if upright else 0)) % 4
+        return Turn(quarters, not self.mirrored)
+
+    def words(self) -> str:
+        """Say what was done, for people; nothing where nothing was."""
+        parts = [tr("mirrored")] if self.mirrored else []
+        parts += [tr("turned {angle}°", angle=90 * self.quarters)] if self.quarters else []
+        return ", ".join(parts)
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """Slab and turn of one pane."""
+
+    slab: Slab = Slab()
+    turn: Turn = Turn()
+
+
+def kind_name(kind: str) -> str:
+    """Name of a projection for people."""
+    return {"mean": tr("Mean"), "mip": tr("MIP"), "minip": tr("MinIP")}[kind]
