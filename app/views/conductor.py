@@ -6,6 +6,7 @@ from PySide6.QtCore import QObject, Signal
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
+from app.core.units import MILLIMETRE
 from app.exercises.scene import device_of, plan_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
@@ -14,6 +15,7 @@ from app.session.snapshot import Snapshot
 from app.tracking.cameras.settings import CameraSettings
 from app.views.background import Indicator
 from app.views.exercise.controller import ExerciseController
+from app.views.exercise.pad_view import rings
 from app.views.exercise.run import ExerciseRun
 from app.views.live_needle import LiveNeedle
 from app.views.patient import Patient
@@ -113,6 +115,8 @@ class Conductor(QObject):
         self._profile = device_of(exercise)
         self.exercise = exercise
         self._editor.set_profile(self._profile)
+        radii = rings(exercise.tolerances)
+        self._workspace.viewing.set_tolerances(tuple(radius / MILLIMETRE for radius in radii))
         self._workspace.exercise_panel.set_assistance(exercise.assistance)
         if self.patient is not None and self.fits(self.patient):
             self._start_plan(self.patient)

@@ -14,10 +14,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.core.units import MILLIMETRE
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseViews
 from app.views.exercise.messages import MessageList
 from app.views.exercise.needle_cell import NeedleCell
+from app.views.exercise.pad_view import rings
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.scan_view import ScanView
 from app.views.exercise.status import StatusStrip
@@ -30,9 +32,12 @@ from app.views.robot.health_panel import HealthPanel
 from app.views.scene.renderer import SceneRenderer
 from app.views.scene.view import SceneView
 from app.views.shortcuts import disclaimer_label
+from app.views.slices.needle_menu import fill_needle_menu
+from app.views.slices.needle_source import NeedlePlanes
 from app.views.slices.pane import SlicePane
-from app.views.slices.panes import MPR_PANES
+from app.views.slices.panes import MPR_PANES, NEEDLE_PANES
 from app.views.slices.presets import default_window
+from app.views.slices.two_points import TwoPoints
 from app.views.slices.viewing import Viewing
 from app.views.text import tr
 
@@ -53,18 +58,24 @@ class Workspace(QWidget):
         super().__init__(parent)
         self.viewing = Viewing(default_window(), self)
         self.panes = tuple(SlicePane(self.viewing, pane, self) for pane in MPR_PANES)
+        self.needle_planes = NeedlePlanes(self.viewing, self)
+        self.needle_panes = tuple(SlicePane(self.viewing, pane, self) for pane in NEEDLE_PANES)
+        self.two_points = TwoPoints(self.viewing, self.needle_planes, self)
+        self.viewing.set_tolerances(tuple(ring / MILLIMETRE for ring in rings()))
         self.scene = SceneView(SceneRenderer(), self)
         self.bullseye = Bullseye(self)
         self.scan_view = ScanView(self.viewing, self)
         self.needle_cell = NeedleCell(self.bullseye, self.scan_view)
-        panes: dict[str, QWidget] = {str(pane.pane): pane for pane in self.panes}
+        slices = (*self.panes, *self.needle_panes)
+        panes: dict[str, QWidget] = {str(pane.pane): pane for pane in slices}
         self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: _Cell(self.needle_cell)}, self)
         self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
-        for pane in self.panes:
+        for pane in slices:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
             pane.leave_wanted.connect(lambda on, pane=pane: self._go_on(pane, on))
         cell = self.grid.pane(BULLSEYE)
         self.scan_view.pane.maximise_wanted.connect(lambda: self.grid.toggle(cell))
+        self._set_up_needle_panes()
         self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
         self.plan_panel = PlanPanel(editor, self.viewing, self)
         self.exercise_panel = ExercisePanel(self)
@@ -81,6 +92,23 @@ class Workspace(QWidget):
         return ExerciseViews(
             self.bullseye, self.exercise_panel, self.status, self.tracker_panel, self.messages
         )
+
+    def _set_up_needle_panes(self) -> None:
+        planes, viewing = self.needle_planes, self.viewing
+        for pane in self.needle_panes:
+            pane.canvas.seen.connect(self._watch_needle_panes)
+            pane.menu_parts.append(lambda menu: fill_needle_menu(menu, planes, viewing))
+        for pane in (*self.panes, *self.needle_panes):
+            self.two_points.show_in(pane)
+        planes.changed.connect(self._show_needle_words)
+        self._show_needle_words()
+
+    def _show_needle_words(self) -> None:
+        for pane in self.needle_panes:
+            pane.readouts.set_note(self.needle_planes.words())
+
+    def _watch_needle_panes(self) -> None:
+        self.needle_planes.set_watched(any(pane.isVisible() for pane in self.needle_panes))
 
     # --- layouts ------------------------------------------------------------------------------
     @property

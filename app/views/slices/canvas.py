@@ -5,11 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Protocol
 
-import numpy as np
 import pyqtgraph
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QTransform, QWheelEvent
+from PySide6.QtGui import (
+    QHideEvent,
+    QKeyEvent,
+    QMouseEvent,
+    QResizeEvent,
+    QShowEvent,
+    QTransform,
+    QWheelEvent,
+)
 from PySide6.QtWidgets import QFrame, QGraphicsView, QWidget
 
 from app.core.arrays import FloatArray
@@ -19,7 +26,8 @@ from app.views.slices.items import ImageItem, MarkItem
 from app.views.slices.layer_stack import Layer, LayerStack
 from app.views.slices.looks import Turn
 from app.views.slices.panes import PaneId, others
-from app.views.slices.plane import SlicePlane
+from app.views.slices.picture_feed import PictureFeed
+from app.views.slices.plane import Rect, ReformatPlane, SlicePlane
 from app.views.slices.viewing import Viewing
 
 
@@ -48,6 +56,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         left(): the mouse left the pane.
         double_clicked(): for maximising.
         ctrl_double_clicked(): for the window that there was at first.
+        seen(): the pane was shown or hidden.
     """
 
     changed = Signal()
@@ -55,6 +64,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
     left = Signal()
     double_clicked = Signal()
     ctrl_double_clicked = Signal()
+    seen = Signal()
 
     def __init__(self, viewing: Viewing, pane: PaneId, parent: QWidget | None = None) -> None:
         super().__init__(parent, useOpenGL=False, background=theme.IMAGE_BACKGROUND)
@@ -64,7 +74,8 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         self.gestures: Gestures | None = None
         self._fitted, self._turn = True, Turn()
         self._shown: tuple[object, ...] = ()
-        self._hu: NDArray[Any] = np.zeros((1, 1), np.int16)
+        self.feed = PictureFeed(viewing.reformatter, self)
+        self.feed.arrived.connect(self._show_picture)
         self.setCentralItem(None)  # layers stand in the scene itself; its end would crash Qt
         scene = self.scene()
         scene.setItemIndexMethod(scene.ItemIndexMethod.NoIndex)  # a dozen items, moved often
@@ -96,8 +107,13 @@ class SliceCanvas(pyqtgraph.GraphicsView):
 
     @property
     def values(self) -> NDArray[Any]:
-        """Hounsfield units of the picture, on the plane's `bounds_mm`, shape (rows, columns)."""
-        return self._hu
+        """Hounsfield units of the picture, on `values_mm`, shape (rows, columns)."""
+        return self.feed.hu
+
+    @property
+    def values_mm(self) -> Rect:
+        """Left, top, width and height [mm] of the picture in the plane."""
+        return self.feed.bounds_mm
 
     def add_layer(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
         """Draw something more over the slice.
@@ -110,9 +126,14 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         self.layers.add(layer, marks)
         self.refresh()
 
+    @property
+    def _is_asleep(self) -> bool:
+        """Whether nothing needs to be drawn: a needle's pane that nobody sees."""
+        return self.plane is None or (self.pane.is_needle and not self.isVisible())
+
     def refresh(self) -> None:
         """Place the added layers anew, because what they show has changed."""
-        if self.plane is not None:
+        if self.plane is not None and not self._is_asleep:
             self.layers.place_added(self.plane, self.index, self.camera.scale)
             self._arrange_labels()
 
@@ -147,20 +168,21 @@ class SliceCanvas(pyqtgraph.GraphicsView):
             self.plane, self._shown = plane, ()
             self.plane_taken.emit()
         if plane is None:
+            self.feed.drop()
             self._image.clear()
             self.layers.hide()
 
     def _show_cursor(self) -> None:
-        if self.plane is None:
+        if self.plane is None or self._is_asleep:
             return
         index, greys = self.index, self.viewing.greys
         moved = self._shown[:1] != (index,)
         state = (index, greys.of(self.pane), greys.is_inverted, greys.is_locked)
         if self._shown != state:
             self._shown = state
-            if moved:  # kept contiguous: changing the window then needs no second gather
-                self._hu = np.ascontiguousarray(self.plane.image(index))
-            self._image.set_slice(self._hu, state[1], self.plane.bounds_mm, greys.is_inverted)
+            if moved:
+                self._fetch()
+            self._show_picture()
             self.changed.emit()
         self._place_crosshair()
         if moved:
@@ -168,17 +190,29 @@ class SliceCanvas(pyqtgraph.GraphicsView):
             self.layers.place_needle(self.plane, index, self.camera.scale)
             self.refresh()
 
+    def _fetch(self) -> None:
+        """Want the picture of what the pane shows."""
+        if self.plane is not None and not self._is_asleep:
+            visible = self.camera.visible((self.viewport().width(), self.viewport().height()))
+            pixel = 1.0 / (self.camera.scale * self.devicePixelRatioF())
+            self.feed.want(self.plane, self.index, visible, pixel)
+
+    def _show_picture(self) -> None:
+        greys = self.viewing.greys
+        window, bounds = greys.of(self.pane), self.feed.bounds_mm
+        self._image.set_slice(self.feed.hu, window, bounds, greys.is_inverted)
+
     def _place_crosshair(self) -> None:
-        if self.plane is not None:
+        if self.plane is not None and not self._is_asleep:
             self.layers.place_crosshair(self.plane, self.index, self.camera.scale)
 
     def _show_plan(self) -> None:
-        if self.plane is not None:
+        if self.plane is not None and not self._is_asleep:
             self.layers.place_plan(self.plane, self.index, self.camera.scale)
             self._arrange_labels()
 
     def _show_needle(self) -> None:
-        if self.plane is not None:
+        if self.plane is not None and not self._is_asleep:
             self.layers.place_needle(self.plane, self.index, self.camera.scale)
             self._arrange_labels()
 
@@ -192,7 +226,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         """Show the whole image, and keep doing so when the pane is resized."""
         if self.plane is not None:
             size = (self.viewport().width(), self.viewport().height())
-            self.set_camera(Camera.fit(self.plane.bounds_mm, size))
+            self.set_camera(Camera.fit(self.plane.home_mm, size))
             self._fitted = True
 
     def set_camera(self, camera: Camera) -> None:
@@ -204,8 +238,10 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         size = (self.viewport().width(), self.viewport().height())
         self.setSceneRect(QRectF(*self.camera.visible(size)))
         self.setTransform(QTransform.fromScale(self.camera.scale, self.camera.scale))
+        if isinstance(self.plane, ReformatPlane):
+            self._fetch()  # the pixels are other ones
         self._show_cursor()
-        if self.plane is not None:
+        if self.plane is not None and not self._is_asleep:
             self.layers.place_plan(self.plane, self.index, self.camera.scale)
             self.layers.place_needle(self.plane, self.index, self.camera.scale)
         self.refresh()
@@ -264,6 +300,22 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         if event.button() is Qt.MouseButton.LeftButton:
             ctrl = event.modifiers() & Qt.KeyboardModifier.ControlModifier
             (self.ctrl_double_clicked if ctrl else self.double_clicked).emit()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Catch up with what happened unseen."""
+        super().showEvent(event)
+        if self.pane.is_needle:
+            self._shown = ()
+            self._take_plane()
+            self._apply_camera()
+        self.seen.emit()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Stop drawing."""
+        super().hideEvent(event)
+        if self.pane.is_needle:
+            self.feed.drop()
+        self.seen.emit()
 
     def leaveEvent(self, event: QEvent) -> None:
         """Tell the read-outs."""

@@ -202,6 +202,7 @@ class SliceGestures(QObject):
     def _place(self, position: QPointF) -> None:
         point = as_point(self._lps(position + self._offset))
         self._canvas.viewing.point_refused = False
+        self._canvas.viewing.clicked_pane = self._canvas.pane
         self._canvas.viewing.point_placed.emit(self._point, point, not self._started)
         self._started = True
 

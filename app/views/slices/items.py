@@ -7,7 +7,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
-from PySide6.QtGui import QFont, QFontMetrics, QImage, QPainter, QPen, QPolygonF
+from PySide6.QtGui import (
+    QBrush,
+    QColor,
+    QFont,
+    QFontMetrics,
+    QImage,
+    QLinearGradient,
+    QPainter,
+    QPen,
+    QPolygonF,
+)
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
 from app.imaging.window import WindowLevel, to_grey
@@ -151,17 +161,29 @@ class SegmentItem(QGraphicsItem):
         self.setZValue(z)
 
     def place(
-        self, start: tuple[float, float], end: tuple[float, float], pen: QPen, scale: float
+        self,
+        start: tuple[float, float],
+        end: tuple[float, float],
+        pen: QPen,
+        scale: float,
+        alphas: tuple[float, float] = (1.0, 1.0),
     ) -> None:
-        """Run from `start` to `end` [mm] in this pen; `scale` is the zoom [px/mm]."""
+        """Run from `start` to `end` [mm] in this pen.
+
+        Args:
+            start: one end [mm].
+            end: the other [mm].
+            pen: cosmetic, opaque.
+            scale: zoom [px/mm].
+            alphas: opacity at either end; it changes evenly between them.
+        """
         self.prepareGeometryChange()
-        self._start, self._end, self._pen = QPointF(*start), QPointF(*end), pen
-        rim = QPen(pen)
-        rim.setColor(Qt.GlobalColor.black)
-        rim.setWidthF(pen.widthF() + 2.0)
-        rim.setDashPattern([])
-        rim.setStyle(Qt.PenStyle.SolidLine)
-        self._rim = rim
+        self._start, self._end = QPointF(*start), QPointF(*end)
+        rim = QPen(Qt.GlobalColor.black, pen.widthF() + 2.0)
+        rim.setCosmetic(True)
+        rim.setCapStyle(pen.capStyle())
+        self._pen = self._faded(pen, alphas)
+        self._rim = self._faded(rim, (0.55 * alphas[0], 0.55 * alphas[1]))
         self._margin = (pen.widthF() + 4.0) / scale
         self.update()
 
@@ -175,12 +197,25 @@ class SegmentItem(QGraphicsItem):
     ) -> None:
         """Draw rim and line."""
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setOpacity(0.55 * self._pen.color().alphaF())
         painter.setPen(self._rim)
         painter.drawLine(self._start, self._end)
-        painter.setOpacity(1.0)
         painter.setPen(self._pen)
         painter.drawLine(self._start, self._end)
+
+    def _faded(self, pen: QPen, alphas: tuple[float, float]) -> QPen:
+        faded, colours = QPen(pen), []
+        for alpha in alphas:
+            colour = QColor(pen.color())
+            colour.setAlphaF(alpha)
+            colours.append(colour)
+        if alphas[0] == alphas[1]:
+            faded.setColor(colours[0])
+            return faded
+        gradient = QLinearGradient(self._start, self._end)
+        gradient.setColorAt(0.0, colours[0])
+        gradient.setColorAt(1.0, colours[1])
+        faded.setBrush(QBrush(gradient))
+        return faded
 
 
 class MarkItem(QGraphicsItem):

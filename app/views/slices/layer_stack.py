@@ -14,6 +14,8 @@ from app.views.slices.items import MarkItem
 from app.views.slices.layers import CrosshairLayer, Labels, NeedleLayer, PlanLayer
 from app.views.slices.panes import PaneId
 from app.views.slices.plane import SlicePlane
+from app.views.slices.target_disc import TargetDisc
+from app.views.slices.ticks import TickLayer
 from app.views.slices.viewing import Viewing
 
 
@@ -37,7 +39,8 @@ class LayerStack:
     """Owns the layers of one canvas, and what others add.
 
     Attributes:
-        crosshair, plan, needle, errors: its own layers.
+        crosshair, plan, needle, errors, disc: its own layers.
+        ticks: the line ahead of the tip; None in panes that are not the needle's.
     """
 
     def __init__(self, scene: QGraphicsScene, viewing: Viewing, pane: PaneId) -> None:
@@ -45,6 +48,8 @@ class LayerStack:
         self.crosshair = CrosshairLayer(scene, viewing, pane)
         self.plan, self.needle = PlanLayer(scene), NeedleLayer(scene)
         self.errors = ErrorLayer(scene)
+        self.disc = TargetDisc(scene, viewing)
+        self.ticks = TickLayer(scene, viewing) if pane.is_needle else None
         self._labels = Labels((self.plan.target, self.plan.entry, self.needle.tip))
         self._added: list[Layer] = []
 
@@ -59,6 +64,9 @@ class LayerStack:
         self.plan.hide()
         self.needle.hide()
         self.errors.hide()
+        self.disc.hide()
+        if self.ticks is not None:
+            self.ticks.hide()
         for layer in self._added:
             layer.hide()
 
@@ -72,6 +80,8 @@ class LayerStack:
         error = viewing.target_error if viewing.shows_errors else None
         self.plan.place(viewing.draft, plane, index, scale, error is not None)
         self.errors.place_target(error, plane, index, scale)
+        self.disc.place(plane, index, scale)
+        self._place_ticks(plane, index, scale)
 
     def place_needle(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Show the live needle."""
@@ -79,6 +89,11 @@ class LayerStack:
         self.needle.place(needle, plane, index, scale)
         error = needle.error if needle is not None and self._viewing.shows_errors else None
         self.errors.place_tip(error, plane, index, scale)
+        self._place_ticks(plane, index, scale)
+
+    def _place_ticks(self, plane: SlicePlane, index: float, scale: float) -> None:
+        if self.ticks is not None:
+            self.ticks.place(plane, index, scale)
 
     def place_added(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Show what others have added."""

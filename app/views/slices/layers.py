@@ -22,7 +22,10 @@ from app.views.slices.viewing import Viewing
 from app.views.text import tr
 from app.views.theme import Mark
 
-FADED = 0.75
+FADED, FAINTEST = 0.75, 0.25
+FAINTEST_MM = 50.0
+"""A segment is faintest so far off the slice [mm]."""
+
 LINE_POINTS = 24
 
 
@@ -60,8 +63,14 @@ class CrosshairLayer:
         return None if frame is None else trace(this, frame)
 
 
+def fading(distance_mm: float, half_mm: float) -> float:
+    """Opacity of what lies so far off a slice of this half thickness, outside it."""
+    share = (distance_mm - half_mm) / (FAINTEST_MM - half_mm)
+    return FADED + (FAINTEST - FADED) * min(max(share, 0.0), 1.0)
+
+
 class SegmentLayer:
-    """A segment in space: solid where it lies in the slab, dashed and faded outside."""
+    """A segment in space: solid in the slab, outside dashed and the fainter the farther off."""
 
     def __init__(self, scene: QGraphicsScene, mark: Mark, z: float) -> None:
         self._mark = mark
@@ -74,7 +83,9 @@ class SegmentLayer:
         """Run from `start` to `end`."""
         parts = pieces(start, end, half_mm)
         for item, part in zip(self._items, parts, strict=False):
-            item.place(part.start, part.end, self._pen(part.inside), scale)
+            near, far = (fading(distance, half_mm) for distance in part.distances)
+            alphas = (1.0, 1.0) if part.inside else (near, far)
+            item.place(part.start, part.end, self._pen(part.inside), scale, alphas)
         for number, item in enumerate(self._items):
             item.setVisible(number < len(parts))
 
@@ -84,7 +95,7 @@ class SegmentLayer:
             item.setVisible(False)
 
     def _pen(self, inside: bool) -> QPen:
-        pen = self._mark.pen(alpha=1.0 if inside else FADED)
+        pen = self._mark.pen()
         if not inside:
             pen.setDashPattern([4.0, 3.0])
         return pen
@@ -116,9 +127,9 @@ class PlanLayer:
         """Show what the draft has; `with_error` says what the ellipse round the target is."""
         entry = None if draft.entry_mm is None else plane.point(draft.entry_mm, index)
         target = None if draft.target_mm is None else plane.point(draft.target_mm, index)
-        _place_mark(self.entry, entry, tr("Entry"), plane)
+        place_mark(self.entry, entry, tr("Entry"), plane)
         name = tr("Target, TRE 95 %") if with_error else tr("Target")
-        _place_mark(self.target, target, name, plane)
+        place_mark(self.target, target, name, plane)
         if entry is None or target is None:
             self._path.hide()
         else:
@@ -157,7 +168,7 @@ class NeedleLayer:
         start, tip = plane.point(needle.start_mm, index), plane.point(needle.tip_mm, index)
         shaft = self._shaft if needle.valid else self._doubtful
         shaft.place(start, tip, plane.half_slab_mm, scale)
-        _place_mark(self.tip, tip, "" if needle.valid else tr("not tracked"), plane)
+        place_mark(self.tip, tip, "" if needle.valid else tr("not tracked"), plane)
 
     def hide(self) -> None:
         """Show nothing."""
@@ -216,7 +227,8 @@ def _along(start: QPointF, end: QPointF) -> list[tuple[float, float]]:
     return list(zip(across.tolist(), down.tolist(), strict=True))
 
 
-def _place_mark(item: MarkItem, at: PlanePoint | None, name: str, plane: SlicePlane) -> None:
+def place_mark(item: MarkItem, at: PlanePoint | None, name: str, plane: SlicePlane) -> None:
+    """Show a mark with its name and its distance from the slice; None hides it."""
     item.setVisible(at is not None)
     if at is None:
         return

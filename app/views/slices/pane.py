@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from PySide6.QtCore import QEvent, QPoint, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QMenu, QVBoxLayout, QWidget
@@ -44,6 +46,7 @@ class SlicePane(QFrame):
         self.readouts = Readouts(self.canvas)
         self.gestures, self.cine = SliceGestures(self.canvas), Cine(self.canvas)
         self.actions_of = PaneActions(self)
+        self.menu_parts: list[Callable[[QMenu], None]] = []
         self.canvas.gestures = self.gestures
         self.canvas.double_clicked.connect(self.maximise_wanted)
         self.canvas.ctrl_double_clicked.connect(
@@ -96,7 +99,10 @@ class SlicePane(QFrame):
 
     def build_menu(self) -> QMenu:
         """Return the presets and what else the mouse's place offers."""
-        return build_menu(self)
+        menu = build_menu(self)
+        for fill in self.menu_parts:
+            fill(menu)
+        return menu
 
     # --- looks --------------------------------------------------------------------------------
     def eventFilter(self, watched: object, event: QEvent) -> bool:

@@ -20,6 +20,9 @@ from app.views.slices.slab import PlanePoint
 HALF_SLAB_MM = 2.0
 """Half thickness of the slab [mm] within which needle and plan count as in the slice."""
 
+FIELD_MM = 180.0
+"""Width and height that a needle's pane shows at first."""
+
 Rect = tuple[float, float, float, float]
 """Left, top, width and height [mm]."""
 
@@ -49,6 +52,11 @@ class SlicePlane(ABC):
     ahead: FloatArray
 
     @property
+    def home_mm(self) -> Rect:
+        """Rectangle that a pane shows at first: all of the volume."""
+        return self.bounds_mm
+
+    @property
     def extent_mm(self) -> tuple[float, float]:
         """Width and height of the image [mm]."""
         return self.bounds_mm[2:]
@@ -57,6 +65,11 @@ class SlicePlane(ABC):
     def normal_axis(self) -> int:
         """Patient axis (0 left, 1 posterior, 2 superior) that the slices' normal follows most."""
         return int(np.argmax(np.abs(self.ahead)))
+
+    @property
+    def tilt_deg(self) -> float:
+        """Angle between the slices' normal and the patient axis that it follows most [°]."""
+        return float(np.degrees(np.arccos(min(1.0, np.abs(self.ahead).max()))))
 
     def towards(self, distance: float) -> str:
         """Patient letter of the side of the slice on which this signed distance lies."""
@@ -226,6 +239,18 @@ class ReformatPlane(SlicePlane):
         pixel = max(self._pixel, width / MOST_PIXELS, height / MOST_PIXELS)
         columns, rows = max(1, round(width / pixel)), max(1, round(height / pixel))
         return self.pixels(index, (left, top), pixel, columns, rows)
+
+    @property
+    def finest_mm(self) -> float:
+        """The volume's finest spacing [mm]."""
+        return self._pixel
+
+    @property
+    def home_mm(self) -> Rect:
+        """Rectangle that a pane shows at first; round the needle, so that millimetres show."""
+        if not self._from_origin:
+            return self.bounds_mm
+        return -FIELD_MM / 2, -FIELD_MM / 2, FIELD_MM, FIELD_MM
 
     def pixels(
         self, index: float, corner: tuple[float, float], pixel_mm: float, columns: int, rows: int

@@ -12,12 +12,31 @@ from app.views.coordinates import lps_words
 from app.views.names import NAMES
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.corners import PADDING, Overlay, Ruler
-from app.views.slices.panes import PANE_MARKS, pane_name
+from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
 from app.views.slices.plane import SlicePlane
 from app.views.slices.shown_plane import ShownPlane
 from app.views.text import tr
 
 _A = Qt.AlignmentFlag
+
+
+SHOWN_TILT_DEG = 0.5
+"""From this angle to the patient's axes a plane is called oblique."""
+
+
+def needle_slice_words(plane: SlicePlane, index: float) -> str:
+    """Say where a slice of a needle's pane stands."""
+    offset = index * plane.step_mm
+    if plane.pane is PaneId.PROBE:
+        if abs(offset) < 0.05:
+            return tr("at the tip")
+        if offset > 0.0:
+            return tr("{distance:.0f} mm ahead of the tip", distance=offset)
+        return tr("{distance:.0f} mm behind the tip", distance=-offset)
+    if abs(offset) < 0.05:
+        return tr("through the needle")
+    side = plane.towards(offset)
+    return tr("{distance:.0f} mm {side} of the needle", distance=abs(offset), side=side)
 
 
 class Readouts(QObject):
@@ -27,6 +46,7 @@ class Readouts(QObject):
         super().__init__(canvas)
         self._canvas = canvas
         self._hovered: FloatArray | None = None
+        self._note = ""
         port = canvas.viewport()
         self.title = Overlay(port, _A.AlignLeft | _A.AlignTop)
         self.window = Overlay(port, _A.AlignRight | _A.AlignTop)
@@ -47,15 +67,16 @@ class Readouts(QObject):
     def show_plane(self) -> None:
         """Write what stays the same for a plane; nothing where there is none."""
         plane, volume = self._canvas.plane, self._canvas.viewing.volume
+        pane = self._canvas.pane
+        colour = PANE_MARKS[pane].colour
         if plane is None or volume is None:
             for overlay in (self.window, self.cursor, self.slice, *self.letters):
                 overlay.set_lines()
+            self.title.set_lines(pane_name(pane), self._note, first=colour)
             return
-        series = volume.series
-        thickness = tr("{step:.2f} mm slices", step=plane.step_mm)
-        pane = self._canvas.pane
-        lines = [pane_name(pane), NAMES.shown(series.pseudonym), thickness, *self._look(plane)]
-        self.title.set_lines(*lines, first=PANE_MARKS[pane].colour)
+        note = self._note or tr("{step:.2f} mm slices", step=plane.step_mm)
+        lines = [pane_name(pane), NAMES.shown(volume.series.pseudonym), note, *self._look(plane)]
+        self.title.set_lines(*lines, first=colour)
         for overlay, letter in zip(self.letters, plane.letters(), strict=True):
             overlay.set_lines(letter)
         self.refresh()
@@ -68,6 +89,11 @@ class Readouts(QObject):
             slab = replace(slab, thickness_mm=round(plane.thickness_mm, 2))
         notes = (("▣", slab.words()), ("↻", look.turn.words()))
         return [f"{sign} {words}" for sign, words in notes if words]
+
+    def set_note(self, note: str) -> None:
+        """Say something else below the title than how thick the slices are."""
+        self._note = note
+        self.show_plane()
 
     def refresh(self) -> None:
         """Write slice, window and zoom."""
@@ -83,10 +109,7 @@ class Readouts(QObject):
             *notes,
             tr("Zoom {zoom:.1f} px/mm", zoom=self._canvas.camera.scale),
         )
-        self.slice.set_lines(
-            tr("{position} mm", position=self._position()),
-            tr("Slice {number} / {count}", number=round(index) + 1, count=plane.count),
-        )
+        self.slice.set_lines(*self._slice_words(plane, index))
         self.ruler.set_scale(self._canvas.camera.scale)
         self._follow_slice()
         self._place()
@@ -119,6 +142,16 @@ class Readouts(QObject):
         if event.type() is QEvent.Type.Resize:
             self._place()
         return False
+
+    def _slice_words(self, plane: SlicePlane, index: float) -> tuple[str, ...]:
+        if plane.pane.is_needle:
+            return (needle_slice_words(plane, index),)
+        tilt = plane.tilt_deg
+        return (
+            tr("{angle:.0f}° oblique", angle=tilt) if tilt > SHOWN_TILT_DEG else "",
+            tr("{position} mm", position=self._position()),
+            tr("Slice {number} / {count}", number=round(index) + 1, count=plane.count),
+        )[tilt <= SHOWN_TILT_DEG :]
 
     def _position(self) -> str:
         """Patient coordinate of the slice along its own axis, with the axis' letter."""

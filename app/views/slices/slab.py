@@ -22,11 +22,18 @@ class PlanePoint:
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Part of a segment that lies wholly inside or wholly outside the slab; ends in plane [mm]."""
+    """Part of a segment that lies wholly inside or wholly outside the slab; ends in plane [mm].
+
+    Attributes:
+        start, end: places of its ends [mm].
+        inside: whether it lies in the slab.
+        distances: of its ends from the slice, without sign [mm].
+    """
 
     start: tuple[float, float]
     end: tuple[float, float]
     inside: bool
+    distances: tuple[float, float] = (0.0, 0.0)
 
 
 def pieces(start: PlanePoint, end: PlanePoint, half_mm: float) -> list[Piece]:
@@ -37,10 +44,18 @@ def pieces(start: PlanePoint, end: PlanePoint, half_mm: float) -> list[Piece]:
     """
     cuts = [0.0, *_crossings(start.distance, end.distance, half_mm), 1.0]
     return [
-        Piece(_between(start, end, a), _between(start, end, b), inside)
+        Piece(
+            _between(start, end, a),
+            _between(start, end, b),
+            inside,
+            (
+                abs(_mix(start.distance, end.distance, a)),
+                abs(_mix(start.distance, end.distance, b)),
+            ),
+        )
         for a, b in pairwise(cuts)
         if b - a > 1e-9
-        for inside in [abs(_mix(start.distance, end.distance, (a + b) / 2)) <= half_mm]
+        for inside in [_off(start, end, (a + b) / 2) <= half_mm]
     ]
 
 
@@ -92,6 +107,10 @@ def _crossings(first: float, last: float, half_mm: float) -> list[float]:
 
 def _between(start: PlanePoint, end: PlanePoint, fraction: float) -> tuple[float, float]:
     return _mix(start.x, end.x, fraction), _mix(start.y, end.y, fraction)
+
+
+def _off(start: PlanePoint, end: PlanePoint, fraction: float) -> float:
+    return abs(_mix(start.distance, end.distance, fraction))
 
 
 def _mix(a: float, b: float, fraction: float) -> float:

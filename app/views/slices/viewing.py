@@ -21,6 +21,7 @@ from app.views.slices.greys import Greys
 from app.views.slices.looks import Look
 from app.views.slices.panes import MPR_PANES, PaneId
 from app.views.slices.plane import ReformatPlane, SlicePlane, own_plane
+from app.views.slices.reformatter import Reformatter
 from app.views.slices.shown_plane import shown
 
 FOLLOW_DEAD_BAND_MM = 0.3
@@ -33,6 +34,7 @@ class Tool(StrEnum):
     NAVIGATE = "navigate"
     ENTRY = "entry"
     TARGET = "target"
+    PLANE = "plane"
 
 
 class Viewing(QObject):
@@ -69,6 +71,7 @@ class Viewing(QObject):
         self.slicer: OrthogonalSlicer | None = None
         self._planes: dict[PaneId, SlicePlane] = {}
         self._own_index: dict[PaneId, float] = {}
+        self.reformatter = Reformatter()
         self.cursor_mm: FloatArray = frozen(np.zeros(3))
         self.greys = Greys(window, self)
         self.greys.changed.connect(self.window_changed)
@@ -77,11 +80,13 @@ class Viewing(QObject):
         self._shown: dict[PaneId, SlicePlane] = {}
         self.tool = Tool.NAVIGATE
         self.draft = DraftPlan()
+        self.tolerances_mm: tuple[float, ...] = ()
         self.needle: NeedleOverlay | None = None
         self.target_error: ErrorOverlay | None = None
         self.shows_errors = True
         self.follows_tip = False
         self.point_refused = False
+        self.clicked_pane: PaneId | None = None
 
     @property
     def window(self) -> WindowLevel:
@@ -203,6 +208,11 @@ class Viewing(QObject):
     def set_draft(self, draft: DraftPlan) -> None:
         """Show entry and target."""
         self.draft = draft
+        self.plan_changed.emit()
+
+    def set_tolerances(self, radii_mm: tuple[float, ...]) -> None:
+        """Draw these rings round the target [mm], from the inside."""
+        self.tolerances_mm = radii_mm
         self.plan_changed.emit()
 
     def set_needle(self, needle: NeedleOverlay | None) -> None:

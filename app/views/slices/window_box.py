@@ -48,7 +48,7 @@ class WindowBox:
         plane, hu = self._canvas.plane, self._canvas.values
         if plane is None:
             return hu[:0]
-        left, top, width, height = plane.bounds_mm
+        left, top, width, height = self._canvas.values_mm
         corners = (box.topLeft().toPointF(), box.bottomRight().toPointF())
         (x0, y0), (x1, y1) = (self._canvas.plane_at(corner) for corner in corners)
         rows, columns = hu.shape

@@ -1,0 +1,48 @@
+"""The target's tolerance in true size: rings round the place that the needle shall reach."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtWidgets import QGraphicsScene
+
+from app.views import theme
+from app.views.slices.error_layer import OutlineItem
+from app.views.slices.items import MarkItem
+from app.views.slices.plane import SlicePlane
+from app.views.slices.viewing import Viewing
+from app.views.theme import Mark
+
+INNER = Mark(theme.TARGET.colour, width=2.0)
+OUTER = Mark(theme.TARGET.colour, dash=(5.0, 3.0), width=1.5)
+SMALLEST_PX = MarkItem.RADIUS + 2.0
+"""Rings that would lie under the target's own mark are not drawn."""
+
+_TURN = np.linspace(0.0, 2.0 * np.pi, 64, endpoint=False)
+_CIRCLE = np.column_stack([np.cos(_TURN), np.sin(_TURN)])
+
+
+class TargetDisc:
+    """Rings of the viewing's tolerances: the inner one solid, the outer one dashed."""
+
+    def __init__(self, scene: QGraphicsScene, viewing: Viewing) -> None:
+        self._viewing = viewing
+        self.rings = (OutlineItem(INNER, 3.4), OutlineItem(OUTER, 3.3))
+        for ring in self.rings:
+            scene.addItem(ring)
+
+    def place(self, plane: SlicePlane, index: float, scale: float) -> None:
+        """Show the rings; faded where the target is not in the slice."""
+        target = self._viewing.draft.target_mm
+        self.hide()
+        if target is None:
+            return
+        at = plane.point(target, index)
+        near = abs(at.distance) <= plane.half_slab_mm
+        for ring, radius in zip(self.rings, self._viewing.tolerances_mm, strict=False):
+            if radius * scale >= SMALLEST_PX:
+                ring.place(at.x, at.y, radius * _CIRCLE, near, scale)
+
+    def hide(self) -> None:
+        """Show nothing."""
+        for ring in self.rings:
+            ring.setVisible(False)
