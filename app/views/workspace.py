@@ -32,6 +32,7 @@ from app.views.robot.health_panel import HealthPanel
 from app.views.scene.renderer import SceneRenderer
 from app.views.scene.view import SceneView
 from app.views.shortcuts import disclaimer_label
+from app.views.slices.lines import LineGrip, fill_turn_menu
 from app.views.slices.needle_menu import fill_needle_menu
 from app.views.slices.needle_source import NeedlePlanes
 from app.views.slices.pane import SlicePane
@@ -60,6 +61,9 @@ class Workspace(QWidget):
         self.panes = tuple(SlicePane(self.viewing, pane, self) for pane in MPR_PANES)
         self.needle_planes = NeedlePlanes(self.viewing, self)
         self.needle_panes = tuple(SlicePane(self.viewing, pane, self) for pane in NEEDLE_PANES)
+        for pane in self.panes:
+            pane.gestures.add_grip(LineGrip(pane.canvas))
+            pane.menu_parts.append(lambda menu: fill_turn_menu(menu, self.viewing))
         self.two_points = TwoPoints(self.viewing, self.needle_planes, self)
         self.viewing.set_tolerances(tuple(ring / MILLIMETRE for ring in rings()))
         self.scene = SceneView(SceneRenderer(), self)

@@ -10,11 +10,13 @@ from app.imaging.orthogonal import View
 from app.imaging.reformat import Frame
 from app.views.plan.editor import PlanEditor
 from app.views.slices.items import CrossLine
+from app.views.slices.lines import LineGrip
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, PaneId, others
 from app.views.slices.plane import OrthogonalPlane, ReformatPlane
 from app.views.slices.presets import default_window
 from app.views.slices.slab import chord, crossing
+from app.views.slices.turning import StartingPlanes, is_turned, straighten, turn_planes
 from app.views.slices.viewing import Tool, Viewing
 
 TILT = np.radians(20.0)
@@ -198,3 +200,102 @@ def test_the_plan_takes_no_points_of_other_tools(application):
     editor.place(Tool.NAVIGATE, (1.0, 2.0, 3.0), True)
     assert editor.edit.draft.target_mm is None
     assert not editor.can_undo
+
+
+# --- turning by the lines ---------------------------------------------------------------------
+
+
+@pytest.fixture
+def axial(make_pane):
+    pane = make_pane(PaneId.AXIAL)
+    pane.gestures.add_grip(LineGrip(pane.canvas))
+    return pane
+
+
+def drag_line(pane, angle, radius=120.0, start=0.0):
+    """Drag the flat line round the crosshair by an angle on the screen [rad]."""
+    canvas = pane.canvas
+    at = canvas.plane.point(canvas.viewing.cursor_mm, canvas.index)
+    middle = canvas.pixel_at(at.x, at.y)
+
+    def place(turn):
+        return middle + QPointF(radius * np.cos(turn), radius * np.sin(turn))
+
+    left, none = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    kinds = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseMove, QEvent.Type.MouseButtonRelease)
+    handlers = (pane.gestures.press, pane.gestures.move, pane.gestures.release)
+    for kind, handler, turn in zip(kinds, handlers, (start, angle, angle), strict=True):
+        handler(QMouseEvent(kind, place(turn), place(turn), left, left, none))
+
+
+def normals(viewing):
+    return np.stack([viewing.frame(pane).normal for pane in MPR_PANES])
+
+
+def test_dragging_a_line_turns_the_two_other_planes_about_the_crosshair(viewing, axial):
+    before, cursor, window = normals(viewing), viewing.cursor_mm, viewing.window
+    drag_line(axial, TILT)
+    after = normals(viewing)
+    assert_allclose(after[0], before[0], atol=1e-12)
+    assert_allclose(np.abs(after @ after.T), np.eye(3), atol=1e-9)
+    assert after[2] @ before[2] == pytest.approx(np.cos(TILT), abs=1e-6)
+    assert_allclose(viewing.cursor_mm, cursor)
+    assert viewing.window == window
+    # the coronal plane now lies where the mouse went: clockwise on the screen
+    frame, plane = viewing.frame(PaneId.CORONAL), axial.canvas.plane
+    at = plane.point(cursor, axial.canvas.index)
+    on_line = plane.lps_mm(
+        at.x + 20.0 * np.cos(TILT), at.y + 20.0 * np.sin(TILT), axial.canvas.index
+    )
+    assert abs(frame.point(on_line)[2] - frame.point(cursor)[2]) < 1e-6
+
+
+def test_every_order_of_turns_leaves_the_planes_at_right_angles(viewing, make_pane):
+    panes = [make_pane(pane) for pane in MPR_PANES]
+    for pane in panes:
+        pane.gestures.add_grip(LineGrip(pane.canvas))
+    for number, angle in enumerate((0.4, -0.3, 1.1, 0.2, -0.9, 0.5)):
+        pane = panes[number % 3]
+        start = StartingPlanes.of(viewing, others(pane.pane))
+        turn_planes(viewing, start, viewing.frame(pane.pane).normal, angle)
+    after = normals(viewing)
+    assert_allclose(np.abs(after @ after.T), np.eye(3), atol=1e-9)
+    assert is_turned(viewing)
+    straighten(viewing)
+    assert not is_turned(viewing)
+    assert_allclose(np.abs(normals(viewing) @ normals(viewing).T), np.eye(3), atol=1e-9)
+
+
+def test_a_line_that_is_put_back_shows_the_volumes_own_slices(viewing, axial):
+    drag_line(axial, 0.005)
+    assert not is_turned(viewing)
+
+
+def test_near_the_crosshair_and_beside_the_lines_the_left_button_sets_the_window(viewing, axial):
+    drag_line(axial, 0.5, radius=20.0)
+    assert not is_turned(viewing)
+    drag_line(axial, 1.2, start=0.7)
+    assert not is_turned(viewing)
+
+
+def test_a_tool_goes_before_the_lines(viewing, axial):
+    viewing.set_tool(Tool.TARGET)
+    drag_line(axial, TILT)
+    assert not is_turned(viewing)
+
+
+def test_the_crosshair_stays_at_its_pixel_while_its_pane_turns(viewing, make_pane, settle):
+    pane = make_pane(PaneId.CORONAL)
+
+    def pixel():
+        at = pane.canvas.plane.point(viewing.cursor_mm, pane.canvas.index)
+        return pane.canvas.pixel_at(at.x, at.y)
+
+    before = pixel()
+    start = StartingPlanes.of(viewing, others(PaneId.AXIAL))
+    turn_planes(viewing, start, viewing.frame(PaneId.AXIAL).normal, TILT)
+    after = pixel()
+    assert (after.x(), after.y()) == pytest.approx((before.x(), before.y()), abs=1e-6)
+    assert "20° oblique" in pane.readouts.slice.text
+    assert settle(lambda: not pane.canvas.feed.is_waiting, 20.0)
+    viewing.reformatter.close()

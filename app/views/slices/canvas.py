@@ -149,11 +149,23 @@ class SliceCanvas(pyqtgraph.GraphicsView):
             if pane in others(self.pane):
                 self._place_crosshair()
             return
-        first = self.plane is None
+        before = self.plane
         self._take_plane()
-        if first:
+        if before is None:
             self.fit()
+        elif self.plane is not None and not self.pane.is_needle:
+            self._keep_crosshair(before, self.plane)
         self._show_cursor()
+
+    def _keep_crosshair(self, before: SlicePlane, plane: SlicePlane) -> None:
+        """Let the crosshair stay at its pixel, wherever the new plane counts from."""
+        cursor = self.viewing.cursor_mm
+        old, new = before.point(cursor, 0.0), plane.point(cursor, 0.0)
+        right, down = new.x - old.x, new.y - old.y
+        if max(abs(right), abs(down)) > 1e-6:
+            camera, fitted = self.camera, self._fitted
+            self.set_camera(Camera(camera.x + right, camera.y + down, camera.scale))
+            self._fitted = fitted
 
     def _show_look(self, pane: PaneId) -> None:
         """Fit what has been turned; a slab leaves zoom and pan."""

@@ -70,7 +70,7 @@ class SliceGestures(QObject):
         self._point = Tool.ENTRY
         self._grips: list[Grip] = []
         self._held: Grip | None = None
-        self._started = False
+        self._started = self._over = False
         self._offset = QPointF()  # from the mouse to the middle of the mark that is dragged
         self._pressed, self._last = QPointF(), QPointF()
         self._notches = 0
@@ -105,7 +105,20 @@ class SliceGestures(QObject):
             self._go_on(event.position(), step)
         elif shift and event.buttons() == Qt.MouseButton.NoButton:
             self._canvas.viewing.set_cursor(self._lps(event.position()))
+        else:
+            self._show_grip(event.position())
         self.hovered.emit(self._lps(event.position()))
+
+    def _show_grip(self, position: QPointF) -> None:
+        """Show a hand over what can be dragged."""
+        if self._canvas.viewing.tool is not Tool.NAVIGATE:
+            self._over = False
+            return
+        over = any(grip.hover(position) for grip in self._grips)
+        if over != self._over:
+            self._over = over
+            shape = Qt.CursorShape.OpenHandCursor if over else Qt.CursorShape.ArrowCursor
+            self._canvas.viewport().setCursor(shape)
 
     def _go_on(self, position: QPointF, step: QPointF) -> None:
         canvas, drag = self._canvas, self._drag

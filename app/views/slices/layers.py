@@ -15,7 +15,7 @@ from app.views import theme
 from app.views.needle_overlay import NeedleOverlay
 from app.views.slices.items import CrossLine, MarkItem, SegmentItem
 from app.views.slices.labels import arrange
-from app.views.slices.panes import PANE_MARKS, PaneId, others
+from app.views.slices.panes import PANE_MARKS, PaneId, crossing_panes
 from app.views.slices.plane import SlicePlane
 from app.views.slices.slab import PlanePoint, crossing, pieces
 from app.views.slices.viewing import Viewing
@@ -34,7 +34,7 @@ class CrosshairLayer:
 
     def __init__(self, scene: QGraphicsScene, viewing: Viewing, pane: PaneId) -> None:
         self._viewing = viewing
-        self._lines = {other: CrossLine(PANE_MARKS[other]) for other in others(pane)}
+        self._lines = {other: CrossLine(PANE_MARKS[other]) for other in crossing_panes(pane)}
         for line in self._lines.values():
             line.setVisible(False)
             scene.addItem(line)
@@ -43,8 +43,8 @@ class CrosshairLayer:
         """Cross where the three planes meet."""
         this = plane.frame(index)
         traces = {other: self._trace(this, other) for other in self._lines}
-        first, second = traces.values()
-        meeting = None if first is None or second is None else crossing(first, second)
+        cuts = [cut for cut in traces.values() if cut is not None]
+        meeting = crossing(cuts[0], cuts[1]) if len(cuts) == 2 else None
         for other, line in self._lines.items():
             cut = traces[other]
             if cut is None:

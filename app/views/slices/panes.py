@@ -55,8 +55,15 @@ def pane_name(pane: PaneId) -> str:
     return names[pane]
 
 
+def crossing_panes(pane: PaneId) -> tuple[PaneId, ...]:
+    """Panes whose traces this one shows; two that share the needle would draw them over it."""
+    if pane in (PaneId.IN_PLANE, PaneId.IN_PLANE_90):
+        return (PaneId.PROBE,)
+    return others(pane)
+
+
 def others(pane: PaneId) -> tuple[PaneId, PaneId]:
-    """Return the two panes of the same family, whose traces this one shows."""
+    """Return the two other panes of the same family."""
     family = NEEDLE_PANES if pane.is_needle else MPR_PANES
     first, second = (other for other in family if other is not pane)
     return first, second

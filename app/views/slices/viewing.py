@@ -71,6 +71,7 @@ class Viewing(QObject):
         self.slicer: OrthogonalSlicer | None = None
         self._planes: dict[PaneId, SlicePlane] = {}
         self._own_index: dict[PaneId, float] = {}
+        self._oblique: set[PaneId] = set()
         self.reformatter = Reformatter()
         self.cursor_mm: FloatArray = frozen(np.zeros(3))
         self.greys = Greys(window, self)
@@ -103,6 +104,7 @@ class Viewing(QObject):
         self.volume, self.slicer = volume, OrthogonalSlicer(volume)
         self._planes = {pane: own_plane(self.slicer, View(pane)) for pane in MPR_PANES}
         self._own_index, self._shown = {}, {}
+        self._oblique = set()
         middle = [(count - 1) / 2 for count in volume.size]
         self.cursor_mm = frozen(volume.lps_mm(middle))
         self.volume_changed.emit()
@@ -127,6 +129,14 @@ class Viewing(QObject):
         if pane not in self._shown:
             self._shown[pane] = shown(plane, self.look(pane))
         return self._shown[pane]
+
+    def is_oblique(self, pane: PaneId) -> bool:
+        """Whether a pane lies along a frame of its own, not along the volume."""
+        return pane in self._oblique
+
+    def own(self, pane: PaneId) -> SlicePlane | None:
+        """Plane of a pane as it lies in the patient, neither turned on the screen nor thick."""
+        return self._planes.get(pane)
 
     def look(self, pane: PaneId) -> Look:
         """How a pane looks at its plane: slab and turn."""
@@ -153,6 +163,7 @@ class Viewing(QObject):
             return
         before = self._planes.pop(pane, None)
         self._shown.pop(pane, None)
+        (self._oblique.discard if frame is None else self._oblique.add)(pane)
         if frame is not None:
             if ahead is None and before is not None and not pane.is_needle:
                 ahead = before.ahead
