@@ -38,10 +38,12 @@ class Conductor(QObject):
     Signals:
         failed(object): an error to show; nothing was lost.
         patient_changed(): another patient is shown.
+        exercise_taken(str): identifier of the exercise that is being prepared.
     """
 
     failed = Signal(object)
     patient_changed = Signal()
+    exercise_taken = Signal(str)
 
     def __init__(
         self,
@@ -120,6 +122,7 @@ class Conductor(QObject):
         self._workspace.exercise_panel.set_assistance(exercise.assistance)
         if self.patient is not None and self.fits(self.patient):
             self._start_plan(self.patient)
+        self.exercise_taken.emit(exercise.id)
 
     def set_robot(self, choice: RobotChoice) -> None:
         """Take another robot, from now on; a run on the present one ends."""

@@ -10,6 +10,7 @@ from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu
 
 from app.views.cameras.menu import CamerasMenu
+from app.views.names import NAMES
 from app.views.pen.menu import PenMenu
 from app.views.robot.menu import RobotMenu
 from app.views.slices.viewing import Tool
@@ -87,8 +88,8 @@ class Menus:
     def _fill(self, menu: QMenu, paths: Sequence[Path], command: Callable[[Path], object]) -> None:
         menu.clear()
         for path in paths:
-            action = menu.addAction(path.name)
-            action.setToolTip(str(path))
+            action = menu.addAction(NAMES.shown(path.name))
+            action.setToolTip(NAMES.shown(str(path)))
             action.triggered.connect(lambda _=False, path=path: command(path))
         menu.setToolTipsVisible(True)
         if not paths:

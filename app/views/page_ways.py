@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from PySide6.QtWidgets import QLineEdit
+
+from app.views import theme
+from app.views.workspace import SIDE_WIDTH
+
 if TYPE_CHECKING:
     from app.views.window import MainWindow
 
@@ -24,3 +29,18 @@ def connect_pages(window: MainWindow) -> None:
     debrief.retry_requested.connect(window.show_workspace)
     debrief.sessions_requested.connect(window.show_sessions)
     window.sessions_page.closed.connect(window.show_workspace)
+    window.projector.changed.connect(lambda: suit_room(window))
+
+
+def suit_room(window: MainWindow) -> None:
+    """Give panel and names what text size and room ask for."""
+    workspace = window.workspace
+    workspace.side.setFixedWidth(round(SIDE_WIDTH * theme.scale()))
+    hidden = window.projector.hides_names
+    mode = QLineEdit.EchoMode.Password if hidden else QLineEdit.EchoMode.Normal
+    workspace.exercise_panel.student.setEchoMode(mode)
+    window.start_page.set_recents(window.recent_cts.paths())
+    window.sessions_page.table.viewport().update()
+    window.debrief_page.show_names()
+    workspace.plan_panel.refresh()
+    window.refresh()

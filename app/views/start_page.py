@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 
 from app.exercises.schema import Exercise
 from app.views import theme
+from app.views.names import NAMES
 from app.views.shortcuts import disclaimer_label
 from app.views.text import tr
 
@@ -72,8 +73,8 @@ class StartPage(QWidget):
         """List CTs that were opened before."""
         self.recents.clear()
         for path in paths:
-            item = QListWidgetItem(path.name)
-            item.setToolTip(str(path))
+            item = QListWidgetItem(NAMES.shown(path.name))
+            item.setToolTip(NAMES.shown(str(path)))
             item.setData(Qt.ItemDataRole.UserRole, path)
             self.recents.addItem(item)
 

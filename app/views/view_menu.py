@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
@@ -10,6 +11,7 @@ from PySide6.QtWidgets import QMenu
 
 from app.views.layouts import LAYOUTS, layout_title
 from app.views.slices.bindings import SCHEMES
+from app.views.slices.operator_side import Side, side_name, turns
 from app.views.slices.pane import SlicePane
 from app.views.slices.pane_menu import fill_windows
 from app.views.text import tr
@@ -26,6 +28,7 @@ class ViewMenu:
         follow: slices follow the needle's tip.
         bullseye: the bull's-eye beside the slices.
         schemes: the bindings of mouse and keys by name.
+        operator: the places that the slices can be turned to, by name.
     """
 
     def __init__(self, menu: QMenu, window: MainWindow) -> None:
@@ -44,6 +47,7 @@ class ViewMenu:
             tr("Bull's-eye beside the slices"), "", workspace.show_bullseye
         )
         self._entry(tr("Crosshair to target"), "", window.cursor_to_target)
+        self.operator = self._operator_menu(menu.addMenu(tr("Operator stands")))
         menu.addSeparator()
         self.schemes = self._scheme_menu(menu.addMenu(tr("Mouse and keys")))
         self._screen_entries()
@@ -52,6 +56,21 @@ class ViewMenu:
         self.refresh()
 
     def _screen_entries(self) -> None:
+        """Full screen and what a room asks for."""
+        projector, menu = self._window.projector, self._menu.addMenu(tr("Projector"))
+        self._room: list[tuple[QAction, Callable[[], bool]]] = []
+        for text, key, is_on, command in (
+            (tr("Projector mode: all three"), "Ctrl+P", lambda: projector.is_on, projector.set_all),
+            (tr("Light colours"), "", lambda: projector.is_light, projector.set_light),
+            (tr("Large text"), "", lambda: projector.is_large, projector.set_large),
+            (tr("Hide names"), "", lambda: projector.hides_names, projector.hide_names),
+        ):
+            action = menu.addAction(text)
+            action.setCheckable(True)
+            action.setShortcut(QKeySequence(key))
+            action.triggered.connect(command)
+            self._room.append((action, is_on))
+        projector.changed.connect(self.refresh)
         self._entry(tr("Full screen"), "F11", self._window.toggle_full_screen)
 
     def _entry(self, text: str, key: str, command: Callable[[], object]) -> QAction:
@@ -98,6 +117,20 @@ class ViewMenu:
         self._reversed.toggled.connect(self._reverse_level)
         return actions
 
+    def _operator_menu(self, menu: QMenu) -> dict[str, QAction]:
+        actions = {}
+        for side in Side:
+            actions[str(side)] = action = menu.addAction(side_name(side))
+            action.triggered.connect(lambda _=False, side=side: self._stand(side))
+        return actions
+
+    def _stand(self, side: Side) -> None:
+        """Turn the slices to where the operator stands, as the patient lies now."""
+        lies = self._window.editor.edit.placement.orientation
+        viewing = self._window.workspace.viewing
+        for pane, turn in turns(side, lies).items():
+            viewing.set_look(pane, replace(viewing.look(pane), turn=turn))
+
     def _reverse_level(self, reverse: bool) -> None:
         self._window.workspace.viewing.level_reversed = reverse
 
@@ -108,6 +141,8 @@ class ViewMenu:
             action.setVisible(name in workspace.layouts)
             action.setEnabled(name in workspace.layouts)
             action.setChecked(name == workspace.layout_name)
+        for action, is_on in self._room:
+            action.setChecked(is_on())
         scheme = workspace.viewing.scheme
         for name, action in self.schemes.items():
             action.setChecked(name == scheme.name)

@@ -21,6 +21,7 @@ from app.views.drops import dropped
 from app.views.menus import Menus
 from app.views.message_bar import MessageBar
 from app.views.message_topics import MessageTopics
+from app.views.names import NAMES
 from app.views.notices import Notices
 from app.views.open_ct import OpenCt
 from app.views.page_ways import connect_pages
@@ -29,7 +30,8 @@ from app.views.pen.desk import PenDesk
 from app.views.plan.editor import PlanEditor
 from app.views.plan.files import PlanFiles
 from app.views.progress_strip import ProgressStrip
-from app.views.remembered import remember, restore
+from app.views.projector import Projector
+from app.views.remembered import Remembered
 from app.views.robot.desk import RobotDesk
 from app.views.runs import Runs
 from app.views.services import Services
@@ -73,10 +75,13 @@ class MainWindow(QMainWindow):
         self.scan_pictures = ScanPictures(self.debrief_page, self.conductor)
         self.exercises = {exercise.id: exercise for exercise in services.exercises()}
         self._lay_out()
+        self.projector = Projector(self)
         self.menus = Menus(self)
         self.notices = Notices(self, (self.progress, self.message_bar))
         self._connect()
-        restore(self, self.workspace.viewing, self.settings)
+        self.remembered = Remembered(self, self.settings)
+        self.conductor.exercise_taken.connect(self.remembered.follow)
+        self.remembered.restore()
         self.show_start()
 
     # --- pages --------------------------------------------------------------------------------
@@ -174,9 +179,10 @@ class MainWindow(QMainWindow):
         self.editor.set_locked(False)
         self.debrief.show_result(result)
 
-    def _refresh(self) -> None:
+    def refresh(self) -> None:
+        """Write the title and enable what can be done."""
         name = self.conductor.patient.label if self.conductor.patient else ""
-        self.setWindowTitle(f"{name} – Acus" if name else "Acus")
+        self.setWindowTitle(f"{NAMES.shown(name)} – Acus" if name else "Acus")
         self.menus.undo.setEnabled(self.editor.can_undo)
         self.menus.redo.setEnabled(self.editor.can_redo)
 
@@ -206,8 +212,8 @@ class MainWindow(QMainWindow):
         self.open_ct.opened.connect(
             lambda patient: self.plan_files.after_question(lambda: self.show_patient(patient))
         )
-        conductor.patient_changed.connect(self._refresh)
-        self.editor.changed.connect(self._refresh)
+        conductor.patient_changed.connect(self.refresh)
+        self.editor.changed.connect(self.refresh)
         connect_pages(self)
         panel = self.workspace.plan_panel
         panel.new_wanted.connect(self.plan_files.new)
@@ -235,12 +241,9 @@ class MainWindow(QMainWindow):
                 self.open_ct.open_folder(path)
             event.acceptProposedAction()
 
-    def _remember(self) -> None:
-        remember(self, self.workspace.viewing, self.settings)
-
     def closeEvent(self, event: QCloseEvent) -> None:
         """Ask about an unsaved plan, then end everything."""
-        if not self.plan_files.after_question(self._remember):
+        if not self.plan_files.after_question(self.remembered.remember):
             event.ignore()
             return
         self.open_ct.close()

@@ -14,6 +14,7 @@ from app.views.debrief.score_table import ScoreTable
 from app.views.debrief.score_words import total_text, verdict
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.state_words import state_word
+from app.views.names import NAMES
 from app.views.text import disclaimer, tr
 
 
@@ -118,6 +119,11 @@ class DebriefPage(QWidget):
         self.retry.clicked.connect(self.retry_requested)
         self.sessions.clicked.connect(self.sessions_requested)
 
+    def show_names(self) -> None:
+        """Write anew who it was, or hide it."""
+        if self._review is not None:
+            self._facts.setText(facts(self._review))
+
     def _emit(self, signal: SignalInstance) -> None:
         if self._review is not None:
             signal.emit(self._review)
@@ -127,7 +133,7 @@ def facts(review: Review) -> str:
     """Who, when, how long, in one line."""
     return "  ·  ".join(
         (
-            review.student,
+            NAMES.shown(review.student),
             date_text(review.started),
             state_word(review.state),
             clock_text(review.duration),

@@ -11,6 +11,7 @@ from app.views import theme
 from app.views.debrief.page import date_text
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.state_words import state_word
+from app.views.names import NAMES
 from app.views.text import tr
 
 Index = QModelIndex | QPersistentModelIndex
@@ -84,7 +85,7 @@ def cell_text(summary: Summary, column: int) -> str:
     if column == DATE:
         return date_text(summary.started)
     if column == STUDENT:
-        return summary.student
+        return NAMES.shown(summary.student)
     if column == EXERCISE:
         return summary.exercise_title or summary.exercise_id
     if column == SCORE:

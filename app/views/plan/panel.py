@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 from app.planning.placement import PatientOrientation, Placement
 from app.views import theme
 from app.views.coordinates import lps_words
+from app.views.names import NAMES
 from app.views.plan.editor import PlanEditor, Point
 from app.views.plan.verdict_words import verdict_words
 from app.views.slices.viewing import Tool, Viewing
@@ -65,7 +66,7 @@ class PlanPanel(QWidget):
             self._editor.edit.draft,
             self._editor.edit.placement,
         )
-        name = editor.path.name if editor.path else draft.name
+        name = NAMES.shown(editor.path.name if editor.path else draft.name)
         self.title.setText(f"{name} •" if editor.dirty else name)
         self.title.setToolTip(tr("• unsaved changes") if editor.dirty else "")
         self.entry.setText(_point_text(draft.entry_mm))

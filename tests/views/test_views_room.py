@@ -1,0 +1,253 @@
+"""The room: projector mode, what is remembered, the operator's side, colours for everybody."""
+
+import json
+
+import numpy as np
+import pytest
+from PySide6.QtWidgets import QApplication, QLineEdit
+
+from app.imaging.orthogonal import OrthogonalSlicer, View
+from app.planning.placement import PatientOrientation
+from app.views import theme
+from app.views.names import HIDDEN, NAMES
+from app.views.slices.looks import Look, Slab, Turn
+from app.views.slices.operator_side import Side, side_name, turns
+from app.views.slices.panes import PANE_MARKS, PaneId
+from app.views.slices.plane import OrthogonalPlane
+from app.views.slices.shown_plane import ShownPlane
+from app.views.themes import DARK, LIGHT, THEMES, restyled, translated
+from app.views.window import MainWindow
+
+
+@pytest.fixture
+def desk_again(application):
+    yield
+    NAMES.hide(False)
+    theme.apply_theme(application)
+
+
+# --- themes -----------------------------------------------------------------------------------
+@pytest.mark.parametrize("shown", THEMES.values(), ids=THEMES)
+def test_the_colours_of_a_theme_are_all_different_so_that_they_map(shown):
+    values = list(shown.colours().values())
+    assert len(values) == len(set(values))
+    other = LIGHT if shown is DARK else DARK
+    assert [translated(translated(v, other), shown) for v in values] == values
+    assert not set(values) & set(other.colours().values())
+
+
+@pytest.mark.parametrize("shown", THEMES.values(), ids=THEMES)
+def test_words_stand_out_from_what_they_stand_on(shown):
+    """WCAG 2.1: at least 4.5 to 1."""
+    grounds = (shown.background, shown.surface, shown.raised, shown.field)
+    for name in ("text", "dim", "accent", "good", "warning", "bad", "entry", "target"):
+        worst = min(contrast(getattr(shown, name), ground) for ground in grounds)
+        assert worst >= 4.5, (name, worst)
+    assert contrast(shown.on_accent, shown.accent) >= 4.5
+
+
+def contrast(one, other):
+    light, dark = sorted((luminance(one), luminance(other)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+def luminance(colour):
+    return float(linear(colour) @ [0.2126, 0.7152, 0.0722])
+
+
+def linear(colour):
+    srgb = np.array([int(colour[n : n + 2], 16) for n in (1, 3, 5)]) / 255.0
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def test_style_sheets_change_colour_and_size_and_back():
+    sheet = f"color: {DARK.accent}; font-size: 13px; background: #123456;"
+    light = restyled(sheet, LIGHT, 1.3)
+    assert light == f"color: {LIGHT.accent}; font-size: 17px; background: #123456;"
+    assert restyled(light, DARK, 1 / 1.3) == sheet
+    for size in range(8, 60):
+        larger = restyled(f"font-size: {size}px", LIGHT, theme.LARGE)
+        assert restyled(larger, DARK, 1 / theme.LARGE) == f"font-size: {size}px"
+
+
+# --- projector --------------------------------------------------------------------------------
+def test_projector_mode_is_light_large_and_without_names_and_ends(window, patient, desk_again):
+    window.show_patient(patient)
+    dark, small = QApplication.instance().styleSheet(), window.workspace.side.width()
+    sheets = {w: w.styleSheet() for w in window.findChildren(QLineEdit) if w.styleSheet()}
+    window.projector.set_all(True)
+    assert window.projector.is_on
+    assert LIGHT.surface in QApplication.instance().styleSheet()
+    assert window.workspace.side.width() > small
+    assert "CT-TEST" not in window.windowTitle()
+    assert HIDDEN in window.windowTitle()
+    titles = [pane.readouts.title.text for pane in window.workspace.panes]
+    assert not any("CT-TEST" in title for title in titles)
+    assert window.workspace.exercise_panel.student.echoMode() is QLineEdit.EchoMode.Password
+    window.projector.set_all(False)
+    assert QApplication.instance().styleSheet() == dark
+    assert {w: w.styleSheet() for w in sheets} == sheets
+    assert "CT-TEST" in window.windowTitle()
+
+
+def test_pictures_stay_on_black_and_keep_their_colours(window, patient, desk_again):
+    window.show_patient(patient)
+    window.projector.set_light(True)
+    pane = window.workspace.panes[0]
+    assert pane.canvas.backgroundBrush().color().name() == "#000000"
+    assert theme.on_image(LIGHT.good) == DARK.good
+    assert theme.now(theme.ENTRY.colour) == LIGHT.entry
+
+
+# --- remembered -------------------------------------------------------------------------------
+def test_each_exercise_is_read_as_it_was_read_before(window, patient):
+    window.show_patient(patient)
+    workspace, viewing = window.workspace, window.workspace.viewing
+    first, second, *_ = window.exercises.values()
+    window.conductor.set_exercise(first)
+    workspace.show_layout("1+3")
+    look = Look(Slab("mip", 8.0), Turn(1, True))
+    viewing.set_look(PaneId.CORONAL, look)
+    window.conductor.set_exercise(second)
+    workspace.show_layout("2x2")
+    viewing.set_look(PaneId.CORONAL, Look())
+    window.conductor.set_exercise(first)
+    assert workspace.layout_name == "1+3"
+    assert viewing.look(PaneId.CORONAL) == look
+    window.conductor.set_exercise(second)
+    assert workspace.layout_name == "2x2"
+    assert viewing.look(PaneId.CORONAL) == Look()
+
+
+def test_scheme_hand_and_kept_windows_are_remembered(services, window, patient, destroy):
+    window.show_patient(patient)
+    window.menus.view.schemes["slicer"].trigger()
+    window.workspace.set_left_handed(True)
+    window.workspace.viewing.greys.keep("Mine", window.workspace.viewing.window)
+    window.close()
+    again = MainWindow(services)
+    destroy(again)
+    assert again.workspace.viewing.scheme.name == "slicer"
+    assert again.workspace.is_left_handed
+    assert "Mine" in again.workspace.viewing.greys.kept
+
+
+@pytest.mark.parametrize(
+    "stored",
+    [
+        "",
+        "no json",
+        "[]",
+        "{}",
+        '{"window": [0, 1]}',
+        json.dumps(
+            {"window": [400, 40], "linked": True, "inverted": False, "layout": "9x9", "looks": {}}
+        ),
+    ],
+)
+def test_settings_that_cannot_be_used_are_left(services, window, destroy, stored):
+    window.settings.setValue("reading", stored)
+    window.settings.setValue("work", stored)
+    window.settings.sync()
+    again = MainWindow(services)
+    destroy(again)
+    assert again.workspace.layout_name == "2x2"
+
+
+# --- operator's side --------------------------------------------------------------------------
+def letters(volume, view, turn):
+    plane = OrthogonalPlane(OrthogonalSlicer(volume), view)
+    return ShownPlane(plane, turn, Slab()).letters()
+
+
+@pytest.mark.parametrize(("lies", "top"), [("SUPINE", "A"), ("PRONE", "P"), ("LEFT_DOWN", "R"),
+                                           ("RIGHT_DOWN", "L")])  # fmt: skip
+@pytest.mark.parametrize("side", [Side.FEET, Side.HEAD, Side.LEFT, Side.RIGHT])
+def test_what_is_up_on_the_table_is_on_top_of_the_axial_slice(volume, lies, top, side):
+    turned = turns(side, PatientOrientation[lies])
+    seen = letters(volume, View.AXIAL, turned[PaneId.AXIAL])
+    assert seen[2] == top
+
+
+@pytest.mark.parametrize("lies", [PatientOrientation.SUPINE, PatientOrientation.PRONE])
+@pytest.mark.parametrize(("side", "near"), [(Side.FEET, "I"), (Side.HEAD, "S"), (Side.LEFT, "L"),
+                                            (Side.RIGHT, "R")])  # fmt: skip
+def test_what_is_near_the_operator_is_at_the_bottom_of_the_coronal_slice(volume, lies, side, near):
+    turned = turns(side, lies)[PaneId.CORONAL]
+    assert letters(volume, View.CORONAL, turned)[3] == near
+    assert turned.mirrored is (lies is PatientOrientation.PRONE)  # seen from above: no other way
+
+
+def test_from_the_head_left_and_right_change_places(volume):
+    feet, head = (turns(side, PatientOrientation.SUPINE)[PaneId.AXIAL]
+                  for side in (Side.FEET, Side.HEAD))  # fmt: skip
+    assert letters(volume, View.AXIAL, feet)[:2] == ("R", "L")
+    assert letters(volume, View.AXIAL, head)[:2] == ("L", "R")
+
+
+def test_the_menu_turns_the_slices_and_back(window, patient):
+    window.show_patient(patient)
+    viewing, operator = window.workspace.viewing, window.menus.view.operator
+    operator["right"].trigger()
+    assert viewing.look(PaneId.CORONAL).turn == Turn(3)
+    operator["convention"].trigger()
+    assert not viewing.look(PaneId.CORONAL).turn
+    assert all(side_name(side) for side in Side)
+
+
+# --- colour blindness -------------------------------------------------------------------------
+# Machado, Oliveira and Fernandes 2009, severity 1.0, on linear RGB.
+BLINDNESS = {
+    "protanopia": [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
+                   [-0.003882, -0.048116, 1.051998]],
+    "deuteranopia": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413],
+                     [-0.011820, 0.042940, 0.968881]],
+    "tritanopia": [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602],
+                   [0.004733, 0.691367, 0.303900]],
+}  # fmt: skip
+SEEN_APART = 15.0
+"""CIE 1976 difference from which thin lines and small marks are told apart by colour alone."""
+
+
+def lab(rgb):
+    xyz = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]])
+    ratio = xyz @ np.clip(rgb, 0.0, 1.0) / [0.9505, 1.0, 1.089]
+    f = np.where(ratio > 0.008856, np.cbrt(ratio), 7.787 * ratio + 16.0 / 116.0)
+    return np.array([116.0 * f[1] - 16.0, 500.0 * (f[0] - f[1]), 200.0 * (f[1] - f[2])])
+
+
+def difference(one, other, blindness):
+    matrix = np.array(BLINDNESS[blindness]) if blindness else np.eye(3)
+    return float(np.linalg.norm(lab(matrix @ linear(one)) - lab(matrix @ linear(other))))
+
+
+def drawn_alike(one, other):
+    return one.dash == other.dash and one.symbol is other.symbol and one.width == other.width
+
+
+MARKS = {name: mark for name, mark in vars(theme).items() if isinstance(mark, theme.Mark)}
+SURFACES = {"SKIN", "BONE", "ROBOT"}
+"""Told apart by what they are in the 3D view, not by a mark of theirs."""
+
+
+@pytest.mark.parametrize("blindness", ["", *BLINDNESS])
+def test_marks_of_one_shape_and_dash_are_told_apart_by_their_colour(blindness):
+    names = sorted(set(MARKS) - SURFACES)
+    for number, first in enumerate(names):
+        for second in names[number + 1 :]:
+            one, other = MARKS[first], MARKS[second]
+            if drawn_alike(one, other):
+                apart = difference(one.colour, other.colour, blindness)
+                assert apart >= SEEN_APART, (first, second, apart)
+
+
+def test_the_planes_of_a_family_differ_in_their_dashes():
+    for family in (list(PaneId)[:3], list(PaneId)[3:6]):
+        dashes = [PANE_MARKS[pane].dash for pane in family]
+        assert len(set(dashes)) == len(dashes)
+
+
+@pytest.mark.parametrize("blindness", BLINDNESS)
+def test_verdicts_have_each_its_own_symbol_whatever_their_colour(blindness):
+    symbols = [symbol for _, symbol in theme.VERDICTS.values()]
+    assert len(set(symbols)) == len(symbols)
