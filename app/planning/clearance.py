@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
-from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.structure import Structure
+
+if TYPE_CHECKING:
+    from app.imaging.structures.distance import SignedDistance
 
 
 class Nearness(StrEnum):
@@ -52,7 +55,7 @@ class Clearance:
         return Nearness.NEAR if self.distance_mm < self.structure.warn_mm else Nearness.FREE
 
 
-Field = tuple[Structure, SignedDistance]
+Field = tuple[Structure, "SignedDistance"]
 
 
 def clearances(

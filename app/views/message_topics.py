@@ -34,6 +34,8 @@ class MessageTopics:
         for topic, failed, over in (
             ("ct", window.open_ct.failed, (window.open_ct.opened,)),
             ("patient", window.conductor.failed, ()),
+            ("structures", window.structures.failed, (window.structures.book.changed,)),
+            ("paths", window.paths.failed, (editor.changed,)),
             ("plan", window.plan_files.failed, (window.plan_files.noted,)),
             ("debrief", window.debrief.failed, (window.debrief.saved, pages)),
             ("attempt", controller.failed,

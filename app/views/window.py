@@ -29,6 +29,7 @@ from app.views.patient import Patient
 from app.views.pen.desk import PenDesk
 from app.views.plan.editor import PlanEditor
 from app.views.plan.files import PlanFiles
+from app.views.plan.helper import PathsHelper
 from app.views.progress_strip import ProgressStrip
 from app.views.projector import Projector
 from app.views.remembered import Remembered
@@ -38,6 +39,7 @@ from app.views.services import Services
 from app.views.settings import Recents, open_settings
 from app.views.shortcuts import ShortcutSheet
 from app.views.start_page import StartPage
+from app.views.structures.desk import StructuresDesk
 from app.views.text import tr
 from app.views.workspace import Workspace
 
@@ -65,6 +67,10 @@ class MainWindow(QMainWindow):
         self.pen = PenDesk(services, self.robot, self.cameras, self.conductor, self.runs, self)
         self.checks = ChecksDesk(self.conductor, self.editor, self.workspace,
                                  lambda: self.runs.run, self)  # fmt: skip
+        self.structures = StructuresDesk(self.conductor, self.editor, self.workspace, self.progress,
+                                         self)  # fmt: skip
+        self.paths = PathsHelper(self.conductor, self.editor, self.workspace,
+                                 self.structures.book, self.progress, self)  # fmt: skip
         self.plan_files = PlanFiles(self.editor, self.recent_plans, self)
         self.open_ct = OpenCt(self.recent_cts, self.progress, self)
         self.start_page, self.debrief_page = StartPage(self), DebriefPage(self)
@@ -248,6 +254,8 @@ class MainWindow(QMainWindow):
             return
         self.open_ct.close()
         self.checks.close()
+        self.structures.close()
+        self.paths.close()
         self.robot.close()
         self.cameras.close()
         self.conductor.close()

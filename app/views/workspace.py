@@ -151,6 +151,10 @@ class Workspace(QWidget):
 
     # --- panels -------------------------------------------------------------------------------
 
+    def add_panel(self, panel: QWidget, title: str) -> None:
+        """Give one more panel its tab at the end."""
+        self.side.addTab(_scrolled(panel), title)
+
     def show_exercise(self) -> None:
         """Bring the exercise panel and the bull's-eye to the front."""
         self.side.setCurrentIndex(1)

@@ -23,7 +23,7 @@ MARGIN_MM = 16.0
 """The grid reaches this far around the structure [mm]."""
 
 FINEST_MM, COARSEST_MM = 0.5, 1.0
-MOST_CELLS = 5_000_000
+MOST_CELLS = 4_000_000
 """Edges of the cells [mm]; large structures get larger ones, so that none has more cells."""
 
 SAMPLE_MM = 0.5

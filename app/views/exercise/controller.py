@@ -104,7 +104,7 @@ class ExerciseController(QObject):
 
     def add_items(self, items: Callable[[Snapshot], tuple[StatusItem, ...]]) -> None:
         """Let somebody else who watches put further lines into the status strip."""
-        self._display.extra_items = items
+        self._display.extra_items.append(items)
 
     # --- one look ---------------------------------------------------------------------------------
     def look(self) -> None:

@@ -48,7 +48,7 @@ class ExerciseDisplay:
         self._views = views
         self._status_time = -1.0
         self.rates = (0.0, 0.0)
-        self.extra_items: Callable[[Snapshot], tuple[StatusItem, ...]] = lambda _: ()
+        self.extra_items: list[Callable[[Snapshot], tuple[StatusItem, ...]]] = []
         self._rates = LoopRates()
 
     def begin(self) -> None:
@@ -86,7 +86,8 @@ class ExerciseDisplay:
         if now - self._status_time >= STATUS_PERIOD:
             self._status_time = now
             items = status_items(snapshot, rate, missing, late)
-            self._views.status.show_items((*self.extra_items(snapshot), *items))
+            extra = (item for more in self.extra_items for item in more(snapshot))
+            self._views.status.show_items((*extra, *items))
 
     def _show_panel(self, snapshot: Snapshot, limit: float, hidden: bool) -> None:
         views = self._views

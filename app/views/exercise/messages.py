@@ -20,6 +20,7 @@ _LOOKS: Final = {
     "fault": (theme.BAD, "✖"),
     "recorder": (theme.WARNING, "▲"),
     "error": (theme.BAD, "✖"),
+    "breach": (theme.WARNING, "▲"),
 }
 
 

@@ -109,8 +109,12 @@ class SurfaceActor:
         if opacity < 1.0:  # far sides of a translucent skin would only veil what is inside
             look.BackfaceCullingOn()
         actor.VisibilityOff()
-        self._actor = actor
+        self._actor, self._renderer = actor, renderer
         renderer.AddActor(actor)
+
+    def remove(self) -> None:
+        """Stand in the picture no longer."""
+        self._renderer.RemoveActor(self._actor)
 
     def set_meshes(self, meshes: Sequence[Mesh] | None) -> None:
         """Take the fine and the coarse mesh, or show none."""

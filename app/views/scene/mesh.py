@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
@@ -19,6 +20,7 @@ from vtkmodules.vtkFiltersCore import (
 )
 
 from app.core.arrays import FloatArray
+from app.imaging.structures.structure import Structure
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,6 +65,32 @@ def isosurface(values: NDArray[Any], affine_mm: FloatArray, level: float, most: 
     smooth.SetPassBand(0.08)
     smooth.Update()
     return _to_mesh(_thin(smooth.GetOutput(), most), affine_mm)
+
+
+def structure_mesh(structure: Structure, most: int) -> Mesh:
+    """Surface of a structure with at most `most` triangles, where its share passes one half."""
+    share, affine = structure.occupancy, np.array(structure.grid_mm)
+    affine[:3, 3] -= affine[:3, :3].sum(axis=1)  # its layer around
+    factors = _factors(structure, most)
+    k, j, i = factors
+    share = np.pad(share, [(0, -n % f) for n, f in zip(share.shape, factors, strict=True)])
+    depth, height, width = (n // f for n, f in zip(share.shape, factors, strict=True))
+    share = share.reshape(depth, k, height, j, width, i).mean(axis=(1, 3, 5), dtype=np.float32)
+    affine[:3, 3] += affine[:3, :3] @ (np.array([i, j, k]) - 1.0) / 2.0
+    affine[:3, :3] = affine[:3, :3] * (i, j, k)
+    values = gaussian_filter(np.pad(share, 1), 0.7)
+    affine[:3, 3] -= affine[:3, :3].sum(axis=1)
+    level = min(0.5, 0.5 * float(values.max()))  # what is thinner than a voxel stays
+    return isosurface(values, affine, level, most)
+
+
+def _factors(structure: Structure, most: int) -> tuple[int, int, int]:
+    """Voxels (k, j, i) to take together: its box has about as many cells as suit the triangles."""
+    spacing = np.linalg.norm(structure.affine_mm[:3, :3], axis=0)[::-1]
+    extent = spacing * structure.mask.shape
+    wanted = float((extent.prod() / (50.0 * most)) ** (1.0 / 3.0))
+    k, j, i = (max(1, round(wanted / s)) for s in spacing)
+    return k, j, i
 
 
 def coarser(mesh: Mesh, most: int) -> Mesh:

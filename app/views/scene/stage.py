@@ -13,14 +13,19 @@ from app.core.confidence import principal_axes
 from app.core.errors import AcusError
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
+from app.imaging.structures.structure import Colour
 from app.planning.draft import DraftPlan
 from app.views import theme
 from app.views.error_overlay import SMALLEST_MM
 from app.views.needle_overlay import NeedleOverlay
+from app.views.plan.entry_map import COLOURS, SIZES_PX, EntryMap
 from app.views.scene.actors import Ball, Ellipsoid, Rod, SurfaceActor, colour
+from app.views.scene.cloud import Cloud
+from app.views.scene.mesh import Mesh
 from app.views.scene.orbit import Orbit
 from app.views.scene.robot import RobotShape
 from app.views.scene.surfaces import Surfaces
+from app.views.theme import Mark
 
 EYE_DISTANCE_MM = 2000.0
 LINK_RADIUS_MM, FULCRUM_RADIUS_MM = 4.0, 7.0
@@ -41,6 +46,11 @@ class Stage:
         self._window: vtkRenderWindow | None = None
         self._skin = SurfaceActor(self._renderer, theme.SKIN, opacity=0.4)
         self._bone = SurfaceActor(self._renderer, theme.BONE, opacity=1.0)
+        self._structures: list[SurfaceActor] = []
+        self._entries = [
+            Cloud(self._renderer, rgb, 0.5 * size)
+            for rgb, size in zip(COLOURS, SIZES_PX, strict=True)
+        ]
         self._links = [Rod(self._renderer, theme.ROBOT, LINK_RADIUS_MM) for _ in range(5)]
         self._fulcrum = Ball(self._renderer, theme.ROBOT, FULCRUM_RADIUS_MM)
         self._needle = Rod(self._renderer, theme.NEEDLE, NEEDLE_RADIUS_MM)
@@ -66,6 +76,23 @@ class Stage:
         """Show skin and bone, or none."""
         self._skin.set_meshes((surfaces.skin, surfaces.skin_moving) if surfaces else None)
         self._bone.set_meshes((surfaces.bone, surfaces.bone_moving) if surfaces else None)
+
+    def set_structures(self, shown: tuple[tuple[Colour, Mesh], ...]) -> None:
+        """Show structures in these colours, and no others."""
+        for actor in self._structures:
+            actor.remove()
+        self._structures = []
+        for rgb, mesh in shown:
+            mark = Mark("#" + "".join(f"{value:02x}" for value in rgb))
+            actor = SurfaceActor(self._renderer, mark, opacity=1.0)
+            actor.set_meshes((mesh,))
+            self._structures.append(actor)
+
+    def set_entry_map(self, shown: EntryMap | None) -> None:
+        """Show scored entries as balls in the colours of their classes, or none."""
+        for number, cloud in enumerate(self._entries):
+            points = None if shown is None else shown.points_mm[shown.classes == number]
+            cloud.place(points)
 
     def set_plan(self, draft: DraftPlan) -> None:
         """Show entry, target and the path between them."""
@@ -113,6 +140,8 @@ class Stage:
             raise SceneError("the 3D view is closed: open it before rendering")
         self._skin.choose(moving)
         self._bone.choose(moving)
+        for actor in self._structures:
+            actor.choose(moving)
         self._aim(orbit, size_px)
         width, height = size_px
         window.SetSize(width, height)

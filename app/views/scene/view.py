@@ -35,6 +35,9 @@ from app.views.scene.robot import RobotShape
 from app.views.text import tr
 
 if TYPE_CHECKING:
+    from app.imaging.structures.structure import Colour
+    from app.views.plan.entry_map import EntryMap
+    from app.views.scene.mesh import Mesh
     from app.views.scene.surfaces import Surfaces
 
 POLL_MS = 25
@@ -100,6 +103,14 @@ class SceneView(QWidget):
         if surfaces is not None and len(surfaces.skin.points):
             self._body = _box(surfaces.skin.points.astype(np.float64))
             self._fit_home()
+
+    def set_structures(self, shown: tuple[tuple[Colour, Mesh], ...]) -> None:
+        """Show structures as surfaces, each in its colour."""
+        self._change("structures", lambda stage: stage.set_structures(shown))
+
+    def set_entry_map(self, shown: EntryMap | None) -> None:
+        """Show scored entries on the skin, or none."""
+        self._change("entry map", lambda stage: stage.set_entry_map(shown))
 
     def set_plan(self, draft: DraftPlan) -> None:
         """Show entry, target and path."""

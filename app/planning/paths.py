@@ -1,0 +1,239 @@
+"""How good straight paths to one target are: length, angle to the skin, bone, structures, reach.
+
+A path that must not be is blocked, and says why. Any other has a cost, the weighted sum of its
+parts, each 0 (best) to 1 (as bad as is allowed), and from it a score of 100 to 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray
+from app.core.progress import Progress
+from app.core.units import DEGREE, MILLIMETRE
+from app.imaging.body import Body
+from app.imaging.interpolation import interpolate
+from app.imaging.skin import SkinPatch
+from app.planning.clearance import Field
+from app.planning.limits import ReachLimits
+from app.planning.placement import Placement
+
+STEP_MM = 1.0
+"""Paths are looked at in steps of this."""
+
+BONE_HU = 250.0
+"""What is this dense counts as bone; vessels with contrast agent may too."""
+
+INSIDE_SHARE = 0.5
+CHUNK = 256
+"""Paths are scored so many at a time; between two chunks one may cancel."""
+
+
+class Block(StrEnum):
+    """Why a path must not be."""
+
+    NONE = "free"
+    REACH = "reach"
+    LONG = "long"
+    FLAT = "flat"
+    AIR = "air"
+    BONE = "bone"
+    STRUCTURE = "structure"
+
+
+@dataclass(frozen=True, slots=True)
+class Weights:
+    """What counts how much, and what is not allowed.
+
+    Attributes:
+        length, angle, clearance: weights of the parts of the cost.
+        longest_mm: path; the device's depth limit counts where it is shorter.
+        flattest_deg: angle between path and the skin's normal.
+        most_bone_mm: length of path through bone.
+        free_mm: structures further away than their warning distance by this cost nothing.
+    """
+
+    length: float = 1.0
+    angle: float = 1.0
+    clearance: float = 2.0
+    longest_mm: float = 120.0
+    flattest_deg: float = 65.0
+    most_bone_mm: float = 1.5
+    free_mm: float = 10.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PathScores:
+    """Scores of many paths to one target; arrays of shape (n,).
+
+    Attributes:
+        target_mm: shape (3,).
+        entries_mm: shape (n, 3).
+        score: 0 to 100, the higher the better; NaN where blocked.
+        block: one of `Block` for each, as its number in `tuple(Block)`.
+        length_mm: of the paths.
+        angle_deg: between path and the skin's normal, 0 is straight in.
+        bone_mm: length through bone.
+        nearest_mm: distance from the nearest structure that is to be avoided; infinite without.
+        nearest: its number in `names`, -1 without.
+        names: of the structures.
+    """
+
+    target_mm: FloatArray
+    entries_mm: FloatArray
+    score: FloatArray
+    block: NDArray[np.intp]
+    length_mm: FloatArray
+    angle_deg: FloatArray
+    bone_mm: FloatArray
+    nearest_mm: FloatArray
+    nearest: NDArray[np.intp]
+    names: tuple[str, ...] = field(default=())
+
+    def __len__(self) -> int:
+        """Return the number of paths."""
+        return len(self.entries_mm)
+
+    @property
+    def free(self) -> NDArray[np.bool_]:
+        """Which paths are not blocked."""
+        result: NDArray[np.bool_] = self.block == 0
+        return result
+
+    def why(self, number: int) -> Block:
+        """Why a path is blocked."""
+        return tuple(Block)[int(self.block[number])]
+
+
+def score_paths(
+    target_mm: FloatArray,
+    skin: SkinPatch,
+    body: Body,
+    fields: Sequence[Field],
+    placement: Placement,
+    limits: ReachLimits,
+    weights: Weights = Weights(),
+    progress: Progress | None = None,
+) -> PathScores:
+    """Score the paths from every point of the skin to a target.
+
+    Args:
+        target_mm: LPS, shape (3,).
+        skin: entries.
+        body: of the CT, which also gives the bone.
+        fields: structures with their distances; those that warn are kept away from.
+        placement: how the patient lies.
+        limits: of the device.
+        weights: what counts how much.
+        progress: reports, and may be cancelled.
+
+    Raises:
+        Cancelled: if `progress` was cancelled.
+    """
+    progress = progress or Progress()
+    target = np.asarray(target_mm, np.float64)
+    avoided = [one for one in fields if one[0].kind.is_avoided and one[0].warn_mm > 0.0]
+    parts = []
+    for start in range(0, max(1, len(skin)), CHUNK):
+        progress.report(start / max(1, len(skin)), "scoring paths")
+        part = slice(start, start + CHUNK)
+        parts.append(_chunk(target, skin.points_mm[part], skin.outward[part], body, avoided,
+                            placement, limits, weights))  # fmt: skip
+    progress.report(1.0, "paths scored")
+    columns: list[Any] = [np.concatenate(column) for column in zip(*parts, strict=True)]
+    score, block, length, angle, bone, nearest, which = columns
+    names = tuple(structure.name for structure, _ in avoided)
+    return PathScores(
+        target, skin.points_mm, score, block, length, angle, bone, nearest, which, names
+    )
+
+
+def _chunk(
+    target: FloatArray,
+    entries: FloatArray,
+    outward: FloatArray,
+    body: Body,
+    avoided: Sequence[Field],
+    placement: Placement,
+    limits: ReachLimits,
+    weights: Weights,
+) -> tuple[NDArray[np.generic], ...]:
+    count = len(entries)
+    path = target - entries
+    length = np.linalg.norm(path, axis=1)
+    way = path / np.maximum(length, 1e-9)[:, None]
+    cosine = np.clip(-(way * outward).sum(axis=1), -1.0, 1.0)
+    angle = np.arccos(cosine) / DEGREE
+    block = np.zeros(count, np.intp)
+    longest = min(weights.longest_mm, limits.depth_limit / MILLIMETRE)
+    _mark(block, (length > longest) | (length < 1.0), Block.LONG)
+    _mark(block, angle > weights.flattest_deg, Block.FLAT)
+    _mark(block, ~_reached(way, block == 0, placement, limits), Block.REACH)
+    bone, air = np.zeros(count), np.zeros(count)
+    nearest, which = np.full(count, np.inf), np.full(count, -1, np.intp)
+    worst = np.zeros(count)
+    left = np.flatnonzero(block == 0)
+    if left.size:
+        steps = int(np.ceil(length[left].max() / STEP_MM)) + 1
+        shares = np.linspace(0.0, 1.0, steps)
+        points = entries[left, None, :] + shares[None, :, None] * path[left, None, :]
+        flat = points.reshape(-1, 3)
+        hu = interpolate(body.volume.hu, body.volume.voxel(flat)).reshape(len(left), steps)
+        bone[left] = (hu > BONE_HU).mean(axis=1) * length[left]
+        inside = body.share(flat).reshape(len(left), steps) >= INSIDE_SHARE
+        deep = shares[None, :] * length[left, None] > 4.0  # the skin itself is not sharp
+        air[left] = (~inside & deep).mean(axis=1) * length[left]
+        for number, (structure, distance) in enumerate(avoided):
+            least = distance.at(flat).reshape(len(left), steps).min(axis=1)
+            closer = least < nearest[left]
+            nearest[left[closer]] = least[closer]
+            which[left[closer]] = number
+            room = structure.warn_mm + weights.free_mm
+            worst[left] = np.maximum(worst[left], np.clip(1.0 - least / room, 0.0, 1.0))
+        _mark(block, air > 2.0, Block.AIR)
+        _mark(block, bone > weights.most_bone_mm, Block.BONE)
+        _mark(block, nearest <= 0.0, Block.STRUCTURE)
+    cost = (
+        weights.length * np.clip(length / longest, 0.0, 1.0)
+        + weights.angle * np.clip(angle / weights.flattest_deg, 0.0, 1.0)
+        + weights.clearance * worst
+    )
+    score = 100.0 * (1.0 - cost / (weights.length + weights.angle + weights.clearance))
+    score[block != 0] = np.nan
+    return score, block, length, angle, bone, nearest, which
+
+
+def _mark(block: NDArray[np.intp], bad: NDArray[np.bool_], why: Block) -> None:
+    """Block what is bad and not blocked already."""
+    block[bad & (block == 0)] = tuple(Block).index(why)
+
+
+def _reached(
+    way: FloatArray, asked: NDArray[np.bool_], placement: Placement, limits: ReachLimits
+) -> NDArray[np.bool_]:
+    """Whether the device can point along directions in the patient, where asked."""
+    axes = way @ placement.rotation.T
+    tilt = np.arctan2(np.hypot(axes[:, 0], axes[:, 1]), -axes[:, 2])
+    reached: NDArray[np.bool_] = tilt <= limits.tilt_limit + 1e-9
+    for number in np.flatnonzero(reached & asked):
+        reached[number] = limits.holds(axes[number])
+    return reached
+
+
+def best(scores: PathScores, count: int = 8, apart_mm: float = 15.0) -> tuple[int, ...]:
+    """Numbers of the best paths whose entries lie apart, best first; none is chosen by this."""
+    order = np.argsort(-np.nan_to_num(scores.score, nan=-1.0), kind="stable")
+    found: list[int] = []
+    for number in order[scores.free[order]]:
+        gaps = scores.entries_mm[found] - scores.entries_mm[number]
+        if not found or np.linalg.norm(gaps, axis=1).min() >= apart_mm:
+            found.append(int(number))
+        if len(found) == count:
+            break
+    return tuple(found)

@@ -1,0 +1,1 @@
+"""Structures in the window: list, outlines, surfaces, brush and warnings."""

@@ -1,0 +1,255 @@
+"""Structures of the patient in the window: files, outlines, surfaces, distances, warnings."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QFileDialog
+
+from app.core.loading import ONE_AT_A_TIME
+from app.core.progress import Progress
+from app.imaging.structures.structure import Index, Mask, Structure, StructureSet, free_name
+from app.planning.clearance import Clearance
+from app.views.background import Indicator, Task, run_in_background
+from app.views.conductor import Conductor
+from app.views.plan.editor import PlanEditor
+from app.views.structures.book import StructureBook
+from app.views.structures.brush import Brush, BrushGrip
+from app.views.structures.layer import StructureLayer
+from app.views.structures.panel import StructurePanel
+from app.views.structures.watch import StructureWatch, words
+from app.views.text import tr
+from app.views.workspace import Workspace
+
+if TYPE_CHECKING:
+    from app.imaging.structures.distance import SignedDistance
+    from app.views.scene.mesh import Mesh
+
+TRIANGLES = 20_000
+"""Bound of the triangles of one structure."""
+
+SETTLE_MS = 400
+"""Distances are computed anew this long after the last stroke."""
+
+FILES = "Structures (*.seg.nrrd *.nrrd *.nii *.nii.gz *.dcm *);;All files (*)"
+
+
+class StructuresDesk(QObject):
+    """Owns the book and connects it with panes, 3D view, plan, needle and files.
+
+    Signals:
+        failed(object): something could not be read, written or done.
+    """
+
+    failed = Signal(object)
+
+    def __init__(
+        self,
+        conductor: Conductor,
+        editor: PlanEditor,
+        workspace: Workspace,
+        indicator: Indicator,
+        parent: QObject,
+    ) -> None:
+        super().__init__(parent)
+        self._conductor, self._editor, self._workspace = conductor, editor, workspace
+        self._indicator = indicator
+        self.book = StructureBook(self)
+        self.brush = Brush(self)
+        self.watch = StructureWatch(self.book, self)
+        self.panel = StructurePanel(self.book, self.watch, self.brush)
+        self._meshes: dict[int, Mesh] = {}
+        self._task: Task | None = None
+        self._settle = QTimer(self, interval=SETTLE_MS, singleShot=True)
+        self._settle.timeout.connect(self._measure)
+        workspace.add_panel(self.panel, tr("Structures"))
+        for pane in workspace.panes:
+            pane.canvas.add_layer(StructureLayer(pane.canvas.scene(), self.book))
+            pane.gestures.add_grip(BrushGrip(pane.canvas, self.book, self.brush))
+        self._connect()
+
+    def _connect(self) -> None:
+        viewing, conductor = self._workspace.viewing, self._conductor
+        conductor.patient_changed.connect(self._take_patient)
+        self._editor.changed.connect(self._take_plan)
+        viewing.needle_changed.connect(lambda: self.watch.set_needle(viewing.needle))
+        conductor.controller.add_items(self.watch.items)
+        self.watch.needle_changed.connect(self._warn)
+        self.watch.breached.connect(self._workspace.messages.add_event)
+        self.book.changed.connect(self._show)
+        self.book.refused.connect(self._refused)
+        self.panel.import_wanted.connect(self.ask_open)
+        self.panel.export_wanted.connect(self.ask_save)
+        self.panel.threshold_wanted.connect(self.threshold)
+
+    # --- what is shown ------------------------------------------------------------------------
+    def _take_patient(self) -> None:
+        patient = self._conductor.patient
+        if patient is not None and patient.volume is not self.book.volume:
+            self._stop()
+            self._meshes = {}
+            self.book.set_volume(patient.volume)
+
+    def _take_plan(self) -> None:
+        self.watch.set_draft(self._editor.edit.draft)
+        self.book.set_locked(self._editor.locked)
+
+    def _show(self) -> None:
+        for pane in self._workspace.panes:
+            pane.canvas.refresh()
+        self._show_surfaces()
+        if self.book.unmeasured:
+            self._settle.start()
+
+    def _show_surfaces(self) -> None:
+        shown = tuple(
+            (one.colour, mesh)
+            for one in self.book.visible
+            if (mesh := self._meshes.get(id(one.mask))) is not None
+        )
+        self._workspace.scene.set_structures(shown)
+
+    def _warn(self, clearance: Clearance | None) -> None:
+        self.panel.show_needle(clearance, "" if clearance is None else words(clearance))
+
+    def _refused(self, why: object) -> None:
+        self.panel.set_note(str(why))
+        self.failed.emit(why)
+
+    # --- distances and surfaces, beside the window -----------------------------------------------
+    def _measure(self) -> None:
+        if self._task is not None:
+            self._settle.start()
+            return
+        waiting = self.book.unmeasured
+        if not waiting:
+            return
+        structure = waiting[0]
+        self._task = run_in_background(
+            self,
+            lambda progress: _measured(structure, progress),
+            lambda found: self._take(structure, *found),
+            self._measuring_failed,
+            self._measuring_ended,
+        )
+
+    def _take(self, structure: Structure, field: SignedDistance, mesh: Mesh) -> None:
+        self._measuring_ended()
+        used = {id(one.mask) for one in self.book.structures}
+        self._meshes = {key: value for key, value in self._meshes.items() if key in used}
+        self.book.set_field(structure, field)
+        if id(structure.mask) in used:
+            self._meshes[id(structure.mask)] = mesh
+        self._show_surfaces()
+        self._measure()
+
+    def _measuring_failed(self, error: Exception) -> None:
+        self._measuring_ended()
+        self.failed.emit(error)
+
+    def _measuring_ended(self) -> None:
+        self._task = None
+
+    def _stop(self) -> None:
+        self._settle.stop()
+        if self._task is not None:
+            self._task.close(timeout=0.0)
+            self._task = None
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether all distances and surfaces are there."""
+        return self._task is None and not self.book.unmeasured
+
+    # --- files --------------------------------------------------------------------------------
+    def ask_open(self) -> None:
+        """Ask for a file of structures and read it."""
+        name, _ = QFileDialog.getOpenFileName(self._workspace, tr("Open structures"), "", FILES)
+        if name:
+            self.open(Path(name))
+
+    def open(self, path: Path) -> None:
+        """Read structures onto the CT that is shown, beside the window."""
+        volume = self.book.volume
+        if volume is None:
+            self._refused(tr("Open the CT that the structures belong to first."))
+            return
+
+        def read(progress: Progress) -> StructureSet:
+            with ONE_AT_A_TIME:
+                from app.imaging.structures.files import read_structures
+            return read_structures(path, volume, progress)
+
+        def take(found: StructureSet) -> None:
+            if self.book.volume is volume:
+                self.book.add(StructureSet(found.structures))
+                said = tr("{name}: {count} structures", name=path.name, count=len(found))
+                self.panel.set_note("\n".join((said, *found.notes)))
+
+        run_in_background(self, read, take, self._refused,
+                          title=tr("Reading structures"), indicator=self._indicator)  # fmt: skip
+
+    def ask_save(self) -> None:
+        """Ask where to write the structures, and write them."""
+        kinds = tr("3D Slicer segmentation (*.seg.nrrd);;DICOM SEG (*.dcm)")
+        name, kind = QFileDialog.getSaveFileName(self._workspace, tr("Save structures"), "", kinds)
+        if name:
+            ending = ".dcm" if ".dcm" in kind else ".seg.nrrd"
+            self.save(Path(name if name.endswith((".dcm", ".seg.nrrd")) else name + ending))
+
+    def save(self, path: Path) -> None:
+        """Write all structures, beside the window."""
+        volume, structures = self.book.volume, self.book.structures
+        if volume is None:
+            return
+
+        def write(progress: Progress) -> None:
+            with ONE_AT_A_TIME:
+                from app.imaging.structures.files import write_structures
+            write_structures(path, structures, volume)
+
+        run_in_background(
+            self, write, lambda _: self.panel.set_note(tr("Written: {name}", name=path.name)),
+            self._refused, title=tr("Writing structures"), indicator=self._indicator,
+        )  # fmt: skip
+
+    # --- marking ------------------------------------------------------------------------------
+    def threshold(self) -> None:
+        """Make a structure of all voxels of the body between the limits, beside the window."""
+        patient, settings = self._conductor.patient, self.brush.settings
+        if patient is None:
+            return
+        names = [one.name for one in self.book.structures]
+        name = free_name(tr("{low:.0f} to {high:.0f} HU", low=settings.low, high=settings.high),
+                         names)  # fmt: skip
+
+        def work(progress: Progress) -> tuple[Mask, Index]:
+            from app.imaging.body import body_mask
+            from app.imaging.structures.edit import threshold
+
+            progress.report(0.1, tr("looking for the body"))
+            within = body_mask(patient.volume, patient.body)
+            progress.report(0.5, tr("threshold"))
+            return threshold(patient.volume, settings.low, settings.high, within)
+
+        def take(found: tuple[Mask, Index]) -> None:
+            if self.book.volume is patient.volume:
+                self.book.put(name, *found)
+
+        run_in_background(self, work, take, self._refused,
+                          title=tr("Threshold"), indicator=self._indicator)  # fmt: skip
+
+    def close(self) -> None:
+        """End what runs; idempotent."""
+        self._stop()
+
+
+def _measured(structure: Structure, progress: Progress) -> tuple[SignedDistance, Mesh]:
+    with ONE_AT_A_TIME:  # scipy and VTK: behind the window, not before it
+        from app.imaging.structures.distance import SignedDistance
+        from app.views.scene.mesh import structure_mesh
+    field = SignedDistance.of(structure, progress.part(0.0, 0.6))
+    progress.report(0.6)
+    return field, structure_mesh(structure, TRIANGLES)

@@ -1,0 +1,157 @@
+"""Outlines of structures over a slice: line, hatching and name, in whatever plane the pane has."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QBrush, QFontMetrics, QPainter, QPainterPath, QPen, QPolygonF, QTransform
+from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
+
+from app.core.arrays import FloatArray
+from app.imaging.structures.contours import contours
+from app.imaging.structures.structure import Mask, Structure
+from app.views.slices.items import label_font
+from app.views.slices.plane import SlicePlane
+from app.views.structures.book import StructureBook
+from app.views.structures.looks import HATCHES, colour, pen
+
+HATCH_ALPHA = 0.55
+SMALLEST_NAMED_PX = 14.0
+"""Outlines smaller than this carry no name."""
+
+
+class OutlineItem(QGraphicsItem):
+    """One structure in one slice."""
+
+    def __init__(self, z: float) -> None:
+        super().__init__()
+        self._path, self._top = QPainterPath(), QPointF()
+        self._structure: Structure | None = None
+        self._scale, self._bold = 1.0, False
+        self.setZValue(z)
+
+    def set_lines(self, structure: Structure, lines: Sequence[FloatArray]) -> None:
+        """Show closed lines of plane points [mm]."""
+        self.prepareGeometryChange()
+        self._structure = structure
+        path = QPainterPath()
+        path.setFillRule(Qt.FillRule.OddEvenFill)
+        for line in lines:
+            path.addPolygon(QPolygonF([QPointF(x, y) for x, y in line.tolist()]))
+            path.closeSubpath()
+        self._path = path
+        if len(lines):
+            points = np.vstack(list(lines))
+            x, y = points[int(np.argmin(points[:, 1]))].tolist()
+            self._top = QPointF(x, y)
+        self.setVisible(bool(len(lines)))
+
+    def set_look(self, structure: Structure, scale: float, bold: bool) -> None:
+        """Take the colours of `structure` and the zoom [px/mm]."""
+        if (structure, scale, bold) != (self._structure, self._scale, self._bold):
+            self.prepareGeometryChange()
+            self._structure, self._scale, self._bold = structure, scale, bold
+            self.update()
+
+    def boundingRect(self) -> QRectF:
+        """Return the outline with its name."""
+        margin = 4.0 / self._scale
+        rect = self._path.boundingRect().adjusted(-margin, -margin, margin, margin)
+        return rect.united(self._name_rect())
+
+    def _name_rect(self) -> QRectF:
+        if self._structure is None:
+            return QRectF()
+        metrics = QFontMetrics(label_font())
+        width = metrics.horizontalAdvance(self._structure.name) + 6.0
+        height = metrics.height()
+        return QRectF(
+            self._top.x() - 0.5 * width / self._scale,
+            self._top.y() - (height + 3.0) / self._scale,
+            width / self._scale,
+            height / self._scale,
+        )
+
+    def paint(
+        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
+    ) -> None:
+        """Draw hatching, a dark rim, the line and the name."""
+        structure = self._structure
+        if structure is None:
+            return
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        style = HATCHES[structure.kind]
+        if style is not Qt.BrushStyle.NoBrush:
+            brush = QBrush(colour(structure, HATCH_ALPHA), style)
+            brush.setTransform(QTransform.fromScale(1.0 / self._scale, 1.0 / self._scale))
+            painter.fillPath(self._path, brush)
+        line = pen(structure, 3.0 if self._bold else 2.0)
+        rim = QPen(Qt.GlobalColor.black, line.widthF() + 2.0)
+        rim.setCosmetic(True)
+        painter.setOpacity(0.5)
+        painter.strokePath(self._path, rim)
+        painter.setOpacity(1.0)
+        painter.strokePath(self._path, line)
+        size = self._path.boundingRect()
+        if max(size.width(), size.height()) * self._scale >= SMALLEST_NAMED_PX:
+            self._draw_name(painter, structure)
+
+    def _draw_name(self, painter: QPainter, structure: Structure) -> None:
+        rect = self._name_rect()
+        painter.save()
+        painter.translate(rect.topLeft())
+        painter.scale(1.0 / self._scale, 1.0 / self._scale)
+        place = QRectF(0.0, 0.0, rect.width() * self._scale, rect.height() * self._scale)
+        painter.setFont(label_font())
+        flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextDontClip
+        painter.setPen(Qt.GlobalColor.black)
+        for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+            painter.drawText(place.translated(dx, dy), flags, structure.name)
+        painter.setPen(colour(structure).lighter(125))
+        painter.drawText(place, flags, structure.name)
+        painter.restore()
+
+
+class StructureLayer:
+    """The outlines in one pane; computed anew only where mask or plane changed."""
+
+    def __init__(self, scene: QGraphicsScene, book: StructureBook) -> None:
+        self._scene, self._book = scene, book
+        self._items: dict[str, OutlineItem] = {}
+        self._shown: dict[str, tuple[Mask, SlicePlane, float]] = {}
+
+    def place(self, plane: SlicePlane, index: float, scale: float) -> None:
+        """Show the visible structures in this slice."""
+        visible = self._book.visible
+        self._drop({one.name for one in visible})
+        axes: tuple[FloatArray, FloatArray, FloatArray] | None = None
+        for structure in visible:
+            item = self._items.get(structure.name)
+            if item is None:
+                item = self._items[structure.name] = OutlineItem(1.5)
+                self._scene.addItem(item)
+            known = self._shown.get(structure.name)
+            if (
+                known is None
+                or known[0] is not structure.mask
+                or known[1] is not plane
+                or known[2] != index
+            ):
+                if axes is None:
+                    origin = plane.lps_mm(0.0, 0.0, index)
+                    axes = (origin, plane.lps_mm(1.0, 0.0, index) - origin,
+                            plane.lps_mm(0.0, 1.0, index) - origin)  # fmt: skip
+                item.set_lines(structure, contours(structure, *axes))
+                self._shown[structure.name] = (structure.mask, plane, index)
+            item.set_look(structure, scale, structure.name == self._book.chosen)
+
+    def hide(self) -> None:
+        """Show nothing."""
+        self._drop(set())
+
+    def _drop(self, kept: set[str]) -> None:
+        for name in set(self._items) - kept:
+            self._scene.removeItem(self._items.pop(name))
+            self._shown.pop(name, None)

@@ -1,0 +1,217 @@
+"""Structures in the window: book, outlines, brush, panel and warnings."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+
+from app.imaging.structures.distance import SignedDistance
+from app.imaging.structures.structure import Kind, StructureSet
+from app.imaging.volume import Volume
+from app.planning.clearance import Nearness
+from app.planning.draft import DraftPlan
+from app.views.needle_overlay import NeedleOverlay
+from app.views.slices.pane import SlicePane
+from app.views.slices.panes import PaneId
+from app.views.slices.presets import default_window
+from app.views.slices.viewing import Viewing
+from app.views.structures.book import StructureBook
+from app.views.structures.brush import Brush, BrushGrip, Mode
+from app.views.structures.layer import StructureLayer
+from app.views.structures.panel import NAME, PATH, StructurePanel
+from app.views.structures.watch import StructureWatch, words
+
+
+def ball(volume: Volume, centre, radius):
+    from app.imaging.structures.edit import brushed
+
+    return brushed(None, volume, np.asarray(centre, float), radius, True)
+
+
+@pytest.fixture
+def book(application, volume):
+    book = StructureBook()
+    book.set_volume(volume)
+    centre = volume.lps_mm((np.array(volume.size) - 1) / 2)
+    book.put("vessel", *ball(volume, centre, 8.0))
+    book.change("vessel", kind=Kind.VESSEL, warn_mm=3.0)
+    return book
+
+
+def centre_of(book):
+    return book.structures.structures[0].centre_mm
+
+
+def measured(book):
+    for one in book.unmeasured:
+        book.set_field(one, SignedDistance.of(one))
+
+
+def test_every_change_can_be_undone_and_visibility_is_no_step(book):
+    book.set_visible("vessel", False)
+    assert book.visible == ()
+    book.change("vessel", name="aorta")
+    assert not book.is_visible("aorta")
+    book.undo()
+    assert book.structures.find("vessel").kind is Kind.VESSEL
+    book.remove("vessel")
+    assert len(book.structures) == 0
+    book.undo()
+    assert len(book.structures) == 1
+    book.redo()
+    assert len(book.structures) == 0
+
+
+def test_nothing_changes_while_an_attempt_runs(book):
+    said = []
+    book.refused.connect(said.append)
+    book.set_locked(True)
+    book.remove("vessel")
+    book.undo()
+    assert len(book.structures) == 1
+    assert "attempt runs" in str(said[0])
+
+
+def test_a_bad_name_is_refused_and_a_taken_one_gets_a_number(book):
+    said = []
+    book.refused.connect(said.append)
+    book.change("vessel", name="")
+    assert "no name" in str(said[0])
+    book.add(StructureSet((book.structures.find("vessel"),)))
+    book.change("vessel 2", name="vessel")
+    assert [one.name for one in book.structures] == ["vessel", "vessel 2"]
+
+
+def test_distances_outlive_a_new_name_but_not_other_voxels(book, volume):
+    measured(book)
+    book.change("vessel", name="aorta", kind=Kind.RISK)
+    assert book.unmeasured == ()
+    book.put("aorta", *ball(volume, centre_of(book), 5.0))
+    assert len(book.unmeasured) == 1
+
+
+@pytest.mark.parametrize("pane", [PaneId.AXIAL, PaneId.SAGITTAL, PaneId.CORONAL])
+def test_an_outline_is_drawn_where_the_structure_is(book, volume, pane):
+    viewing = Viewing(default_window())
+    view = SlicePane(viewing, pane)
+    view.resize(300, 300)
+    layer = StructureLayer(view.canvas.scene(), book)
+    view.canvas.add_layer(layer)
+    viewing.set_volume(volume)
+    viewing.set_cursor(centre_of(book))
+    plane = view.canvas.plane
+    item = layer._items["vessel"]
+    at = plane.point(centre_of(book), view.canvas.index)
+    assert item.isVisible()
+    assert item._path.contains(QPointF(at.x, at.y))
+    rect = item._path.boundingRect()
+    assert rect.width() == pytest.approx(16.0, abs=3.5)
+    viewing.show_slice(pane, 0)
+    assert not item.isVisible()
+    viewing.set_cursor(centre_of(book))
+    book.set_visible("vessel", False)
+    view.canvas.refresh()
+    assert layer._items == {}
+
+
+def press(canvas, x, y):
+    kind = QEvent.Type.MouseButtonPress
+    left, none = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    return QMouseEvent(kind, QPointF(x, y), QPointF(x, y), left, left, none)
+
+
+def test_a_stroke_of_the_brush_is_one_step_and_grows_what_it_touches(book, volume):
+    viewing = Viewing(default_window())
+    view = SlicePane(viewing, PaneId.AXIAL)
+    view.resize(400, 400)
+    viewing.set_volume(volume)
+    viewing.set_cursor(centre_of(book))
+    brush = Brush()
+    grip = BrushGrip(view.canvas, book, brush)
+    before = book.structures.find("vessel").mask.sum()
+    at = view.canvas.plane.point(centre_of(book), view.canvas.index)
+    start = view.canvas.pixel_at(at.x, at.y)
+    event = press(view.canvas, start.x(), start.y())
+    assert not grip.grab(start, event)
+    brush.set(mode=Mode.PAINT, radius_mm=6.0)
+    assert grip.grab(start, event)
+    for mm in range(0, 16, 2):
+        grip.drag(view.canvas.pixel_at(at.x + mm, at.y))
+    grip.drop(start)
+    assert book.structures.find("vessel").mask.sum() > before
+    book.undo()
+    assert book.structures.find("vessel").mask.sum() == before
+    brush.set(mode=Mode.ERASE, radius_mm=40.0)
+    grip.grab(start, event)
+    assert len(book.structures) == 0
+    book.undo()
+    assert len(book.structures) == 1
+
+
+def overlay(volume, tip, valid=True):
+    return NeedleOverlay(np.asarray(tip) - [0.0, 150.0, 0.0], np.asarray(tip), valid, None)
+
+
+def test_the_needle_is_warned_once_and_again_after_it_went_away(book, volume, monkeypatch):
+    measured(book)
+    watch = StructureWatch(book)
+    now = [10.0]
+    monkeypatch.setattr("app.views.structures.watch.monotonic", lambda: now[0])
+    events, shown = [], []
+    watch.breached.connect(events.append)
+    watch.needle_changed.connect(shown.append)
+
+    def at(distance):
+        now[0] += 0.1
+        watch.set_needle(overlay(volume, centre_of(book) - [0.0, 8.0 + distance, 0.0]))
+
+    for distance in (9.0, 2.0, 1.8, 2.2, -3.0, -4.0, -1.0, 2.0):
+        at(distance)
+    assert [event.kind for event in events] == ["breach", "breach"]
+    assert "mm from vessel" in events[0].message
+    assert "in vessel" in events[1].message
+    at(9.0)
+    assert watch.needle is None
+    assert shown[-1] is None
+    at(1.5)
+    assert len(events) == 3
+    assert watch.needle.nearness is Nearness.NEAR
+    watch.set_needle(overlay(volume, centre_of(book), valid=False))
+    assert watch.needle is None  # what is not tracked is not judged
+    at(1.5)
+    watch.set_needle(None)
+    assert watch.needle is None
+
+
+def test_the_panel_shows_the_path_and_changes_the_book(book, volume):
+    measured(book)
+    watch = StructureWatch(book)
+    panel = StructurePanel(book, watch, Brush())
+    centre = centre_of(book)
+    watch.set_draft(DraftPlan(tuple(centre - [0, 30, 0]), tuple(centre + [0, 30, 0])))
+    assert panel.table.item(0, PATH).text().startswith("✖ -")
+    watch.set_draft(DraftPlan(tuple(centre - [40, 30, 0]), tuple(centre + [-40, 30, 0])))
+    assert panel.table.item(0, PATH).text().startswith("✔ 3")
+    panel.table.item(0, NAME).setCheckState(Qt.CheckState.Unchecked)
+    assert book.visible == ()
+    panel.table.item(0, NAME).setText("aorta")
+    assert book.structures.structures[0].name == "aorta"
+    panel.table.cellWidget(0, 2).setValue(7.5)
+    assert book.structures.find("aorta").warn_mm == 7.5
+    box = panel.table.cellWidget(0, 1)
+    box.setCurrentIndex(box.findData("target"))
+    box.activated.emit(box.currentIndex())
+    assert book.structures.find("aorta").kind is Kind.TARGET
+    assert panel.table.cellWidget(0, 2).value() == 0.0
+    panel.show_needle(None, "")
+    assert panel.live.text() == "✔  " or panel.live.text() == ""
+    panel.remove.click()
+    assert panel.table.rowCount() == 0
+    assert "No structures" in panel.note.text()
+
+
+def test_a_warning_has_words(book, volume):
+    measured(book)
+    watch = StructureWatch(book)
+    watch.set_needle(overlay(volume, centre_of(book) - [0.0, 10.0, 0.0]))
+    assert words(watch.needle).endswith("mm from vessel")
