@@ -186,6 +186,8 @@ def test_the_words_name_the_plane_the_angle_and_the_side(pad):
     assert "°" in text
     assert "plane" in text
     assert "mm to go" in pad._remaining.text()
+    assert "off the path" in pad._lateral.text()
+    assert "CT angles: in plane" in pad._angles.text()
 
 
 def test_places_beyond_the_rim_are_drawn_on_it():
@@ -200,3 +202,8 @@ def test_a_spring_without_length_is_a_point_and_others_end_where_they_should():
     zigzag = spring(start, end, 5.0)
     assert zigzag.first() == start
     assert zigzag.last() == end
+
+
+def test_a_blind_bullseye_tells_neither_offset_nor_angles(pad):
+    pad.set_blind(True)
+    assert not any(label.isVisibleTo(pad) for label in pad._words)

@@ -11,10 +11,12 @@ from app.core.rotation import rotation_exp
 from app.views.exercise.pad_geometry import (
     PadScale,
     clamp_to_cone,
+    ct_angles,
     direction_letters,
     downward,
     path_frame,
 )
+from app.views.exercise.words import lateral
 
 SUPINE = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]])  # L→+x, S→+y, A→+z; columns L, P, S
 finite = st.floats(-1.0, 1.0)
@@ -157,3 +159,32 @@ def test_a_scale_without_length_or_tolerance_is_refused():
             PadScale(length, tolerance)
     with pytest.raises(NumericalError, match="tilt limit"):
         clamp_to_cone((0, 0, -1), pi / 2)
+
+
+@pytest.mark.parametrize(
+    ("direction", "expected"),
+    [
+        ((0.0, 1.0, 0.0), (90.0, 0.0)),
+        ((1.0, 0.0, 0.0), (0.0, 0.0)),
+        ((-1.0, 0.0, 0.0), (0.0, 0.0)),
+        ((0.0, -1.0, 0.0), (90.0, 0.0)),
+        ((-1.0, 1.0, 0.0), (-45.0, 0.0)),
+        ((0.0, 1.0, 1.0), (90.0, 45.0)),
+        ((0.0, 0.0, -1.0), (0.0, -90.0)),
+    ],
+)
+def test_ct_angles_are_those_that_one_sets_in_the_axial_slice(direction, expected):
+    assert ct_angles(direction) == pytest.approx(expected, abs=1e-9)
+
+
+def test_ct_angles_follow_the_patient_not_the_table():
+    turn = rotation_exp([0.2, -0.4, 0.9])
+    world = turn @ np.array([0.3, 0.8, -0.2])
+    frame = path_frame(world, turn)
+    assert frame.ct_angles(world) == pytest.approx(ct_angles((0.3, 0.8, -0.2)))
+
+
+def test_the_lateral_offset_is_said_with_the_patients_sides():
+    frame = path_frame((0.0, 0.0, -1.0), SUPINE)
+    assert lateral(frame, (0.003, -0.004)) == "off the path: 5.0 mm  (L 3.0  I 4.0)"
+    assert lateral(frame, (0.0, 0.0)) == "off the path: 0.0 mm"

@@ -12,7 +12,7 @@ from app.views.exercise.hands.chooser import HandChooser
 from app.views.exercise.hands.source import HandChange
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.exercise.pad_view import PadScene, PadView
-from app.views.exercise.words import corrections, remaining
+from app.views.exercise.words import corrections, ct_words, lateral, remaining
 from app.views.text import tr
 
 INTENT_MS: Final = 10
@@ -40,6 +40,9 @@ class Bullseye(QWidget):
         self._in_plane = _label(theme.FONT_PX + 1)
         self._out_of_plane = _label(theme.FONT_PX + 1)
         self._source = _label(theme.SMALL_PX, theme.WARNING)
+        self._lateral, self._angles = _label(theme.SMALL_PX), _label(theme.SMALL_PX)
+        self._words = (self._remaining, self._in_plane, self._out_of_plane, self._source,
+                       self._lateral, self._angles)  # fmt: skip
         self.source = HandChooser(self.pad, self)
         self._intent = QTimer(self, interval=INTENT_MS, singleShot=True)
         self._intent.timeout.connect(self._emit_hand)
@@ -65,7 +68,7 @@ class Bullseye(QWidget):
         self.pad.set_scene(scene)
         self.depth_bar.set_scene(scene)
         self.source.set_interactive(interactive, depth_only)
-        for label in (self._remaining, self._in_plane, self._out_of_plane, self._source):
+        for label in self._words:
             label.clear()
 
     def set_blind(self, blind: bool) -> None:
@@ -73,7 +76,7 @@ class Bullseye(QWidget):
         self._blind = blind
         self.pad.set_blind(blind)
         self.depth_bar.setVisible(not blind)
-        for label in (self._remaining, self._in_plane, self._out_of_plane, self._source):
+        for label in self._words:
             label.setVisible(not blind)
 
     def show_view(self, view: PadView) -> None:
@@ -105,10 +108,13 @@ class Bullseye(QWidget):
         in_plane, out_of_plane = corrections(scene.frame, scene.frame.tilts(view.direction))
         self._in_plane.setText(in_plane)
         self._out_of_plane.setText(out_of_plane)
+        self._angles.setText(ct_words(scene.frame, view.direction))
         along = float((view.p_tip - scene.p_entry) @ scene.frame.axis)
         distance = remaining(along, scene.target_depth, scene.depth_tolerance)
         # A guess is never said as if it were known.
         self._remaining.setText(distance if view.measured else "–")
+        offset = scene.frame.offset(view.p_tip, scene.p_entry)
+        self._lateral.setText(lateral(scene.frame, offset) if view.measured else "–")
         self._source.setText("" if view.measured else tr("◇ depth not measured now"))
 
     def _connect_source(self) -> None:
@@ -137,7 +143,7 @@ class Bullseye(QWidget):
     def _lay_out(self) -> None:
         words = QVBoxLayout()
         words.setSpacing(2)
-        for label in (self._in_plane, self._out_of_plane):
+        for label in (self._in_plane, self._out_of_plane, self._angles):
             words.addWidget(label)
         grid = QGridLayout(self)
         grid.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
@@ -146,6 +152,7 @@ class Bullseye(QWidget):
         grid.addLayout(words, 1, 0)
         side = QVBoxLayout()
         side.addWidget(self._remaining)
+        side.addWidget(self._lateral)
         side.addWidget(self._source)
         grid.addLayout(side, 1, 1)
         grid.addWidget(self.source, 2, 0, 1, 2)

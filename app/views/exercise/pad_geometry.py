@@ -12,7 +12,7 @@ itself, where an azimuth would not exist, and one-to-one up to θ = π.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import asinh, atan2, cos, hypot, pi, sin, sinh, sqrt, tan
+from math import asin, asinh, atan2, cos, degrees, hypot, pi, sin, sinh, sqrt, tan
 from typing import Final
 
 import numpy as np
@@ -37,6 +37,7 @@ class PathFrame:
         right, up: axes of the pad, unit, shape (3,).
         letters: patient directions at the pad's left, right, top and bottom edge.
         axial: True when `right` lies in the axial plane, so that "in plane" means the CT slice.
+        R_world_patient: rotation of the patient, shape (3, 3).
     """
 
     axis: FloatArray
@@ -44,6 +45,7 @@ class PathFrame:
     up: FloatArray
     letters: tuple[str, str, str, str]
     axial: bool
+    R_world_patient: FloatArray
 
     def tilts(self, direction: ArrayLike) -> FloatArray:
         """Tilts of a needle direction against the path [rad], (3,) -> (2,): to the right, upwards.
@@ -59,6 +61,10 @@ class PathFrame:
         if sideways < 1e-150:
             return np.array([0.0 if along > 0.0 else pi, 0.0])
         return np.array([a, b]) * (atan2(sideways, along) / sideways)
+
+    def ct_angles(self, direction: ArrayLike) -> tuple[float, float]:
+        """Angles of a needle direction in world against the CT's axial slices [°]: `ct_angles`."""
+        return ct_angles(self.R_world_patient.T @ unit(direction, "needle direction"))
 
     def direction(self, tilts: ArrayLike) -> FloatArray:
         """Needle direction of two tilts [rad], (2,) -> unit (3,): the inverse of `tilts`."""
@@ -90,7 +96,33 @@ def path_frame(axis_world: ArrayLike, R_world_patient: ArrayLike) -> PathFrame:
     up = unit(reference - (reference @ axis) * axis)
     right = np.cross(axis, up)  # up × (-axis): the path points away from the viewer
     edges = tuple(direction_letters(rotation.T @ v) for v in (-right, right, up, -up))
-    return PathFrame(frozen(axis), frozen(right), frozen(up), edges, axial)  # type: ignore[arg-type]
+    return PathFrame(
+        frozen(axis),
+        frozen(right),
+        frozen(up),
+        edges,
+        axial,
+        rotation,  # type: ignore[arg-type]
+    )
+
+
+def ct_angles(direction_lps: ArrayLike) -> tuple[float, float]:
+    """In-plane and out-of-plane angle [°] of a needle, as one sets them at a CT.
+
+    In-plane is the angle in the axial slice from the patient's left-right line, atan2(dy, dx)
+    folded to ±90°, since a needle and its opposite lie on one line there; out-of-plane is
+    asin(dz / |d|), positive towards the head. The definitions are those of NeedlePath (3D Slicer).
+
+    Raises:
+        NumericalError: if the direction is not finite or has no length.
+    """
+    x, y, z = unit(direction_lps, "needle direction").tolist()
+    in_plane = degrees(atan2(y, x)) if hypot(x, y) > 1e-12 else 0.0
+    if in_plane > 90.0:
+        in_plane -= 180.0
+    elif in_plane <= -90.0:
+        in_plane += 180.0
+    return in_plane, degrees(asin(max(-1.0, min(1.0, z))))
 
 
 def direction_letters(direction_lps: ArrayLike) -> str:

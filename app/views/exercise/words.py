@@ -53,6 +53,33 @@ def _correction(name: str, angle_deg: float, positive: str, negative: str) -> st
     )
 
 
+def lateral(frame: PathFrame, offset: ArrayLike) -> str:
+    """How far the tip is off the path's line, and to which side.
+
+    Args:
+        frame: axes of the pad.
+        offset: of the tip [m], shape (2,): to the right, upwards.
+    """
+    right, up = (1e3 * np.asarray(offset, dtype=np.float64)).tolist()
+    length = float(np.hypot(right, up))
+    if length < 0.05:
+        return tr("off the path: 0.0 mm")
+    left_letters, right_letters, top, bottom = frame.letters
+    parts = ((abs(right), right_letters if right > 0.0 else left_letters),
+             (abs(up), top if up > 0.0 else bottom))  # fmt: skip
+    sides = "  ".join(f"{letters} {size:.1f}" for size, letters in parts if size >= 0.05)
+    return tr("off the path: {length:.1f} mm  ({sides})", length=length, sides=sides)
+
+
+def ct_words(frame: PathFrame, direction: ArrayLike) -> str:
+    """Angles of the needle against the axial slices, and those of the path."""
+    needle, path = frame.ct_angles(direction), frame.ct_angles(frame.axis)
+    return tr(
+        "CT angles: in plane {a:+.1f}° (path {b:+.1f}°), out of plane {c:+.1f}° (path {d:+.1f}°)",
+        a=needle[0], b=path[0], c=needle[1], d=path[1],
+    )  # fmt: skip
+
+
 def remaining(depth: float, target_depth: float, tolerance: float) -> str:
     """Millimetres to the target, or beyond it."""
     gap_mm = 1e3 * (target_depth - depth)
