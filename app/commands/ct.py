@@ -22,7 +22,7 @@ Mend = Annotated[
         "halve (too large).",
     ),
 ]
-Folder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder, searched at any depth.")]
+Folder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder (at any depth), zip, DICOMDIR or file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
 
 
@@ -47,7 +47,7 @@ def list_series(folder: Folder, as_json: AsJson = False) -> None:
     for series in listing.series:
         typer.echo(_line(series))
     for file in listing.ignored:
-        typer.echo(f"ignored  {_relative(file.path, listing.path)}: {file.reason}")
+        typer.echo(f"ignored  {listing.shown(file.path)}: {file.reason}")
 
 
 @app.command()
@@ -150,8 +150,7 @@ def _listing(listing: "Listing") -> dict[str, Any]:
     return {
         "series": [_series(series) for series in listing.series],
         "ignored": [
-            {"file": _relative(file.path, listing.path), "reason": file.reason}
-            for file in listing.ignored
+            {"file": listing.shown(file.path), "reason": file.reason} for file in listing.ignored
         ],
     }
 
@@ -199,10 +198,3 @@ def _line(series: "Series") -> str:
         "" if series.remedy == "none" else f"on request: {series.remedy}",
     ]
     return "  ".join(part for part in parts if part)
-
-
-def _relative(path: Path, root: Path) -> str:
-    try:
-        return str(path.relative_to(root))
-    except ValueError:
-        return str(path)

@@ -56,11 +56,13 @@ class Body:
         factors: voxels per cell of the coarse grid along i, j, k; cell centres lie on voxels
             0, f, 2f, ...
         coarse: shape (K', J', I'), True inside, read-only.
+        skin_level: value that divides air from tissue; `SKIN_HU` but for volumes without a unit.
     """
 
     volume: Volume
     factors: tuple[int, int, int]
     coarse: Mask
+    skin_level: float = SKIN_HU
 
     @cached_property
     def _soft(self) -> NDArray[np.float32]:
@@ -103,7 +105,8 @@ def find_body(volume: Volume, progress: Progress | None = None) -> Body:
     i, j, k = (max(1, min(round(GRID_MM / s), n)) for s, n in
                zip(volume.spacing_mm, volume.size, strict=True))  # fmt: skip
     progress.report(0.0, "looking for the body")
-    tissue = volume.hu[::k, ::j, ::i] > SKIN_HU
+    level = _skin_level(volume, volume.hu[::k, ::j, ::i])
+    tissue = volume.hu[::k, ::j, ::i] > level
     cell_mm = volume.affine_mm[:3, :3] * (i, j, k)
     opened = ndimage.binary_opening(np.pad(tissue, _PAD, mode="edge"), _ball(cell_mm))
     progress.report(0.4, "taking the table away")
@@ -113,7 +116,25 @@ def find_body(volume: Volume, progress: Progress | None = None) -> Body:
     for plane in np.moveaxis(body, axis, 0):
         plane[...] = ndimage.binary_fill_holes(plane)
     progress.report(1.0, "body found")
-    return Body(volume, (i, j, k), read_only(body))
+    return Body(volume, (i, j, k), read_only(body), level)
+
+
+def _skin_level(volume: Volume, coarse: NDArray[Any]) -> float:
+    """Value between air and tissue: known in Hounsfield units, else what parts the values best.
+
+    Otsu, A threshold selection method from gray-level histograms, IEEE Trans. SMC 9 (1979) 62.
+    """
+    if volume.unit == "HU":
+        return SKIN_HU
+    counts, edges = np.histogram(coarse, bins=256)
+    middles, below = (edges[:-1] + edges[1:]) / 2.0, np.cumsum(counts)
+    above, mass = below[-1] - below, np.cumsum(counts * middles)
+    with np.errstate(divide="ignore", invalid="ignore"):  # classes without a voxel
+        between = below * above * (mass / below - (mass[-1] - mass) / above) ** 2
+    if np.ptp(coarse) == 0:  # one value: neither air nor tissue
+        return float("inf")
+    best = np.flatnonzero(between >= np.nanmax(between) * (1.0 - 1e-9))  # between two peaks: many
+    return float(edges[best[0] + 1] + edges[best[-1] + 1]) / 2.0
 
 
 def _ball(cell_mm: FloatArray) -> Mask:
@@ -161,7 +182,7 @@ def body_mask(volume: Volume, body: Body | None = None) -> Mask:
         slab = np.flatnonzero(cells[0] == cell)
         surely, maybe = inner[cell][rows], outer[cell][rows]
         for k in slab:
-            np.greater(volume.hu[k], SKIN_HU, out=mask[k])
+            np.greater(volume.hu[k], found.skin_level, out=mask[k])
             mask[k] &= maybe
             mask[k] |= surely
     return read_only(mask)
@@ -197,13 +218,15 @@ def skin_entry(body: Body, outside_lps: ArrayLike, inside_lps: ArrayLike) -> Flo
             f"the line never meets the body; its end is {distance:.1f} mm from the skin", distance
         )
     coarse = float(along[int(np.argmax(inside))])
-    return start + _refined(body.volume, start, direction, coarse) * direction
+    return start + _refined(body, start, direction, coarse) * direction
 
 
-def _refined(volume: Volume, start: FloatArray, direction: FloatArray, coarse: float) -> float:
+def _refined(body: Body, start: FloatArray, direction: FloatArray, coarse: float) -> float:
     """Distance along a line at which tissue begins, nearest to the coarse answer [mm]."""
     along = coarse + np.arange(-_REFINE_MM, _REFINE_MM + _STEP_MM, _STEP_MM)
-    values = interpolate(volume.hu, volume.voxel(start + along[:, None] * direction)) - SKIN_HU
+    volume = body.volume
+    values = interpolate(volume.hu, volume.voxel(start + along[:, None] * direction))
+    values = values - body.skin_level
     rising = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] > 0.0))
     if not rising.size:
         return coarse

@@ -128,6 +128,10 @@ def read_series(series: Series, progress: Progress | None = None) -> Volume:
     """
     if not series.usable:
         raise SeriesRefusedError(_refusal(series))
+    if series.volume_file is not None:
+        from app.imaging.nifti import read_nifti
+
+        return read_nifti(series, progress)
     if too_large := memory.need(series.slices).reason:  # less is free than at the scan
         raise TooLargeError(f"series {series.key} {too_large}; ask to halve it")
     hu = read_pixels(series, progress)

@@ -1,6 +1,5 @@
 """Finding DICOM series in a folder: by content, at any depth, headers only."""
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,30 +8,33 @@ import numpy as np
 from app.core.progress import Progress
 from app.imaging import stack
 from app.imaging.acquisitions import Group, split
-from app.imaging.errors import FolderError
 from app.imaging.header import Plane, Point, SliceHeader
+from app.imaging.nifti import find_nifti
 from app.imaging.series import Ignored, Listing, Remedy, Series
+from app.imaging.sources import is_nifti, open_source
 from app.imaging.suitability import Verdict, is_mr, judge
 from app.imaging.worker.service import examine_files
 
 
 def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
-    """List every DICOM series below a folder, and every file that belongs to none.
+    """List every series below a folder, and every file that belongs to none.
 
     Args:
-        path: a folder; all depths are searched, links to folders are not followed.
+        path: a folder, zip archive, DICOMDIR or single file, see `open_source`.
         progress: told how far the search is; cancels it.
 
     Raises:
-        FolderError: if it does not exist, is no folder, or cannot be listed.
+        FolderError: if it does not exist, cannot be read, or is none of these.
         Cancelled: if `progress` was cancelled.
     """
-    root = Path(path)
     progress = progress or Progress()
-    ignored: list[Ignored] = []
-    files = _files(root, ignored, progress)
+    source = open_source(Path(path), progress)
+    ignored = source.ignored
+    whole = [find_nifti(file) for file in source.files if is_nifti(file)]
+    files = [file for file in source.files if not is_nifti(file)]
     headers: list[SliceHeader] = []
-    for found in examine_files(files, progress):
+    begin = 0.0 if source.keeper is None else 0.5
+    for found in examine_files(files, progress.part(begin, 1.0)) if files else ():
         if isinstance(found, Ignored):
             ignored.append(found)
         else:
@@ -40,32 +42,13 @@ def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
     groups: dict[str, list[SliceHeader]] = {}
     for header in headers:
         groups.setdefault(header.identity.series_uid, []).append(header)
-    series = tuple(
-        _series(part, root) for _, group in sorted(groups.items()) for part in split(group)
-    )
+    series = [
+        _series(part, source.root) for _, group in sorted(groups.items()) for part in split(group)
+    ]
+    series.extend(found for found in whole if isinstance(found, Series))
+    ignored.extend(found for found in whole if isinstance(found, Ignored))
     progress.report(1.0, f"{len(series)} series")
-    return Listing(root, series, tuple(ignored))
-
-
-def _files(root: Path, ignored: list[Ignored], progress: Progress) -> list[Path]:
-    try:
-        os.scandir(root).close()
-    except FileNotFoundError:
-        raise FolderError(f"{root} does not exist; name a folder with DICOM files") from None
-    except NotADirectoryError:
-        raise FolderError(f"{root} is a file; name the folder it is in") from None
-    except (OSError, ValueError) as error:
-        raise FolderError(f"{root} cannot be read: {_why(error)}") from error
-
-    def unreadable(error: OSError) -> None:
-        ignored.append(Ignored(Path(error.filename), f"folder cannot be read: {_why(error)}"))
-
-    found: list[Path] = []
-    for folder, folders, names in os.walk(root, onerror=unreadable):
-        progress.report(0.0, f"{len(found)} files found")
-        folders.sort()
-        found.extend(Path(folder, name) for name in sorted(names))
-    return found
+    return Listing(source.path, tuple(series), tuple(ignored), source.root, source.keeper)
 
 
 def _series(group: Group, root: Path) -> Series:
@@ -113,10 +96,6 @@ def _shared_frame(headers: list[SliceHeader]) -> str:
     """Frame of reference of all files; empty where some de-identifier gave each its own."""
     frames = {header.identity.frame_of_reference for header in headers}
     return frames.pop() if len(frames) == 1 else ""
-
-
-def _why(error: Exception) -> str:
-    return getattr(error, "strerror", None) or str(error)
 
 
 @dataclass(frozen=True, slots=True)

@@ -95,15 +95,24 @@ class Listing:
         path: what was searched.
         series: usable or not.
         ignored: files that belong to none.
+        root: folder that files are named relative to; `path` where None.
         keeper: holds the files of an unpacked archive for as long as the listing lives.
     """
 
     path: Path
     series: tuple[Series, ...]
     ignored: tuple[Ignored, ...]
+    root: Path | None = None
     keeper: Any = field(default=None, compare=False, repr=False)
 
     @property
     def usable(self) -> tuple[Series, ...]:
         """Series that can be read as a volume."""
         return tuple(series for series in self.series if series.usable)
+
+    def shown(self, path: Path) -> str:
+        """Name of a file of the listing, relative to what was searched."""
+        try:
+            return str(path.relative_to(self.root or self.path))
+        except ValueError:
+            return str(path)

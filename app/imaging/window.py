@@ -47,6 +47,9 @@ class WindowLevel:
 FROM_DICOM: Final = "From DICOM"
 """Name of the window that the files themselves ask for."""
 
+FROM_VALUES: Final = "From values"
+"""Name of the window that shows most of the values of a volume without a unit."""
+
 PRESETS: Final[dict[str, WindowLevel]] = {
     "Soft tissue": WindowLevel(400, 40),
     "Lung": WindowLevel(1500, -600),
@@ -62,10 +65,20 @@ PRESETS: Final[dict[str, WindowLevel]] = {
 
 
 def presets(volume: Volume) -> dict[str, WindowLevel]:
-    """Windows to choose from for a volume: those of its files first, then `PRESETS`."""
+    """Windows to choose from for a volume: those of its files first, then `PRESETS`.
+
+    Of values without a unit no preset holds: instead of them stands the range of most values.
+    """
     own = [WindowLevel(*pair) for pair in volume.series.windows if pair[0] <= _LIMIT]
     names = [FROM_DICOM, *(f"{FROM_DICOM} {n}" for n in range(2, len(own) + 1))]
-    return dict(zip(names, own, strict=False)) | PRESETS
+    found = dict(zip(names, own, strict=False))
+    return found | PRESETS if volume.unit == "HU" else {FROM_VALUES: _range(volume), **found}
+
+
+def _range(volume: Volume) -> WindowLevel:
+    """Window of the values but the lowest and the highest 2 %, of every fourth voxel."""
+    low, high = np.percentile(volume.hu[::4, ::4, ::4], (2.0, 98.0)).tolist()
+    return WindowLevel(min(max(high - low, MINIMUM_WIDTH), _LIMIT), (low + high) / 2.0)
 
 
 def to_grey(hu: NDArray[Any], window: WindowLevel) -> NDArray[np.uint8]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.imaging.volume import Volume
-from app.imaging.window import FROM_DICOM, MINIMUM_WIDTH, PRESETS, WindowLevel, presets
+from app.imaging.window import FROM_DICOM, FROM_VALUES, MINIMUM_WIDTH, PRESETS, WindowLevel, presets
 from app.views.text import tr
 
 KEYED = (
@@ -36,6 +36,7 @@ def preset_name(name: str) -> str:
         "Angio": tr("Angio"),
         "Spine": tr("Spine"),
         "Needle": tr("Needle"),
+        FROM_VALUES: tr("From values"),
     }
     if name.startswith(FROM_DICOM):
         return tr("From DICOM") + name.removeprefix(FROM_DICOM)

@@ -12,7 +12,7 @@ from app.core.arrays import FloatArray, frozen
 from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.reformat import Frame
 from app.imaging.volume import Volume
-from app.imaging.window import WindowLevel
+from app.imaging.window import PRESETS, WindowLevel, presets
 from app.planning.draft import DraftPlan
 from app.views.error_overlay import ErrorOverlay
 from app.views.needle_overlay import NeedleOverlay
@@ -101,6 +101,7 @@ class Viewing(QObject):
 
     def set_volume(self, volume: Volume) -> None:
         """Show another volume; the crosshair goes to its middle."""
+        before = "HU" if self.volume is None else self.volume.unit
         self.volume, self.slicer = volume, OrthogonalSlicer(volume)
         self._planes = {pane: own_plane(self.slicer, View(pane)) for pane in MPR_PANES}
         self._own_index, self._shown = {}, {}
@@ -108,6 +109,9 @@ class Viewing(QObject):
         middle = [(count - 1) / 2 for count in volume.size]
         self.cursor_mm = frozen(volume.lps_mm(middle))
         self.volume_changed.emit()
+        if volume.unit != before or volume.unit != "HU":
+            choices = PRESETS if volume.unit == "HU" else presets(volume)
+            self.set_window(next(iter(choices.values())))
 
     def set_cursor(self, lps_mm: ArrayLike) -> None:
         """Move the crosshair to an LPS point [mm], kept inside the volume."""
