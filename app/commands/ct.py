@@ -22,7 +22,9 @@ Mend = Annotated[
         "halve (too large).",
     ),
 ]
-Folder = Annotated[Path, typer.Argument(metavar="DIR", help="Folder (at any depth), zip, DICOMDIR or file.")]
+Folder = Annotated[
+    Path, typer.Argument(metavar="DIR", help="Folder (at any depth), zip, DICOMDIR or file.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
 
 

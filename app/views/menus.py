@@ -63,6 +63,8 @@ class Menus:
         self._add(menu, [
             (tr("Start page"), "", window.show_start),
             (tr("Open CT folder…"), "Ctrl+O", window.open_ct.ask),
+            (tr("Open CT archive or file…"), "", window.open_ct.ask_file),
+            (tr("Series of the folder…"), "", window.open_ct.browse),
         ])  # fmt: skip
         recent_cts = menu.addMenu(tr("Recent CTs"))
         self._add(menu, [(tr("Phantom patient"), "", window.open_phantom), None])

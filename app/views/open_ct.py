@@ -1,4 +1,4 @@
-"""Opens patients: a folder, a dropped folder, a recent one, the phantom; all beside the window."""
+"""Opens patients: a folder, archive or file, a recent one, the phantom; all beside the window."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.errors import ImagingError
-from app.imaging.series import Listing, Series
+from app.imaging.series import Listing, Remedy, Series
 from app.views.background import Indicator, Task, run_in_background
 from app.views.patient import Patient, load_phantom, read_patient
-from app.views.series_dialog import SeriesDialog
+from app.views.series.browser import SeriesBrowser
 from app.views.settings import Recents
 from app.views.text import tr
 
@@ -37,6 +37,7 @@ class OpenCt(QObject):
         super().__init__(window)
         self._recents, self._indicator, self._window = recents, indicator, window
         self._task: Task | None = None
+        self._listing: Listing | None = None
 
     def ask(self) -> None:
         """Ask for a folder and open it."""
@@ -46,14 +47,30 @@ class OpenCt(QObject):
         if name:
             self.open_folder(Path(name))
 
+    def ask_file(self) -> None:
+        """Ask for an archive, a directory of a medium or a NIfTI file and open it."""
+        recent = self._recents.paths()
+        start = str(recent[0].parent if recent else Path.home())
+        kinds = tr("CT archives and files") + " (*.zip DICOMDIR *.nii *.nii.gz);;" + tr("All (*)")
+        name = QFileDialog.getOpenFileName(self._window, tr("Open CT file"), start, kinds)[0]
+        if name:
+            self.open_folder(Path(name))
+
     def open_folder(self, path: Path) -> None:
-        """Open the CT in a folder (of a file: in its folder)."""
-        folder = path.parent if path.is_file() else path
+        """Open the CT in a folder, archive, DICOMDIR or NIfTI file (of another: in its folder)."""
+        source = path.parent if path.is_file() and not _is_source(path) else path
         self._start(
-            tr("Looking for CT series in {name}", name=folder.name),
-            lambda progress: _scan(folder, progress),
-            lambda listing: self._choose(folder, listing),
+            tr("Looking for CT series in {name}", name=source.name),
+            lambda progress: _scan(source, progress),
+            self._choose,
         )
+
+    def browse(self) -> None:
+        """Show the series of the folder that was opened last."""
+        if self._listing is None:
+            self.ask()
+        else:
+            self._browse(self._listing)
 
     def open_phantom(self, seed: int = 1) -> None:
         """Open the procedural patient."""
@@ -63,11 +80,11 @@ class OpenCt(QObject):
             self._finish,
         )
 
-    def open_series(self, folder: Path, series: Series) -> None:
-        """Read this series."""
+    def open_series(self, listing: Listing, series: Series, remedy: Remedy = Remedy.NONE) -> None:
+        """Read this series, as it is or in the way asked for."""
         self._start(
             tr("Reading CT"),
-            lambda progress: read_patient(series, folder, progress),
+            lambda progress: read_patient(series, listing.path, progress, remedy),
             self._finish,
         )
 
@@ -85,20 +102,25 @@ class OpenCt(QObject):
             self, operation, on_success, self._fail, title=title, indicator=self._indicator
         )
 
-    def _choose(self, folder: Path, listing: Listing) -> None:
+    def _choose(self, listing: Listing) -> None:
         self._task = None
-        if len(listing.usable) > 1:
-            dialog = SeriesDialog(listing, self._window)
-            dialog.chosen.connect(lambda series: self.open_series(folder, series))
-            dialog.finished.connect(dialog.deleteLater)
-            dialog.open()
+        self._listing = listing
+        openable = [s for s in listing.series if s.usable or s.remedy is not Remedy.NONE]
+        if listing.series and (len(openable) > 1 or not listing.usable):
+            self._browse(listing)
             return
         from app.imaging.reading import choose  # pydicom: loaded by the scan
 
         try:
-            self.open_series(folder, choose(listing))
+            self.open_series(listing, choose(listing))
         except ImagingError as error:
             self._fail(error)
+
+    def _browse(self, listing: Listing) -> None:
+        browser = SeriesBrowser(listing, self._window)
+        browser.chosen.connect(lambda series, way: self.open_series(listing, series, way))
+        browser.finished.connect(browser.deleteLater)
+        browser.open()
 
     def _finish(self, patient: Patient) -> None:
         self._task = None
@@ -115,3 +137,9 @@ def _scan(folder: Path, progress: Progress) -> Listing:
     with ONE_AT_A_TIME:  # pydicom: behind the window, not before it
         from app.imaging.scanning import scan_folder
     return scan_folder(folder, progress)
+
+
+def _is_source(path: Path) -> bool:
+    """Whether a file is opened for itself; any other stands for the folder it is in."""
+    name = path.name.lower()
+    return name in ("dicomdir", "dirfile") or name.endswith((".zip", ".nii", ".nii.gz"))

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 from app.core.arrays import frozen
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
-from app.imaging.series import Series
+from app.imaging.series import Remedy, Series
 from app.imaging.volume import Volume
 from app.mechanisms.profile import load_profile
 from app.planning.placement import Placement
@@ -65,8 +65,10 @@ def load_phantom(seed: int, progress: Progress) -> Patient:
     return Patient(volume, body, f"Phantom {seed}", plan, phantom_seed=seed)
 
 
-def read_patient(series: Series, folder: Path, progress: Progress) -> Patient:
-    """Read a series that the user chose.
+def read_patient(
+    series: Series, folder: Path, progress: Progress, remedy: Remedy = Remedy.NONE
+) -> Patient:
+    """Read a series that the user chose, as it is or in the way asked for.
 
     Raises:
         AcusError: if it cannot be read; says why.
@@ -74,12 +76,20 @@ def read_patient(series: Series, folder: Path, progress: Progress) -> Patient:
     """
     with ONE_AT_A_TIME:
         from app.imaging.body import find_body
-        from app.imaging.reading import read_series
+        from app.imaging.resampling import read_with
 
-    volume = read_series(series, progress.part(0.0, 0.85))
+    volume = read_with(series, remedy, progress.part(0.0, 0.85))
     body = find_body(volume, progress.part(0.85, 1.0))
     _load_verdict()
-    return Patient(volume, body, series.pseudonym, folder=folder)
+    return Patient(volume, body, label_of(volume), folder=folder)
+
+
+def label_of(volume: Volume) -> str:
+    """Pseudonym of a volume, and what a reader must know of how it was made."""
+    series = volume.series
+    tilt = f"gantry tilt {volume.tilt_deg:.1f}°" if series.tilt_deg and not volume.made else ""
+    kind = "" if volume.unit == "HU" else f"{series.modality} without Hounsfield units"
+    return ", ".join(filter(None, (series.pseudonym, kind, tilt, *volume.made)))
 
 
 def _load_verdict() -> None:

@@ -1,6 +1,7 @@
 import sys
 import threading
 import time
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QLocale, QObject
@@ -9,14 +10,14 @@ from PySide6.QtWidgets import QWidget
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.imaging.errors import ImagingError
-from app.imaging.series import Listing
+from app.imaging.series import Ignored, Listing, Remedy
 from app.views import theme
 from app.views.background import run_in_background
 from app.views.grid import ViewGrid
 from app.views.layouts import BULLSEYE, CORONAL, FIVE, FOUR
 from app.views.message_bar import MessageBar
 from app.views.progress_strip import ProgressStrip
-from app.views.series_dialog import SeriesDialog
+from app.views.series.browser import SeriesBrowser
 from app.views.text import install_translation, tr
 
 
@@ -147,11 +148,30 @@ def test_the_chooser_says_why_a_series_cannot_be_used(application, volume):
     good = volume.series
     bad = type(good)(**{name: getattr(good, name) for name in good.__slots__}
                      | {"uid": "9", "usable": False, "reason": "slices are missing"})  # fmt: skip
-    dialog = SeriesDialog(Listing(Path("x"), (bad, good), ()))
-    assert dialog.tree.topLevelItem(1).text(4) == "✖  slices are missing"
-    assert dialog.selected() is good
+    browser = SeriesBrowser(Listing(Path("x"), (bad, good), ()))
+    first, second = browser.cards
+    assert second.verdict.text() == "✖  slices are missing"
+    assert second.buttons == []
     chosen = []
-    dialog.chosen.connect(chosen.append)
-    dialog.accept()
-    assert chosen == [good]
-    dialog.deleteLater()
+    browser.chosen.connect(lambda *what: chosen.append(what))
+    second.open()
+    assert chosen == []
+    first.open()
+    assert chosen == [(good, Remedy.NONE)]
+    browser.deleteLater()
+
+
+def test_the_chooser_offers_what_would_help(application, volume):
+    uneven = replace(
+        volume.series, usable=False, reason="uneven spacing", remedy=Remedy.RESAMPLE, notes=("MR",)
+    )
+    browser = SeriesBrowser(Listing(Path("x"), (uneven,), (Ignored(Path("x/a"), "empty file"),)))
+    (card,) = browser.cards
+    assert card.verdict.text() == "▲  uneven spacing"
+    assert [button.text() for button, _ in card.buttons] == ["Open resampled"]
+    assert browser.ignored.toPlainText() == "a: empty file"
+    chosen = []
+    browser.chosen.connect(lambda *what: chosen.append(what))
+    card.buttons[0][0].click()
+    assert chosen == [(uneven, Remedy.RESAMPLE)]
+    browser.deleteLater()

@@ -15,7 +15,7 @@ from app.imaging.series import Listing
 from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS
 from app.views.layouts import FIVE
 from app.views.needle_overlay import NeedleOverlay
-from app.views.series_dialog import SeriesDialog
+from app.views.series.browser import SeriesBrowser
 from app.views.shortcuts import ShortcutSheet
 from app.views.slices.panes import PaneId
 from app.views.slices.viewing import Tool
@@ -118,8 +118,8 @@ def test_several_usable_series_are_offered(window, volume, monkeypatch, settle):
     listing = Listing(Path("x"), (volume.series, other), ())
     monkeypatch.setattr(scanning, "scan_folder", lambda *_: listing)
     window.open_ct.open_folder(Path("x"))
-    assert settle(lambda: bool(window.findChildren(SeriesDialog)), 5.0)
-    for dialog in window.findChildren(SeriesDialog):
+    assert settle(lambda: bool(window.findChildren(SeriesBrowser)), 5.0)
+    for dialog in window.findChildren(SeriesBrowser):
         dialog.reject()
 
 

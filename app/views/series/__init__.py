@@ -1,0 +1,1 @@
+"""Choosing among the series of a folder."""
