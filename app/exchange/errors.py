@@ -17,3 +17,7 @@ class ExportError(ExchangeError):
 
 class UrdfError(ExchangeError, ValueError):
     """A URDF that does not describe a needle pantograph; names the file, the part and the value."""
+
+
+class TransformError(ExchangeError, ValueError):
+    """A transform file that holds no rigid transform; names the file and what is wrong."""

@@ -1,0 +1,173 @@
+"""`acus pacs`: ask a PACS, find, and take a series into the library; nothing is written to it."""
+
+import json
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from app.core.progress import Progress
+    from app.imaging.library import Imported
+    from app.imaging.pacs.query import FoundSeries
+    from app.imaging.pacs.settings import PacsSettings
+
+app = typer.Typer(help="A PACS, reading only: ask, find, take series into the library.")
+
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
+Server = Annotated[
+    str | None, typer.Option("--pacs", metavar="NAME", help="Which, where several are configured.")
+]
+StudyUid = Annotated[str, typer.Argument(metavar="STUDY", help="StudyInstanceUID, of `find`.")]
+SeriesUid = Annotated[str, typer.Argument(metavar="SERIES", help="SeriesInstanceUID, of `find`.")]
+
+
+def register(root: typer.Typer) -> None:
+    """Add `pacs` to the command line."""
+    root.add_typer(app, name="pacs", no_args_is_help=True)
+
+
+@app.command("list")
+def list_servers(as_json: AsJson = False) -> None:
+    """List the configured PACS."""
+    from app.imaging.pacs.settings import configured, pacs_path
+
+    servers = configured()
+    if as_json:
+        typer.echo(json.dumps({"servers": [one.model_dump() for one in servers]}, indent=2))
+        return
+    for one in servers:
+        typer.echo(f"{one.name}  {one.title} at {one.host}:{one.port}, as {one.own_title}, "
+                   f"C-{one.retrieve.upper()}, waits {one.timeout_s:g} s")  # fmt: skip
+    if not servers:
+        typer.echo(f"none; acus pacs add NAME writes {pacs_path()}")
+
+
+@app.command()
+def add(
+    name: Annotated[str, typer.Argument(help="What to call it here.")],
+    host: Annotated[str, typer.Option(help="Name or address.")],
+    title: Annotated[str, typer.Option(help="Its AE title.")],
+    port: Annotated[int, typer.Option(help="Its DICOM port.")] = 104,
+    own_title: Annotated[str, typer.Option(help="AE title of Acus.")] = "ACUS",
+    own_port: Annotated[int, typer.Option(help="Port on which C-MOVE's pictures come.")] = 11112,
+    retrieve: Annotated[str, typer.Option(help="get or move.")] = "get",
+    timeout_s: Annotated[float, typer.Option(help="Longest silence that is borne [s].")] = 30.0,
+) -> None:
+    """Configure a PACS, or change the one of that name."""
+    from app.core.configuration import parse
+    from app.imaging.pacs.settings import PacsSettings, configured, keep
+
+    given = {"name": name, "host": host, "title": title, "port": port, "own_title": own_title,
+             "own_port": own_port, "retrieve": retrieve, "timeout_s": timeout_s}  # fmt: skip
+    one = parse(given, PacsSettings, "acus pacs add")
+    keep((*(other for other in configured() if other.name != name), one))
+    typer.echo(f"{name} is configured; acus pacs echo --pacs {name} asks whether it is there")
+
+
+@app.command()
+def remove(name: Annotated[str, typer.Argument(help="Which.")]) -> None:
+    """Forget a configured PACS."""
+    from app.imaging.pacs.settings import chosen, configured, keep
+
+    gone = chosen(name)
+    keep(tuple(one for one in configured() if one != gone))
+    typer.echo(f"{name} is forgotten")
+
+
+@app.command()
+def echo(pacs: Server = None, as_json: AsJson = False) -> None:
+    """Ask a PACS whether it is there (C-ECHO)."""
+    from app.imaging.pacs.client import Pacs
+    from app.imaging.pacs.settings import chosen
+
+    settings = chosen(pacs)
+    seconds = Pacs(settings).echo()
+    if as_json:
+        typer.echo(json.dumps({"name": settings.name, "seconds": seconds}))
+    else:
+        typer.echo(f"{settings.name} answers in {1e3 * seconds:.1f} ms")
+
+
+@app.command()
+def find(
+    patient_id: Annotated[str, typer.Option(help="PatientID; * and ? as wildcards.")] = "",
+    name: Annotated[str, typer.Option(help="Name, with wildcards.")] = "",
+    date: Annotated[str, typer.Option(metavar="FROM-TO", help="YYYYMMDD, or a range.")] = "",
+    accession: Annotated[str, typer.Option(help="Accession number.")] = "",
+    study: Annotated[str, typer.Option(help="StudyInstanceUID.")] = "",
+    modality: Annotated[str, typer.Option(help="CT or MR.")] = "CT",
+    names: Annotated[bool, typer.Option("--names", help="Show who the patients are.")] = False,
+    pacs: Server = None,
+    as_json: AsJson = False,
+) -> None:
+    """Find studies and their series (C-FIND); who the patients are only with --names.
+
+    The JSON never has names, identifiers or descriptions.
+    """
+    from app.imaging.pacs.client import Pacs
+    from app.imaging.pacs.query import Query
+    from app.imaging.pacs.settings import chosen
+
+    query = Query(patient_id, name, date, accession, modality, study)
+    client = Pacs(chosen(pacs))
+    studies = client.find_studies(query)
+    found = [series for one in studies for series in client.find_series(one, modality)]
+    if as_json:
+        typer.echo(json.dumps({"series": [_series(one) for one in found]}, indent=2))
+        return
+    for one in found:
+        typer.echo(_line(one, names))
+    if not found:
+        typer.echo("nothing matches")
+
+
+@app.command()
+def get(study: StudyUid, series: SeriesUid, pacs: Server = None, as_json: AsJson = False) -> None:
+    """Take a series into the library, de-identified (C-GET); repeated, it fetches the rest."""
+    _take(study, series, pacs, "get", as_json)
+
+
+@app.command()
+def move(study: StudyUid, series: SeriesUid, pacs: Server = None, as_json: AsJson = False) -> None:
+    """Do the same by C-MOVE: the PACS sends to our own port and must know our AE title."""
+    _take(study, series, pacs, "move", as_json)
+
+
+def _take(study: str, series: str, name: str | None, way: str, as_json: bool) -> None:
+    from app.commands.calibrate import with_progress
+    from app.commands.library import document, lines
+    from app.imaging.library import CtLibrary
+    from app.imaging.pacs.client import Pacs
+    from app.imaging.pacs.settings import chosen
+    from app.imaging.pacs.taking import take
+
+    settings: PacsSettings = chosen(name).model_copy(update={"retrieve": way})
+
+    def work(progress: "Progress") -> "Imported":
+        return take(Pacs(settings), study, series, CtLibrary(), progress)
+
+    imported = with_progress(work, as_json)
+    if as_json:
+        typer.echo(json.dumps(document(imported), indent=2))
+        return
+    for line in lines(imported):
+        typer.echo(line)
+
+
+def _series(series: "FoundSeries") -> dict[str, Any]:
+    return {
+        "study": series.study.uid,
+        "series": series.uid,
+        "modality": series.modality,
+        "date": series.study.date,
+        "instances": series.instances,
+    }
+
+
+def _line(series: "FoundSeries", names: bool) -> str:
+    study = series.study
+    count = "?" if series.instances is None else str(series.instances)
+    parts = [study.date, f"{series.modality} {count} pictures"]
+    if names:
+        parts += [study.patient_name, study.patient_id, study.description, series.description]
+    return "  ".join([*(part for part in parts if part), study.uid, series.uid])

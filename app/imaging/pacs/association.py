@@ -1,0 +1,174 @@
+"""Connections to a PACS: opened for one request, watched for a cancel, always closed."""
+
+import logging
+import socket
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from app.core.errors import ConfigurationError
+from app.core.progress import Cancelled, Progress
+from app.imaging.pacs.errors import PacsError, PacsRefusedError, PacsUnreachableError
+from app.imaging.pacs.settings import PacsSettings
+from app.imaging.pacs.statuses import rejected, words
+
+_LOOK_S = 0.2
+
+
+def network() -> Any:
+    """Return pynetdicom, kept quiet: its log would print patients' data.
+
+    Raises:
+        ConfigurationError: if it is not installed; names the extra.
+    """
+    try:
+        import pynetdicom
+    except ImportError as error:
+        raise ConfigurationError("a PACS needs pynetdicom: pip install 'acus[pacs]'") from error
+    from pynetdicom import _config
+
+    _config.LOG_HANDLER_LEVEL = "none"
+    _config.LOG_REQUEST_IDENTIFIERS = _config.LOG_RESPONSE_IDENTIFIERS = False
+    log = logging.getLogger("pynetdicom")
+    log.setLevel(logging.CRITICAL + 1)
+    log.propagate = False
+    return pynetdicom
+
+
+def entity(settings: PacsSettings) -> Any:
+    """Return the application entity of this program with the timeouts of a PACS."""
+    made = network().AE(ae_title=settings.own_title)
+    made.acse_timeout = made.dimse_timeout = settings.timeout_s
+    made.network_timeout = made.connection_timeout = settings.timeout_s
+    return made
+
+
+@contextmanager
+def association(
+    settings: PacsSettings,
+    contexts: Sequence[tuple[str, Sequence[str]]],
+    progress: Progress,
+    roles: Sequence[Any] = (),
+    handlers: Sequence[Any] = (),
+) -> Iterator[Any]:
+    """Open an association; released afterwards, or aborted after an error or a cancel.
+
+    Args:
+        settings: of the PACS.
+        contexts: abstract syntaxes and the transfer syntaxes proposed for each.
+        progress: looked at five times a second; a cancel aborts at once.
+        roles: role selections, for C-GET.
+        handlers: pynetdicom's event handlers.
+
+    Raises:
+        PacsUnreachableError: no connection, or it was lost.
+        PacsRefusedError: it does not accept this program.
+        Cancelled: if `progress` was cancelled.
+    """
+    made = entity(settings)
+    for abstract, transfer in contexts:
+        made.add_requested_context(abstract, list(transfer) or None)
+    progress.report(0.0, f"connecting to {settings.name}")
+    _connect(settings)
+    linked = made.associate(
+        settings.host, settings.port, ae_title=settings.title,
+        ext_neg=list(roles), evt_handlers=list(handlers),
+    )  # fmt: skip
+    if not linked.is_established:
+        raise _refused(settings, linked)
+    with _watched(linked, progress) as cancelled:
+        try:
+            yield linked
+            if cancelled.is_set():
+                raise Cancelled("cancelled")
+        except Exception:
+            if linked.is_established:
+                linked.abort()
+            if cancelled.is_set():
+                raise Cancelled("cancelled") from None
+            raise
+        if linked.is_established:
+            linked.release()
+
+
+@contextmanager
+def _watched(linked: Any, progress: Progress) -> Iterator[threading.Event]:
+    """Abort the association as soon as the user cancels, even while the PACS is silent."""
+    over, cancelled = threading.Event(), threading.Event()
+
+    def watch() -> None:
+        while not over.wait(_LOOK_S):
+            try:
+                progress.check()
+            except Cancelled:
+                cancelled.set()
+                linked.abort()
+                linked.dimse.msg_queue.put((None, None))  # wakes whoever waits for an answer
+                return
+
+    thread = threading.Thread(target=watch, name="acus pacs watch", daemon=True)
+    thread.start()
+    try:
+        yield cancelled
+    finally:
+        over.set()
+        thread.join()
+
+
+def require(linked: Any, status: Any, settings: PacsSettings, doing: str) -> int:
+    """Return the status code of an answer.
+
+    Raises:
+        PacsUnreachableError: if none came.
+        PacsError: if it says a failure.
+    """
+    if "Status" not in status:
+        raise lost(settings, doing)
+    code = int(status.Status)
+    if code >> 12 in (0xA, 0xC) or code >> 8 in (0x01, 0x02):
+        raise PacsError(f"{settings.name} refused while {doing}: {words(code)}")
+    return code
+
+
+def lost(settings: PacsSettings, doing: str) -> PacsUnreachableError:
+    """Return the error for a connection that ended, or an answer that did not come."""
+    return PacsUnreachableError(
+        f"{settings.name} gave no answer while {doing}: the connection was lost, or it was silent "
+        f"for {settings.timeout_s:g} s; nothing was taken into the library"
+    )
+
+
+def _refused(settings: PacsSettings, linked: Any) -> PacsError:
+    where = f"{settings.name} ({settings.host} port {settings.port})"
+    if linked.is_rejected:
+        why = rejected(linked.acceptor.primitive)
+        return PacsRefusedError(
+            f"{where} rejects the connection of {settings.own_title} to {settings.title}: {why}"
+        )
+    if linked.acceptor.primitive is not None:
+        return PacsRefusedError(f"{where} supports nothing of what is needed for this request")
+    return PacsUnreachableError(
+        f"{where} cannot be reached: something listens there, but it does not answer as a DICOM "
+        "service"
+    )
+
+
+def _connect(settings: PacsSettings) -> None:
+    """Try the bare connection first: the operating system says why it fails, the library does not.
+
+    Raises:
+        PacsUnreachableError: saying why.
+    """
+    where = f"{settings.name} ({settings.host} port {settings.port}) cannot be reached"
+    try:
+        socket.create_connection((settings.host, settings.port), settings.timeout_s).close()
+    except socket.gaierror:
+        why = "no computer of this name is known"
+    except TimeoutError:
+        why = f"no answer within {settings.timeout_s:g} s; a firewall, or the computer is off"
+    except OSError as error:
+        why = error.strerror or type(error).__name__
+    else:
+        return
+    raise PacsUnreachableError(f"{where}: {why}")

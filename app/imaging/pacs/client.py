@@ -1,0 +1,182 @@
+"""Asking a PACS: is it there, what has it, send this series. Nothing is ever written to it."""
+
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from typing import Any
+
+from app.core.progress import Cancelled, Progress
+from app.imaging.pacs import statuses
+from app.imaging.pacs.association import association, lost, network, require
+from app.imaging.pacs.errors import PacsDataError, PacsError
+from app.imaging.pacs.incoming import COMPRESSED, PLAIN, STORAGE_CLASSES, Incoming, handler
+from app.imaging.pacs.query import (
+    FoundSeries,
+    FoundStudy,
+    Query,
+    found_series,
+    found_study,
+    image_keys,
+    series_keys,
+    study_keys,
+    wanted_keys,
+)
+from app.imaging.pacs.receiver import receiving
+from app.imaging.pacs.settings import PacsSettings
+
+_VERIFICATION = "1.2.840.10008.1.1"
+_FIND = "1.2.840.10008.5.1.4.1.2.2.1"
+_MOVE = "1.2.840.10008.5.1.4.1.2.2.2"
+_GET = "1.2.840.10008.5.1.4.1.2.2.3"
+MOST_STUDIES = 200
+
+
+class Pacs:
+    """One PACS, read only; every call is one connection of its own.
+
+    Args:
+        settings: where it is and who we are.
+    """
+
+    def __init__(self, settings: PacsSettings) -> None:
+        self.settings = settings
+
+    def echo(self, progress: Progress | None = None) -> float:
+        """Ask whether it is there (C-ECHO); returns the time of the answer [s].
+
+        Raises:
+            PacsError: see `association`, or the answer is a failure.
+        """
+        with association(self.settings, [(_VERIFICATION, ())], progress or Progress()) as linked:
+            start = time.perf_counter()
+            require(linked, linked.send_c_echo(), self.settings, "being asked whether it is there")
+            return time.perf_counter() - start
+
+    def find_studies(self, query: Query, progress: Progress | None = None) -> list[FoundStudy]:
+        """Return the studies that match, newest first.
+
+        Raises:
+            PacsError: see `association`; or there are more than 200 of them.
+        """
+        with association(self.settings, [(_FIND, ())], progress or Progress()) as linked:
+            answers = self._answers(linked, study_keys(query), "looking for studies")
+            found = []
+            for answer in answers:
+                found.append(found_study(answer))
+                if len(found) > MOST_STUDIES:
+                    raise PacsError(
+                        f"more than {MOST_STUDIES} studies match; narrow the search by date or "
+                        "patient"
+                    )
+        return sorted(found, key=lambda study: study.date, reverse=True)
+
+    def find_series(
+        self, study: FoundStudy, modality: str = "CT", progress: Progress | None = None
+    ) -> list[FoundSeries]:
+        """Return the series of a study, by number.
+
+        Raises:
+            PacsError: see `association`.
+        """
+        with association(self.settings, [(_FIND, ())], progress or Progress()) as linked:
+            keys = series_keys(study.uid, modality)
+            answers = self._answers(linked, keys, "looking for series")
+            found = [found_series(answer, study) for answer in answers]
+        return sorted(found, key=lambda series: (len(series.number), series.number))
+
+    def instances(self, study_uid: str, series_uid: str, progress: Progress) -> tuple[str, ...]:
+        """Return the SOPInstanceUIDs of a series; empty where the PACS does not list them."""
+        with association(self.settings, [(_FIND, ())], progress) as linked:
+            keys = image_keys(study_uid, series_uid)
+            answers = self._answers(linked, keys, "listing the pictures")
+            found = [str(answer.get("SOPInstanceUID", "")) for answer in answers]
+        return tuple(dict.fromkeys(uid for uid in found if uid))
+
+    def retrieve(
+        self, study_uid: str, series_uid: str, incoming: Incoming, progress: Progress
+    ) -> None:
+        """Fetch what has not come yet of a series, by C-GET or C-MOVE as configured.
+
+        Raises:
+            PacsError: it refuses, falls silent, sends something else, or not everything. What has
+                come stays in `incoming`, and the next call fetches the rest only.
+            Cancelled: if `progress` was cancelled; likewise.
+        """
+        listed = self.instances(study_uid, series_uid, progress.part(0.0, 0.05))
+        missing = tuple(uid for uid in listed if not incoming.has(uid))
+        if listed and not missing:
+            return
+        part = () if len(missing) == len(listed) else missing
+        counter = _Counter(progress.part(0.05, 1.0), len(listed), incoming)
+        keys = wanted_keys(study_uid, series_uid, part)
+        failed = self._move(keys, counter) if self._moves() else self._get(keys, counter)
+        self._check(listed, incoming, failed)
+
+    def _moves(self) -> bool:
+        return self.settings.retrieve == "move"
+
+    def _get(self, keys: Any, counter: "_Counter") -> int:
+        pynetdicom = network()
+        contexts: list[tuple[str, Sequence[str]]] = [(_GET, ())]
+        contexts += [(kind, PLAIN) for kind in STORAGE_CLASSES]
+        contexts += [(kind, (one,)) for kind in STORAGE_CLASSES[:1] for one in COMPRESSED]
+        roles = [pynetdicom.build_role(kind, scp_role=True) for kind in STORAGE_CLASSES]
+        handlers = [(pynetdicom.evt.EVT_C_STORE, handler(counter.incoming, counter))]
+        with association(self.settings, contexts, counter.progress, roles, handlers) as linked:
+            return self._follow(linked.send_c_get(keys, _GET), linked, counter)
+
+    def _move(self, keys: Any, counter: "_Counter") -> int:
+        with (
+            receiving(self.settings, counter.incoming, counter),
+            association(self.settings, [(_MOVE, ())], counter.progress) as linked,
+        ):
+            own = self.settings.own_title
+            return self._follow(linked.send_c_move(keys, own, _MOVE), linked, counter)
+
+    def _follow(self, answers: Any, linked: Any, counter: "_Counter") -> int:
+        """Read the answers of a retrieval; returns how many pictures the PACS failed to send."""
+        for status, _ in answers:
+            code = require(linked, status, self.settings, "sending the pictures")
+            if code not in statuses.PENDING:
+                if code == statuses.CANCELLED:
+                    raise PacsError(f"{self.settings.name} cancelled the retrieval")
+                return int(status.get("NumberOfFailedSuboperations", 0) or 0)
+        raise lost(self.settings, "sending the pictures")
+
+    def _check(self, listed: tuple[str, ...], incoming: Incoming, failed: int) -> None:
+        name = self.settings.name
+        if incoming.problems:
+            raise PacsDataError(
+                f"{name}: {incoming.problems[0]} ({len(incoming.problems)} times); nothing was "
+                "taken into the library"
+            )
+        missing = sum(not incoming.has(uid) for uid in listed)
+        if missing or failed:
+            raise PacsDataError(
+                f"{name} did not send {max(missing, failed)} of {len(listed) or 'the'} pictures; "
+                "repeat the retrieval: only those are fetched"
+            )
+        if incoming.count() == 0:
+            raise PacsDataError(f"{name} sent nothing: it has no such study or series")
+
+    def _answers(self, linked: Any, keys: Any, doing: str) -> Iterator[Any]:
+        for status, answer in linked.send_c_find(keys, _FIND):
+            code = require(linked, status, self.settings, doing)
+            if code in statuses.PENDING and answer is not None:
+                yield answer
+
+
+class _Counter:
+    """Progress of a retrieval, counted in pictures."""
+
+    def __init__(self, progress: Progress, total: int, incoming: Incoming) -> None:
+        self.progress, self.incoming, self._total = progress, incoming, total
+        self._done = incoming.count()
+
+    def arrived(self) -> None:
+        """Count one more picture; a cancel is met by the watcher, not here."""
+        self._done += 1
+        known = f"of {self._total} " if self._total else ""
+        share = self._done / self._total if self._total else 0.5
+        with suppress(Cancelled):  # the network library would swallow it: the watcher acts on it
+            self.progress.report(min(share, 1.0), f"{self._done} {known}pictures received")

@@ -1,0 +1,160 @@
+"""Files that a PACS sends: checked one by one, kept aside until they are de-identified.
+
+They still carry the patient's data, so their folder is readable by its owner only, is named by a
+digest, and is deleted as soon as the series is in the library, or after a day.
+"""
+
+import os
+import shutil
+import threading
+import time
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import pydicom
+
+from app.core import paths
+from app.core.files import sync
+from app.imaging.pacs.settings import PacsSettings
+from app.imaging.privacy.key import derived, installation_key
+
+ACCEPTED = 0x0000
+NO_ROOM = 0xA700
+WRONG_CLASS = 0xA900
+NOT_UNDERSTOOD = 0xC000
+STORAGE_CLASSES = (
+    "1.2.840.10008.5.1.4.1.1.2",  # CT
+    "1.2.840.10008.5.1.4.1.1.2.1",  # enhanced CT
+    "1.2.840.10008.5.1.4.1.1.2.2",  # legacy converted enhanced CT
+    "1.2.840.10008.5.1.4.1.1.4",  # MR
+)
+PLAIN = ("1.2.840.10008.1.2.1", "1.2.840.10008.1.2")
+COMPRESSED = (
+    "1.2.840.10008.1.2.4.57", "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.80",
+    "1.2.840.10008.1.2.4.81", "1.2.840.10008.1.2.4.90", "1.2.840.10008.1.2.4.91",
+    "1.2.840.10008.1.2.5", "1.2.840.10008.1.2.4.50", "1.2.840.10008.1.2.4.51",
+    "1.2.840.10008.1.2.1.99", "1.2.840.10008.1.2.2",
+)  # fmt: skip
+_KEPT_S = 24 * 3600.0
+_LARGEST = 2 * 1024**3
+_SPARE_BYTES = 256 * 1024**2
+_IDENTITY = ["SOPClassUID", "SOPInstanceUID", "SeriesInstanceUID"]
+
+
+class Incoming:
+    """Files of one series on their way in; they stay after a failure, to be resumed.
+
+    Args:
+        settings: of the PACS they come from.
+        series_uid: SeriesInstanceUID that was asked for.
+    """
+
+    def __init__(self, settings: PacsSettings, series_uid: str) -> None:
+        key = installation_key()
+        name = derived(key, "incoming", settings.title, settings.host, series_uid).hex()[:16]
+        self.series_uid = series_uid
+        self.folder = _root() / name
+        self._key, self._lock = key, threading.Lock()
+        self.problems: list[str] = []
+
+    def open(self) -> "Incoming":
+        """Make the folder, and delete what others left behind a day ago or more."""
+        sweep()
+        self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        os.utime(self.folder)
+        return self
+
+    def has(self, sop_uid: str) -> bool:
+        """Whether an instance has come, now or at an earlier try."""
+        return self._path(sop_uid).exists()
+
+    def count(self) -> int:
+        """How many instances have come."""
+        return sum(1 for _ in self.folder.glob("*.dcm"))
+
+    def take(self, sop_class: str, sop_uid: str, encoded: bytes) -> int:
+        """Check one file and keep it; returns the status to answer with.
+
+        Args:
+            sop_class: as the request names it.
+            sop_uid: as the request names it.
+            encoded: the whole file.
+        """
+        with self._lock:
+            status, problem = self._judge(sop_class, sop_uid, encoded)
+            if problem:
+                self.problems.append(problem)
+                return status
+            try:
+                self._write(self._path(sop_uid), encoded)
+            except OSError as error:
+                self.problems.append(f"a picture cannot be kept: {error.strerror or 'disk error'}")
+                return NO_ROOM
+        return ACCEPTED
+
+    def forget(self) -> None:
+        """Delete everything that has come; idempotent."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def _judge(self, sop_class: str, sop_uid: str, encoded: bytes) -> tuple[int, str]:
+        if sop_class not in STORAGE_CLASSES:
+            return WRONG_CLASS, "it sent an object that is no CT or MR picture"
+        if len(encoded) > _LARGEST:
+            return NO_ROOM, f"it sent a file of more than {_LARGEST // 1024**3} GB"
+        if shutil.disk_usage(self.folder).free < len(encoded) + _SPARE_BYTES:
+            return NO_ROOM, "the disk is full"
+        try:
+            head = pydicom.dcmread(
+                BytesIO(encoded), stop_before_pixels=True, specific_tags=list(_IDENTITY)
+            )
+            said = [str(head.get(name, "")) for name in _IDENTITY]
+        except Exception:  # whatever bytes came, they are no DICOM data set
+            return NOT_UNDERSTOOD, "it sent something that is no DICOM data set"
+        if said[:2] != [sop_class, sop_uid]:
+            return WRONG_CLASS, "it sent a picture under another one's name"
+        if said[2] != self.series_uid:
+            return WRONG_CLASS, "it sent a picture of another series"
+        return ACCEPTED, ""
+
+    def _path(self, sop_uid: str) -> Path:
+        return self.folder / f"{derived(self._key, 'instance', sop_uid).hex()[:24]}.dcm"
+
+    def _write(self, path: Path, encoded: bytes) -> None:
+        beside = path.with_suffix(".part")
+        try:
+            with open(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as file:
+                file.write(encoded)
+            sync(beside)
+            os.replace(beside, path)
+        except BaseException:
+            beside.unlink(missing_ok=True)
+            raise
+
+
+def sweep(now: float | None = None) -> int:
+    """Delete what was retrieved a day ago or more and never finished; returns how many."""
+    limit = (time.time() if now is None else now) - _KEPT_S
+    old = [folder for folder in _root().glob("*") if folder.stat().st_mtime < limit]
+    for folder in old:
+        shutil.rmtree(folder, ignore_errors=True)
+    return len(old)
+
+
+def handler(incoming: Incoming, progress: Any) -> Any:
+    """Return pynetdicom's handler of a C-STORE request."""
+
+    def store(event: Any) -> int:
+        request = event.request
+        status = incoming.take(
+            str(request.AffectedSOPClassUID), str(request.AffectedSOPInstanceUID),
+            event.encoded_dataset(),
+        )  # fmt: skip
+        progress.arrived()
+        return status
+
+    return store
+
+
+def _root() -> Path:
+    return paths.data() / "incoming"

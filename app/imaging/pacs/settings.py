@@ -1,0 +1,89 @@
+"""Which PACS there are: `pacs.yaml` in the settings folder."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import yaml
+from pydantic import Field
+
+from app.core import paths
+from app.core.configuration import Strict, load
+from app.core.errors import ConfigurationError
+from app.core.files import write_atomically
+
+Port = Annotated[int, Field(ge=1, le=65535)]
+Title = Annotated[str, Field(pattern=r"^[A-Za-z0-9_. -]{1,16}$")]
+
+
+class PacsSettings(Strict):
+    """One PACS.
+
+    Attributes:
+        name: what it is called here.
+        host: name or address.
+        port: of its DICOM service.
+        title: its AE title, at most 16 characters.
+        own_title: AE title of this program; the PACS may have to be told of it.
+        own_host: address on which C-MOVE's pictures are received.
+        own_port: port of the same.
+        timeout_s: longest silence that is borne [s].
+        retrieve: `get` over the same connection, or `move` to `own_port`.
+    """
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]{1,32}$")]
+    host: Annotated[str, Field(min_length=1, max_length=253)]
+    port: Port
+    title: Title
+    own_title: Title = "ACUS"
+    own_host: str = "0.0.0.0"
+    own_port: Port = 11112
+    timeout_s: Annotated[float, Field(gt=0.0, le=600.0)] = 30.0
+    retrieve: Literal["get", "move"] = "get"
+
+
+class PacsList(Strict):
+    """All of them."""
+
+    servers: tuple[PacsSettings, ...] = ()
+
+
+def pacs_path() -> Path:
+    """File of the configuration."""
+    return paths.settings() / "pacs.yaml"
+
+
+def configured() -> tuple[PacsSettings, ...]:
+    """Every configured PACS.
+
+    Raises:
+        ConfigurationError: naming the field that cannot be used.
+    """
+    path = pacs_path()
+    return load(path, PacsList).servers if path.exists() else ()
+
+
+def chosen(name: str | None) -> PacsSettings:
+    """Return the PACS of a name, or the only one.
+
+    Raises:
+        ConfigurationError: if there is none, or several and none was named.
+    """
+    servers = configured()
+    if name is None and len(servers) == 1:
+        return servers[0]
+    for server in servers:
+        if server.name == name:
+            return server
+    if not servers:
+        raise ConfigurationError(
+            f"no PACS is configured; acus pacs add NAME --host HOST --port PORT --title AE "
+            f"writes {pacs_path()}"
+        )
+    names = ", ".join(server.name for server in servers)
+    raise ConfigurationError(f"no PACS {name!r}" if name else f"name one of the PACS: {names}")
+
+
+def keep(servers: tuple[PacsSettings, ...]) -> None:
+    """Write the configuration."""
+    document = {"servers": [server.model_dump() for server in servers]}
+    write_atomically(pacs_path(), yaml.safe_dump(document, sort_keys=False))

@@ -1,0 +1,178 @@
+"""Forty invented identifiers in a CT's header: none of them reaches anything that Acus writes.
+
+The series is imported, opened, planned, practised on, scored and exported by the real commands;
+then every file they left and every line they printed is searched.
+"""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import zlib
+from pathlib import Path
+
+import pydicom
+import pytest
+from pydicom.dataset import Dataset
+
+from app.imaging.phantom import phantom_series
+
+TEXTS = {
+    "PatientName": "Zqmustermann^Hanspeter", "PatientID": "ZQ-4711-0815",
+    "OtherPatientIDs": "ZQOTHER77",
+    "PatientBirthName": "Zqgeborene", "PatientAddress": "Zqstrasse 12 Zqstadt",
+    "PatientTelephoneNumbers": "+49 171 5550199", "AccessionNumber": "ZQACC20260199",
+    "InstitutionName": "Zqklinikum Nord", "InstitutionAddress": "Zqallee 4",
+    "InstitutionalDepartmentName": "Zqradiologie", "ReferringPhysicianName": "Zqueberweiser^Otto",
+    "OperatorsName": "Zqmtra^Anna", "PerformingPhysicianName": "Zqarzt^Karl",
+    "NameOfPhysiciansReadingStudy": "Zqbefunder^Lena", "StationName": "ZQCTRAUM3",
+    "DeviceSerialNumber": "ZQSN90210", "StudyDescription": "Zqthorax von Zqmustermann",
+    "SeriesDescription": "Zqserie Hanspeter", "ProtocolName": "Zqprotokoll Hans",
+    "PatientComments": "Zqkommentar lang", "ImageComments": "Zqbildtext", "StudyID": "ZQST0815",
+    "AdditionalPatientHistory": "Zqanamnese lang", "Occupation": "Zqbeamter",
+    "RequestingPhysician": "Zqanforderer^Uwe", "RequestedProcedureDescription": "Zqanforderung",
+    "ConvolutionKernel": "ZQKERNELNAME", "BodyPartExamined": "ZQBODYPART",
+    "SoftwareVersions": "Zqversion",
+    "PatientBirthDate": "19370331", "StudyDate": "20260317", "StudyTime": "134259.771",
+    "AcquisitionDateTime": "20260317134301.123456", "PatientAge": "097Y",
+    "ManufacturerModelName": "Zqmodell", "ContrastBolusAgent": "Zqkontrast",
+    "PatientReligiousPreference": "Zqglaube",
+    "RetrieveAETitle": "ZQPACSAE", "DerivationDescription": "Zqableitung",
+    "TextValue": "Zqfreitext",
+}  # fmt: skip
+PRIVATE = {
+    "LO": "Zqprivat eins",
+    "OB": b"Zqprivat zwei ",
+    "UT": "Zqprivat drei",
+    "UR": "http://zq.example/privat",
+}
+UIDS = ("StudyInstanceUID", "SeriesInstanceUID", "FrameOfReferenceUID", "SOPInstanceUID")
+FOLDER = "Zqmustermann_Hanspeter_1937"
+
+
+def needles(original: Dataset) -> set[str]:
+    """Everything that must be found nowhere, in the pieces in which it could leak."""
+    values = [*TEXTS.values(), *(str(value) for value in PRIVATE.values()), "Zqverschachtelt^Ida"]
+    pieces = {piece.lower() for value in values for piece in re.split(r"[^\w-]+", value)}
+    found = {piece for piece in pieces if "zq" in piece and len(piece) >= 6}
+    found |= {
+        "hanspeter",
+        "4711-0815",
+        "5550199",
+        "19370331",
+        "20260317",
+        "134259.771",
+        "zqpreamble",
+    }
+    return found | {str(original[uid].value) for uid in UIDS}
+
+
+def marked(folder: Path) -> Path:
+    """Phantom patient with the identifiers in every file, nested and private ones too."""
+    source = phantom_series(1, slices=64, rows=128)
+    target = folder / FOLDER
+    target.mkdir(parents=True)
+    for path in sorted(source.iterdir()):
+        dataset = pydicom.dcmread(path)
+        for keyword, value in TEXTS.items():
+            setattr(dataset, keyword, value)
+        block = dataset.private_block(0x0043, "ZQMAKER", create=True)
+        for offset, (vr, value) in enumerate(PRIVATE.items()):
+            block.add_new(offset, vr, value)
+        item = Dataset()
+        item.PatientName, item.TextValue = "Zqverschachtelt^Ida", "Zqtief im Baum"
+        dataset.RequestAttributesSequence = [item]
+        dataset.preamble = b"Zqpreamble Hanspeter".ljust(128, b"\0")
+        dataset.save_as(target / f"Zqmustermann {path.name}")
+    return target
+
+
+class Acus:
+    """Runs commands in user folders of their own and keeps what they print."""
+
+    def __init__(self, root: Path) -> None:
+        self.root, self.said = root, ""
+        self.environment = os.environ | {
+            "ACUS_SETTINGS": str(root / "settings"), "ACUS_DATA": str(root / "data"),
+            "ACUS_SESSIONS": str(root / "sessions"), "QT_QPA_PLATFORM": "offscreen",
+        }  # fmt: skip
+
+    def __call__(self, *arguments: object, says: bool = True, tries: int = 1) -> str:
+        done = subprocess.run(
+            [sys.executable, "-m", "app", *map(str, arguments)], env=self.environment,
+            capture_output=True, text=True, timeout=600, check=False,
+        )  # fmt: skip
+        if says:
+            self.said += done.stdout + done.stderr
+        if "no sign of life" in done.stderr and tries > 1:  # real time on a busy machine
+            return self(*arguments, says=says, tries=tries - 1)
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
+
+
+def leaks(text: bytes, words: set[str]) -> list[str]:
+    low = text.lower()
+    return [word for word in words if any(word.encode(c) in low for c in ("utf-8", "utf-16-le"))]
+
+
+def pdf_text(path: Path) -> bytes:
+    """Text streams of a PDF, inflated."""
+    raw, found = path.read_bytes(), b""
+    for match in re.finditer(rb"stream\r?\n", raw):
+        try:
+            found += zlib.decompressobj().decompress(raw[match.end() :])
+        except zlib.error:
+            continue
+    return raw + found
+
+
+@pytest.mark.timeout(900)
+def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path):
+    source = marked(tmp_path / "outside")
+    words = needles(pydicom.dcmread(next(source.iterdir())))
+    assert len(TEXTS) == 40
+    acus = Acus(tmp_path / "inside")
+    # Of the source itself UIDs are told, to name a series by; nothing else.
+    listing = acus("ct", "list", source, "--json", says=False)
+    assert not leaks(
+        listing.replace(str(source), "").encode(), {w for w in words if "2.25" not in w}
+    )
+    imported = json.loads(acus("ct", "import", source, "--json"))
+    acus("ct", "import", source)
+    acus("ct", "library", "--json")
+    acus("ct", "list", imported["folder"], "--json")
+    acus("ct", "point", imported["folder"], "--voxel", "3,4,5", "--json")
+    out = tmp_path / "inside" / "out"
+    acus("demo", "--headless", "--ct", imported["folder"], "--out", out, tries=4)
+    sessions = ("--folder", out / "sessions")
+    attempt, *_ = json.loads(acus("session", "list", *sessions, "--json"))["sessions"]
+    acus("session", "show", attempt["id"], *sessions, "--json")
+    acus("session", "export", *sessions, "--out", out / "scores.csv")
+    acus("session", "export", attempt["id"], *sessions, "--trajectory", "--out", out / "path.csv")
+    written = [path for path in (tmp_path / "inside").rglob("*") if path.is_file()]
+    kinds = {path.suffix for path in written}
+    assert kinds >= {".dcm", ".mcap", ".pdf", ".png", ".json"}, kinds
+    for path in written:
+        content = pdf_text(path) if path.suffix == ".pdf" else path.read_bytes()
+        if path.suffix == ".dcm":
+            content = content[: content.index(b"\xe0\x7f\x10\x00")]
+        assert leaks(str(path).encode() + content, words) == [], path
+    assert leaks(acus.said.encode(), words) == []
+
+
+def test_errors_of_an_import_quote_neither_values_nor_paths(tmp_path):
+    source = marked(tmp_path / "outside")
+    words = needles(pydicom.dcmread(next(source.iterdir())))
+    acus = Acus(tmp_path / "inside")
+    for path in source.iterdir():
+        dataset = pydicom.dcmread(path)
+        dataset.BurnedInAnnotation = "YES"
+        dataset.save_as(path)
+    done = subprocess.run(
+        [sys.executable, "-m", "app", "ct", "import", str(source)], env=acus.environment,
+        capture_output=True, text=True, timeout=100, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "BurnedInAnnotation" in done.stderr
+    assert leaks((done.stdout + done.stderr).encode(), words) == []
