@@ -95,15 +95,11 @@ def path_frame(axis_world: ArrayLike, R_world_patient: ArrayLike) -> PathFrame:
     reference = superior if axial else rotation @ _ANTERIOR
     up = unit(reference - (reference @ axis) * axis)
     right = np.cross(axis, up)  # up × (-axis): the path points away from the viewer
-    edges = tuple(direction_letters(rotation.T @ v) for v in (-right, right, up, -up))
-    return PathFrame(
-        frozen(axis),
-        frozen(right),
-        frozen(up),
-        edges,
-        axial,
-        rotation,  # type: ignore[arg-type]
+    left, right_side, top, bottom = (
+        direction_letters(rotation.T @ side) for side in (-right, right, up, -up)
     )
+    edges = (left, right_side, top, bottom)
+    return PathFrame(frozen(axis), frozen(right), frozen(up), edges, axial, rotation)
 
 
 def ct_angles(direction_lps: ArrayLike) -> tuple[float, float]:
