@@ -4,8 +4,6 @@ The first line holds the column names, with units, as every spreadsheet expects;
 disclaimer stands in the last column, `note`, of every row, so that it survives sorting and cutting.
 """
 
-import csv
-import io
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
@@ -16,6 +14,7 @@ from numpy.typing import NDArray
 from app.core.disclaimer import DISCLAIMER
 from app.core.files import write_atomically
 from app.exchange.errors import ExportError
+from app.exchange.tables import table_text
 from app.session.curves import curves
 from app.session.recording import Recording
 from app.session.samples import Samples
@@ -56,7 +55,6 @@ TRAJECTORY_COLUMNS: Final = (
 )
 """Columns of a trajectory; positions in the world frame."""
 
-_FORMULA: Final = ("=", "+", "-", "@", "\t", "\r", "\n")
 _UNIT_NAMES: Final = {
     "%": "percent",
     "°": "deg",
@@ -75,12 +73,12 @@ def score_table(summaries: Iterable[Summary]) -> str:
     """
     rows = list(summaries)
     metrics = list(dict.fromkeys(name for row in rows for name in _metrics(row)))
-    lines = [[*FIXED, *metrics, "note"]]
+    lines: list[list[object]] = [[*FIXED, *metrics, "note"]]
     for row in rows:
         values = _metrics(row)
         cells = [*_fixed(row), *(values.get(name) for name in metrics), DISCLAIMER]
-        lines.append([_cell(value) for value in cells])
-    return _text(lines)
+        lines.append(cells)
+    return table_text(lines)
 
 
 def trajectory_table(recording: Recording) -> str:
@@ -106,10 +104,10 @@ def trajectory_table(recording: Recording) -> str:
         samples.measured,
         _sources(samples),
     )
-    lines = [list(TRAJECTORY_COLUMNS)]
+    lines: list[list[object]] = [list(TRAJECTORY_COLUMNS)]
     for values in zip(*(column.tolist() for column in columns), strict=True):
-        lines.append([_cell(value) for value in (*values, DISCLAIMER)])
-    return _text(lines)
+        lines.append([*values, DISCLAIMER])
+    return table_text(lines)
 
 
 def _radii(samples: Samples) -> NDArray[np.float64]:
@@ -162,23 +160,3 @@ def _unit(unit: str) -> str:
     if unit in _UNIT_NAMES:
         return _UNIT_NAMES[unit]
     return "".join(c if c.isalnum() else "_" for c in unit.lower()).strip("_")
-
-
-def _cell(value: object) -> str:
-    """Text of a cell; what a spreadsheet would run as a formula begins with an apostrophe."""
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, float):
-        return f"{value:.9g}" if np.isfinite(value) else ""
-    if isinstance(value, int):
-        return str(value)
-    text = str(value)
-    return f"'{text}" if text.startswith(_FORMULA) else text
-
-
-def _text(lines: Sequence[Sequence[str]]) -> str:
-    stream = io.StringIO(newline="")
-    csv.writer(stream, lineterminator="\r\n").writerows(lines)
-    return stream.getvalue()

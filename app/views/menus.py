@@ -10,6 +10,7 @@ from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMenu
 
 from app.views.cameras.menu import CamerasMenu
+from app.views.measure.menu import MeasureMenu
 from app.views.names import NAMES
 from app.views.pen.menu import PenMenu
 from app.views.robot.menu import RobotMenu
@@ -32,6 +33,7 @@ class Menus:
         self.undo, self.redo = self._edit()
         self.view = ViewMenu(self._menu(tr("&View")), window)
         self.follow, self.bullseye = self.view.follow, self.view.bullseye
+        self.measure = MeasureMenu(self._menu(tr("&Measure")), window)
         self.robot = RobotMenu(self._menu(tr("&Robot")), window.robot, self._show_health,
                                window.pen.open)  # fmt: skip
         self.cameras = CamerasMenu(self._menu(tr("&Cameras")), window.cameras)
@@ -100,8 +102,8 @@ class Menus:
     def _edit(self) -> tuple[QAction, QAction]:
         window, viewing = self._window, self._window.workspace.viewing
         undo, redo, *_ = self._add(self._menu(tr("&Edit")), [
-            (tr("Undo"), "Ctrl+Z", window.editor.undo),
-            (tr("Redo"), "Ctrl+Y | Ctrl+Shift+Z", window.editor.redo),
+            (tr("Undo"), "Ctrl+Z", window.undo.undo),
+            (tr("Redo"), "Ctrl+Y | Ctrl+Shift+Z", window.undo.redo),
             None,
             (tr("Place entry"), "E", lambda: viewing.set_tool(Tool.ENTRY)),
             (tr("Place target"), "T", lambda: viewing.set_tool(Tool.TARGET)),

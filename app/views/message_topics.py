@@ -36,6 +36,7 @@ class MessageTopics:
             ("patient", window.conductor.failed, ()),
             ("structures", window.structures.failed, (window.structures.book.changed,)),
             ("paths", window.paths.failed, (editor.changed,)),
+            ("measure", window.measuring.failed, (window.measuring.noted,)),
             ("plan", window.plan_files.failed, (window.plan_files.noted,)),
             ("debrief", window.debrief.failed, (window.debrief.saved, pages)),
             ("attempt", controller.failed,
@@ -60,7 +61,12 @@ class MessageTopics:
         window.conductor.controller.event_seen.connect(lambda event: tell_pause(bar, event))
 
     def _notes(self, window: MainWindow) -> None:
-        for noted in (window.plan_files.noted, window.checks.noted, window.pen.noted):
+        for noted in (
+            window.plan_files.noted,
+            window.measuring.noted,
+            window.checks.noted,
+            window.pen.noted,
+        ):
             noted.connect(self._bar.show_note)
         window.debrief.saved.connect(
             lambda path: self._bar.show_note(tr("Saved {name}", name=path))

@@ -36,6 +36,7 @@ def groups(scheme: Scheme) -> list[Group]:
                 (tr("Esc"), tr("stop placing")),
                 ("Ctrl+Z, Ctrl+Y", tr("undo, redo")),
                 ("Ctrl+S, Ctrl+Shift+S", tr("save plan, save as")),
+                (measure_keys(scheme), tr("measure: distance, angle, HU, region")),
                 ("F4", tr("pen and webcam: a needle without a robot")),
                 ("Ctrl+O, Ctrl+Shift+O", tr("open CT folder, open plan")),
             ],
@@ -66,6 +67,11 @@ def groups(scheme: Scheme) -> list[Group]:
             ],
         ),
     ]
+
+
+def measure_keys(scheme: Scheme) -> str:
+    """Keys of the measuring tools."""
+    return ", ".join(scheme.menu_keys[name] for name in ("distance", "angle", "probe", "region"))
 
 
 class ShortcutSheet(QDialog):

@@ -18,6 +18,7 @@ from app.views.debrief.page import DebriefPage
 from app.views.debrief.scan_picture import ScanPictures
 from app.views.debrief.sessions import SessionsPage
 from app.views.drops import dropped
+from app.views.measure.desk import MeasureDesk
 from app.views.menus import Menus
 from app.views.message_bar import MessageBar
 from app.views.message_topics import MessageTopics
@@ -41,6 +42,7 @@ from app.views.shortcuts import ShortcutSheet
 from app.views.start_page import StartPage
 from app.views.structures.desk import StructuresDesk
 from app.views.text import tr
+from app.views.undo import UndoOrder
 from app.views.workspace import Workspace
 
 PAINTED_MS = 50
@@ -71,6 +73,8 @@ class MainWindow(QMainWindow):
                                          self)  # fmt: skip
         self.paths = PathsHelper(self.conductor, self.editor, self.workspace,
                                  self.structures.book, self.progress, self)  # fmt: skip
+        self.undo = UndoOrder((self.editor, self.workspace.measure), self)
+        self.measuring = MeasureDesk(self)
         self.plan_files = PlanFiles(self.editor, self.recent_plans, self)
         self.open_ct = OpenCt(self.recent_cts, self.progress, self)
         self.start_page, self.debrief_page = StartPage(self), DebriefPage(self)
@@ -189,8 +193,8 @@ class MainWindow(QMainWindow):
         """Write the title and enable what can be done."""
         name = self.conductor.patient.label if self.conductor.patient else ""
         self.setWindowTitle(f"{NAMES.shown(name)} – Acus" if name else "Acus")
-        self.menus.undo.setEnabled(self.editor.can_undo)
-        self.menus.redo.setEnabled(self.editor.can_redo)
+        self.menus.undo.setEnabled(self.undo.can_undo)
+        self.menus.redo.setEnabled(self.undo.can_redo)
 
     def _titles(self) -> list[tuple[str, str]]:
         return [(exercise.id, exercise.title) for exercise in self.exercises.values()]
@@ -219,7 +223,7 @@ class MainWindow(QMainWindow):
             lambda patient: self.plan_files.after_question(lambda: self.show_patient(patient))
         )
         conductor.patient_changed.connect(self.refresh)
-        self.editor.changed.connect(self.refresh)
+        self.undo.changed.connect(self.refresh)
         connect_pages(self)
         panel = self.workspace.plan_panel
         panel.new_wanted.connect(self.plan_files.new)

@@ -26,6 +26,8 @@ from app.views.exercise.status import StatusStrip
 from app.views.exercise.tracker_panel import TrackerPanel
 from app.views.grid import ViewGrid
 from app.views.layouts import BULLSEYE, FOUR, SCENE, chosen, possible
+from app.views.measure.editor import MeasureEditor
+from app.views.measure.panel import MeasurePanel
 from app.views.plan.editor import PlanEditor
 from app.views.plan.panel import PlanPanel
 from app.views.robot.health_panel import HealthPanel
@@ -81,6 +83,8 @@ class Workspace(QWidget):
         self.scan_view.pane.maximise_wanted.connect(lambda: self.grid.toggle(cell))
         self._set_up_needle_panes()
         self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
+        self.measure = MeasureEditor(self)
+        self.measure_panel = MeasurePanel(self.measure, self)
         self.plan_panel = PlanPanel(editor, self.viewing, self)
         self.exercise_panel = ExercisePanel(self)
         self.tracker_panel = TrackerPanel(self)
@@ -168,6 +172,10 @@ class Workspace(QWidget):
         """Bring the robot's health to the front."""
         self.side.setCurrentIndex(3)
 
+    def show_measurements(self) -> None:
+        """Bring the list of measurements to the front."""
+        self.side.setCurrentWidget(self.measure_panel)
+
     def show_plan(self) -> None:
         """Bring the plan panel to the front."""
         self.side.setCurrentIndex(0)
@@ -184,6 +192,7 @@ class Workspace(QWidget):
         tabs.addTab(_scrolled(self.exercise_panel), tr("Exercise"))
         tabs.addTab(cameras, tr("Cameras"))
         tabs.addTab(self.health_panel, tr("Robot"))
+        tabs.addTab(self.measure_panel, tr("Measure"))
         tabs.tabBar().setExpanding(True)
         return tabs
 

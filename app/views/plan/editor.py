@@ -61,10 +61,12 @@ class PlanEditor(QObject):
 
     Signals:
         changed(): draft, placement, verdict, dirty or path is another.
+        stepped(object): this editor has made a step that can be undone.
         refused(object): why something was not done, as text.
     """
 
     changed = Signal()
+    stepped = Signal(object)
     refused = Signal(object)
 
     def __init__(self, parent: QObject | None = None) -> None:
@@ -152,20 +154,23 @@ class PlanEditor(QObject):
         edit = replace(self.edit, draft=draft)
         if edit == self.edit:
             return
-        self._history = self._history.do(edit) if self._fresh else self._history.amend(edit)
+        if self._fresh:
+            self._do(edit)
+        else:
+            self._history = self._history.amend(edit)
         self._fresh = False
         self._announce()
 
     def set_placement(self, placement: Placement) -> None:
         """Lay the patient differently."""
         if not self._refuse_locked():
-            self._history = self._history.do(replace(self.edit, placement=placement))
+            self._do(replace(self.edit, placement=placement))
             self._announce()
 
     def take(self, draft: DraftPlan, placement: Placement) -> None:
         """Take points and position together, as one step to undo."""
         if not self._refuse_locked():
-            self._history = self._history.do(Edit(draft, placement))
+            self._do(Edit(draft, placement))
             self._announce()
 
     def apply_remedy(self) -> None:
@@ -183,6 +188,11 @@ class PlanEditor(QObject):
         self._step(self._history.redo)
 
     # --- inside -------------------------------------------------------------------------------
+    def _do(self, edit: Edit) -> None:
+        before, self._history = self._history, self._history.do(edit)
+        if self._history is not before:
+            self.stepped.emit(self)
+
     def _step(self, move: Callable[[], History[Edit]]) -> None:
         if not self._refuse_locked():
             self._history = move()

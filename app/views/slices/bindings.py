@@ -125,6 +125,9 @@ _KEYS = {
     "Ctrl+Down": Action.DOWN, "Menu": Action.MENU, "Shift+F10": Action.MENU,
 }  # fmt: skip
 
+_MEASURE = {"distance": "D", "angle": "G", "probe": "U", "region": "O"}
+"""Keys of the menu *Measure*: alike in all schemes, as neither model has a habit to keep."""
+
 OHIF = Scheme(
     "ohif", "OHIF", False,
     {
@@ -137,7 +140,7 @@ OHIF = Scheme(
         "Right": Action.PANE_ON, "Left": Action.PANE_BACK, "R": Action.TURN_RIGHT,
         "L": Action.TURN_LEFT, "V": Action.MIRROR_UPRIGHT,
     },
-    {"follow": "F", "bullseye": "B"},
+    {"follow": "F", "bullseye": "B"} | _MEASURE,
 )  # fmt: skip
 """OHIF and cornerstone: dragging down raises the level."""
 
@@ -154,7 +157,7 @@ SLICER = Scheme(
         "R": Action.RESET, "Shift+R": Action.TURN_RIGHT, "Shift+L": Action.TURN_LEFT,
         "Shift+M": Action.MIRROR_UPRIGHT,
     },
-    {"follow": "Shift+F", "bullseye": "Shift+B"},
+    {"follow": "Shift+F", "bullseye": "Shift+B"} | _MEASURE,
 )  # fmt: skip
 """3D Slicer: dragging up raises the level."""
 

@@ -1,0 +1,1 @@
+"""Measuring in the slices: tools, drawing, list, undo, export."""
