@@ -194,6 +194,7 @@ class Workspace(QWidget):
         tabs.addTab(self.health_panel, tr("Robot"))
         tabs.addTab(self.measure_panel, tr("Measure"))
         tabs.tabBar().setExpanding(True)
+        tabs.tabBar().setStyleSheet("QTabBar::tab { padding: 7px 5px; }")  # six of them, all seen
         return tabs
 
     def _lay_out(self) -> None:

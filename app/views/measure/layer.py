@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPolygonF
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
@@ -20,6 +21,7 @@ MEASURE = Mark("#b4f06c", width=2.0)
 
 TICK_PX = 5.0
 GAP_PX = 8.0
+FLAT_MM = 1.0
 OUTSIDE_DASH = (3.0, 3.0)
 
 
@@ -92,6 +94,7 @@ class MeasureItem(QGraphicsItem):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         to_pixel = painter.worldTransform()
         painter.resetTransform()
+        taken: list[QRectF] = []
         for one in self.drawn:
             line = [to_pixel.map(point) for point in one.line]
             handles = [to_pixel.map(point) for point in one.handles]
@@ -106,7 +109,7 @@ class MeasureItem(QGraphicsItem):
                 painter.drawPolyline(QPolygonF(line))
                 for handle in handles:
                     _tick(painter, handle)
-            _write(painter, one.text, _beside(line))
+            _write(painter, one.text, _beside(line), taken)
         painter.setWorldTransform(to_pixel)
 
 
@@ -117,7 +120,7 @@ def drawn(
     points = item.outline() if isinstance(item, Region) else item.points
     places = [plane.point(point, index) for point in points]
     near = [is_near(place.distance, plane) for place in places]
-    if not any(near):
+    if not all(near) and not (any(near) and is_free(item)):
         return None
     line = [QPointF(place.x, place.y) for place in places]
     if isinstance(item, Region):
@@ -129,6 +132,11 @@ def drawn(
     named = f"{item.name}: {text}" if item.name else text
     at = tuple(QPointF(place.x, place.y) for place in handles)
     return Drawn(tuple(line), at, named, all(near))
+
+
+def is_free(item: Measurement) -> bool:
+    """Whether it lies in no axial, sagittal or coronal slice: then any slice may show a part."""
+    return bool((np.ptp(np.array(item.points), axis=0) > FLAT_MM).all())
 
 
 def is_near(distance_mm: float, plane: SlicePlane) -> bool:
@@ -146,8 +154,8 @@ def _beside(line: Sequence[QPointF]) -> QPointF:
     return max(line, key=lambda point: point.x()) + QPointF(GAP_PX, -GAP_PX)
 
 
-def _write(painter: QPainter, text: str, at: QPointF) -> None:
-    """Write beside a line, kept inside the pane, with a dark shadow."""
+def _write(painter: QPainter, text: str, at: QPointF, taken: list[QRectF]) -> None:
+    """Write beside a line, kept inside the pane and off other words, with a dark shadow."""
     if not text:
         return
     font = label_font()
@@ -157,6 +165,11 @@ def _write(painter: QPainter, text: str, at: QPointF) -> None:
     view = QRectF(painter.viewport())
     x = min(max(at.x(), view.left() + 2.0), view.right() - width - 2.0)
     y = min(max(at.y(), view.top() + height), view.bottom() - 4.0)
+    place = QRectF(x, y - height, width, height)
+    while any(place.intersects(other) for other in taken) and place.bottom() < view.bottom():
+        place.translate(0.0, 0.5 * height)
+    taken.append(place)
+    y = place.bottom()
     painter.setPen(Qt.GlobalColor.black)
     for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
         painter.drawText(QPointF(x + dx, y + dy), text)

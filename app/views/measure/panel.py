@@ -59,6 +59,7 @@ class MeasurePanel(QWidget):
             self.table.setRowCount(len(items))
             for row, item in enumerate(items):
                 self._show_row(row, item)
+            self.table.resizeRowsToContents()
         self._enable()
 
     # --- inside -----------------------------------------------------------------------------------
