@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
+    QFrame,
     QGridLayout,
     QHBoxLayout,
     QLabel,
+    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
@@ -16,6 +18,8 @@ from PySide6.QtWidgets import (
 from app.views import theme
 from app.views.slices.bindings import Scheme, key_rows, mouse_rows
 from app.views.text import disclaimer, tr
+
+_AROUND_PX = 40
 
 Group = tuple[str, list[tuple[str, str]]]
 
@@ -82,19 +86,27 @@ class ShortcutSheet(QDialog):
         self.setWindowTitle(tr("Keys and mouse"))
         columns = QHBoxLayout()
         columns.setSpacing(4 * theme.SPACING)
-        content = groups(scheme)
-        for part in ([content[0], content[3]], [content[1]], [content[2], content[4]]):
+        mouse, keys, plan, scene, attempt = groups(scheme)
+        for part in ((mouse, plan, scene), (keys, attempt)):
             column = QVBoxLayout()
             for group in part:
                 column.addLayout(_table(group))
             column.addStretch(1)
             columns.addLayout(column)
+        sheet = QWidget(self)
+        sheet.setLayout(columns)
+        area = QScrollArea(self)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setWidgetResizable(True)
+        area.setWidget(sheet)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close, parent=self)
         buttons.rejected.connect(self.reject)
         layout = QVBoxLayout(self)
-        layout.addLayout(columns)
+        layout.addWidget(area)
         layout.addWidget(disclaimer_label(self))
         layout.addWidget(buttons)
+        wanted = sheet.sizeHint() + QSize(_AROUND_PX, 4 * _AROUND_PX)
+        self.resize(wanted.boundedTo(self.screen().availableSize() * 0.95))
 
 
 def disclaimer_label(parent: QWidget | None = None) -> QLabel:
@@ -108,7 +120,8 @@ def disclaimer_label(parent: QWidget | None = None) -> QLabel:
 def _table(group: Group) -> QGridLayout:
     heading, rows = group
     grid = QGridLayout()
-    grid.setVerticalSpacing(4)
+    grid.setVerticalSpacing(2)
+    grid.setHorizontalSpacing(2 * theme.SPACING)
     title = QLabel(heading)
     title.setProperty("role", "heading")
     grid.addWidget(title, 0, 0, 1, 2)

@@ -10,8 +10,9 @@ from PySide6.QtGui import QKeyEvent
 from test_views_slices import drag, press, wheel
 
 from app.imaging.orthogonal import OrthogonalSlicer, View
+from app.imaging.reformat import Frame
 from app.imaging.window import PRESETS, WindowLevel
-from app.views.shortcuts import groups
+from app.views.shortcuts import ShortcutSheet, groups
 from app.views.slices.bindings import (
     OHIF,
     RESERVED,
@@ -331,3 +332,29 @@ def test_schemes_are_chosen_in_the_menu_and_change_its_keys(window):
     view.schemes["slicer"].trigger()
     assert window.workspace.viewing.scheme is SLICER
     assert view.follow.shortcut().toString() == "Shift+F"
+
+
+def test_the_sheet_of_keys_fits_a_small_screen(window):
+    window.show_shortcuts()
+    sheet = window.findChild(ShortcutSheet)
+    assert sheet.width() <= 1366
+    sheet.reject()
+
+
+# --- the needle's panes -----------------------------------------------------------------------
+def test_slab_and_turn_work_along_oblique_planes_too(viewing):
+    frame = Frame.of(viewing.cursor_mm, [0.8, 0.6, 0.0], [0.0, 0.0, -1.0])
+    viewing.set_frame(PaneId.IN_PLANE, frame)
+    plane = viewing.plane(PaneId.IN_PLANE)
+    viewing.set_look(PaneId.IN_PLANE, Look(Slab("mip", 6.0), Turn(1)))
+    turned = viewing.plane(PaneId.IN_PLANE)
+    assert turned.half_slab_mm == 3.0
+    left, right, top, bottom = plane.letters()
+    assert turned.letters() == (bottom, top, left, right)
+    point = viewing.cursor_mm + [3.0, 2.0, 5.0]
+    before, after = plane.point(point, 0.0), turned.point(point, 0.0)
+    assert (after.x, after.y) == pytest.approx((-before.y, before.x))
+    assert after.distance == pytest.approx(before.distance)
+    assert turned.image(0.0).max() >= plane.image(0.0).max() - 1e-3
+    viewing.set_frame(PaneId.IN_PLANE, frame)  # the needle moved: it is looked at as before
+    assert viewing.plane(PaneId.IN_PLANE).half_slab_mm == 3.0

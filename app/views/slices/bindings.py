@@ -251,7 +251,7 @@ def mouse_rows(scheme: Scheme) -> list[tuple[str, str]]:
     rows += [(_with(tr("Wheel"), at), wheels[does]) for at, does in scheme.wheels.items()]
     rows += [
         (tr("Shift+move"), tr("crosshair in all views")),
-        (tr("Right click"), tr("menu: windows, slab, turn, layout")),
+        (tr("Right click"), tr("menu: windows, slab, turn, cine")),
         (tr("Double click"), tr("maximise or restore a pane")),
         (tr("Ctrl+double click"), tr("reset window and level")),
     ]
@@ -259,11 +259,11 @@ def mouse_rows(scheme: Scheme) -> list[tuple[str, str]]:
 
 
 def _drag_name(button: Qt.MouseButton, modifiers: Qt.KeyboardModifier) -> str:
-    names = {_B.LeftButton: tr("left drag"), _B.MiddleButton: tr("middle drag"),
-             _B.RightButton: tr("right drag")}  # fmt: skip
+    names = {_B.LeftButton: tr("Left drag"), _B.MiddleButton: tr("Middle drag"),
+             _B.RightButton: tr("Right drag")}  # fmt: skip
     return _with(names[button], modifiers)
 
 
 def _with(name: str, modifiers: Qt.KeyboardModifier) -> str:
     held = [word for bit, word in ((CTRL, "Ctrl"), (SHIFT, "Shift")) if modifiers & bit]
-    return "+".join([*held, name])
+    return "+".join([*held, name.lower() if held else name])

@@ -19,6 +19,9 @@ from app.views.text import tr
 
 _A = Qt.AlignmentFlag
 
+_ROOMY = 22
+"""Width of a pane in heights of its letters from which the zoom is written too."""
+
 
 SHOWN_TILT_DEG = 0.5
 """From this angle to the patient's axes a plane is called oblique."""
@@ -73,7 +76,9 @@ class Readouts(QObject):
             for overlay in (self.window, self.cursor, self.slice, *self.letters):
                 overlay.set_lines()
             self.title.set_lines(pane_name(pane), self._note, first=colour)
+            self.ruler.hide()
             return
+        self.ruler.show()
         note = self._note or tr("{step:.2f} mm slices", step=plane.step_mm)
         lines = [pane_name(pane), NAMES.shown(volume.series.pseudonym), note, *self._look(plane)]
         self.title.set_lines(*lines, first=colour)
@@ -89,6 +94,12 @@ class Readouts(QObject):
             slab = replace(slab, thickness_mm=round(plane.thickness_mm, 2))
         notes = (("▣", slab.words()), ("↻", look.turn.words()))
         return [f"{sign} {words}" for sign, words in notes if words]
+
+    def _zoom(self) -> list[str]:
+        """Say the zoom where there is room for it beside the title."""
+        if self._canvas.viewport().width() < _ROOMY * theme.SMALL_PX:
+            return []
+        return [tr("Zoom {zoom:.1f} px/mm", zoom=self._canvas.camera.scale)]
 
     def set_note(self, note: str) -> None:
         """Say something else below the title than how thick the slices are."""
@@ -107,7 +118,7 @@ class Readouts(QObject):
         self.window.set_lines(
             tr("W {width:.0f}  L {level:.0f}", width=window.width, level=window.level),
             *notes,
-            tr("Zoom {zoom:.1f} px/mm", zoom=self._canvas.camera.scale),
+            *self._zoom(),
         )
         self.slice.set_lines(*self._slice_words(plane, index))
         self.ruler.set_scale(self._canvas.camera.scale)
