@@ -11,12 +11,13 @@ from PySide6.QtTest import QSignalSpy, QTest
 from app.core.progress import Cancelled, Progress
 from app.core.transform import RigidTransform
 from app.imaging.body import find_body
+from app.imaging.structures.structure import Structure
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
 from app.planning.draft import DraftPlan
 from app.views.needle_overlay import NeedleOverlay
 from app.views.scene.compass import compass_ends
-from app.views.scene.mesh import coarser, isosurface
+from app.views.scene.mesh import coarser, isosurface, structure_mesh
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneRenderer, Shot
 from app.views.scene.robot import RobotShape
@@ -65,7 +66,7 @@ def test_an_empty_volume_gives_an_empty_surface():
 
 def test_block_means_keep_their_place(volume):
     values = np.broadcast_to(np.arange(volume.size[0], dtype=float), volume.hu.shape)
-    small, affine = reduced(values, volume, 4.0)
+    small, affine = reduced(lambda k: values[k], volume, 4.0)
     middle = small[5, 5, 6]
     place = affine @ [6, 5, 5, 1]
     assert volume.voxel(place[:3])[0] == pytest.approx(middle, abs=0.01)
@@ -283,3 +284,35 @@ def test_the_home_view_takes_the_robot_in_until_one_looks_elsewhere(view):
     view.set_orbit(elsewhere)
     view.set_robot(shape, RigidTransform(np.eye(3), [0.0, 0.0, 0.5]))
     assert view.orbit is elsewhere
+
+
+@pytest.mark.parametrize("share", [0.05, 0.25, 0.6, 0.9])
+def test_a_cancel_is_obeyed_inside_the_filters(share):
+    """The first report past `share` cancels; the last one heard shows how much was still done."""
+    i, j, k = np.indices((90, 90, 90))
+    bumpy = (np.sin(0.5 * i) * np.sin(0.5 * j) * np.sin(0.5 * k)).astype(np.float32)
+    heard = []
+
+    def listen(fraction, _):
+        heard.append(fraction)
+        if fraction >= share:
+            progress.cancel()
+
+    progress = Progress(listen)
+    with pytest.raises(Cancelled):
+        isosurface(bumpy, np.eye(4), 0.3, 2_000, progress)
+    assert heard[-1] < min(1.0, share + 0.25)
+
+
+def test_a_structure_is_a_surface_where_its_voxels_end(volume):
+    mask = np.zeros(volume.hu.shape, bool)
+    mask[10:30, 15:45, 20:50] = True
+    one = Structure.of("box", mask, volume)
+    mesh = structure_mesh(one, 5_000)
+    low, high = one.box_mm.min(axis=0), one.box_mm.max(axis=0)
+    assert 0 < mesh.count <= 5_000
+    assert np.abs(mesh.points.min(axis=0) - low).max() < 2.5
+    assert np.abs(mesh.points.max(axis=0) - high).max() < 2.5
+    dot = np.zeros(volume.hu.shape, bool)
+    dot[20, 30, 30] = True
+    assert structure_mesh(Structure.of("dot", dot, volume), 5_000).count > 0

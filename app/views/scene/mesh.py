@@ -11,6 +11,7 @@ from scipy.ndimage import gaussian_filter
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkFiltersCore import (
     vtkBinnedDecimation,
     vtkFlyingEdges3D,
@@ -20,6 +21,7 @@ from vtkmodules.vtkFiltersCore import (
 )
 
 from app.core.arrays import FloatArray
+from app.core.progress import Cancelled, Progress
 from app.imaging.structures.structure import Structure
 
 
@@ -43,7 +45,13 @@ class Mesh:
         return len(self.triangles)
 
 
-def isosurface(values: NDArray[Any], affine_mm: FloatArray, level: float, most: int) -> Mesh:
+def isosurface(
+    values: NDArray[Any],
+    affine_mm: FloatArray,
+    level: float,
+    most: int,
+    progress: Progress | None = None,
+) -> Mesh:
     """Surface of `values` at `level`, smoothed and thinned to at most `most` triangles.
 
     Flying edges (Schroeder et al. 2015), windowed-sinc smoothing (Taubin et al. 1996), quadric
@@ -54,7 +62,12 @@ def isosurface(values: NDArray[Any], affine_mm: FloatArray, level: float, most: 
         affine_mm: voxel (i, j, k) → LPS [mm], shape (4, 4).
         level: value on the surface.
         most: bound of the number of triangles.
+        progress: reports from inside the filters, and may be cancelled there.
+
+    Raises:
+        Cancelled: if `progress` was cancelled.
     """
+    progress = progress or Progress()
     edges = vtkFlyingEdges3D()
     edges.SetInputData(_image(values))
     edges.SetValue(0, level)
@@ -63,11 +76,12 @@ def isosurface(values: NDArray[Any], affine_mm: FloatArray, level: float, most: 
     smooth.SetInputConnection(edges.GetOutputPort())
     smooth.SetNumberOfIterations(12)
     smooth.SetPassBand(0.08)
-    smooth.Update()
-    return _to_mesh(_thin(smooth.GetOutput(), most), affine_mm)
+    run(edges, progress.part(0.0, 0.2))
+    run(smooth, progress.part(0.2, 0.4))
+    return _to_mesh(_thin(smooth.GetOutput(), most, progress.part(0.4, 1.0)), affine_mm)
 
 
-def structure_mesh(structure: Structure, most: int) -> Mesh:
+def structure_mesh(structure: Structure, most: int, progress: Progress | None = None) -> Mesh:
     """Surface of a structure with at most `most` triangles, where its share passes one half."""
     share, affine = structure.occupancy, np.array(structure.grid_mm)
     affine[:3, 3] -= affine[:3, :3].sum(axis=1)  # its layer around
@@ -81,7 +95,7 @@ def structure_mesh(structure: Structure, most: int) -> Mesh:
     values = gaussian_filter(np.pad(share, 1), 0.7)
     affine[:3, 3] -= affine[:3, :3].sum(axis=1)
     level = min(0.5, 0.5 * float(values.max()))  # what is thinner than a voxel stays
-    return isosurface(values, affine, level, most)
+    return isosurface(values, affine, level, most, progress)
 
 
 def _factors(structure: Structure, most: int) -> tuple[int, int, int]:
@@ -93,7 +107,7 @@ def _factors(structure: Structure, most: int) -> tuple[int, int, int]:
     return k, j, i
 
 
-def coarser(mesh: Mesh, most: int) -> Mesh:
+def coarser(mesh: Mesh, most: int, progress: Progress | None = None) -> Mesh:
     """Version of `mesh` with at most `most` triangles, made in one pass: for while it moves."""
     if mesh.count <= most:
         return mesh
@@ -102,7 +116,7 @@ def coarser(mesh: Mesh, most: int) -> Mesh:
     divisions = max(4, int((most / 3.0) ** 0.5))  # a surface crosses about 1.5 d² of d³ bins
     for _ in range(8):
         decimate.SetNumberOfDivisions(divisions, divisions, divisions)
-        decimate.Update()
+        run(decimate, progress or Progress())
         if decimate.GetOutput().GetNumberOfPolys() <= most:
             break
         divisions = max(2, int(divisions * 0.8))
@@ -137,15 +151,37 @@ def _image(values: NDArray[Any]) -> vtkImageData:
     return image
 
 
-def _thin(surface: vtkPolyData, most: int) -> vtkPolyData:
+def _thin(surface: vtkPolyData, most: int, progress: Progress) -> vtkPolyData:
     count = surface.GetNumberOfPolys()
     if count <= most:
         return surface
     decimate = vtkQuadricDecimation()
     decimate.SetInputData(surface)
     decimate.SetTargetReduction(1.0 - 0.98 * most / count)
-    decimate.Update()
+    run(decimate, progress)
     return decimate.GetOutput()
+
+
+def run(algorithm: vtkAlgorithm, progress: Progress) -> None:
+    """Run a VTK filter so that it reports, and stops within itself when cancelled.
+
+    Raises:
+        Cancelled: if `progress` was cancelled; what the filter then holds is not whole.
+    """
+
+    def look(_: object, __: str) -> None:
+        try:
+            progress.report(algorithm.GetProgress())
+        except Cancelled:  # must not be raised through VTK
+            algorithm.SetAbortExecute(1)
+
+    progress.report(0.0)
+    observer = algorithm.AddObserver("ProgressEvent", look)
+    try:
+        algorithm.Update()
+    finally:
+        algorithm.RemoveObserver(observer)
+    progress.report(1.0)
 
 
 def _to_mesh(surface: vtkPolyData, affine_mm: FloatArray) -> Mesh:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil
 from typing import Any
@@ -16,7 +17,7 @@ from app.imaging.body import Body, body_mask
 from app.imaging.volume import Volume
 from app.views.scene.mesh import Mesh, coarser, isosurface
 
-SKIN_TRIANGLES, BONE_TRIANGLES = 70_000, 120_000
+SKIN_TRIANGLES, BONE_TRIANGLES = 90_000, 110_000
 """Bounds of the still picture: at most 200 000 in all."""
 
 SKIN_MOVING, BONE_MOVING = 15_000, 45_000
@@ -50,35 +51,60 @@ def extract_surfaces(volume: Volume, body: Body, progress: Progress) -> Surfaces
     """
     progress.report(0.0, "body")
     mask = body_mask(volume, body)
-    progress.report(0.2, "skin")
-    soft, affine = reduced(mask.astype(np.float32), volume, SKIN_STEP_MM)
-    skin = isosurface(_closed(soft, 0.0), _shifted(affine), 0.5, SKIN_TRIANGLES)
-    progress.report(0.5, "bone")
-    hard, affine = reduced(np.where(mask, volume.hu, -1000), volume, BONE_STEP_MM)
-    bone = isosurface(_closed(hard, -1000.0), _shifted(affine), BONE_HU, BONE_TRIANGLES)
+    progress.report(0.1, "skin")
+    soft, affine = reduced(lambda k: mask[k], volume, SKIN_STEP_MM, progress.part(0.1, 0.25))
+    skin = isosurface(
+        _closed(soft, 0.0), _shifted(affine), 0.5, SKIN_TRIANGLES, progress.part(0.25, 0.4)
+    )
+    progress.report(0.4, "bone")
+    hard, affine = reduced(
+        lambda k: np.where(mask[k], volume.hu[k], -1000), volume, BONE_STEP_MM,
+        progress.part(0.4, 0.55),
+    )  # fmt: skip
+    bone = isosurface(
+        _closed(hard, -1000.0), _shifted(affine), BONE_HU, BONE_TRIANGLES, progress.part(0.55, 0.9)
+    )
     progress.report(0.9, "coarse versions")
-    moving = coarser(skin, SKIN_MOVING), coarser(bone, BONE_MOVING)
+    moving = (
+        coarser(skin, SKIN_MOVING, progress.part(0.9, 0.95)),
+        coarser(bone, BONE_MOVING, progress.part(0.95, 1.0)),
+    )
     progress.report(1.0, "surfaces")
     return Surfaces(skin, moving[0], bone, moving[1])
 
 
 def reduced(
-    values: NDArray[Any], volume: Volume, step_mm: float
+    slab: Callable[[slice], NDArray[Any]],
+    volume: Volume,
+    step_mm: float,
+    progress: Progress | None = None,
 ) -> tuple[NDArray[np.float32], FloatArray]:
     """Mean over blocks of about `step_mm`, and the affine of the blocks' centres.
 
+    Few slices are held at a time, so that no second array of the volume's size is filled.
+
     Args:
-        values: shape (K, J, I) on the grid of `volume`.
-        volume: gives spacing and affine.
+        slab: values of some slices, shape (n, J, I), on the grid of `volume`.
+        volume: gives size, spacing and affine.
         step_mm: wanted spacing.
+        progress: reports, and may be cancelled.
+
+    Raises:
+        Cancelled: if `progress` was cancelled.
     """
+    progress = progress or Progress()
     factors = [max(1, min(ceil(step_mm / s - 0.5), n // 4 or 1))
                for s, n in zip(volume.spacing_mm, volume.size, strict=True)]  # fmt: skip
     i, j, k = factors
-    blocks = values[: values.shape[0] // k * k, : values.shape[1] // j * j,
-                    : values.shape[2] // i * i]  # fmt: skip
-    depth, height, width = (n // f for n, f in zip(blocks.shape, (k, j, i), strict=True))
-    small = blocks.reshape(depth, k, height, j, width, i).mean(axis=(1, 3, 5), dtype=np.float32)
+    depth, height, width = (n // f for n, f in zip(volume.hu.shape, (k, j, i), strict=True))
+    small = np.empty((depth, height, width), np.float32)
+    for number in range(depth):
+        progress.report(number / depth)
+        values = slab(slice(number * k, number * k + k))[:, : height * j, : width * i]
+        rows = values.sum(axis=0, dtype=np.int32 if values.dtype.kind in "ib" else np.float32)
+        rows = rows.reshape(height, j, -1).sum(axis=1)
+        small[number] = sum(rows[:, start::i] for start in range(i))
+    small /= np.float32(i * j * k)
     affine = np.array(volume.affine_mm)
     affine[:3, 3] = volume.lps_mm((np.asarray(factors) - 1.0) / 2.0)
     affine[:3, :3] = affine[:3, :3] * factors

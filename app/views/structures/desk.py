@@ -251,5 +251,4 @@ def _measured(structure: Structure, progress: Progress) -> tuple[SignedDistance,
         from app.imaging.structures.distance import SignedDistance
         from app.views.scene.mesh import structure_mesh
     field = SignedDistance.of(structure, progress.part(0.0, 0.6))
-    progress.report(0.6)
-    return field, structure_mesh(structure, TRIANGLES)
+    return field, structure_mesh(structure, TRIANGLES, progress.part(0.6, 1.0))
