@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: setup demo run test by-hand check bench docs-pictures wheel clean
+.PHONY: setup demo run test by-hand check bench fuzz docs-pictures wheel clean
 
 setup: $(STAMP)  ## make .venv and install what the system lacks
 
@@ -35,6 +35,9 @@ check: setup  ## style, types, structure
 
 bench: setup  ## every figure against its peer, in one run
 	./tools/with-display $(BIN)/python -m tests.bench $(BENCH)
+
+fuzz: setup  ## ten thousand mutated files through the reader
+	$(BIN)/python -W ignore -m tests.fuzz $(FUZZ)
 
 docs-pictures: setup  ## the pictures of README and docs
 	./tools/with-display $(BIN)/python -m tools.docs_pictures

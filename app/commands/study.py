@@ -22,6 +22,10 @@ def register(app: typer.Typer) -> None:
 
 def study(
     name: Annotated[str, typer.Argument(help="name of a study, or `list`")],
+    inputs: Annotated[
+        list[Path] | None,
+        typer.Argument(metavar="[DIR]...", help="folders, for a study that reads some"),
+    ] = None,
     out: Annotated[
         Path | None, typer.Option(help="folder for table (CSV, JSON) and picture")
     ] = None,
@@ -36,13 +40,21 @@ def study(
 
     from rich.console import Console
 
+    from app.studies.errors import StudyError
     from app.studies.findings import Survey
     from app.studies.runner import examine, find_study, run
     from app.studies.study import Result
     from app.studies.table import document, survey_document
 
     chosen = find_study(name)
-    result = examine(chosen) if isinstance(chosen, Survey) else run(chosen, repeats)
+    given = tuple(inputs or ())
+    result: Result | SurveyResult
+    if isinstance(chosen, Survey):
+        result = examine(chosen, inputs=given)
+    elif given:
+        raise StudyError(f"study {name} takes no folders; leave {given[0]} out")
+    else:
+        result = run(chosen, repeats)
     data = document(result) if isinstance(result, Result) else survey_document(result)
     if json:
         typer.echo(dumps(data, indent=2))

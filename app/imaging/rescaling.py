@@ -72,6 +72,8 @@ def integral(header: SliceHeader) -> bool:
 def _scale_exact(
     header: SliceHeader, stored: NDArray[Any], rescale: Rescale, out: NDArray[Any]
 ) -> None:
+    if not integral(header):
+        raise NotExactError
     slope, intercept = int(rescale.slope), int(rescale.intercept)
     if not _fits(header.format.stored_range, slope, intercept):
         padding = _padding(header, stored)

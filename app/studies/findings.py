@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from app.core.progress import Progress
 from app.studies.errors import StudyError
 
 Cell = str | float | int
@@ -68,14 +67,17 @@ class Survey:
         title: one line.
         question: what it decides.
         reference: what is compared with what, and how good that is.
-        measure: does the work; may report how far it is, and be cancelled.
+        measure: does the work; may report how far it is, and be cancelled. Where there are
+            `inputs` it is called with them as well.
+        inputs: what the paths are that may be given to it; empty if it takes none.
     """
 
     name: str
     title: str
     question: str
     reference: str
-    measure: Callable[[Progress | None], Findings]
+    measure: Callable[..., Findings]
+    inputs: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ import pkgutil
 import statistics
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 from app import studies
 from app.core.errors import AcusError
@@ -79,17 +80,27 @@ def run(
     return Result(chosen, tuple(points), tuple(failures), findings)
 
 
-def examine(survey: str | Survey, progress: Progress | None = None) -> SurveyResult:
+def examine(
+    survey: str | Survey, progress: Progress | None = None, inputs: tuple[Path, ...] = ()
+) -> SurveyResult:
     """Run a survey.
 
+    Args:
+        survey: the survey, or its name.
+        progress: told how far it is; may cancel.
+        inputs: paths that it works on, for one that takes some.
+
     Raises:
-        StudyError: for an unknown study, or one that is timed (see `run`).
+        StudyError: for an unknown study, one that is timed (see `run`), or one that takes no paths.
         Cancelled: when the progress says so.
     """
     chosen = find_study(survey) if isinstance(survey, str) else survey
     if not isinstance(chosen, Survey):
         raise StudyError(f"study {chosen.name} compares ways by time; run() runs it")
-    return SurveyResult(chosen, chosen.measure(progress))
+    if inputs and not chosen.inputs:
+        raise StudyError(f"study {chosen.name} takes no folders; leave {inputs[0]} out")
+    found = chosen.measure(progress, inputs) if inputs else chosen.measure(progress)
+    return SurveyResult(chosen, found)
 
 
 def _point(

@@ -60,7 +60,7 @@ def test_a_file_that_hangs_its_reader_is_given_up_after_two_seconds(hostile):
     reasons(hostile, "warm")
     begin = time.monotonic()
     found = reasons(hostile, "a", "hang", "b")
-    assert "took longer than 2 s" in found[1]
+    assert "took longer than 1.5 s" in found[1]
     assert found[::2] == ["read a", "read b"]
     assert time.monotonic() - begin < 60.0  # two of computing, and what a busy machine adds
 
@@ -204,7 +204,7 @@ def test_a_slice_that_breaks_its_reader_ends_the_load_by_name(tmp_path, monkeypa
     encoded: SliceHeader = replace(
         header, pixels=replace(header.pixels, syntax="1.2.840.10008.1.2.5")
     )
-    lost = iter([(0, ["lost", "was ended by SIGSEGV"])])
+    lost = (answer for answer in [(0, ["lost", "was ended by SIGSEGV"])])
     monkeypatch.setattr(service.ImagingWorker, "run", lambda *_: lost)
     with pytest.raises(WorkerLostError, match=r"s000 is damaged or hostile: .* SIGSEGV"):
         filled([encoded], np.dtype(np.int16))

@@ -6,13 +6,22 @@ from pathlib import Path
 MEMORY_BYTES = 1 << 31
 """Memory that the child may take for one file beside its own [bytes]."""
 
-FILE_SECONDS = 2.0
-"""Processor time after which a file is given up."""
+FILE_SECONDS = 1.5
+"""Processor time after which a small file is given up; with what follows nobody waits over 2 s."""
+
+SECONDS_PER_BYTE = 5e-8
+"""What a large file may take beside that: one of many frames has a long header."""
+
+SECONDS_PER_PIXEL = 5e-7
+"""What decoding a frame may take beside that; JPEG 2000 needs a quarter of it."""
+
+MOST_SECONDS = 30.0
+"""What no file may exceed, however large."""
 
 WAITING_SECONDS = 20.0
 """Time on the clock after which a file is given up: a disk may sleep, a network may stall."""
 
-_KILLED_AFTER = 4
+_KILLED_AFTER = 60
 """Seconds of processor time on one file after which the system itself ends the child: the
 program's watchdog comes first, unless the program is gone."""
 

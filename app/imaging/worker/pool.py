@@ -4,8 +4,10 @@ import atexit
 import os
 import select
 import threading
+import time
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from app.core.progress import Progress
@@ -23,7 +25,19 @@ _LOOK = 0.1
 """How often [s] the watchdog looks, and the user may cancel."""
 
 Answer = list[Any]
-Task = list[Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """Something for a child to do.
+
+    Attributes:
+        message: see `child.Tasks`.
+        seconds: processor time that it may take.
+    """
+
+    message: list[Any]
+    seconds: float
 
 
 class ImagingWorker:
@@ -62,11 +76,11 @@ class ImagingWorker:
 
     def run(
         self, tasks: Sequence[Task], progress: Progress, descriptor: int | None = None
-    ) -> Iterator[tuple[int, Answer]]:
-        """Do tasks, in any order.
+    ) -> Generator[tuple[int, Answer], None, None]:
+        """Do tasks, in any order. Close what is returned: an error leaves children at work.
 
         Args:
-            tasks: see `child.Tasks`.
+            tasks: what to do.
             progress: cancels; it is not told how far the work is.
             descriptor: memory that slices are written to.
 
@@ -159,7 +173,7 @@ class _Crew:
             try:
                 while waiting and len(child.open) < _AHEAD:
                     number = waiting.popleft()
-                    child.send(tasks[number], number)
+                    child.send(tasks[number].message, number, tasks[number].seconds)
             except Lost as lost:
                 yield from self._replace(child, lost, waiting)
 
@@ -169,8 +183,7 @@ class _Crew:
         for child in working:
             try:
                 if child in ready:
-                    for answer in child.answers():
-                        yield child.open.popleft(), answer
+                    yield from child.answers()
                 else:
                     child.check()
             except Lost as lost:
@@ -194,11 +207,27 @@ class _Crew:
             yield first, ["lost", str(lost)]
 
     def dismiss(self) -> None:
+        """Give the children back; what they are in the middle of is for nobody any more."""
         for child in self._children:
-            if child.open:  # given up in the middle: its answers are for nobody
+            if _finished(child):
+                self._worker.give_back(child)
+            else:
                 child.close()
-            self._worker.give_back(None if child.open else child)
+                self._worker.give_back(None)
         self._children = []
+
+
+def _finished(child: Child) -> bool:
+    """Whether a child is done with its open tasks within a moment."""
+    deadline = time.monotonic() + _LOOK
+    try:
+        while child.open and (left := deadline - time.monotonic()) > 0.0:
+            if select.select([child], [], [], left)[0]:
+                for _ in child.answers():
+                    pass
+    except Lost:
+        return False
+    return not child.open
 
 
 _SHARED = ImagingWorker()

@@ -14,7 +14,7 @@ from typing import Any
 
 from app.imaging.errors import WorkerError
 from app.imaging.worker.channel import Channel, ChannelError
-from app.imaging.worker.limits import FILE_SECONDS, WAITING_SECONDS, processor_seconds
+from app.imaging.worker.limits import WAITING_SECONDS, processor_seconds
 
 ENTRY = "app.imaging.worker"
 """Module that a child runs."""
@@ -22,7 +22,7 @@ ENTRY = "app.imaging.worker"
 READY_SECONDS = 60.0
 """A child that is not ready by then is given up [s]; a machine may be slow."""
 
-_GRACE = 0.5
+_GRACE = 0.2
 """Nobody is looked at more closely before that [s]."""
 
 _ROOT = Path(__file__).resolve().parents[3]
@@ -39,7 +39,7 @@ class Child:
         module: what it runs; it is given the number of its end of the socket pair.
 
     Attributes:
-        open: whatever the owner hung on each task that is not answered yet, oldest first.
+        open: number of each task that is not answered yet, oldest first.
         ready: whether it has come up.
 
     Raises:
@@ -47,7 +47,8 @@ class Child:
     """
 
     def __init__(self, module: str = ENTRY) -> None:
-        self.open: deque[Any] = deque()
+        self.open: deque[int] = deque()
+        self._allowed: deque[float] = deque()
         ours, theirs = socket.socketpair()
         self._channel = Channel(ours)
         with theirs:
@@ -64,15 +65,16 @@ class Child:
         """File descriptor, for `select`: readable when an answer has come."""
         return self._channel.fileno()
 
-    def send(self, task: list[Any], tag: Any) -> None:
-        """Give it a task; `tag` joins `open`.
+    def send(self, task: list[Any], number: int, seconds: float) -> None:
+        """Give it a task that may take some seconds; its number joins `open`.
 
         Raises:
             Lost: if it is gone.
         """
         if not self.open:
             self._mark()
-        self.open.append(tag)
+        self.open.append(number)
+        self._allowed.append(seconds)
         self._send(task)
 
     def give(self, descriptor: int) -> None:
@@ -89,8 +91,8 @@ class Child:
         except OSError:
             raise Lost(self._end_of_it()) from None
 
-    def answers(self) -> Iterator[list[Any]]:
-        """Yield what it has answered, after `select` said that there is something.
+    def answers(self) -> Iterator[tuple[int, list[Any]]]:
+        """Yield number and answer of tasks, after `select` said that there is something.
 
         Raises:
             Lost: if it is gone, or what it says is no answer.
@@ -102,8 +104,9 @@ class Child:
                 self._mark()
                 if not self.ready:
                     self.ready = True
-                elif isinstance(message, list) and message and isinstance(message[0], str):
-                    yield message
+                elif self.open and _is_answer(message):
+                    self._allowed.popleft()
+                    yield self.open.popleft(), message
                 else:
                     raise ChannelError("no answer")
         except ChannelError as error:
@@ -124,8 +127,8 @@ class Child:
             if waited > READY_SECONDS:
                 raise Lost(f"was not ready within {READY_SECONDS:.0f} s")
             self._mark(self._since)
-        elif self.open and processor_seconds(self._process.pid) - self._used > FILE_SECONDS:
-            raise Lost(f"took longer than {FILE_SECONDS:.0f} s of computing")
+        elif self.open and self._computed() > self._allowed[0]:
+            raise Lost(f"took longer than {self._allowed[0]:.1f} s of computing")
         elif self.open and waited > WAITING_SECONDS:
             raise Lost(f"waited longer than {WAITING_SECONDS:.0f} s for it")
 
@@ -135,6 +138,9 @@ class Child:
         if self._process.poll() is None:
             self._process.kill()
         self._process.wait()
+
+    def _computed(self) -> float:
+        return processor_seconds(self._process.pid) - self._used
 
     def _mark(self, since: float | None = None) -> None:
         self._since = time.monotonic() if since is None else since
@@ -151,6 +157,10 @@ class Child:
         with contextlib.suppress(ValueError):
             return f"was ended by {signal.Signals(-code).name}"
         return f"was ended by signal {-code}"
+
+
+def _is_answer(message: Any) -> bool:
+    return isinstance(message, list) and bool(message) and isinstance(message[0], str)
 
 
 def _started(module: str, descriptor: int, channel: Channel) -> "subprocess.Popen[bytes]":

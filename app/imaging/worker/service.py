@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,13 @@ from app.imaging.header import SliceHeader
 from app.imaging.privacy.key import installation_key
 from app.imaging.rescaling import NotExactError
 from app.imaging.series import Ignored
-from app.imaging.worker.pool import ImagingWorker, shared_worker
+from app.imaging.worker.limits import (
+    FILE_SECONDS,
+    MOST_SECONDS,
+    SECONDS_PER_BYTE,
+    SECONDS_PER_PIXEL,
+)
+from app.imaging.worker.pool import ImagingWorker, Task, shared_worker
 from app.imaging.worker.values import ForeignValueError, plain, reader
 
 Examined = tuple[SliceHeader, ...] | Ignored
@@ -42,11 +49,14 @@ def examine_files(
     """
     installation_key()  # what is wrong with it is told here, not once for each file
     settings = str(paths_of_user.settings().absolute())
-    tasks = [["examine", os.path.abspath(path), settings] for path in paths]
+    tasks = [
+        Task(["examine", os.path.abspath(path), settings], _seconds(_size(path))) for path in paths
+    ]
     found: list[Examined] = [Ignored(path, "not examined") for path in paths]
-    for done, (number, answer) in enumerate((worker or shared_worker()).run(tasks, progress), 1):
-        found[number] = _examined(paths[number], answer)
-        progress.report(done / len(paths), f"{done} of {len(paths)} files")
+    with closing((worker or shared_worker()).run(tasks, progress)) as run:
+        for done, (number, answer) in enumerate(run, 1):
+            found[number] = _examined(paths[number], answer)
+            progress.report(done / len(paths), f"{done} of {len(paths)} files")
     return found
 
 
@@ -90,13 +100,30 @@ def fill_slices(
         Cancelled: if `progress` was cancelled.
     """
     tasks = [
-        ["fill", plain(replace(header, path=header.path.absolute())), place, dtype.name]
-        for header, place in zip(headers, places, strict=True)
+        _filling(header, place, dtype.name) for header, place in zip(headers, places, strict=True)
     ]
-    run = (worker or shared_worker()).run(tasks, progress, descriptor)
-    for done, (number, answer) in enumerate(run, 1):
-        _check_filled(headers[number].path, answer)
-        progress.report(done / len(headers), f"slice {done} of {len(headers)}")
+    with closing((worker or shared_worker()).run(tasks, progress, descriptor)) as run:
+        for done, (number, answer) in enumerate(run, 1):
+            _check_filled(headers[number].path, answer)
+            progress.report(done / len(headers), f"slice {done} of {len(headers)}")
+
+
+def _filling(header: SliceHeader, place: int, dtype: str) -> Task:
+    there = plain(replace(header, path=header.path.absolute()))
+    pixels = header.format.rows * header.format.columns
+    return Task(["fill", there, place, dtype], _seconds(_size(header.path), pixels))
+
+
+def _size(path: Path) -> int:
+    try:
+        return path.stat().st_size
+    except OSError:  # the child says what is wrong with it
+        return 0
+
+
+def _seconds(size: int, pixels: int = 0) -> float:
+    """Processor time that reading a file may take."""
+    return min(MOST_SECONDS, FILE_SECONDS + size * SECONDS_PER_BYTE + pixels * SECONDS_PER_PIXEL)
 
 
 def _check_filled(path: Path, answer: list[Any]) -> None:

@@ -1,0 +1,1 @@
+"""Cases, peer and judgement of the study of reading DICOM."""

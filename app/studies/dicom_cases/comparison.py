@@ -1,0 +1,171 @@
+"""Ours against the peer's, and both against the standard."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray
+from app.core.errors import AcusError
+from app.imaging import stack
+from app.imaging.header import SliceHeader
+from app.imaging.reading import read_pixels, read_series
+from app.imaging.series import Series
+from app.studies.dicom_cases.peer import Peer, PeerImage
+
+VOXELS = 1000
+"""Voxels drawn at random, for their place."""
+
+SAME_MM = 0.01
+"""Places that differ by less are the same."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ours:
+    """What Acus made of a series.
+
+    Attributes:
+        values: shape (K, J, I); None where nothing can be read.
+        affine_mm: None where there is no volume.
+        error: why reading failed although the series was not refused.
+    """
+
+    values: NDArray[Any] | None
+    affine_mm: FloatArray | None
+    error: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Agreement:
+    """How two readings compare.
+
+    Attributes:
+        values: "equal", "to 3" for the largest difference, or why there is none.
+        geometry: "equal", or how far apart the same voxel lies.
+        ours_mm, peer_mm: farthest that a voxel lies from where its own file puts it; None where
+            there is no volume.
+    """
+
+    values: str
+    geometry: str
+    ours_mm: float | None
+    peer_mm: float | None
+
+
+def read(series: Series) -> Ours:
+    """Read a series as the program would; of a refused one its slices, if they can be decoded."""
+    try:
+        if series.usable:
+            volume = read_series(series)
+            return Ours(volume.hu, volume.affine_mm)
+        if not (_ordered(series) and _decodable(series.slices)):
+            return Ours(None, None)
+        values = read_pixels(series)
+    except AcusError as error:
+        return Ours(None, None, str(error))
+    if len(series.slices) > 1 or series.slices[0].plane is None:
+        return Ours(values, None)
+    plane = series.slices[0].plane
+    return Ours(values, stack.plane_affine(plane, stack.normal(plane)))
+
+
+def _ordered(series: Series) -> bool:
+    """Whether both readers would put the slices into one order, though there is no volume."""
+    return len(series.slices) == 1 or series.reason.startswith(("gap", "uneven"))
+
+
+def _decodable(headers: Sequence[SliceHeader]) -> bool:
+    sizes = {(header.format.rows, header.format.columns) for header in headers}
+    return len(sizes) == 1 and all(
+        not header.damage
+        and header.rescale is not None
+        and header.format.samples == 1
+        and header.format.bits_allocated in (8, 16)
+        and min(header.format.rows, header.format.columns) > 0
+        for header in headers
+    )
+
+
+def compare(series: Series, ours: Ours, theirs: PeerImage, peer: Peer) -> Agreement:
+    """Compare voxels, geometry, and both with the standard."""
+    if ours.values is None:
+        return Agreement("", "", None, None)
+    planes = standard_planes(series, peer)
+    flipped = _flipped(planes, theirs)
+    values = theirs.values[::-1] if flipped else theirs.values
+    if values.shape != ours.values.shape:
+        sizes = ("×".join(str(n) for n in reversed(v.shape)) for v in (ours.values, values))
+        return Agreement("sizes {} and {}".format(*sizes), "", None, None)
+    affine = _reversed(theirs) if flipped else theirs.affine_mm
+    apart = ""
+    if ours.affine_mm is not None:
+        apart = _apart(ours.affine_mm, affine, ours.values.shape)
+    return Agreement(
+        _differ(ours.values, values),
+        apart,
+        _off(ours.affine_mm, planes, ours.values.shape),
+        _off(affine, planes, ours.values.shape),
+    )
+
+
+def standard_planes(series: Series, peer: Peer) -> list[Any]:
+    """Return position, orientation and spacing of each slice as pydicom reads them, or nothing."""
+    files = series.files
+    known = dict(zip(files, peer.facts(files), strict=False))
+    try:
+        return [known[header.path]["planes"][header.frame] for header in series.slices]
+    except (KeyError, IndexError):
+        return []
+
+
+def _flipped(planes: list[Any], theirs: PeerImage) -> bool:
+    """Whether the peer counts slices the other way: direction does not make a volume another."""
+    if len(planes) < 2 or None in planes:
+        return False
+    along = np.subtract(planes[-1][0], planes[0][0])
+    return float(along @ theirs.affine_mm[:3, 2]) < 0.0
+
+
+def _reversed(theirs: PeerImage) -> FloatArray:
+    affine = theirs.affine_mm.copy()
+    affine[:3, 3] += affine[:3, 2] * (len(theirs.values) - 1)
+    affine[:3, 2] *= -1.0
+    return affine
+
+
+def _differ(ours: NDArray[Any], theirs: NDArray[Any]) -> str:
+    if np.array_equal(ours, theirs):
+        return "equal"
+    most = max(
+        float(np.abs(a.astype(np.float64) - b.astype(np.float64)).max())
+        for a, b in zip(ours, theirs, strict=True)
+    )
+    return f"to {most:.3g}"
+
+
+def _apart(ours: FloatArray, theirs: FloatArray, shape: tuple[int, ...]) -> str:
+    farthest = float(np.linalg.norm((ours - theirs)[:3] @ _corners(shape), axis=0).max())
+    return "equal" if farthest < SAME_MM else f"{farthest:.3g} mm apart"
+
+
+def _corners(shape: tuple[int, ...]) -> FloatArray:
+    k, j, i = shape
+    ends = [(a, b, c, 1.0) for a in (0, i - 1) for b in (0, j - 1) for c in (0, k - 1)]
+    return np.array(ends).T
+
+
+def _off(affine: FloatArray | None, planes: list[Any], shape: tuple[int, ...]) -> float | None:
+    """Farthest [mm] that a random voxel lies from where its file puts it (PS3.3 C.7.6.2.1.1)."""
+    if affine is None or not planes or None in planes:
+        return None
+    random = np.random.default_rng(20)
+    k, j, i = (random.integers(0, n, VOXELS) for n in shape)
+    position = np.array([plane[0] for plane in planes])[k]
+    turn = np.array([plane[1] for plane in planes])[k]
+    spacing = np.array([plane[2] for plane in planes])[k]
+    right = turn[:, :3] * (spacing[:, 1] * i)[:, None]
+    down = turn[:, 3:] * (spacing[:, 0] * j)[:, None]
+    there = np.stack([i, j, k], axis=1) @ affine[:3, :3].T + affine[:3, 3]
+    return float(np.linalg.norm(there - (position + right + down), axis=1).max())

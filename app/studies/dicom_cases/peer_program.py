@@ -1,0 +1,112 @@
+"""Run by `peer.Peer` as a program of its own: SimpleITK and pydicom may crash at a hostile file.
+
+Reads a request in JSON per line, answers one in JSON per line. Imports nothing of Acus: it is the
+other opinion.
+"""
+
+import contextlib
+import json
+import sys
+from typing import Any
+
+import numpy as np
+
+
+def image(files: list[str], folder: str, out: str) -> dict[str, Any]:
+    """Read with GDCM through SimpleITK: geometry, and the values into a file of numpy's.
+
+    Args:
+        files: of the image.
+        folder: that holds links to these files and nothing else.
+        out: file for the values.
+    """
+    import SimpleITK
+
+    if len(files) == 1:
+        found = SimpleITK.ReadImage(files[0], imageIO="GDCMImageIO")
+    else:
+        reader = SimpleITK.ImageSeriesReader()
+        reader.SetFileNames(reader.GetGDCMSeriesFileNames(folder))
+        found = reader.Execute()
+    if found.GetNumberOfComponentsPerPixel() > 1:
+        return {"error": "a picture in colour"}
+    np.save(out, SimpleITK.GetArrayViewFromImage(found))
+    return {
+        "size": found.GetSize(),
+        "spacing": found.GetSpacing(),
+        "origin": found.GetOrigin(),
+        "direction": found.GetDirection(),
+    }
+
+
+def facts(file: str) -> dict[str, Any]:
+    """Read with pydicom what a refusal is about, and where the standard puts each frame."""
+    import pydicom
+
+    data = pydicom.dcmread(file, stop_before_pixels=True)
+    frames = int(data.get("NumberOfFrames") or 1)
+    return {
+        "modality": str(data.get("Modality", "")),
+        "sop_class": str(data.get("SOPClassUID", "")),
+        "series": bool(data.get("SeriesInstanceUID")),
+        "frames": frames,
+        "samples": int(data.get("SamplesPerPixel") or 0),
+        "photometric": str(data.get("PhotometricInterpretation", "")),
+        "image_type": [str(word) for word in data.get("ImageType") or ()],
+        "rescale": "RescaleSlope" in data,
+        "pixels": decodes(file),
+        "planes": [plane(data, number) for number in range(frames)] if frames < 5000 else [],
+    }
+
+
+def decodes(file: str) -> bool:
+    """Whether pydicom makes pixels of it."""
+    import pydicom
+
+    try:
+        return bool(pydicom.dcmread(file).pixel_array.size)
+    except Exception:  # whatever a damaged file makes it raise
+        return False
+
+
+def plane(data: Any, number: int) -> list[list[float]] | None:
+    """Position, orientation and pixel spacing of a frame; None where they are not given."""
+    groups = []
+    for name in ("PerFrameFunctionalGroupsSequence", "SharedFunctionalGroupsSequence"):
+        items = data.get(name) or []
+        groups += [items[min(number, len(items) - 1)]] if items else []
+
+    def value(macro: str, name: str) -> list[float] | None:
+        for group in groups:
+            if macro in group and name in group[macro].value[0]:
+                return [float(v) for v in group[macro].value[0][name].value]
+        return [float(v) for v in data[name].value] if data.get(name) else None
+
+    found = [
+        value("PlanePositionSequence", "ImagePositionPatient"),
+        value("PlaneOrientationSequence", "ImageOrientationPatient"),
+        value("PixelMeasuresSequence", "PixelSpacing"),
+    ]
+    return None if None in found else found  # type: ignore[return-value]
+
+
+def main() -> None:
+    """Answer requests until there are no more."""
+    answers, sys.stdout = sys.stdout, sys.stderr  # libraries talk on stdout
+    for line in sys.stdin:
+        request = json.loads(line)
+        answer: dict[str, Any] = {}
+        with contextlib.suppress(BrokenPipeError):
+            try:
+                if "facts" in request:
+                    answer = {"facts": [facts(file) for file in request["facts"]]}
+                else:
+                    answer = image(request["files"], request["folder"], request["out"])
+            except Exception as error:  # the peer's refusal, whatever it is called there
+                answer = {"error": f"{type(error).__name__}: {error}"[:400]}
+            answers.write(json.dumps(answer) + "\n")
+            answers.flush()
+
+
+if __name__ == "__main__":
+    main()
