@@ -55,6 +55,7 @@ def campaign(folder: Path, count: int, seed: int, progress: Progress | None = No
     known = list(seeds(folder / "made"))
     dice, tally = random.Random(seed), Tally()
     watch = _Watch(tally)
+    _one(folder / "warm", known[0], known[0].files[MIDDLE], "unspoilt", Tally())
     try:
         for number in range(count):
             chosen = known[number % len(known)]

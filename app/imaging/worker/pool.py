@@ -183,6 +183,7 @@ class _Crew:
         for child in working:
             try:
                 if child in ready:
+                    child.listen()
                     yield from child.answers()
                 else:
                     child.check()
@@ -221,10 +222,11 @@ def _finished(child: Child) -> bool:
     """Whether a child is done with its open tasks within a moment."""
     deadline = time.monotonic() + _LOOK
     try:
+        deque(child.answers(), maxlen=0)  # what has come already is for nobody either
         while child.open and (left := deadline - time.monotonic()) > 0.0:
             if select.select([child], [], [], left)[0]:
-                for _ in child.answers():
-                    pass
+                child.listen()
+                deque(child.answers(), maxlen=0)
     except Lost:
         return False
     return not child.open

@@ -91,15 +91,25 @@ class Child:
         except OSError:
             raise Lost(self._end_of_it()) from None
 
-    def answers(self) -> Iterator[tuple[int, list[Any]]]:
-        """Yield number and answer of tasks, after `select` said that there is something.
+    def listen(self) -> None:
+        """Take in what it says, after `select` said that there is something.
 
         Raises:
-            Lost: if it is gone, or what it says is no answer.
+            Lost: if it is gone.
         """
         try:
             if not self._channel.fill():
                 raise Lost(self._end_of_it())
+        except OSError:  # reset: it left without reading what it was sent
+            raise Lost(self._end_of_it()) from None
+
+    def answers(self) -> Iterator[tuple[int, list[Any]]]:
+        """Yield number and answer of tasks, of what was taken in.
+
+        Raises:
+            Lost: if what it says is no answer.
+        """
+        try:
             while (message := self._channel.take()) is not None:
                 self._mark()
                 if not self.ready:
@@ -111,8 +121,6 @@ class Child:
                     raise ChannelError("no answer")
         except ChannelError as error:
             raise Lost(f"talked nonsense ({error})") from None
-        except OSError:  # reset: it left without reading what it was sent
-            raise Lost(self._end_of_it()) from None
 
     def check(self) -> None:
         """Look whether it still gets on with its task.
