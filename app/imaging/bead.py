@@ -86,7 +86,7 @@ class _Box:
 
     @classmethod
     def around(cls, volume: Volume, centre_mm: FloatArray, radius_mm: float) -> "_Box":
-        middle, half = volume.voxel(centre_mm), radius_mm / volume.spacing_mm
+        middle, half = volume.voxel(centre_mm), radius_mm * volume.voxels_per_mm
         wanted = np.floor(middle - half), np.ceil(middle + half) + 1
         low = np.maximum(wanted[0], 0).astype(int)
         high = np.minimum(wanted[1], volume.size).astype(int)
@@ -130,7 +130,7 @@ def _centroid(box: _Box, start: FloatArray, background: float, reach: float) -> 
 
 
 def _inside(volume: Volume, centre: FloatArray, reach: float) -> bool:
-    corners = volume.voxel(centre), reach / volume.spacing_mm
+    corners = volume.voxel(centre), reach * volume.voxels_per_mm
     low, high = corners[0] - corners[1], corners[0] + corners[1]
     return bool((low >= -0.5).all() and (high <= np.array(volume.size) - 0.5).all())
 

@@ -118,7 +118,7 @@ def _end_to_end(ordered: Sequence[Plane]) -> FloatArray:
 
 def _fitted(ordered: Sequence[Plane]) -> FloatArray:
     """Grid that spreads the rounding of many slices: least squares, then centred."""
-    each = np.array([plane_affine(plane, np.zeros(3))[:3] for plane in ordered])
+    each = _affines(ordered)
     number = np.arange(len(ordered), dtype=np.float64)
     slope, start = np.polyfit(number, each[:, :, 3], 1)
     residual = each[:, :, 3] - start - number[:, None] * slope
@@ -136,9 +136,18 @@ def _pixels(size: tuple[int, int]) -> FloatArray:
 
 def _corners(ordered: Sequence[Plane], size: tuple[int, int]) -> FloatArray:
     """Where the files put the corners of their pictures, shape (K, 4, 3)."""
-    each = np.array([plane_affine(plane, np.zeros(3))[:3] for plane in ordered])
-    corners: FloatArray = np.einsum("kab,cb->kca", each, _pixels(size))
+    corners: FloatArray = np.einsum("kab,cb->kca", _affines(ordered), _pixels(size))
     return corners
+
+
+def _affines(ordered: Sequence[Plane]) -> FloatArray:
+    """Affine of each plane but for the step to the next, shape (K, 3, 4)."""
+    axes = np.array([plane.orientation for plane in ordered]).reshape(-1, 2, 3)
+    down_across = np.array([plane.pixel_spacing_mm for plane in ordered])
+    affines = np.zeros((len(ordered), 3, 4))
+    affines[:, :, :2] = (axes * down_across[:, ::-1, None]).transpose(0, 2, 1)
+    affines[:, :, 3] = [plane.position_mm for plane in ordered]
+    return affines
 
 
 def _off(affine: FloatArray, corners: FloatArray, size: tuple[int, int]) -> FloatArray:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from app.imaging import memory, stack
 from app.imaging.acquisitions import SECONDARY_CAPTURE, Group
@@ -49,7 +49,7 @@ def judge(group: Group, root: Path) -> Verdict:
             return Verdict(reason, notes=group.notes)
     slices = _stack(headers)
     tilt = slices.tilt_deg
-    names = [_name(headers[index], root) for index in slices.order]
+    names = _Names(headers, slices.order, root)
     if reason := stack.doubled(slices, names) or stack.turned(slices, names):
         return Verdict(reason, notes=group.notes, tilt_deg=tilt)
     notes = (*group.notes, *_notes(headers, tilt))
@@ -58,6 +58,19 @@ def judge(group: Group, root: Path) -> Verdict:
     if reason := memory.need(headers).reason:
         return Verdict(reason, Remedy.HALVE, notes, tilt)
     return Verdict("", Remedy.STRAIGHTEN if tilt else Remedy.NONE, notes, tilt)
+
+
+class _Names(Sequence[str]):
+    """Names of the files in the order of a stack, made when one is asked for: mostly none is."""
+
+    def __init__(self, headers: Headers, order: Sequence[int], root: Path) -> None:
+        self._headers, self._order, self._root = headers, order, root
+
+    def __len__(self) -> int:
+        return len(self._order)
+
+    def __getitem__(self, index: Any) -> Any:
+        return _name(self._headers[self._order[index]], self._root)
 
 
 def display_name(header: SliceHeader, root: Path) -> str:

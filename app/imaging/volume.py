@@ -95,6 +95,11 @@ class Volume:
         """Patient LPS [mm] -> voxel (i, j, k), shape (4, 4)."""
         return frozen(np.linalg.inv(self.affine_mm))
 
+    @cached_property
+    def voxels_per_mm(self) -> FloatArray:
+        """How far i, j and k change at most within a millimetre, sheared or not, shape (3,)."""
+        return frozen(np.linalg.norm(self.inverse_mm[:3, :3], axis=1))
+
     def lps_mm(self, ijk: ArrayLike) -> FloatArray:
         """Patient points of voxel indices, shape (3,) or (n, 3) -> the same [mm]."""
         result: FloatArray = np.asarray(ijk, np.float64) @ self.affine_mm[:3, :3].T

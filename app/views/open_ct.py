@@ -56,13 +56,18 @@ class OpenCt(QObject):
         if name:
             self.open_folder(Path(name))
 
-    def open_folder(self, path: Path) -> None:
-        """Open the CT in a folder, archive, DICOMDIR or NIfTI file (of another: in its folder)."""
+    def open_folder(self, path: Path, series: str | None = None) -> None:
+        """Open the CT in a folder, archive, DICOMDIR or NIfTI file (of another: in its folder).
+
+        Args:
+            path: where.
+            series: which series; where None and several could be opened, one is asked for.
+        """
         source = path.parent if path.is_file() and not _is_source(path) else path
         self._start(
             tr("Looking for CT series in {name}", name=source.name),
             lambda progress: _scan(source, progress),
-            self._choose,
+            lambda listing: self._choose(listing, series),
         )
 
     def browse(self) -> None:
@@ -102,17 +107,17 @@ class OpenCt(QObject):
             self, operation, on_success, self._fail, title=title, indicator=self._indicator
         )
 
-    def _choose(self, listing: Listing) -> None:
+    def _choose(self, listing: Listing, series: str | None = None) -> None:
         self._task = None
         self._listing = listing
         openable = [s for s in listing.series if s.usable or s.remedy is not Remedy.NONE]
-        if listing.series and (len(openable) > 1 or not listing.usable):
+        if series is None and listing.series and (len(openable) > 1 or not listing.usable):
             self._browse(listing)
             return
         from app.imaging.reading import choose  # pydicom: loaded by the scan
 
         try:
-            self.open_series(listing, choose(listing))
+            self.open_series(listing, choose(listing, series))
         except ImagingError as error:
             self._fail(error)
 

@@ -143,7 +143,7 @@ class MainWindow(QMainWindow):
         elif exercise.ct.phantom is not None:
             self.open_ct.open_phantom(exercise.ct.phantom.seed)
         elif exercise.ct.folder is not None:
-            self.open_ct.open_folder(exercise.ct.folder)
+            self.open_ct.open_folder(exercise.ct.folder, exercise.ct.series)
 
     def cursor_to_target(self) -> None:
         """Let the slices pass through the target."""
