@@ -9,7 +9,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QScrollArea,
     QSplitter,
-    QTabWidget,
     QVBoxLayout,
     QWidget,
 )
@@ -34,6 +33,7 @@ from app.views.robot.health_panel import HealthPanel
 from app.views.scene.renderer import SceneRenderer
 from app.views.scene.view import SceneView
 from app.views.shortcuts import disclaimer_label
+from app.views.side_panel import SidePanel
 from app.views.slices.lines import LineGrip, fill_turn_menu
 from app.views.slices.needle_menu import fill_needle_menu
 from app.views.slices.needle_source import NeedlePlanes
@@ -180,21 +180,19 @@ class Workspace(QWidget):
         """Bring the plan panel to the front."""
         self.side.setCurrentIndex(0)
 
-    def _side(self) -> QTabWidget:
+    def _side(self) -> SidePanel:
         cameras = QSplitter(Qt.Orientation.Vertical)
         cameras.addWidget(self.tracker_panel)
         cameras.addWidget(self.messages)
         cameras.setStretchFactor(0, 3)
         cameras.setStretchFactor(1, 1)
-        tabs = QTabWidget(self)
+        tabs = SidePanel(self)
         tabs.setFixedWidth(SIDE_WIDTH)
         tabs.addTab(_scrolled(self.plan_panel), tr("Plan"))
         tabs.addTab(_scrolled(self.exercise_panel), tr("Exercise"))
         tabs.addTab(cameras, tr("Cameras"))
         tabs.addTab(self.health_panel, tr("Robot"))
         tabs.addTab(self.measure_panel, tr("Measure"))
-        tabs.tabBar().setExpanding(True)
-        tabs.tabBar().setStyleSheet("QTabBar::tab { padding: 7px 5px; }")  # six of them, all seen
         return tabs
 
     def _lay_out(self) -> None:

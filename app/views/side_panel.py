@@ -1,0 +1,93 @@
+"""Panels beside the panes, one at a time: their names in rows of buttons, none hidden or cut."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import (
+    QButtonGroup,
+    QGridLayout,
+    QPushButton,
+    QSizePolicy,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+IN_A_ROW = 4
+"""Names in a row: more would be cut at the panel's width."""
+
+
+class SidePanel(QWidget):
+    """Shows one of several panels; a tab widget whose names wrap instead of scrolling away.
+
+    Signals:
+        changed(int): another panel is shown.
+    """
+
+    changed = Signal(int)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._buttons = QButtonGroup(self)
+        self._buttons.idClicked.connect(self.setCurrentIndex)
+        self._names = QGridLayout()
+        self._names.setSpacing(0)
+        self._panels = QStackedWidget(self)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addLayout(self._names)
+        column.addWidget(self._panels, 1)
+
+    def addTab(self, panel: QWidget, name: str) -> int:
+        """Take one more panel; returns its index."""
+        index = self._panels.addWidget(panel)
+        button = QPushButton(name, self)
+        button.setObjectName("side-name")
+        button.setCheckable(True)
+        button.setChecked(index == 0)
+        button.setFlat(True)
+        button.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self._buttons.addButton(button, index)
+        self._spread()
+        return index
+
+    def _spread(self) -> None:
+        """Share the names among as few rows as they need, as evenly as they go."""
+        rows = -(-self.count() // IN_A_ROW)
+        columns = -(-self.count() // rows)
+        for index, button in enumerate(self._buttons.buttons()):
+            self._names.addWidget(button, index // columns, index % columns)
+        for column in range(columns):
+            self._names.setColumnStretch(column, 1)
+
+    def count(self) -> int:
+        """Return the number of panels."""
+        return self._panels.count()
+
+    def currentIndex(self) -> int:
+        """Return the index of the panel that is shown."""
+        return self._panels.currentIndex()
+
+    def currentWidget(self) -> QWidget | None:
+        """Return the panel that is shown."""
+        return self._panels.currentWidget()
+
+    def setCurrentIndex(self, index: int) -> None:
+        """Show another panel."""
+        self._panels.setCurrentIndex(index)
+        self._buttons.button(index).setChecked(True)
+        self.changed.emit(index)
+
+    def names(self) -> tuple[str, ...]:
+        """Names of the panels in their order."""
+        return tuple(button.text() for button in self._buttons.buttons())
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Go to the next or the previous panel with Ctrl and the Page keys."""
+        step = {Qt.Key.Key_PageDown: 1, Qt.Key.Key_PageUp: -1}.get(Qt.Key(event.key()), 0)
+        if step and event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            self.setCurrentIndex((self.currentIndex() + step) % self.count())
+        else:
+            super().keyPressEvent(event)
