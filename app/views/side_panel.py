@@ -80,6 +80,10 @@ class SidePanel(QWidget):
         self._buttons.button(index).setChecked(True)
         self.changed.emit(index)
 
+    def setCurrentWidget(self, panel: QWidget) -> None:
+        """Show a panel that was added."""
+        self.setCurrentIndex(self._panels.indexOf(panel))
+
     def names(self) -> tuple[str, ...]:
         """Names of the panels in their order."""
         return tuple(button.text() for button in self._buttons.buttons())
