@@ -71,13 +71,15 @@ def association(
         made.add_requested_context(abstract, list(transfer) or None)
     progress.report(0.0, f"connecting to {settings.name}")
     _connect(settings)
+    opened = (network().evt.EVT_CONN_OPEN, lambda event: own.append(event.assoc.dul.socket.socket))
+    own: list[socket.socket] = []
     linked = made.associate(
         settings.host, settings.port, ae_title=settings.title,
-        ext_neg=list(roles), evt_handlers=list(handlers),
+        ext_neg=list(roles), evt_handlers=[*handlers, opened],
     )  # fmt: skip
-    if not linked.is_established:
-        raise _refused(settings, linked)
-    with _watched(linked, progress) as cancelled:
+    with _closed(own), _watched(linked, progress) as cancelled:
+        if not linked.is_established:
+            raise _refused(settings, linked)
         try:
             yield linked
             if cancelled.is_set():
@@ -90,6 +92,16 @@ def association(
             raise
         if linked.is_established:
             linked.release()
+
+
+@contextmanager
+def _closed(sockets: list[socket.socket]) -> Iterator[None]:
+    """Close sockets afterwards: pynetdicom forgets to where the other end has gone."""
+    try:
+        yield
+    finally:
+        for one in sockets:
+            one.close()
 
 
 @contextmanager

@@ -85,11 +85,20 @@ class Pacs:
         return sorted(found, key=lambda series: (len(series.number), series.number))
 
     def instances(self, study_uid: str, series_uid: str, progress: Progress) -> tuple[str, ...]:
-        """Return the SOPInstanceUIDs of a series; empty where the PACS does not list them."""
+        """Return the SOPInstanceUIDs of a series; empty where the PACS does not list them.
+
+        Raises:
+            PacsDataError: if it has no such series.
+            PacsError: see `association`.
+        """
         with association(self.settings, [(_FIND, ())], progress) as linked:
             keys = image_keys(study_uid, series_uid)
             answers = self._answers(linked, keys, "listing the pictures")
             found = [str(answer.get("SOPInstanceUID", "")) for answer in answers]
+            keys = series_keys(study_uid, "", series_uid)
+            known = found or list(self._answers(linked, keys, "looking for the series"))
+        if not known:
+            raise PacsDataError(f"{self.settings.name} has no such study or series")
         return tuple(dict.fromkeys(uid for uid in found if uid))
 
     def retrieve(
@@ -157,7 +166,7 @@ class Pacs:
                 "repeat the retrieval: only those are fetched"
             )
         if incoming.count() == 0:
-            raise PacsDataError(f"{name} sent nothing: it has no such study or series")
+            raise PacsDataError(f"{name} sent nothing")
 
     def _answers(self, linked: Any, keys: Any, doing: str) -> Iterator[Any]:
         for status, answer in linked.send_c_find(keys, _FIND):

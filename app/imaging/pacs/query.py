@@ -85,10 +85,11 @@ def study_keys(query: Query) -> Any:
     return keys
 
 
-def series_keys(study_uid: str, modality: str) -> Any:
-    """Return the data set that asks for the series of a study."""
+def series_keys(study_uid: str, modality: str, series_uid: str = "") -> Any:
+    """Return the data set that asks for the series of a study, or for one of them."""
     keys = _blank("SERIES", SERIES_WANTED)
     keys.StudyInstanceUID, keys.Modality = study_uid, modality
+    keys.SeriesInstanceUID = series_uid
     return keys
 
 
