@@ -11,9 +11,11 @@ from PySide6.QtWidgets import QMenu
 
 from app.views.layouts import LAYOUTS, layout_title
 from app.views.slices.bindings import SCHEMES
+from app.views.slices.needle_menu import fill_needle_menu
 from app.views.slices.operator_side import Side, side_name, turns
 from app.views.slices.pane import SlicePane
 from app.views.slices.pane_menu import fill_windows
+from app.views.slices.turning import straighten
 from app.views.text import tr
 
 if TYPE_CHECKING:
@@ -47,6 +49,9 @@ class ViewMenu:
             tr("Bull's-eye beside the slices"), "", workspace.show_bullseye
         )
         self._entry(tr("Crosshair to target"), "", window.cursor_to_target)
+        needle = menu.addMenu(tr("Needle's planes"))
+        needle.aboutToShow.connect(lambda: self._fill_needle(needle))
+        self._entry(tr("Straighten all planes"), "", lambda: straighten(viewing))
         self.operator = self._operator_menu(menu.addMenu(tr("Operator stands")))
         menu.addSeparator()
         self.schemes = self._scheme_menu(menu.addMenu(tr("Mouse and keys")))
@@ -54,6 +59,11 @@ class ViewMenu:
         for changed in (workspace.arranged, viewing.window_changed, viewing.scheme_changed):
             changed.connect(self.refresh)
         self.refresh()
+
+    def _fill_needle(self, menu: QMenu) -> None:
+        workspace = self._window.workspace
+        menu.clear()
+        fill_needle_menu(menu, workspace.needle_planes, workspace.viewing)
 
     def _screen_entries(self) -> None:
         """Full screen and what a room asks for."""

@@ -36,7 +36,7 @@ from app.views.shortcuts import disclaimer_label
 from app.views.side_panel import SidePanel
 from app.views.slices.lines import LineGrip, fill_turn_menu
 from app.views.slices.needle_menu import fill_needle_menu
-from app.views.slices.needle_source import NeedlePlanes
+from app.views.slices.needle_source import Along, NeedlePlanes
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, NEEDLE_PANES
 from app.views.slices.presets import default_window
@@ -82,6 +82,7 @@ class Workspace(QWidget):
         cell = self.grid.pane(BULLSEYE)
         self.scan_view.pane.maximise_wanted.connect(lambda: self.grid.toggle(cell))
         self._set_up_needle_panes()
+        self.needle_planes.refused.connect(editor.refused)
         self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
         self.measure = MeasureEditor(self)
         self.measure_panel = MeasurePanel(self.measure, self)
@@ -109,11 +110,18 @@ class Workspace(QWidget):
         for pane in (*self.panes, *self.needle_panes):
             self.two_points.show_in(pane)
         planes.changed.connect(self._show_needle_words)
+        planes.changed.connect(self._show_two_points)
         self._show_needle_words()
 
     def _show_needle_words(self) -> None:
         for pane in self.needle_panes:
             pane.readouts.set_note(self.needle_planes.words())
+
+    def _show_two_points(self) -> None:
+        """Make room for a plane that was asked for while nobody sees the needle's panes."""
+        seen = any(pane.isVisible() for pane in self.needle_panes)
+        if self.needle_planes.along is Along.POINTS and self.isVisible() and not seen:
+            self.show_layout("6-up")
 
     def _watch_needle_panes(self) -> None:
         self.needle_planes.set_watched(any(pane.isVisible() for pane in self.needle_panes))

@@ -105,3 +105,13 @@ def test_double_clicking_a_pane_maximises_it_and_again_restores(window, patient)
     assert window.workspace.grid.maximised is pane
     pane.canvas.double_clicked.emit()
     assert window.workspace.grid.maximised is None
+
+
+def test_a_plane_through_two_points_gets_a_pane_where_none_is_seen(window, volume, settle):
+    workspace = window.workspace
+    window.show_workspace()
+    workspace.viewing.set_volume(volume)
+    settle()
+    middle = workspace.viewing.cursor_mm
+    workspace.needle_planes.show_points(middle, middle + [9.0, 9.0, 0.0], (0.0, 0.0, 1.0))
+    assert any(pane.isVisible() for pane in workspace.needle_panes)
