@@ -11,6 +11,7 @@ from app.core.progress import Progress
 from app.imaging.volume import Volume
 from app.session.control_scan import ControlScan
 from app.views.background import run_in_background
+from app.views.exercise.scan_range import attach
 from app.views.workspace import Workspace
 
 if TYPE_CHECKING:
@@ -24,6 +25,8 @@ class ScanSource(QObject):
         super().__init__(conductor)
         self._conductor, self._workspace = conductor, workspace
         self._panel, self._view = workspace.exercise_panel.scan, workspace.scan_view
+        self._panes = workspace.panes
+        self.ranges = tuple(attach(pane) for pane in self._panes)
         self._busy, self._waiting = False, False
         self._newest: ControlScan | None = None
         self._origin: float | None = None  # of the attempt: its first event
@@ -35,6 +38,7 @@ class ScanSource(QObject):
         controller.began.connect(self._begin)
         controller.attached.connect(self._attached)
         self._conductor.patient_changed.connect(self._view.clear)
+        self._panel.order_changed.connect(self._show_range)
         self._panel.crosshair_wanted.connect(
             lambda: self._panel.set_table(float(self._workspace.viewing.cursor_mm[2]))
         )
@@ -49,8 +53,16 @@ class ScanSource(QObject):
         scanning = run is not None and not run.shown.live
         has_hand = run is None or run.interactive
         self._workspace.needle_cell.set_scanning(scanning, has_hand)
+        self._show_range()
         if not scanning:
             self._view.clear()
+
+    def _show_range(self) -> None:
+        run = self._conductor.controller.run
+        scanning = run is not None and not run.shown.live
+        for pane, layer in zip(self._panes, self.ranges, strict=True):
+            layer.set_order(self._panel.order if scanning else None)
+            pane.canvas.refresh()
 
     def _begin(self) -> None:
         self._newest, self._origin = None, None

@@ -19,6 +19,13 @@ INTENT_MS: Final = 10
 """Shortest time between two hand intents: 100 Hz."""
 
 
+BLIND_WIDTH: Final = 250
+"""Widest that an empty pad needs to be [px]."""
+
+QWIDGETSIZE_MAX: Final = 16777215
+"""Qt's own constant for no limit, which PySide does not export."""
+
+
 class Bullseye(QWidget):
     """Shows where the needle is against the path, and moves the simulated hand.
 
@@ -75,6 +82,8 @@ class Bullseye(QWidget):
         """Show nothing of needle, hand and path from the next scene on; the hand still moves."""
         self._blind = blind
         self.pad.set_blind(blind)
+        self.source.set_compact(blind)
+        self.setMaximumWidth(BLIND_WIDTH if blind else QWIDGETSIZE_MAX)
         self.depth_bar.setVisible(not blind)
         for label in self._words:
             label.setVisible(not blind)

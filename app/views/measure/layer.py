@@ -94,6 +94,7 @@ class MeasureItem(QGraphicsItem):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         to_pixel = painter.worldTransform()
         painter.resetTransform()
+        room = QRectF(painter.viewport() if widget is None else widget.rect())
         taken: list[QRectF] = []
         for one in self.drawn:
             line = [to_pixel.map(point) for point in one.line]
@@ -109,7 +110,7 @@ class MeasureItem(QGraphicsItem):
                 painter.drawPolyline(QPolygonF(line))
                 for handle in handles:
                     _tick(painter, handle)
-            _write(painter, one.text, _beside(line), taken)
+            _write(painter, one.text, _beside(line), room, taken)
         painter.setWorldTransform(to_pixel)
 
 
@@ -154,7 +155,7 @@ def _beside(line: Sequence[QPointF]) -> QPointF:
     return max(line, key=lambda point: point.x()) + QPointF(GAP_PX, -GAP_PX)
 
 
-def _write(painter: QPainter, text: str, at: QPointF, taken: list[QRectF]) -> None:
+def _write(painter: QPainter, text: str, at: QPointF, view: QRectF, taken: list[QRectF]) -> None:
     """Write beside a line, kept inside the pane and off other words, with a dark shadow."""
     if not text:
         return
@@ -162,7 +163,6 @@ def _write(painter: QPainter, text: str, at: QPointF, taken: list[QRectF]) -> No
     painter.setFont(font)
     metrics = QFontMetricsF(font)
     width, height = metrics.horizontalAdvance(text), metrics.height()
-    view = QRectF(painter.viewport())
     x = min(max(at.x(), view.left() + 2.0), view.right() - width - 2.0)
     y = min(max(at.y(), view.top() + height), view.bottom() - 4.0)
     place = QRectF(x, y - height, width, height)

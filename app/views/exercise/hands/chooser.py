@@ -40,7 +40,7 @@ class HandChooser(QWidget):
         self._help.setFixedHeight(4 * theme.SMALL_PX)
         self._help.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._help.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
-        title = QLabel(tr("Hand"), self)
+        self._title = title = QLabel(tr("Hand"), self)
         title.setProperty("role", "dim")
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
@@ -76,6 +76,11 @@ class HandChooser(QWidget):
         for widget in (self.box, self.gain):
             widget.setEnabled(interactive and not depth_only)
         self._reopen()
+
+    def set_compact(self, compact: bool) -> None:
+        """Leave only the two choices; how the hand is moved stands in their help."""
+        for label in (self._title, self._help):
+            label.setVisible(not compact)
 
     def set_locked(self, locked: bool) -> None:
         """Keep the source while an attempt runs: it is recorded with it."""
