@@ -1,10 +1,13 @@
 """Views of a series with gantry tilt: to scale, right-angled, every point where it lies."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from app.imaging.volume import Volume
+from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, PaneId
 from app.views.slices.plane import OrthogonalPlane, ReformatPlane
 from app.views.slices.presets import default_window
@@ -64,3 +67,20 @@ def test_lines_of_the_other_planes_cross_at_the_crosshair(viewing):
     for pane in MPR_PANES:
         distance = viewing.frame(pane).point(viewing.cursor_mm)[2]
         assert distance == pytest.approx(0.0, abs=1e-9)
+
+
+def test_the_corner_says_what_is_not_as_in_the_files(viewing, volume, destroy, settle):
+    pane = SlicePane(viewing, PaneId.AXIAL)
+    destroy(pane)
+    pane.resize(500, 400)
+    pane.show()
+    series = replace(volume.series, tilt_deg=14.04, modality="MR")
+    tilted, made = viewing.volume, ("resampled from slices 1.7 to 2.3 mm apart to 2 mm",)
+    for shown, words in (
+        (Volume(tilted.hu, tilted.affine_mm, series), "gantry tilt 14.0°"),
+        (Volume(volume.hu, volume.affine_mm, series, made), "≈ resampled from slices"),
+        (Volume(volume.hu, volume.affine_mm, series, (), ""), "MR: no Hounsfield units"),
+    ):
+        viewing.set_volume(shown)
+        settle()
+        assert words in pane.readouts.title.text

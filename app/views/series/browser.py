@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from app.imaging.series import Listing, Remedy, Series
 from app.views import theme
+from app.views.names import NAMES
 from app.views.series.card import PICTURE_PX, SeriesCard
 from app.views.series.thumbs import Thumbnails
 from app.views.text import tr
@@ -36,7 +37,7 @@ class SeriesBrowser(QDialog):
 
     def __init__(self, listing: Listing, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setWindowTitle(tr("Series of {name}", name=listing.path.name))
+        self.setWindowTitle(tr("Series of {name}", name=NAMES.shown(listing.path.name)))
         self.resize(*SIZE)
         self.listing = listing
         shown = sorted(listing.series, key=_rank)

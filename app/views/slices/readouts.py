@@ -7,6 +7,7 @@ from dataclasses import replace
 from PySide6.QtCore import QEvent, QObject, Qt
 
 from app.core.arrays import FloatArray
+from app.imaging.volume import Volume
 from app.views import theme
 from app.views.coordinates import lps_words
 from app.views.names import NAMES
@@ -80,7 +81,8 @@ class Readouts(QObject):
             return
         self.ruler.show()
         note = self._note or tr("{step:.2f} mm slices", step=plane.step_mm)
-        lines = [pane_name(pane), NAMES.shown(volume.series.pseudonym), note, *self._look(plane)]
+        name = NAMES.shown(volume.series.pseudonym)
+        lines = [pane_name(pane), name, note, *_made(volume), *self._look(plane)]
         self.title.set_lines(*lines, first=colour)
         for overlay, letter in zip(self.letters, plane.letters(), strict=True):
             overlay.set_lines(letter)
@@ -137,9 +139,10 @@ class Readouts(QObject):
         """Write the point under the mouse and its Hounsfield units."""
         volume = self._canvas.viewing.volume
         hu = None if volume is None else volume.hu_at(lps_mm, "nearest")
+        unit = "" if volume is None or not volume.unit else f" {volume.unit}"
         self._hovered = lps_mm
         self.cursor.set_lines(
-            tr("outside the image") if hu is None else tr("{hu:.0f} HU", hu=hu),
+            tr("outside the image") if hu is None else f"{hu:.0f}{unit}",
             lps_words(lps_mm),
         )
 
@@ -179,3 +182,13 @@ class Readouts(QObject):
         port = self._canvas.viewport()
         above = self.slice.y() - self.ruler.height() - 2
         self.ruler.move(port.width() - PADDING - self.ruler.width(), above)
+
+
+def _made(volume: Volume) -> list[str]:
+    """Say what a reader must not overlook of the volume: that it is not as its files are."""
+    lines = [f"≈ {words}" for words in volume.made]
+    if volume.series.tilt_deg and not volume.made:
+        lines.append(tr("gantry tilt {angle:.1f}°", angle=volume.series.tilt_deg))
+    if volume.unit != "HU":
+        lines.append(tr("{modality}: no Hounsfield units", modality=volume.series.modality))
+    return lines
