@@ -59,8 +59,8 @@ class SidePanel(QWidget):
         columns = -(-self.count() // rows)
         for index, button in enumerate(self._buttons.buttons()):
             self._names.addWidget(button, index // columns, index % columns)
-        for column in range(columns):
-            self._names.setColumnStretch(column, 1)
+        for column in range(IN_A_ROW):
+            self._names.setColumnStretch(column, 1 if column < columns else 0)
 
     def count(self) -> int:
         """Return the number of panels."""

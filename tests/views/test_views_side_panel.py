@@ -23,6 +23,7 @@ def test_no_name_is_cut_or_hidden_however_many_there_are(side):
     for button in side._buttons.buttons():
         assert button.isVisible()
         assert button.fontMetrics().horizontalAdvance(button.text()) + 4 <= button.width()
+    assert max(button.geometry().right() for button in side._buttons.buttons()) == 375
     rows = {button.y() for button in side._buttons.buttons()}
     assert len(rows) == -(-side.count() // IN_A_ROW)
 
