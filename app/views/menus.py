@@ -14,6 +14,7 @@ from app.views.measure.menu import MeasureMenu
 from app.views.names import NAMES
 from app.views.pen.menu import PenMenu
 from app.views.robot.menu import RobotMenu
+from app.views.series.library_desk import LibraryDesk
 from app.views.slices.viewing import Tool
 from app.views.text import tr
 from app.views.view_menu import ViewMenu
@@ -29,6 +30,7 @@ class Menus:
 
     def __init__(self, window: MainWindow) -> None:
         self._window = window
+        self.library = LibraryDesk(window.progress, window)
         self.recent_cts, self.recent_plans = self._file()
         self.undo, self.redo = self._edit()
         self.view = ViewMenu(self._menu(tr("&View")), window)
@@ -69,6 +71,7 @@ class Menus:
             (tr("Series of the folder…"), "", window.open_ct.browse),
         ])  # fmt: skip
         recent_cts = menu.addMenu(tr("Recent CTs"))
+        self._library(menu.addMenu(tr("Library of CTs")))
         self._add(menu, [(tr("Phantom patient"), "", window.open_phantom), None])
         self._add(menu, [
             (tr("New plan"), "Ctrl+N", files.new),
@@ -88,6 +91,25 @@ class Menus:
             lambda: self._fill(recent_plans, window.recent_plans.paths(), files.open)
         )
         return recent_cts, recent_plans
+
+    def _library(self, menu: QMenu) -> None:
+        """CTs that were taken in de-identified, and the ways in."""
+        window, desk = self._window, self.library
+
+        def fill() -> None:
+            menu.clear()
+            self._add(menu, [
+                (tr("Import CT, de-identified…"), "", desk.ask),
+                (tr("From the PACS…"), "", desk.ask_pacs),
+                None,
+            ])  # fmt: skip
+            for name, folder in desk.entries():
+                action = menu.addAction(name)
+                action.triggered.connect(lambda _=False, f=folder: window.open_ct.open_folder(f))
+
+        menu.aboutToShow.connect(fill)
+        desk.open_wanted.connect(window.open_ct.open_folder)
+        desk.failed.connect(window.open_ct.failed)
 
     def _fill(self, menu: QMenu, paths: Sequence[Path], command: Callable[[Path], object]) -> None:
         menu.clear()

@@ -91,6 +91,7 @@ class FakePacs:
             answer.QueryRetrieveLevel = level
             if level != "IMAGE":
                 answer.NumberOfStudyRelatedInstances = len(self.files)
+                answer.NumberOfSeriesRelatedInstances = len(self.files)
             yield PENDING, answer
         if self.ill == "many":
             for number in range(500):

@@ -1,0 +1,60 @@
+"""What an import removed, and a way to open what it left."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QLabel,
+    QPlainTextEdit,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.views import theme
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.imaging.library import Imported
+
+
+class ImportReport(QDialog):
+    """Shows the report of an import; it holds no value of the files.
+
+    Signals:
+        open_wanted(Path): open the CT that was taken in.
+    """
+
+    open_wanted = Signal(object)
+
+    def __init__(self, imported: Imported, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("Taken into the library"))
+        self.resize(760, 460)
+        entry, report = imported.entry, imported.report
+        words = (
+            tr("{label}: it was in the library already", label=entry.label)
+            if imported.again
+            else tr("{label}: {count} files, de-identified and checked", label=entry.label,
+                    count=entry.files)
+        )  # fmt: skip
+        heading = QLabel(f"{entry.name}\n{words}", self)
+        heading.setProperty("role", "heading")
+        self.warning = QLabel("\n".join(f"⚠  {text}" for text in report.warnings), self)
+        self.warning.setWordWrap(True)
+        self.warning.setVisible(bool(report.warnings))
+        lines = [line for line in report.lines() if not line.startswith("look at this")]
+        self.text = QPlainTextEdit("\n\n".join(lines), self)
+        self.text.setReadOnly(True)
+        kinds = QDialogButtonBox.StandardButton
+        self.buttons = QDialogButtonBox(kinds.Open | kinds.Close, parent=self)
+        self.buttons.accepted.connect(self.accept)
+        self.buttons.rejected.connect(self.reject)
+        self.accepted.connect(lambda: self.open_wanted.emit(entry.folder))
+        column = QVBoxLayout(self)
+        column.setSpacing(theme.SPACING)
+        for widget in (heading, self.warning, self.text, self.buttons):
+            column.addWidget(widget)

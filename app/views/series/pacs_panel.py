@@ -1,0 +1,206 @@
+"""The PACS' browser: search, see what is there, take a series into the library.
+
+Names are shown to the instructor in front of the screen, so that the right patient is found; they
+are never stored or logged.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QComboBox,
+    QDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.errors import AcusError
+from app.core.loading import ONE_AT_A_TIME
+from app.core.progress import Progress
+from app.views import theme
+from app.views.background import Indicator, Task, run_in_background
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.imaging.pacs.query import FoundSeries, Query
+    from app.imaging.pacs.settings import PacsSettings
+
+_ROLE = Qt.ItemDataRole.UserRole
+
+
+class PacsPanel(QDialog):
+    """Searches the configured PACS, reading only.
+
+    Signals:
+        wanted(PacsSettings, FoundSeries): take this series into the library.
+        failed(object): the error of a search.
+    """
+
+    wanted = Signal(object, object)
+    failed = Signal(object)
+
+    def __init__(self, indicator: Indicator, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("PACS"))
+        self.resize(980, 620)
+        self._indicator = indicator
+        self._task: Task | None = None
+        self.servers, self.note = QComboBox(self), QLabel(self)
+        self.patient, self.name = QLineEdit(self), QLineEdit(self)
+        self.date = QLineEdit(self)
+        self.search = QPushButton(tr("Search"), self)
+        self.take = QPushButton(tr("Take into the library, de-identified"), self)
+        self.tree = self._make_tree()
+        self._lay_out()
+        self._fill_servers()
+        self.search.clicked.connect(self.look)
+        self.take.clicked.connect(self._want)
+        self.tree.itemSelectionChanged.connect(self._enable)
+        self.finished.connect(lambda _: self._stop())
+        self._enable()
+
+    def look(self) -> None:
+        """Search for what the fields say."""
+        from app.imaging.pacs.query import Query
+
+        settings = self.servers.currentData()
+        try:
+            query = Query(self.patient.text(), self.name.text(), self.date.text().strip())
+        except AcusError as error:
+            self.note.setText(str(error))
+            return
+        self._stop()
+        self.search.setEnabled(False)
+        self.note.setText(tr("Searching…"))
+        self._task = run_in_background(
+            self, lambda progress: _find(settings, query, progress), self._show, self._fail,
+            self._stopped, title=tr("Searching {name}", name=settings.name),
+            indicator=self._indicator,
+        )  # fmt: skip
+
+    def selected(self) -> FoundSeries | None:
+        """Series that is marked."""
+        item = self.tree.currentItem()
+        return None if item is None else item.data(0, _ROLE)
+
+    def _make_tree(self) -> QTreeWidget:
+        tree = QTreeWidget(self)
+        columns = ("Patient", "ID", "Date", "Study", "Series", "Body part", "Pictures")
+        tree.setHeaderLabels([tr(column) for column in columns])
+        tree.setRootIsDecorated(False)
+        tree.setAlternatingRowColors(True)
+        tree.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        tree.header().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        tree.itemDoubleClicked.connect(lambda *_: self._want())
+        return tree
+
+    def _lay_out(self) -> None:
+        self.patient.setPlaceholderText(tr("* and ? stand for what is not known"))
+        self.name.setPlaceholderText(tr("FAMILY^GIVEN, with * and ?"))
+        self.date.setPlaceholderText(tr("YYYYMMDD or YYYYMMDD-YYYYMMDD"))
+        form = QFormLayout()
+        for title, field in (
+            (tr("PACS"), self.servers), (tr("Patient ID"), self.patient),
+            (tr("Name"), self.name), (tr("Date of the study"), self.date),
+        ):  # fmt: skip
+            form.addRow(title, field)
+        private = QLabel(tr("Names are shown here only; nothing of them is stored."), self)
+        for label in (self.note, private):
+            label.setProperty("role", "dim")
+            label.setWordWrap(True)
+        foot = QHBoxLayout()
+        foot.addWidget(private, 1)
+        foot.addWidget(self.search)
+        foot.addWidget(self.take)
+        self.search.setDefault(True)
+        self.take.setAutoDefault(False)
+        column = QVBoxLayout(self)
+        column.setSpacing(theme.SPACING)
+        column.addLayout(form)
+        column.addWidget(self.note)
+        column.addWidget(self.tree, 1)
+        column.addLayout(foot)
+
+    def _fill_servers(self) -> None:
+        from app.imaging.pacs.settings import configured, pacs_path
+
+        try:
+            for one in configured():
+                self.servers.addItem(f"{one.name}  ({one.title}, {one.host}:{one.port})", one)
+        except AcusError as error:
+            self.note.setText(str(error))
+            return
+        if self.servers.count() == 0:
+            self.note.setText(
+                tr("No PACS is configured: acus pacs add NAME, or write {path}.",
+                   path=str(pacs_path()))
+            )  # fmt: skip
+
+    def _show(self, found: list[FoundSeries]) -> None:
+        self._stopped()
+        self.tree.clear()
+        for series in found:
+            self.tree.addTopLevelItem(_row(series))
+        self.note.setText(tr("{count} series", count=len(found)))
+        first = self.tree.topLevelItem(0)
+        if first is not None:
+            self.tree.setCurrentItem(first)
+        self._enable()
+
+    def _fail(self, error: Exception) -> None:
+        self._stopped()
+        self.note.setText(str(error) if isinstance(error, AcusError) else type(error).__name__)
+        self.failed.emit(error)
+
+    def _want(self) -> None:
+        series = self.selected()
+        if series is not None:
+            self.wanted.emit(self.servers.currentData(), series)
+            self.accept()
+
+    def _enable(self) -> None:
+        self.search.setEnabled(self.servers.count() > 0)
+        self.take.setEnabled(self.selected() is not None)
+
+    def _stopped(self) -> None:
+        self.note.clear()
+        self._enable()
+
+    def _stop(self) -> None:
+        if self._task is not None and self._task.is_running():
+            self._task.cancel()
+        self._task = None
+
+
+def _find(settings: PacsSettings, query: Query, progress: Progress) -> list[FoundSeries]:
+    with ONE_AT_A_TIME:
+        from app.imaging.pacs.client import Pacs
+    client = Pacs(settings)
+    found: list[FoundSeries] = []
+    studies = client.find_studies(query, progress.part(0.0, 0.2))
+    for index, study in enumerate(studies):
+        share = 0.2 + 0.8 * index / len(studies)
+        found += client.find_series(study, progress=progress.part(share, 1.0))
+    return found
+
+
+def _row(series: FoundSeries) -> QTreeWidgetItem:
+    study = series.study
+    count = "?" if series.instances is None else str(series.instances)
+    item = QTreeWidgetItem([
+        study.patient_name, study.patient_id, study.date, study.description,
+        f"{series.number}  {series.description}".strip(), series.body_part, count,
+    ])  # fmt: skip
+    item.setData(0, _ROLE, series)
+    return item
