@@ -1,5 +1,6 @@
 """Parts of an exercise file: CT, plan, placement, effects, tissue."""
 
+from collections.abc import Mapping
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Literal
@@ -92,11 +93,32 @@ class PlanPoints(Strict):
         return Plan(self.entry_mm, self.target_mm, self.name)  # type: ignore[arg-type]
 
 
+class OwnPlan(Strict):
+    """The student plans: the target is given, the entry is not.
+
+    Attributes:
+        own: says so.
+        target_mm: DICOM LPS [mm]; None for the lesion of the phantom.
+    """
+
+    own: Literal[True]
+    target_mm: Triple | None = None
+
+
+def _tag(value: object) -> str:
+    if isinstance(value, str):
+        return "name"
+    is_own = isinstance(value, OwnPlan) or (isinstance(value, Mapping) and "own" in value)
+    return "own" if is_own else "points"
+
+
 PlanChoice = Annotated[
-    Annotated[PlanPoints, Tag("points")] | Annotated[Literal["phantom_default"], Tag("name")],
-    Discriminator(lambda value: "name" if isinstance(value, str) else "points"),
+    Annotated[PlanPoints, Tag("points")]
+    | Annotated[Literal["phantom_default"], Tag("name")]
+    | Annotated[OwnPlan, Tag("own")],
+    Discriminator(_tag),
 ]
-"""Two points, or `phantom_default`: the plan that the phantom itself proposes."""
+"""Two points; `phantom_default`, the plan that the phantom itself proposes; or the student's."""
 
 
 class PlacementPart(Strict):

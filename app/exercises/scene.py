@@ -1,11 +1,17 @@
 """From an exercise to what the other rooms work with: plan, placed plan, device, scene."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
 
+from app.exercises.errors import ExerciseError
 from app.exercises.guidance import GuidanceMode
-from app.exercises.parts import PlanPoints, View
+from app.exercises.parts import OwnPlan, PlanPoints, View
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile, load_profile
+from app.planning.draft import DraftPlan
 from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
 from app.scoring import metrics
@@ -14,16 +20,39 @@ from app.simulation.consumers import VIEW_READS, Consumer, DevicePort
 from app.simulation.plan import SimulationPlan
 from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Layer, Needle, Scene
 
+if TYPE_CHECKING:
+    from app.imaging.phantom.anatomy import Anatomy
+
 
 def plan_of(exercise: Exercise) -> Plan:
-    """Entry and target of an exercise; for `phantom_default`, those of its phantom."""
+    """Entry and target of an exercise; for `phantom_default`, those of its phantom.
+
+    Raises:
+        ExerciseError: if the exercise leaves the entry to the student.
+    """
     if isinstance(exercise.plan, PlanPoints):
         return exercise.plan.plan()
+    if isinstance(exercise.plan, OwnPlan):
+        raise ExerciseError(
+            f"exercise {exercise.id} has no plan of its own: the student places the entry in the "
+            "window; nothing is chosen for him"
+        )
+    patient = _phantom_of(exercise)
+    return Plan(np.array(patient.entry_mm), np.array(patient.lesion_mm), exercise.id)
+
+
+def draft_of(exercise: Exercise) -> DraftPlan:
+    """Return what an exercise gives of its plan: both points, or the target alone."""
+    if not isinstance(exercise.plan, OwnPlan):
+        return DraftPlan.of(plan_of(exercise))
+    target = exercise.plan.target_mm or _phantom_of(exercise).lesion_mm
+    return DraftPlan(None, target, exercise.id)
+
+
+def _phantom_of(exercise: Exercise) -> Anatomy:
     from app.imaging.phantom import anatomy  # only for this plan: placing the lesion takes a second
 
-    seed = exercise.ct.phantom.seed if exercise.ct.phantom else 1
-    patient = anatomy(seed)
-    return Plan(np.array(patient.entry_mm), np.array(patient.lesion_mm), exercise.id)
+    return anatomy(exercise.ct.phantom.seed if exercise.ct.phantom else 1)
 
 
 def device_of(exercise: Exercise) -> DeviceProfile:

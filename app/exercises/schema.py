@@ -15,6 +15,7 @@ from app.exercises.parts import (
     EffectPart,
     LawPart,
     LayerPart,
+    OwnPlan,
     PhantomCt,
     PlacementPart,
     PlanChoice,
@@ -39,7 +40,7 @@ class Exercise(Strict):
         title: one line for people.
         description: what the student is to do.
         ct: which patient.
-        plan: two points, or `phantom_default`.
+        plan: two points; `phantom_default`; or `{own: true}`, the student chooses the entry.
         placement: how the patient lies.
         device: name or path of a device profile.
         joint: ball joint mounted on the device; empty for the profile's own.
@@ -109,6 +110,10 @@ class Exercise(Strict):
 
     @model_validator(mode="after")
     def _plan_fits_ct(self) -> Exercise:
+        if isinstance(self.plan, OwnPlan):
+            if self.plan.target_mm is None and self.ct.phantom is None:
+                raise ValueError("plan {own: true} of a CT folder needs target_mm: [x, y, z]")
+            return self
         if not isinstance(self.plan, PlanPoints) and self.ct.phantom is None:
             raise ValueError(
                 "plan phantom_default needs ct: {phantom: ...}; give entry_mm and target_mm"

@@ -7,9 +7,11 @@ from PySide6.QtCore import QObject, Signal
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.units import MILLIMETRE
-from app.exercises.scene import device_of, plan_of
+from app.exercises.parts import OwnPlan
+from app.exercises.scene import device_of, draft_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
+from app.planning.draft import DraftPlan
 from app.session.machine import RUNNING
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.settings import CameraSettings
@@ -156,15 +158,19 @@ class Conductor(QObject):
         return ct.folder is not None and patient.folder == ct.folder
 
     def _start_plan(self, patient: Patient) -> None:
-        plan, placement = patient.proposed, None
+        draft = None if patient.proposed is None else DraftPlan.of(patient.proposed)
+        placement, own = None, False
         try:
             if self.exercise is not None and self.fits(patient):
-                plan, placement = plan_of(self.exercise), self.exercise.placement.placement()
+                draft, placement = draft_of(self.exercise), self.exercise.placement.placement()
+                own = isinstance(self.exercise.plan, OwnPlan)
         except AcusError as error:
             self.failed.emit(error)
-        self._editor.start(plan, placement)
-        if plan is not None:
-            self._workspace.viewing.set_cursor(plan.target_mm)
+        self._editor.set_keeps_target(False)
+        self._editor.start(draft, placement)
+        self._editor.set_keeps_target(own)
+        if draft is not None and draft.target_mm is not None:
+            self._workspace.viewing.set_cursor(draft.target_mm)
 
     # --- plan ---------------------------------------------------------------------------------
     def _show_plan(self) -> None:

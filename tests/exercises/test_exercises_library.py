@@ -11,6 +11,7 @@ SHIPPED = [
     "thick-tissue",
     "breathing-liver",
     "past-the-vessel",
+    "plan-it-yourself",
     "against-repulsion",
     "scans-only",
 ]

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from app.imaging.body import find_body
 from app.mechanisms.profile import load_profile
+from app.planning.draft import DraftPlan
 from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
 from app.views import theme
@@ -227,3 +228,19 @@ def test_a_plan_that_comes_with_a_patient_is_not_dirty(editor):
     editor.start(Plan(np.array(FRONT), np.array(INSIDE), "given"))
     assert not editor.dirty
     assert not editor.can_undo
+
+
+def test_a_target_that_the_exercise_gives_cannot_be_moved_nor_lost(application):
+    editor, said = PlanEditor(), []
+    editor.refused.connect(said.append)
+    editor.start(DraftPlan(None, (0.0, 0.0, 50.0), "own"))
+    editor.set_keeps_target(True)
+    editor.place(Tool.TARGET, (9.0, 0.0, 50.0), True)
+    editor.take(DraftPlan((0.0, -50.0, 50.0), (9.0, 0.0, 50.0)), Placement())
+    editor.opened(Path("x"), Plan(np.array([0.0, -50.0, 50.0]), np.array([9.0, 0.0, 50.0])))
+    assert len(said) == 3
+    assert editor.edit.draft.target_mm == (0.0, 0.0, 50.0)
+    editor.place(Tool.ENTRY, (0.0, -50.0, 50.0), True)
+    assert editor.edit.draft.complete
+    editor.start(None)
+    assert editor.edit.draft == DraftPlan(None, (0.0, 0.0, 50.0), "own")

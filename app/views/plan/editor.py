@@ -56,6 +56,9 @@ class Verdict:
         return self.reach.placed if usable and self.reach is not None else None
 
 
+KEPT = "this exercise gives the target; the entry is yours to choose"
+
+
 class PlanEditor(QObject):
     """Holds the history; every change gives a new verdict at once.
 
@@ -76,7 +79,7 @@ class PlanEditor(QObject):
         self._body: Body | None = None
         self._profile: DeviceProfile | None = None
         self.path: Path | None = None
-        self.locked = False
+        self.locked = self.keeps_target = False
         self._fresh = True  # the present gesture has changed nothing yet
         self.verdict = Verdict(None)
 
@@ -117,16 +120,32 @@ class PlanEditor(QObject):
         self.locked = locked
         self.changed.emit()
 
+    def set_keeps_target(self, keeps: bool) -> None:
+        """Refuse another target from now on: the exercise gives it, the entry is the student's."""
+        self.keeps_target = keeps
+
+    def _moves_target(self, draft: DraftPlan) -> bool:
+        """Whether a draft has another target than the one to be kept."""
+        return self.keeps_target and draft.target_mm != self.edit.draft.target_mm
+
     # --- edits --------------------------------------------------------------------------------
-    def start(self, plan: Plan | None, placement: Placement | None = None) -> None:
-        """Begin anew with a plan, or with none; there is nothing to undo then."""
-        draft = DraftPlan() if plan is None else DraftPlan.of(plan)
+    def start(self, plan: Plan | DraftPlan | None, placement: Placement | None = None) -> None:
+        """Begin anew with a plan, a part of one, or none; there is nothing to undo then.
+
+        A target that the exercise gives (`set_keeps_target`) stays.
+        """
+        draft = DraftPlan.of(plan) if isinstance(plan, Plan) else plan or DraftPlan()
+        if self._moves_target(draft):
+            draft = DraftPlan(None, self.edit.draft.target_mm, self.edit.draft.name)
         edit = Edit(draft, placement or self.edit.placement)
         self._history, self._saved, self.path = History(edit), edit, None
         self._announce()
 
     def opened(self, path: Path, plan: Plan) -> None:
         """Take over a plan that was read from a file."""
+        if self._moves_target(DraftPlan.of(plan)):
+            self.refused.emit(KEPT)
+            return
         self.start(plan)
         self.path = path
         self.changed.emit()
@@ -142,6 +161,9 @@ class PlanEditor(QObject):
         Points of other tools are somebody else's: nothing happens.
         """
         if tool not in OWN_TOOLS or self._refuse_locked():
+            return
+        if tool is Tool.TARGET and self.keeps_target:
+            self.refused.emit(KEPT)
             return
         self._fresh = self._fresh or starts_step
         try:
@@ -169,6 +191,9 @@ class PlanEditor(QObject):
 
     def take(self, draft: DraftPlan, placement: Placement) -> None:
         """Take points and position together, as one step to undo."""
+        if self._moves_target(draft):
+            self.refused.emit(KEPT)
+            return
         if not self._refuse_locked():
             self._do(Edit(draft, placement))
             self._announce()
