@@ -127,6 +127,14 @@ def test_uids_are_new_the_same_at_every_import_and_shared_by_what_was_shared(tmp
     assert uids.new("1.2.840.10008.1.2.1") == "1.2.840.10008.1.2.1"
 
 
+def test_a_series_that_came_de_identified_is_taken_in_as_well(tmp_path):
+    first = CtLibrary().import_series(series_of(tmp_path / "in"))
+    again = scan_folder(first.entry.folder).series[0]
+    second = CtLibrary(tmp_path / "other").import_series(again)
+    assert second.entry.files == 5
+    assert scan_folder(second.entry.folder).series[0].usable
+
+
 def test_private_attributes_curves_overlays_and_unknown_ones_go(tmp_path):
     series = series_of(tmp_path / "in")
     for path in series.files:

@@ -24,6 +24,11 @@ _CODES = (  # PS3.16 CID 7050
     ("113107", "Retain Longitudinal Temporal Information Modified Dates Option"),
     ("113108", "Retain Patient Characteristics Option"),
 )
+DECLARED = "\n".join(
+    (METHOD, "MODIFIED", "YES", "DCM", *(part for code in _CODES for part in code))
+)
+"""What every written file says of itself; a file that came de-identified may say the same."""
+
 _EMPTY = (  # type 2 of the CT image: must stand there, with or without a value
     "StudyDate", "StudyTime", "AccessionNumber", "ReferringPhysicianName", "PatientBirthDate",
     "PatientSex", "Manufacturer", "KVP", "AcquisitionNumber", "SeriesNumber", "InstanceNumber",

@@ -10,6 +10,7 @@ import pydicom
 from pydicom.dataelem import DataElement
 from pydicom.dataset import Dataset
 
+from app.imaging.privacy.actions import DECLARED
 from app.imaging.privacy.errors import NotCleanError
 from app.imaging.privacy.forms import values
 from app.imaging.privacy.profile import Profile
@@ -50,7 +51,9 @@ class Secrets:
             listed = int(element.tag) in self.profile.kept
             if not listed and (element.VR in _TEXT or element.tag.is_private):
                 self.texts.update(
-                    text for text in _words(element) if text not in self.profile.vocabulary
+                    text
+                    for text in _words(element)
+                    if text not in self.profile.vocabulary and text not in DECLARED
                 )
 
     def scrub(self, result: Dataset, tally: Tally) -> None:
