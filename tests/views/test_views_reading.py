@@ -24,9 +24,9 @@ from app.views.slices.bindings import (
     key_rows,
 )
 from app.views.slices.looks import KINDS, Look, Slab, Turn
+from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, PaneId
-from app.views.slices.plane import OrthogonalPlane
 from app.views.slices.presets import KEYED, best_window, default_window, menu_windows
 from app.views.slices.shown_plane import ShownPlane
 from app.views.slices.viewing import Tool, Viewing

@@ -12,8 +12,8 @@ from app.views import theme
 from app.views.names import HIDDEN, NAMES
 from app.views.slices.looks import Look, Slab, Turn
 from app.views.slices.operator_side import Side, side_name, turns
+from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.panes import PANE_MARKS, PaneId
-from app.views.slices.plane import OrthogonalPlane
 from app.views.slices.shown_plane import ShownPlane
 from app.views.themes import DARK, LIGHT, THEMES, restyled, translated
 from app.views.window import MainWindow

@@ -18,9 +18,9 @@ from app.views.slices import items
 from app.views.slices.bindings import OHIF, SLICER
 from app.views.slices.camera import Camera, ruler
 from app.views.slices.items import MarkItem, SegmentItem
+from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
-from app.views.slices.plane import OrthogonalPlane
 from app.views.slices.presets import default_window, keyed_window, menu_windows
 from app.views.slices.slab import PlanePoint, pieces
 from app.views.slices.viewing import Tool, Viewing

@@ -7,10 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from app.imaging.volume import Volume
+from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, PaneId
-from app.views.slices.plane import OrthogonalPlane, ReformatPlane
 from app.views.slices.presets import default_window
+from app.views.slices.reformat_plane import ReformatPlane
 from app.views.slices.viewing import Viewing
 
 

@@ -3,75 +3,49 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
-import pyqtgraph
 from numpy.typing import NDArray
-from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import (
     QHideEvent,
-    QKeyEvent,
-    QMouseEvent,
     QResizeEvent,
     QShowEvent,
     QTransform,
-    QWheelEvent,
 )
 from PySide6.QtWidgets import QFrame, QGraphicsView, QWidget
 
 from app.core.arrays import FloatArray
-from app.views import theme
 from app.views.slices.camera import Camera
 from app.views.slices.items import ImageItem, MarkItem
 from app.views.slices.layer_stack import Layer, LayerStack
 from app.views.slices.looks import Turn
+from app.views.slices.mouse_view import MouseView
 from app.views.slices.panes import PaneId, others
 from app.views.slices.picture_feed import PictureFeed
-from app.views.slices.plane import Rect, ReformatPlane, SlicePlane
+from app.views.slices.plane import Rect, SlicePlane
+from app.views.slices.reformat_plane import ReformatPlane
 from app.views.slices.viewing import Viewing
 
 
-class Gestures(Protocol):
-    """What the canvas hands its mouse events to."""
-
-    def press(self, event: QMouseEvent) -> None:
-        """Take a button that went down."""
-
-    def move(self, event: QMouseEvent) -> None:
-        """Take a move, with or without a button."""
-
-    def release(self, event: QMouseEvent) -> None:
-        """Take a button that went up."""
-
-    def wheel(self, event: QWheelEvent) -> None:
-        """Take a turn of the wheel."""
-
-
-class SliceCanvas(pyqtgraph.GraphicsView):
+class SliceCanvas(MouseView):
     """Draws the slice of one pane.
 
     Signals:
         changed(): slice, window, zoom or pan is another: the read-outs are out of date.
         plane_taken(): the plane is another one, or gone.
-        left(): the mouse left the pane.
-        double_clicked(): for maximising.
-        ctrl_double_clicked(): for the window that there was at first.
         seen(): the pane was shown or hidden.
     """
 
     changed = Signal()
     plane_taken = Signal()
-    left = Signal()
-    double_clicked = Signal()
-    ctrl_double_clicked = Signal()
     seen = Signal()
 
     def __init__(self, viewing: Viewing, pane: PaneId, parent: QWidget | None = None) -> None:
-        super().__init__(parent, useOpenGL=False, background=theme.IMAGE_BACKGROUND)
+        super().__init__(parent)
         self.viewing, self.pane = viewing, PaneId(pane)
         self.plane: SlicePlane | None = None
         self.camera = Camera(0.0, 0.0, 1.0)
-        self.gestures: Gestures | None = None
         self._fitted, self._turn = True, Turn()
         self._shown: tuple[object, ...] = ()
         self.feed = PictureFeed(viewing.reformatter, self)
@@ -286,33 +260,7 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         left, top, _, _ = self.camera.visible((self.viewport().width(), self.viewport().height()))
         return QPointF((x - left) * self.camera.scale, (y - top) * self.camera.scale)
 
-    # --- mouse: everything goes to the gestures, nothing to pyqtgraph's own -----------------------
-    def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Hand over."""
-        if self.gestures is not None:
-            self.gestures.press(event)
-
-    def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        """Hand over."""
-        if self.gestures is not None:
-            self.gestures.move(event)
-
-    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """Hand over."""
-        if self.gestures is not None:
-            self.gestures.release(event)
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Hand over."""
-        if self.gestures is not None:
-            self.gestures.wheel(event)
-
-    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        """Ask to be maximised or restored; with Ctrl for the first window."""
-        if event.button() is Qt.MouseButton.LeftButton:
-            ctrl = event.modifiers() & Qt.KeyboardModifier.ControlModifier
-            (self.ctrl_double_clicked if ctrl else self.double_clicked).emit()
-
+    # --- seen and unseen ----------------------------------------------------------------------
     def showEvent(self, event: QShowEvent) -> None:
         """Catch up with what happened unseen."""
         super().showEvent(event)
@@ -328,15 +276,3 @@ class SliceCanvas(pyqtgraph.GraphicsView):
         if self.pane.is_needle:
             self.feed.drop()
         self.seen.emit()
-
-    def leaveEvent(self, event: QEvent) -> None:
-        """Tell the read-outs."""
-        self.left.emit()
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Leave the keys to the pane."""
-        event.ignore()
-
-    def keyReleaseEvent(self, event: QKeyEvent) -> None:
-        """Leave the keys to the pane."""
-        event.ignore()

@@ -13,7 +13,8 @@ from app.imaging.reformat import Frame, trace
 from app.planning.draft import DraftPlan
 from app.views import theme
 from app.views.needle_overlay import NeedleOverlay
-from app.views.slices.items import CrossLine, MarkItem, SegmentItem
+from app.views.slices.cross_line import CrossLine
+from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.labels import arrange
 from app.views.slices.panes import PANE_MARKS, PaneId, crossing_panes
 from app.views.slices.plane import SlicePlane

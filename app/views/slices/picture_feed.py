@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from app.views.slices.plane import Rect, ReformatPlane, SlicePlane
+from app.views.slices.plane import Rect, SlicePlane
+from app.views.slices.reformat_plane import ReformatPlane
 from app.views.slices.reformatter import Reformatter, Wish
 
 LOOK_MS = 4

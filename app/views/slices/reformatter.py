@@ -11,7 +11,8 @@ from typing import Any
 from numpy.typing import NDArray
 
 from app.core.loading import ONE_AT_A_TIME
-from app.views.slices.plane import Rect, ReformatPlane
+from app.views.slices.plane import Rect
+from app.views.slices.reformat_plane import ReformatPlane
 
 IDLE_S = 20.0
 """The thread ends when nobody wants a picture for so long; the next request starts another."""

@@ -10,7 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from app.core.arrays import FloatArray
 from app.imaging.reformat import Frame
 from app.views.slices.looks import Look, Slab, Turn
-from app.views.slices.plane import OrthogonalPlane, ReformatPlane, SlicePlane
+from app.views.slices.orthogonal_plane import OrthogonalPlane
+from app.views.slices.plane import SlicePlane
+from app.views.slices.reformat_plane import ReformatPlane
 from app.views.slices.slab import PlanePoint
 
 

@@ -19,8 +19,10 @@ from app.views.needle_overlay import NeedleOverlay
 from app.views.slices.bindings import OHIF, Scheme
 from app.views.slices.greys import Greys
 from app.views.slices.looks import Look
+from app.views.slices.orthogonal_plane import own_plane
 from app.views.slices.panes import MPR_PANES, PaneId
-from app.views.slices.plane import ReformatPlane, SlicePlane, own_plane
+from app.views.slices.plane import SlicePlane
+from app.views.slices.reformat_plane import ReformatPlane
 from app.views.slices.reformatter import Reformatter
 from app.views.slices.shown_plane import shown
 

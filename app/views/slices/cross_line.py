@@ -1,0 +1,73 @@
+"""A line of the crosshair, of any direction."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtGui import QPainter, QPolygonF
+from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
+
+from app.views.slices.slab import chord
+from app.views.theme import Mark
+
+GAP_PX = 14.0
+"""Half of the gap in the crosshair: the voxel under it stays visible."""
+
+
+class CrossLine(QGraphicsItem):
+    """One line of the crosshair through the whole plane, with a gap around the point."""
+
+    def __init__(self, mark: Mark) -> None:
+        super().__init__()
+        self._pen = mark.pen(alpha=0.9)
+        self._state: tuple[float, ...] = ()
+        self._ends: tuple[tuple[QPointF, QPointF], ...] = ()
+        self._rect = QRectF()
+        self.setZValue(1)
+
+    def place(
+        self,
+        at: tuple[float, float],
+        direction: tuple[float, float],
+        bounds_mm: tuple[float, float, float, float],
+        scale: float,
+    ) -> None:
+        """Run through a point and leave the gap there.
+
+        Args:
+            at: the point [mm].
+            direction: of the line, unit.
+            bounds_mm: rectangle (left, top, width, height) that the line fills.
+            scale: zoom [px/mm].
+        """
+        gap = GAP_PX / scale
+        state = (*at, *direction, *bounds_mm, gap)
+        self.setVisible(True)
+        if state == self._state:
+            return
+        self.prepareGeometryChange()
+        self._state = state
+        first, last = chord(at, direction, bounds_mm)
+        halves = ((first, min(-gap, last)), (max(gap, first), last))
+        x, y, (dx, dy) = *at, direction
+        self._ends = tuple(
+            (QPointF(x + a * dx, y + a * dy), QPointF(x + b * dx, y + b * dy))
+            for a, b in halves
+            if b > a
+        )
+        # A narrow strip: moving an upright or flat line repaints no more than two of them.
+        half = max(0.2 * gap, 1e-3)
+        corners = [point for ends in self._ends for point in ends]
+        strip = QPolygonF(corners).boundingRect()
+        self._rect = strip.adjusted(-half, -half, half, half) if corners else QRectF()
+
+    def boundingRect(self) -> QRectF:
+        """Return the line's surroundings."""
+        return self._rect
+
+    def paint(
+        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
+    ) -> None:
+        """Draw the two halves of the line."""
+        painter.setPen(self._pen)
+        for start, end in self._ends:
+            painter.drawLine(start, end)
