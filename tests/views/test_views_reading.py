@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from PySide6.QtCore import QEvent, QPointF, Qt
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QAction, QKeyEvent
+from PySide6.QtWidgets import QScrollArea
 from test_views_slices import drag, press, wheel
 
 from app.imaging.orthogonal import OrthogonalSlicer, View
@@ -337,8 +338,18 @@ def test_schemes_are_chosen_in_the_menu_and_change_its_keys(window):
 def test_the_sheet_of_keys_fits_a_small_screen(window):
     window.show_shortcuts()
     sheet = window.findChild(ShortcutSheet)
-    assert sheet.width() <= 1366
+    wanted = sheet.findChild(QScrollArea).widget().sizeHint()
+    assert wanted.width() <= 1280
+    assert wanted.height() <= 768 - 120
     sheet.reject()
+
+
+@pytest.mark.parametrize("scheme", SCHEMES.values(), ids=SCHEMES)
+def test_no_key_of_the_menus_is_taken_by_a_pane(window, scheme):
+    window.workspace.viewing.set_scheme(scheme)
+    keys = {key.toString() for action in window.findChildren(QAction) for key in action.shortcuts()}
+    digits = {str(number) for number in range(10)}
+    assert not keys & (set(scheme.keys) | digits)
 
 
 # --- the needle's panes -----------------------------------------------------------------------
