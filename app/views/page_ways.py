@@ -39,6 +39,7 @@ def suit_room(window: MainWindow) -> None:
     hidden = window.projector.hides_names
     mode = QLineEdit.EchoMode.Password if hidden else QLineEdit.EchoMode.Normal
     workspace.exercise_panel.student.setEchoMode(mode)
+    workspace.bullseye.source.suit_text()
     window.start_page.set_recents(window.recent_cts.paths())
     window.sessions_page.table.viewport().update()
     window.debrief_page.show_names()

@@ -5,7 +5,6 @@ from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.views import theme
-from app.views.exercise.pad_painter import HAND_COLOUR
 from app.views.exercise.pad_view import PadScene
 from app.views.text import tr
 
@@ -91,7 +90,7 @@ class DepthBar(QWidget):
         painter.drawPolygon(QPolygonF([at + QPointF(-8, -8), at + QPointF(8, -8), at]))
 
     def _paint_hand(self, painter: QPainter, y: float) -> None:
-        painter.setPen(QPen(QColor(HAND_COLOUR), 1.5))
+        painter.setPen(QPen(QColor(theme.TEXT), 1.5))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.drawPolygon(QPolygonF([QPointF(0, y - 6), QPointF(9, y), QPointF(0, y + 6)]))
 
@@ -119,6 +118,6 @@ class DepthBar(QWidget):
     ) -> None:
         painter.setPen(QPen(QColor(colour), width))
         painter.drawLine(QPointF(8, y), QPointF(12 + _COLUMN, y))
-        painter.setPen(QPen(QColor(colour), 1.0))
+        painter.setPen(QPen(QColor(theme.now(colour)), 1.0))
         painter.drawLine(QPointF(12 + _COLUMN, y), QPointF(18 + _COLUMN, label_y))
         painter.drawText(QPointF(21 + _COLUMN, label_y + 5), text)

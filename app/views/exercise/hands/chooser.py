@@ -120,12 +120,18 @@ class HandChooser(QWidget):
         if self._source is not None:
             self._source.gain = GAINS[self.gain.currentData()]
 
+    def suit_text(self) -> None:
+        """Take another size of the text."""
+        self._help.setFixedHeight(4 * theme.SMALL_PX)
+        self._show_note(self._note)
+
     def _show_note(self, note: str) -> None:
         self._note = note
         colour = theme.WARNING if note else theme.TEXT_DIM
         self._help.setStyleSheet(f"font-size: {theme.SMALL_PX}px; color: {colour};")
         text = f"▲ {note}" if note else self._words()
-        self._help.setText(text if self._interactive else "")
+        roomy = bool(note) or theme.scale() <= 1.0  # large words would be cut: they are the tip too
+        self._help.setText(text if self._interactive and roomy else "")
         self.box.setToolTip(self._words())
 
     def _words(self) -> str:
