@@ -40,6 +40,8 @@ def suit_room(window: MainWindow) -> None:
     mode = QLineEdit.EchoMode.Password if hidden else QLineEdit.EchoMode.Normal
     workspace.exercise_panel.student.setEchoMode(mode)
     workspace.bullseye.source.suit_text()
+    workspace.viewing.plan_changed.emit()  # names of marks are as large as the text
+    workspace.viewing.needle_changed.emit()
     window.start_page.set_recents(window.recent_cts.paths())
     window.sessions_page.table.viewport().update()
     window.debrief_page.show_names()

@@ -162,7 +162,7 @@ class MarkItem(QGraphicsItem):
         """Make a mark; an `optional` label is left out where there is no good place for it."""
         super().__init__()
         self._mark, self._optional = mark, optional
-        self._label, self._near = "", True
+        self._label, self._near, self._text_px = "", True, theme.SMALL_PX
         self._size = QSizeF()
         self._rect: QRectF | None = None
         self._last = 0
@@ -174,10 +174,11 @@ class MarkItem(QGraphicsItem):
     def place(self, x: float, y: float, label: str, near: bool) -> None:
         """Stand at (x, y) [mm]; faded and with a broken outline where the slice is not `near`."""
         self.setPos(x, y)
-        if (label, near) != (self._label, self._near):
+        state = (label, near, theme.SMALL_PX)
+        if state != (self._label, self._near, self._text_px):
             metrics = QFontMetrics(label_font())
             self._size = QSizeF(metrics.horizontalAdvance(label) + 2, metrics.height())
-            self._label, self._near = label, near
+            self._label, self._near, self._text_px = state
             self.update()
 
     def wanted(self, at: QPointF) -> Wanted | None:
