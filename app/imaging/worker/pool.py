@@ -18,8 +18,8 @@ MOST_CHILDREN = 2
 _AHEAD = 8
 """Tasks that a child has before it, so that it need not wait for the program."""
 
-_WORTH_TWO = 32
-"""Tasks from which on a second child is started."""
+_WORTH_STARTING = 1.0
+"""Seconds of work left for which a second child is started; one that is up helps at once."""
 
 _LOOK = 0.1
 """How often [s] the watchdog looks, and the user may cancel."""
@@ -97,14 +97,17 @@ class ImagingWorker:
         try:
             while waiting or crew.busy:
                 progress.check()
-                crew.hire(2 if len(waiting) > _WORTH_TWO else 1, progress)
+                crew.hire(len(waiting), progress)
                 yield from crew.feed(tasks, waiting)
                 yield from crew.collect(waiting)
         finally:
             crew.dismiss()
 
-    def lease(self) -> Child | None:
+    def lease(self, start: bool = True) -> Child | None:
         """Take a child for oneself; None if all are taken. For `_Crew`.
+
+        Args:
+            start: start one if none is up and free.
 
         Raises:
             WorkerError: if it cannot be started.
@@ -117,6 +120,9 @@ class ImagingWorker:
                 if (child := self._idle.pop()).alive:
                     return child
                 child.close()
+            if not start:
+                self._leased -= 1
+                return None
         try:
             return Child(self._module)
         except BaseException:
@@ -144,22 +150,34 @@ class _Crew:
     def __init__(self, worker: ImagingWorker, descriptor: int | None) -> None:
         self._worker, self._descriptor = worker, descriptor
         self._children: list[Child] = []
+        self._first, self._answered = 0.0, 0
 
     @property
     def busy(self) -> bool:
         return any(child.open for child in self._children)
 
-    def hire(self, wanted: int, progress: Progress) -> None:
-        while len(self._children) < wanted:
-            child = self._worker.lease()
-            if child is not None:
-                self._children.append(child)
-                self._prepare(child)
-            elif self._children:
-                return
-            else:
+    def hire(self, waiting: int, progress: Progress) -> None:
+        """Take a child, and a second one where that pays."""
+        if len(self._children) == 1 and waiting > _AHEAD:
+            self._take(self._seconds_left(waiting) > _WORTH_STARTING)
+        while not self._children:
+            if not self._take(True):
                 progress.check()
                 self._worker.wait()
+
+    def _take(self, start: bool) -> bool:
+        child = self._worker.lease(start)
+        if child is None:
+            return False
+        self._children.append(child)
+        self._prepare(child)
+        return True
+
+    def _seconds_left(self, waiting: int) -> float:
+        """Work that is left, at the pace so far; nothing is known before the first answers."""
+        if not self._answered:
+            return 0.0
+        return (time.monotonic() - self._first) / self._answered * waiting
 
     def _prepare(self, child: Child) -> None:
         try:
@@ -184,11 +202,17 @@ class _Crew:
             try:
                 if child in ready:
                     child.listen()
-                    yield from child.answers()
+                    yield from self._counted(child.answers())
                 else:
                     child.check()
             except Lost as lost:
                 yield from self._replace(child, lost, waiting)
+
+    def _counted(self, answers: Iterator[tuple[int, Answer]]) -> Iterator[tuple[int, Answer]]:
+        for found in answers:
+            self._first = self._first or time.monotonic()
+            self._answered += 1
+            yield found
 
     def _replace(
         self, child: Child, lost: Lost, waiting: "deque[int]"
