@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-ROUNDS = 3
+ROUNDS = 7
 TIME_RATIO, MEMORY_RATIO = 0.5, 1.5
 
 COLD = """
