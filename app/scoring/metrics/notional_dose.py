@@ -1,5 +1,6 @@
 """Sum of the notional dose-length products of the control scans: a teaching estimate."""
 
+from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 
 NAME = "notional_dose"
@@ -10,4 +11,6 @@ HIGHER_IS_BETTER = False
 
 def compute(trajectory: Trajectory) -> float:
     """Dose [mGy·cm]: slices of all control scans times what the exercise says of one."""
+    if not trajectory.running.any():
+        raise MetricUnavailableError("the attempt never got that far")
     return float(sum(scan.dose for scan in trajectory.scans))
