@@ -49,6 +49,7 @@ PRIVATE = {
 }
 UIDS = ("StudyInstanceUID", "SeriesInstanceUID", "FrameOfReferenceUID", "SOPInstanceUID")
 FOLDER = "Zqmustermann_Hanspeter_1937"
+ROOT = Path(__file__).resolve().parents[1]
 
 
 def needles(original: Dataset) -> set[str]:
@@ -88,9 +89,6 @@ def marked(folder: Path) -> Path:
     return target
 
 
-BUSY = ("no sign of life", "nothing has happened")
-
-
 class Acus:
     """Runs commands in user folders of their own and keeps what they print."""
 
@@ -101,15 +99,13 @@ class Acus:
             "ACUS_SESSIONS": str(root / "sessions"), "QT_QPA_PLATFORM": "offscreen",
         }  # fmt: skip
 
-    def __call__(self, *arguments: object, says: bool = True, tries: int = 1) -> str:
+    def __call__(self, *arguments: object, module: str = "app", says: bool = True) -> str:
         done = subprocess.run(
-            [sys.executable, "-m", "app", *map(str, arguments)], env=self.environment,
-            capture_output=True, text=True, timeout=600, check=False,
+            [sys.executable, "-m", module, *map(str, arguments)], env=self.environment,
+            cwd=ROOT, capture_output=True, text=True, timeout=600, check=False,
         )  # fmt: skip
         if says:
             self.said += done.stdout + done.stderr
-        if any(word in done.stderr for word in BUSY):  # an attempt in real time, computer busy
-            return self(*arguments, says=says, tries=tries - 1) if tries > 1 else ""
         assert done.returncode == 0, done.stdout + done.stderr
         return done.stdout
 
@@ -135,6 +131,7 @@ def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path):
     source = marked(tmp_path / "outside")
     words = needles(pydicom.dcmread(next(source.iterdir())))
     assert len(TEXTS) == 40
+    assert len(leaks(next(source.iterdir()).read_bytes(), words)) > 40  # they can be found
     acus = Acus(tmp_path / "inside")
     # Of the source itself UIDs are told, to name a series by; nothing else.
     listing = acus("ct", "list", source, "--json", says=False)
@@ -147,19 +144,16 @@ def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path):
     acus("ct", "list", imported["folder"], "--json")
     acus("ct", "point", imported["folder"], "--voxel", "3,4,5", "--json")
     out = tmp_path / "inside" / "out"
-    acus("demo", "--headless", "--ct", imported["folder"], "--out", out, tries=2)
+    assert "score" in acus(imported["folder"], out, module="tests.virtual_attempt")
     sessions = ("--folder", out / "sessions")
-    attempts = json.loads(acus("session", "list", *sessions, "--json"))["sessions"]
-    for attempt in attempts:
-        acus("session", "show", attempt["id"], *sessions, "--json")
-        path = out / f"{attempt['id']}.csv"
-        acus("session", "export", attempt["id"], *sessions, "--trajectory", "--out", path)
-    plan = next(out.rglob("*.mrk.json"), None)
-    if plan is not None:
-        acus("transform", "export", plan, "--out", out / "placed.tfm")
+    (attempt,) = json.loads(acus("session", "list", *sessions, "--json"))["sessions"]
+    acus("session", "show", attempt["id"], *sessions, "--json")
+    path = out / f"{attempt['id']}.csv"
+    acus("session", "export", attempt["id"], *sessions, "--trajectory", "--out", path)
+    acus("transform", "export", out / "plan.mrk.json", "--out", out / "placed.tfm")
     written = [path for path in (tmp_path / "inside").rglob("*") if path.is_file()]
     kinds = {path.suffix for path in written}
-    assert kinds >= {".dcm", ".json"} | ({".mcap", ".csv"} if attempts else set()), kinds
+    assert kinds >= {".dcm", ".json", ".mcap", ".csv", ".pdf", ".tfm"}, kinds
     for path in written:
         content = pdf_text(path) if path.suffix == ".pdf" else path.read_bytes()
         if path.suffix == ".dcm":

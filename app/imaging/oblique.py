@@ -70,6 +70,22 @@ class Plane:
         return result
 
 
+def picture_of(plane: Plane, out: NDArray[np.float32] | None) -> NDArray[np.float32]:
+    """Return `out` if it fits the plane, or a new picture if there is none, shape (rows, columns).
+
+    Raises:
+        NumericalError: if `out` has another shape or type.
+    """
+    shape = (plane.rows, plane.columns)
+    picture = np.empty(shape, np.float32) if out is None else out
+    if picture.shape != shape or picture.dtype != np.float32 or not picture.flags.c_contiguous:
+        raise NumericalError(
+            f"out is {picture.dtype} of shape {picture.shape}; "
+            f"contiguous float32 of shape {shape} is needed"
+        )
+    return picture
+
+
 def oblique_image(
     volume: Volume,
     plane: Plane,
@@ -92,13 +108,7 @@ def oblique_image(
     Raises:
         NumericalError: if `out` has another shape or type.
     """
-    shape = (plane.rows, plane.columns)
-    picture = np.empty(shape, np.float32) if out is None else out
-    if picture.shape != shape or picture.dtype != np.float32 or not picture.flags.c_contiguous:
-        raise NumericalError(
-            f"out is {picture.dtype} of shape {picture.shape}; "
-            f"contiguous float32 of shape {shape} is needed"
-        )
+    picture = picture_of(plane, out)
     linear = volume.inverse_mm[:3, :3]
     start = volume.voxel(plane.corner_mm)
     kernel = _KERNELS[Interpolation(interpolation)]

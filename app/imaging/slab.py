@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.core.errors import NumericalError
-from app.imaging.oblique import OUTSIDE_HU, Plane, _outside, _trilinear_at
+from app.imaging.oblique import OUTSIDE_HU, Plane, _outside, _trilinear_at, picture_of
 from app.imaging.volume import Volume
 
 THICKEST_MM: Final = 100.0
@@ -72,13 +72,7 @@ def slab_image(
         NumericalError: if the thickness is out of range, or `out` has another shape or type.
     """
     count = slab_samples(volume, thickness_mm)
-    shape = (plane.rows, plane.columns)
-    picture = np.empty(shape, np.float32) if out is None else out
-    if picture.shape != shape or picture.dtype != np.float32 or not picture.flags.c_contiguous:
-        raise NumericalError(
-            f"out is {picture.dtype} of shape {picture.shape}; "
-            f"contiguous float32 of shape {shape} is needed"
-        )
+    picture = picture_of(plane, out)
     normal = np.cross(plane.across_mm, plane.down_mm)
     step_mm = normal / np.linalg.norm(normal) * (thickness_mm / count)
     linear = volume.inverse_mm[:3, :3]
