@@ -75,7 +75,7 @@ def ct_words(frame: PathFrame, direction: ArrayLike) -> str:
     """Angles of the needle against the axial slices, and those of the path."""
     needle, path = frame.ct_angles(direction), frame.ct_angles(frame.axis)
     return tr(
-        "CT angles: in plane {a:+.1f}° (path {b:+.1f}°), out of plane {c:+.1f}° (path {d:+.1f}°)",
+        "CT angles: in plane {a:+.1f}° (path {b:+.1f}°)\nout of plane {c:+.1f}° (path {d:+.1f}°)",
         a=needle[0], b=path[0], c=needle[1], d=path[1],
     )  # fmt: skip
 
