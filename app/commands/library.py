@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from app.imaging.library import Entry, Imported
     from app.imaging.privacy.burned_in import Box
 
+MASK_HELP = "Pixels to blacken, in every picture or in one (from 1); may be repeated."
+
 
 def register(root: typer.Typer) -> None:
     """Add `import` and `library` to `acus ct`, which its own file adds to the command line."""
@@ -30,7 +32,7 @@ def import_ct(
     ] = None,
     mask: Annotated[
         list[str] | None,
-        typer.Option(metavar="COL,ROW,WIDTH,HEIGHT", help="Pixels to blacken; may be repeated."),
+        typer.Option(metavar="COL,ROW,WIDTH,HEIGHT[,PICTURE]", help=MASK_HELP),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
@@ -40,7 +42,7 @@ def import_ct(
     from app.imaging.reading import choose
     from app.imaging.scanning import scan_folder
 
-    boxes = [_box(text) for text in mask or ()]
+    boxes = boxes_of(mask)
 
     def work(progress: "Progress") -> "Imported":
         listing = scan_folder(folder, progress.part(0.0, 0.2))
@@ -101,13 +103,25 @@ def _entry(entry: "Entry") -> dict[str, Any]:
     }
 
 
+def boxes_of(masks: list[str] | None) -> list["Box"]:
+    """Read the boxes of `--mask`.
+
+    Raises:
+        ConfigurationError, BurnedInError: naming the one that is none.
+    """
+    return [_box(text) for text in masks or ()]
+
+
 def _box(text: str) -> "Box":
     from app.imaging.privacy.burned_in import Box
 
     try:
-        column, row, columns, rows = (int(part) for part in text.split(","))
+        numbers = [int(part) for part in text.split(",")]
     except ValueError:
+        numbers = []
+    if len(numbers) not in (4, 5):
         raise ConfigurationError(
-            f"--mask {text!r} is not COL,ROW,WIDTH,HEIGHT: four whole numbers, no blanks"
-        ) from None
-    return Box(column, row, columns, rows)
+            f"--mask {text!r} is not COL,ROW,WIDTH,HEIGHT or COL,ROW,WIDTH,HEIGHT,PICTURE: four or "
+            "five whole numbers, no blanks"
+        )
+    return Box(*numbers)

@@ -29,7 +29,7 @@ from app.imaging.errors import (
 )
 from app.imaging.privacy import dates
 from app.imaging.privacy.actions import Rules
-from app.imaging.privacy.burned_in import Box
+from app.imaging.privacy.burned_in import Box, check_numbers, of_picture
 from app.imaging.privacy.errors import PrivacyError
 from app.imaging.privacy.files import convert, read_original
 from app.imaging.privacy.key import installation_key
@@ -138,7 +138,7 @@ class CtLibrary:
 
         Args:
             series: as the scan of a folder gave it.
-            boxes: pixels to blacken in every picture.
+            boxes: pixels to blacken; with them a copy that is there already is replaced.
             progress: told how far it is; cancels, leaving nothing.
 
         Raises:
@@ -154,7 +154,7 @@ class CtLibrary:
         progress = progress or Progress()
         with self._staging(series) as staging:
             report, name = _fill(staging, series, boxes, progress)
-            again = (self.folder / name).is_dir()
+            again = (self.folder / name).is_dir() and not boxes
             if not again:
                 self._publish(staging, name)
         entry = self.find(name)
@@ -204,6 +204,8 @@ class CtLibrary:
         """Rename to its place; the lock goes last, so that no sweep takes a living folder."""
         staging.chmod(0o755)
         sync(staging)
+        if (self.folder / name).is_dir():
+            self.remove(name)
         os.rename(staging, self.folder / name)
         (self.folder / name / _LOCK).unlink(missing_ok=True)
         sync(self.folder)
@@ -214,12 +216,14 @@ def _fill(
 ) -> tuple[Report, str]:
     """Write and verify every file; returns the report and the entry's name."""
     headers = list({header.path: header for header in series.slices}.values())
+    check_numbers(boxes, len(headers))
     rules = _counted(1, len(headers), lambda: _rules(headers[0]))
     secrets, tally = Secrets(rules.profile), Tally()
     digests = []
     for index, header in enumerate(headers):
         progress.report(0.7 * index / len(headers), f"file {index + 1} of {len(headers)}")
-        write = _writer(header, staging / _file(index), rules, boxes, secrets, tally)
+        drawn = of_picture(boxes, index + 1)
+        write = _writer(header, staging / _file(index), rules, drawn, secrets, tally)
         digests.append(_counted(index + 1, len(headers), write))
     for index, digest in enumerate(digests):
         share = 0.7 + 0.3 * index / len(headers)

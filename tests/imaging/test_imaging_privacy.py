@@ -238,6 +238,39 @@ def test_writing_in_the_picture_is_refused_and_blackened_only_where_drawn(tmp_pa
         CtLibrary().import_series(series, [Box(100, 3, 4, 5)])
 
 
+def test_a_box_of_one_picture_leaves_the_others_alone(tmp_path):
+    series = series_of(tmp_path / "in")
+    before = read_series(series).hu
+    imported = CtLibrary().import_series(series, [Box(2, 3, 4, 5, picture=2)])
+    after = load_ct(imported.entry.folder).hu
+    assert imported.report.masked == 1
+    changed = (before != after).any(axis=(1, 2))
+    assert changed.tolist() == [False, True, False, False, False]
+    assert (after[1, 3:8, 2:6] == before[1].min()).all()
+    with pytest.raises(BurnedInError, match="no picture 6: the series has 5"):
+        CtLibrary().import_series(series, [Box(2, 3, 4, 5, picture=6)])
+
+
+def test_pictures_that_say_they_carry_writing_need_boxes_each(tmp_path):
+    series = series_of(tmp_path / "in", BurnedInAnnotation="YES")
+    with pytest.raises(BurnedInError, match="file 1 of 5"):
+        CtLibrary().import_series(series, [Box(2, 3, 4, 5, picture=2)])
+    assert CtLibrary().entries() == ()
+
+
+def test_a_copy_without_boxes_is_replaced_by_one_with_boxes_and_not_the_other_way(tmp_path):
+    series = series_of(tmp_path / "in")
+    plain = CtLibrary().import_series(series)
+    masked = CtLibrary().import_series(series, [Box(2, 3, 4, 5)])
+    assert not masked.again
+    assert masked.entry.name == plain.entry.name
+    again = CtLibrary().import_series(series)
+    assert again.again
+    after = load_ct(again.entry.folder).hu
+    assert (after[:, 3:8, 2:6] == after.min(axis=(1, 2))[:, None, None]).all()
+    assert len(list(CtLibrary().folder.iterdir())) == 1
+
+
 def test_an_overlay_hidden_in_the_unused_bits_goes(tmp_path):
     recipe = Slices(tags={"BitsStored": 12, "HighBit": 11})
     recipe.write(tmp_path / "in")

@@ -16,19 +16,46 @@ _SCREENS = ("SCREEN SAVE", "SCREEN", "SCREENSHOT", "DOSE_INFO", "DOSE", "PROT", 
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """A rectangle of pixels to blacken, in every picture of the series."""
+    """A rectangle of pixels to blacken, in every picture of the series or in one.
+
+    Attributes:
+        column: of its first pixel, from 0.
+        row: of its first pixel, from 0.
+        columns: how wide it is.
+        rows: how high it is.
+        picture: number of the one picture, from 1 in the order of the series; None for every one.
+    """
 
     column: int
     row: int
     columns: int
     rows: int
+    picture: int | None = None
 
     def __post_init__(self) -> None:
+        if self.picture is not None and self.picture < 1:
+            raise BurnedInError(f"picture {self.picture}: pictures are counted from 1")
         if min(self.column, self.row) < 0 or min(self.columns, self.rows) < 1:
             raise BurnedInError(
                 f"box {self.column},{self.row},{self.columns},{self.rows}: column and row must be "
                 "0 or more, width and height 1 or more"
             )
+
+
+def of_picture(boxes: Sequence[Box], number: int) -> tuple[Box, ...]:
+    """Boxes of one picture, counted from 1 in the order of the series."""
+    return tuple(box for box in boxes if box.picture in (None, number))
+
+
+def check_numbers(boxes: Sequence[Box], count: int) -> None:
+    """Refuse a box on a picture that the series has not got.
+
+    Raises:
+        BurnedInError: naming the number.
+    """
+    for box in boxes:
+        if box.picture is not None and box.picture > count:
+            raise BurnedInError(f"there is no picture {box.picture}: the series has {count}")
 
 
 def check(dataset: Dataset, boxes: Sequence[Box]) -> None:
