@@ -22,6 +22,7 @@ run: setup  ## the trainer
 	$(BIN)/acus run
 
 test: setup  ## the tests (no display and no network needed), a file at a time on each core
+	$(BIN)/python -m tools.compile_kernels
 	./tools/with-display $(BIN)/python -m pytest -q --numprocesses auto --dist loadfile $(TEST)
 
 by-hand: setup  ## one insertion in the real window with mouse and keyboard, on an X server of its own
