@@ -30,6 +30,8 @@ def explain(
 
     chosen = load_exercise(exercise)
     profile = device_of(chosen)
+    if _is_first_time():
+        typer.echo("compiling for the first time, up to a minute …", err=True)
     plan = compile_exercise(chosen, profile, simulated=not real)
     document = _document(chosen.id, chosen.device, not real, plan)
     document["assistance"] = chosen.assistance
@@ -40,6 +42,17 @@ def explain(
         typer.echo(dumps(document, indent=2))
     else:
         _print(document)
+
+
+def _is_first_time() -> bool:
+    """Whether the cache of compiled kernels lacks what the costs are measured with."""
+    import os
+    from pathlib import Path
+
+    from app.core import compiled  # noqa: F401  (names the cache's folder)
+
+    folder = Path(os.environ["NUMBA_CACHE_DIR"])
+    return next(folder.glob("control_*/kernel.repeat-*.nbi"), None) is None
 
 
 def _document(

@@ -38,7 +38,7 @@ HEAVY_MODULES: Final = (
     "app.imaging.phantom",
     "app.core.compiled",
     "app.mechanisms.pantograph",
-    "app.device.control",
+    "app.device.control.loop",
     "app.simulation.clearing",
     "app.tracking.simulated.cameras",
     "app.tracking.tracker",

@@ -1,6 +1,8 @@
 """`acus study` and `acus explain`."""
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -54,6 +56,19 @@ def test_explain_for_the_real_robot_drops_what_it_cannot_render() -> None:
     done = RUN.invoke(build(), ["explain", "first-insertion", "--real"])
     assert done.exit_code == 0
     assert "shaft_friction\n    dropped: it writes axial_force" in done.stdout
+
+
+def test_explain_does_not_compile_the_loop_that_it_does_not_run() -> None:
+    code = (
+        "import sys; from app.exercises.library import load_exercise as load\n"
+        "from app.commands.explain import explain; explain('scans-only')\n"
+        "print(sorted(n for n in sys.modules if n.startswith('app.device.control.')))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    imported = done.stdout.splitlines()[-1]
+    assert "app.device.control.kernel" in imported
+    for heavy in ("loop", "governor", "passivity", "safety", "velocity"):
+        assert f"'app.device.control.{heavy}" not in imported, heavy
 
 
 def test_no_figure_of_a_table_is_cut_where_no_terminal_limits_it() -> None:

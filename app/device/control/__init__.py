@@ -1,15 +1,24 @@
-"""Virtual fixtures, force limits, safety and the real-time loop."""
+"""Virtual fixtures, force limits, safety and the real-time loop.
 
-from app.device.control import laws
-from app.device.control.cost import stage_cost
-from app.device.control.fixture import VirtualFixture
-from app.device.control.host import Host, Priority
-from app.device.control.inbox import INPUT_NAMES, Inbox
-from app.device.control.loop import Loop
-from app.device.control.table import Stage, Table, pantograph_stages
-from app.device.control.timing import Timing
+Names are imported when they are first asked for: the loop's modules compile for half a minute on a
+first start, and who only wants a law's cost need not wait for them.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from app.device.faults import Fault
 from app.device.state import DeviceState
+
+if TYPE_CHECKING:
+    from app.device.control import laws
+    from app.device.control.cost import stage_cost
+    from app.device.control.fixture import VirtualFixture
+    from app.device.control.host import Host, Priority
+    from app.device.control.inbox import INPUT_NAMES, Inbox
+    from app.device.control.loop import Loop
+    from app.device.control.table import Stage, Table, pantograph_stages
+    from app.device.control.timing import Timing
 
 __all__ = [
     "INPUT_NAMES",
@@ -27,3 +36,26 @@ __all__ = [
     "pantograph_stages",
     "stage_cost",
 ]
+
+_MODULES = {
+    "INPUT_NAMES": "inbox",
+    "Host": "host",
+    "Inbox": "inbox",
+    "Loop": "loop",
+    "Priority": "host",
+    "Stage": "table",
+    "Table": "table",
+    "Timing": "timing",
+    "VirtualFixture": "fixture",
+    "pantograph_stages": "table",
+    "stage_cost": "cost",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a name of this room from its module."""
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+    globals()[name] = value
+    return value
