@@ -34,11 +34,11 @@ def decode(data: bytes, syntax: str, form: PixelFormat, out: Stored) -> None:
     codec = _installed(syntax)
     try:
         pixels = codec(data, syntax, form, precision)
-    except FileDamagedError:
+    except (FileDamagedError, MemoryError, KeyboardInterrupt, SystemExit):
         raise
-    except Exception as error:  # a decoder meets hostile bytes: nearly anything can come
-        brief = " ".join(f"{type(error).__name__}: {error}".split())[:200]
-        raise FileDamagedError(f"its pixels cannot be decoded ({brief})") from error
+    except BaseException as error:  # nearly anything can come; a panic in Rust is no Exception
+        what = f"{type(error).__name__} in {DECODERS[syntax][0]}"
+        raise FileDamagedError(f"its pixels cannot be decoded ({what})") from None
     width = form.bits_allocated // 8 if syntax == RLE or precision > 8 else 1
     found = np.frombuffer(pixels, f"<u{width}")
     if found.size < out.size:

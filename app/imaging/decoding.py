@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from app.imaging.deflated import Inflater
 from app.imaging.encapsulation import Place, frame_bytes, frame_places, walk
-from app.imaging.errors import FileDamagedError
+from app.imaging.errors import FileDamagedError, brief
 from app.imaging.header import SliceHeader
 from app.imaging.pixel_data import (
     DEFLATED,
@@ -129,9 +129,10 @@ def _decode(header: SliceHeader, stream: BinaryIO, out: Stored) -> None:
         decode(frame_bytes(stream, places[header.frame]), header.pixels.syntax, header.format, out)
     except FileDamagedError as error:
         raise FileDamagedError(f"{header.path}: {error}") from error
-    except Exception as error:  # a decoder meets hostile bytes: nearly anything can come
-        brief = " ".join(f"{type(error).__name__}: {error}".split())[:200]
-        raise FileDamagedError(f"{header.path} cannot be decoded ({brief})") from error
+    except MemoryError:
+        raise
+    except Exception as error:  # hostile bytes: nearly anything can come
+        raise FileDamagedError(f"{header.path} cannot be decoded ({brief(error)})") from error
 
 
 @lru_cache(maxsize=2)

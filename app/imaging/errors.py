@@ -74,3 +74,12 @@ class BeadError(ImagingError, ValueError):
 
 class ScanOrderError(ImagingError, ValueError):
     """A control scan that no scanner takes: too few or too many slices, or of no thickness."""
+
+
+def brief(error: BaseException) -> str:
+    """Kind of a foreign error and where it comes from, without its words: they quote the file."""
+    trace, module = error.__traceback__, ""
+    while trace is not None:
+        module = trace.tb_frame.f_globals.get("__name__", module)
+        trace = trace.tb_next
+    return f"{type(error).__name__} in {module}" if module else type(error).__name__

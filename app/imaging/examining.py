@@ -1,10 +1,12 @@
 """What one file holds: the headers of its images, or why it belongs to no series."""
 
+import os
 import stat
 import struct
 from pathlib import Path
 from typing import BinaryIO
 
+from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError
 from app.imaging.header import SliceHeader
 from app.imaging.header_reading import read_headers
@@ -13,6 +15,12 @@ from app.imaging.series import Ignored
 _PREAMBLE = 132
 _FIRST_GROUPS = (0x0002, 0x0008)
 _DICOMDIR = b"1.2.840.10008.1.3.10"
+
+
+def headers_in(path: Path, settings: Path, progress: Progress) -> tuple[SliceHeader, ...] | Ignored:
+    """Job of the worker: `examine` with the key of the pseudonyms of these settings."""
+    os.environ["ACUS_SETTINGS"] = str(settings)
+    return examine(path)
 
 
 def examine(path: Path) -> tuple[SliceHeader, ...] | Ignored:

@@ -3,12 +3,28 @@
 import os
 import sys
 import time
+from pathlib import Path
 
+from app.core.progress import Progress
+from app.imaging import examining
 from app.imaging.series import Ignored
 from app.imaging.worker import child
 
 
-def examine(path):
+class PanicException(BaseException):
+    """What packages written in Rust raise."""
+
+
+def busy(seconds, progress):
+    """Compute for ten times as long as is told in between."""
+    for step in range(10):
+        begin = time.process_time()
+        while time.process_time() - begin < seconds:
+            pass
+        progress.report(step / 10, f"step {step}")
+
+
+def headers_in(path: Path, settings: Path, progress: Progress):
     if path.name == "crash":
         os.abort()
     if path.name == "exit":
@@ -24,12 +40,16 @@ def examine(path):
     if path.name == "memory":
         return Ignored(path, str(len(bytearray(1 << 40))))
     if path.name == "surprise":
-        raise KeyError("surprise")
+        raise KeyError("DOE^JANE")
+    if path.name == "panic":
+        raise PanicException("DOE^JANE")
+    if path.name == "slow":
+        busy(0.4, progress)
     if path.name == "wrong":
         return (Ignored(path, "no header"),)
     return Ignored(path, f"read {path.name}")
 
 
 if __name__ == "__main__":
-    child.examine = examine
+    examining.headers_in = headers_in
     child.main(int(sys.argv[1]))

@@ -11,13 +11,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from app.core.progress import Cancelled, Progress
 from app.imaging.errors import FileDamagedError, WorkerError, WorkerLostError
 from app.imaging.examining import examine
 from app.imaging.filling import filled
 from app.imaging.header import Plane, SliceHeader
-from app.imaging.worker import process, service
+from app.imaging.worker import limits, service
+from app.imaging.worker.answers import lost as lost_error
+from app.imaging.worker.luggage import Luggage, LuggageError, opened
 from app.imaging.worker.pool import ImagingWorker
 from app.imaging.worker.service import examine_files
 from app.imaging.worker.values import ForeignValueError, plain, reader
@@ -46,7 +49,8 @@ def reasons(worker, *names):
         ("nonsense", "talked nonsense"),
         ("huge", "talked nonsense"),
         ("memory", "of memory"),
-        ("surprise", "KeyError: 'surprise'"),
+        ("surprise", "it cannot be read (KeyError in "),
+        ("panic", "it cannot be read (PanicException in "),
         ("wrong", "talked nonsense"),
     ],
 )
@@ -54,6 +58,7 @@ def test_a_file_that_breaks_its_reader_is_named_and_the_others_are_read(hostile,
     found = reasons(hostile, "a", name, "b", "c")
     assert words in found[1]
     assert [found[0], found[2], found[3]] == ["read a", "read b", "read c"]
+    assert "JANE" not in found[1]
 
 
 def test_a_file_that_hangs_its_reader_is_given_up_after_two_seconds(hostile):
@@ -66,8 +71,24 @@ def test_a_file_that_hangs_its_reader_is_given_up_after_two_seconds(hostile):
 
 
 def test_a_file_that_never_comes_is_given_up_too(hostile, monkeypatch):
-    monkeypatch.setattr(process, "WAITING_SECONDS", 1.0)
+    monkeypatch.setattr(limits, "LEAST_CLOCK_SECONDS", 1.0)
+    monkeypatch.setattr(limits, "CLOCK_FACTOR", 0.1)
     assert "waited longer than 1 s" in reasons(hostile, "sleep")[0]
+
+
+def test_a_long_job_that_tells_how_far_it_is_is_not_given_up_and_shows_it(hostile):
+    told = []
+    progress = Progress(lambda fraction, text: told.append((fraction, text)))
+    (found,) = examine_files([Path("/nowhere/slow")], progress, hostile)
+    assert found.reason == "read slow"
+    assert (0.5, "step 5") in told
+
+
+def test_a_file_that_takes_long_is_told_to_whoever_waits(hostile):
+    told = []
+    progress = Progress(lambda fraction, text: told.append(text))
+    examine_files([Path("/nowhere", name) for name in ("a", "hang")], progress, hostile)
+    assert "2 of 2: 1 s so far" in told
 
 
 def test_many_hostile_files_in_a_row_cost_one_child_each(hostile):
@@ -183,6 +204,41 @@ def test_values_keep_their_types():
     assert reader(Plane | None)(None) is None
 
 
+def test_arrays_travel_beside_the_message_and_cannot_be_changed_on_the_way():
+    luggage, values = Luggage(), (np.arange(7, dtype=np.int16), np.eye(3), np.zeros((0, 4), bool))
+    message = plain(values, luggage)
+    descriptor = luggage.descriptor()
+    kept = os.dup(descriptor)
+    found = reader(tuple[NDArray[np.int16], NDArray[np.float64], NDArray[np.bool_]])(
+        opened(message, descriptor)
+    )
+    for one, other in zip(found, values, strict=True):
+        np.testing.assert_array_equal(one, other)
+        assert one.dtype == other.dtype
+        assert not one.flags.writeable
+    with pytest.raises(PermissionError):
+        os.pwrite(kept, b"x", 0)
+    os.close(kept)
+
+
+@pytest.mark.parametrize(
+    "where",
+    [["<i2", [8], 0], ["<i2", [7], 2], ["<i2", [-1], 0], ["O", [1], 0], [7], None, ["<i2", 3, 0]],
+)
+def test_an_array_that_does_not_lie_in_its_memory_is_refused(where):
+    luggage = Luggage()
+    luggage.add(np.arange(7, dtype=np.int16))
+    with pytest.raises(LuggageError):
+        opened([{"array": where}], luggage.descriptor())
+
+
+def test_memory_that_its_maker_could_still_shrink_is_refused(tmp_path):
+    file = os.open(tmp_path / "plain", os.O_RDWR | os.O_CREAT)
+    os.ftruncate(file, 100)
+    with pytest.raises(LuggageError):
+        opened([{"array": ["<i2", [7], 0]}], file)
+
+
 def test_a_file_swapped_after_the_scan_is_not_read(tmp_path):
     path = Slices().write(tmp_path)[0]
     (header,) = examine(path)
@@ -204,7 +260,9 @@ def test_a_slice_that_breaks_its_reader_ends_the_load_by_name(tmp_path, monkeypa
     encoded: SliceHeader = replace(
         header, pixels=replace(header.pixels, syntax="1.2.840.10008.1.2.5")
     )
-    lost = (answer for answer in [(0, ["lost", "was ended by SIGSEGV"])])
+    lost = (found for found in [(0, lost_error("was ended by SIGSEGV"))])
     monkeypatch.setattr(service.ImagingWorker, "run", lambda *_: lost)
-    with pytest.raises(WorkerLostError, match=r"s000 is damaged or hostile: .* SIGSEGV"):
+    with pytest.raises(
+        WorkerLostError, match=r"s000: damaged .* SIGSEGV \(decoder pylibjpeg-rle\)"
+    ):
         filled([encoded], np.dtype(np.int16))

@@ -2,12 +2,16 @@
 
 import array
 import json
+import os
 import socket
 import struct
 from typing import Any
 
 LONGEST = 1 << 26
 """Longest message that is accepted [bytes]; the frames of the largest files need a few MB."""
+
+VOLUME = "volume"
+"""First word of the message beside which the memory of a volume comes."""
 
 _LENGTH = struct.Struct("<L")
 
@@ -33,8 +37,10 @@ class Channel:
         return self._end.fileno()
 
     def close(self) -> None:
-        """Close this end; idempotent."""
+        """Close this end, and what came through it and was not taken; idempotent."""
         self._end.close()
+        while self._descriptors:
+            os.close(self._descriptors.pop())
 
     def send(self, message: Any, descriptor: int | None = None) -> None:
         """Send a message, and a file descriptor with it.

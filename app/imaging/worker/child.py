@@ -1,24 +1,27 @@
 """The child's side: takes a task, does it, answers; ends when the program is gone."""
 
-import os
+import importlib
+import logging
 import socket
-from pathlib import Path
-from typing import Any
+import time
+import warnings
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any, get_type_hints
 
-import numpy as np
-from numpy.typing import NDArray
-
-from app.imaging.decoding import stored_type
-from app.imaging.errors import FileDamagedError, SeriesRefusedError
-from app.imaging.examining import examine
-from app.imaging.header import SliceHeader
-from app.imaging.rescaling import NotExactError, fill_slice
-from app.imaging.series import Ignored
-from app.imaging.worker.channel import Channel
-from app.imaging.worker.limits import MEMORY_BYTES, limit_memory, limit_time
-from app.imaging.worker.values import plain, reader
+from app.core.progress import Progress
+from app.imaging.worker import slices
+from app.imaging.worker.answers import PROGRESS, Answer, done, failed
+from app.imaging.worker.channel import VOLUME, Channel
+from app.imaging.worker.limits import MemoryLimit, limit_time
+from app.imaging.worker.luggage import Luggage, opened
+from app.imaging.worker.values import Convert, reader
 
 READY = "ready"
+
+_TELLING_S = 0.05
+_AT_START = ("app.imaging.examining:headers_in",)
+"""Imported before the child is ready: every folder needs it."""
 
 
 def main(descriptor: int) -> None:
@@ -28,71 +31,71 @@ def main(descriptor: int) -> None:
         descriptor: this end of the socket pair.
     """
     channel = Channel(socket.socket(fileno=descriptor))
-    limit_memory()
+    warnings.simplefilter("ignore")  # what packages say of a file quotes its header
+    logging.disable(logging.CRITICAL)
+    for place in _AT_START:
+        _job(place)
+    memory = MemoryLimit()
     channel.send(READY)
-    tasks = Tasks()
     while True:
         while (message := channel.take()) is None:
             if not channel.fill():
                 return
         limit_time()
-        if message[0] == "volume":
-            tasks.volume(channel.take_descriptor())
+        if message[0] == VOLUME:
+            slices.take_volume(channel.take_descriptor())
         else:
-            channel.send(tasks.answer(message))
+            _do(channel, memory, message)
 
 
-class Tasks:
-    """What the child can do. A task is a list: its name, then its arguments."""
+def _do(channel: Channel, memory: MemoryLimit, message: list[Any]) -> None:
+    place, allowed, arguments, has_arrays = message
+    if has_arrays:
+        arguments = opened(arguments, channel.take_descriptor())
+    memory.set(allowed)
+    luggage = Luggage()
+    answer = _answer(place, arguments, _progress(channel), luggage, allowed)
+    try:
+        descriptor = luggage.descriptor() if luggage else None
+    except (OSError, MemoryError):
+        answer, descriptor = failed(MemoryError(), allowed), None
+    channel.send(answer, descriptor)
 
-    def __init__(self) -> None:
-        self._volume: int | None = None
-        self._scratch: dict[Any, NDArray[Any]] = {}
 
-    def volume(self, descriptor: int) -> None:
-        """Take the memory that slices are written to."""
-        if self._volume is not None:
-            os.close(self._volume)
-        self._volume = descriptor
+def _answer(
+    place: str, arguments: Sequence[Any], progress: Progress, luggage: Luggage, allowed: int
+) -> Answer:
+    """Do one task: its result, or why there is none."""
+    try:
+        work, converts = _job(place)
+        given = [convert(value) for convert, value in zip(converts, arguments, strict=True)]
+        return done(work(*given, progress), luggage)
+    except (KeyboardInterrupt, SystemExit):
+        raise
+    except BaseException as error:  # parsers raise nearly anything; Rust's panics are no Exception
+        luggage.clear()
+        return failed(error, allowed)
 
-    def answer(self, message: list[Any]) -> list[Any]:
-        """Do one task: its result, or why there is none, with a word before it for which."""
-        name, *arguments = message
-        try:
-            return self.examined(*arguments) if name == "examine" else self.filled(*arguments)
-        except NotExactError:
-            return ["inexact"]
-        except (FileDamagedError, SeriesRefusedError) as error:
-            return ["damaged", str(error)]
-        except MemoryError:
-            return ["damaged", f"it needs more than {MEMORY_BYTES >> 20} MB of memory to be read"]
-        except Exception as error:  # hostile bytes can make the parsers raise nearly anything
-            return ["damaged", f"it cannot be read ({type(error).__name__}: {error})"[:200]]
 
-    def examined(self, path: str, settings: str) -> list[Any]:
-        """Answer the headers in a file, or why it has none; pseudonyms need the key in settings."""
-        os.environ["ACUS_SETTINGS"] = settings
-        found = examine(Path(path))
-        if isinstance(found, Ignored):
-            return ["ignored", found.reason]
-        return ["headers", plain(found)]
+@cache
+def _job(place: str) -> tuple[Callable[..., Any], tuple[Convert, ...]]:
+    """Find the function of a job, and what makes its arguments of JSON; the progress comes last."""
+    module, name = place.split(":")
+    work = getattr(importlib.import_module(module), name)
+    hints = get_type_hints(work)
+    kinds = [hints[argument] for argument in hints if argument not in ("progress", "return")]
+    return work, tuple(reader(kind) for kind in kinds)
 
-    def filled(self, header: list[Any], place: int, dtype: str) -> list[Any]:
-        """Write a slice of Hounsfield values to its place in the volume."""
-        known: SliceHeader = reader(SliceHeader)(header)
-        shape = known.format.rows, known.format.columns
-        hu = self._array("hu", shape, np.dtype(dtype))
-        fill_slice(known, hu, self._array("stored", shape, stored_type(known.format)))
-        if self._volume is None:
-            raise FileDamagedError("there is no volume to write to")
-        view, at = memoryview(hu.data).cast("B"), place * hu.nbytes
-        while view:
-            written = os.pwrite(self._volume, view, at)
-            view, at = view[written:], at + written
-        return ["filled"]
 
-    def _array(self, name: str, shape: tuple[int, int], dtype: np.dtype[Any]) -> NDArray[Any]:
-        kept = self._scratch.get(name)
-        if kept is None or kept.shape != shape or kept.dtype != dtype:
-            kept = self._scratch[name] = np.empty(shape, dtype)
-        return kept
+def _progress(channel: Channel) -> Progress:
+    """Progress that the program hears of, now and then."""
+    told = time.monotonic()
+
+    def tell(fraction: float, text: str) -> None:
+        nonlocal told
+        if time.monotonic() - told > _TELLING_S:
+            told = time.monotonic()
+            limit_time()
+            channel.send([PROGRESS, fraction, text[:200]])
+
+    return Progress(tell)

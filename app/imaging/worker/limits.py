@@ -1,6 +1,8 @@
 """What the child may take: memory, processor time, no core dumps."""
 
+import os
 import resource
+from dataclasses import dataclass
 from pathlib import Path
 
 MEMORY_BYTES = 1 << 31
@@ -16,25 +18,74 @@ SECONDS_PER_PIXEL = 5e-7
 """What decoding a frame may take beside that; JPEG 2000 needs a quarter of it."""
 
 MOST_SECONDS = 30.0
-"""What no file may exceed, however large."""
+"""What no file may exceed, however large, without a sign of progress."""
 
-WAITING_SECONDS = 20.0
-"""Time on the clock after which a file is given up: a disk may sleep, a network may stall."""
+CLOCK_FACTOR = 10.0
+"""Time on the clock for each second of computing that is allowed: the machine may be busy."""
+
+LEAST_CLOCK_SECONDS = 20.0
+"""Time on the clock that every file gets: a disk may sleep, a network may stall."""
 
 _KILLED_AFTER = 60
-"""Seconds of processor time on one file after which the system itself ends the child: the
-program's watchdog comes first, unless the program is gone."""
+"""Seconds of processor time without a sign of progress after which the system itself ends the
+child: the program's watchdog comes first, unless the program is gone."""
 
 
-def limit_memory() -> None:
-    """Let this process grow by `MEMORY_BYTES` and no further; never write a core dump."""
-    pages = int(Path("/proc/self/statm").read_text().split()[0])
-    most = pages * resource.getpagesize() + MEMORY_BYTES
-    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-    if hard != resource.RLIM_INFINITY:
-        most = min(most, hard)
-    resource.setrlimit(resource.RLIMIT_AS, (most, most))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+@dataclass(frozen=True, slots=True)
+class Allowance:
+    """What a job may take between two signs of progress.
+
+    Attributes:
+        seconds: of processor time: a file is judged by what it makes the machine do, not by what
+            else the machine has to do.
+        bytes: of memory, beside what the child has anyway.
+    """
+
+    seconds: float
+    bytes: int = MEMORY_BYTES
+
+    @property
+    def clock_seconds(self) -> float:
+        """What may pass on the clock meanwhile."""
+        return max(LEAST_CLOCK_SECONDS, CLOCK_FACTOR * self.seconds)
+
+
+def for_file(size: int, pixels: int = 0, least: float = FILE_SECONDS) -> Allowance:
+    """Return what one file may take.
+
+    Args:
+        size: of the file [bytes].
+        pixels: to decode.
+        least: processor time for the smallest [s]; more than `FILE_SECONDS` where packages are
+            loaded on the way.
+    """
+    seconds = least + size * SECONDS_PER_BYTE + pixels * SECONDS_PER_PIXEL
+    return Allowance(min(MOST_SECONDS, seconds))
+
+
+def size_of(path: Path) -> int:
+    """Size of a file [bytes]; 0 where nobody says: the child tells what is wrong with it."""
+    try:
+        return path.stat().st_size
+    except OSError:
+        return 0
+
+
+class MemoryLimit:
+    """How far this process may grow beyond what it is now; it never writes a core dump."""
+
+    def __init__(self) -> None:
+        pages = int(Path("/proc/self/statm").read_text().split()[0])
+        self._own = pages * resource.getpagesize()
+        self._hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+    def set(self, allowed: int) -> None:
+        """Let the process grow by so many bytes and no further."""
+        most = self._own + allowed
+        if self._hard != resource.RLIM_INFINITY:
+            most = min(most, self._hard)
+        resource.setrlimit(resource.RLIMIT_AS, (most, self._hard))
 
 
 def limit_time() -> None:
@@ -54,10 +105,4 @@ def processor_seconds(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / _TICKS
 
 
-def _ticks() -> int:
-    import os
-
-    return os.sysconf("SC_CLK_TCK")
-
-
-_TICKS = _ticks()
+_TICKS = os.sysconf("SC_CLK_TCK")

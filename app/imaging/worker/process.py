@@ -8,13 +8,15 @@ import subprocess
 import sys
 import time
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from app.imaging.errors import WorkerError
-from app.imaging.worker.channel import Channel, ChannelError
-from app.imaging.worker.limits import WAITING_SECONDS, processor_seconds
+from app.imaging.worker.answers import DONE, PROGRESS, outcome
+from app.imaging.worker.channel import VOLUME, Channel, ChannelError
+from app.imaging.worker.jobs import Task
+from app.imaging.worker.limits import processor_seconds
 
 ENTRY = "app.imaging.worker"
 """Module that a child runs."""
@@ -41,6 +43,7 @@ class Child:
     Attributes:
         open: number of each task that is not answered yet, oldest first.
         ready: whether it has come up.
+        progress: how far the task is that it is at, and in what words; 0 and none if it is silent.
 
     Raises:
         WorkerError: if it cannot be started.
@@ -48,12 +51,12 @@ class Child:
 
     def __init__(self, module: str = ENTRY) -> None:
         self.open: deque[int] = deque()
-        self._allowed: deque[float] = deque()
+        self._tasks: deque[Task] = deque()
         ours, theirs = socket.socketpair()
         self._channel = Channel(ours)
         with theirs:
             self._process = _started(module, theirs.fileno(), self._channel)
-        self.ready = False
+        self.ready, self.progress = False, (0.0, "")
         self._mark()
 
     @property
@@ -65,17 +68,23 @@ class Child:
         """File descriptor, for `select`: readable when an answer has come."""
         return self._channel.fileno()
 
-    def send(self, task: list[Any], number: int, seconds: float) -> None:
-        """Give it a task that may take some seconds; its number joins `open`.
+    def send(self, task: Task, number: int) -> None:
+        """Give it a task; its number joins `open`.
 
         Raises:
             Lost: if it is gone.
+            OSError: if there is no memory for the arrays of the task.
         """
+        descriptor = task.luggage.descriptor() if task.luggage else None
         if not self.open:
             self._mark()
         self.open.append(number)
-        self._allowed.append(seconds)
-        self._send(task)
+        self._tasks.append(task)
+        try:
+            self._send(task.message, descriptor)
+        finally:
+            if descriptor is not None:
+                os.close(descriptor)
 
     def give(self, descriptor: int) -> None:
         """Give it the memory that slices are written to.
@@ -83,9 +92,9 @@ class Child:
         Raises:
             Lost: if it is gone.
         """
-        self._send(["volume"], descriptor)
+        self._send([VOLUME], descriptor)
 
-    def _send(self, task: list[Any], descriptor: int | None = None) -> None:
+    def _send(self, task: Sequence[Any], descriptor: int | None = None) -> None:
         try:
             self._channel.send(task, descriptor)
         except OSError:
@@ -103,8 +112,8 @@ class Child:
         except OSError:  # reset: it left without reading what it was sent
             raise Lost(self._end_of_it()) from None
 
-    def answers(self) -> Iterator[tuple[int, list[Any]]]:
-        """Yield number and answer of tasks, of what was taken in.
+    def answers(self) -> Iterator[tuple[int, Any]]:
+        """Yield number and outcome of tasks, of what was taken in.
 
         Raises:
             Lost: if what it says is no answer.
@@ -114,13 +123,20 @@ class Child:
                 self._mark()
                 if not self.ready:
                     self.ready = True
+                elif self.open and _is_progress(message):
+                    self.progress = message[1], message[2]
                 elif self.open and _is_answer(message):
-                    self._allowed.popleft()
-                    yield self.open.popleft(), message
+                    yield self._answered(message)
                 else:
                     raise ChannelError("no answer")
         except ChannelError as error:
             raise Lost(f"talked nonsense ({error})") from None
+
+    def _answered(self, message: list[Any]) -> tuple[int, Any]:
+        has_arrays = message[0] == DONE and message[-1] is True
+        descriptor = self._channel.take_descriptor() if has_arrays else None
+        self.progress = 0.0, ""
+        return self.open.popleft(), outcome(self._tasks.popleft().job.gives, message, descriptor)
 
     def check(self) -> None:
         """Look whether it still gets on with its task.
@@ -135,10 +151,12 @@ class Child:
             if waited > READY_SECONDS:
                 raise Lost(f"was not ready within {READY_SECONDS:.0f} s")
             self._mark(self._since)
-        elif self.open and self._computed() > self._allowed[0]:
-            raise Lost(f"took longer than {self._allowed[0]:.1f} s of computing")
-        elif self.open and waited > WAITING_SECONDS:
-            raise Lost(f"waited longer than {WAITING_SECONDS:.0f} s for it")
+        elif self.open:
+            allowed = self._tasks[0].allowed
+            if self._computed() > allowed.seconds:
+                raise Lost(f"took longer than {allowed.seconds:.1f} s of computing")
+            if waited > allowed.clock_seconds:
+                raise Lost(f"waited longer than {allowed.clock_seconds:.0f} s for it")
 
     def close(self) -> None:
         """End it at once; idempotent."""
@@ -165,6 +183,13 @@ class Child:
         with contextlib.suppress(ValueError):
             return f"was ended by {signal.Signals(-code).name}"
         return f"was ended by signal {-code}"
+
+
+def _is_progress(message: Any) -> bool:
+    """Whether a message tells how far a task is: a fraction and a few words."""
+    if not isinstance(message, list) or [type(part) for part in message] != [str, float, str]:
+        return False
+    return bool(message[0] == PROGRESS and 0.0 <= message[1] <= 1.0)
 
 
 def _is_answer(message: Any) -> bool:

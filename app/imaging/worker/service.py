@@ -13,17 +13,13 @@ from app.core import paths as paths_of_user
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, WorkerLostError
 from app.imaging.header import SliceHeader
+from app.imaging.pixel_data import DECODERS
 from app.imaging.privacy.key import installation_key
 from app.imaging.rescaling import NotExactError
 from app.imaging.series import Ignored
-from app.imaging.worker.limits import (
-    FILE_SECONDS,
-    MOST_SECONDS,
-    SECONDS_PER_BYTE,
-    SECONDS_PER_PIXEL,
-)
-from app.imaging.worker.pool import ImagingWorker, Task, shared_worker
-from app.imaging.worker.values import ForeignValueError, plain, reader
+from app.imaging.worker.jobs import EXAMINE, FILL, Task
+from app.imaging.worker.limits import for_file, size_of
+from app.imaging.worker.pool import ImagingWorker, shared_worker
 
 Examined = tuple[SliceHeader, ...] | Ignored
 
@@ -48,30 +44,26 @@ def examine_files(
         Cancelled: if `progress` was cancelled.
     """
     installation_key()  # what is wrong with it is told here, not once for each file
-    settings = str(paths_of_user.settings().absolute())
+    settings = paths_of_user.settings().absolute()
     tasks = [
-        Task(["examine", os.path.abspath(path), settings], _seconds(_size(path))) for path in paths
+        Task.of(EXAMINE, (os.path.abspath(path), settings), for_file(size_of(path)))
+        for path in paths
     ]
     found: list[Examined] = [Ignored(path, "not examined") for path in paths]
     with closing((worker or shared_worker()).run(tasks, progress)) as run:
-        for done, (number, answer) in enumerate(run, 1):
-            found[number] = _examined(paths[number], answer)
+        for done, (number, outcome) in enumerate(run, 1):
+            found[number] = _examined(paths[number], outcome)
             progress.report(done / len(paths), f"{done} of {len(paths)} files")
     return found
 
 
-def _examined(path: Path, answer: list[Any]) -> Examined:
-    word, *values = answer
-    try:
-        if word == "headers":
-            headers: tuple[SliceHeader, ...] = reader(tuple[SliceHeader, ...])(values[0])
-            return tuple(replace(header, path=path) for header in headers)
-        reason: str = reader(str)(values[0])
-    except (ForeignValueError, IndexError):
-        return Ignored(path, "damaged or hostile file: the process that read it talked nonsense")
-    if word == "lost":
-        return Ignored(path, f"damaged or hostile file: the process that read it {reason}")
-    return Ignored(path, reason)
+def _examined(path: Path, outcome: Any) -> Examined:
+    """Headers or why not, with the program's own name of the file, whatever came back."""
+    if isinstance(outcome, Exception):
+        return Ignored(path, str(outcome))
+    if isinstance(outcome, Ignored):
+        return Ignored(path, outcome.reason)
+    return tuple(replace(header, path=path) for header in outcome)
 
 
 def fill_slices(
@@ -95,7 +87,8 @@ def fill_slices(
     Raises:
         NotExactError: if a value does not fit 16 bits and int16 was asked for.
         FileDamagedError: if a file cannot be decoded; names it.
-        WorkerLostError: if a file crashed or hung the process that read it; names it.
+        WorkerLostError: if a file crashed or hung the process that read it; names it, and what
+            decoded it.
         WorkerError: if the process cannot be started.
         Cancelled: if `progress` was cancelled.
     """
@@ -103,38 +96,24 @@ def fill_slices(
         _filling(header, place, dtype.name) for header, place in zip(headers, places, strict=True)
     ]
     with closing((worker or shared_worker()).run(tasks, progress, descriptor)) as run:
-        for done, (number, answer) in enumerate(run, 1):
-            _check_filled(headers[number].path, answer)
+        for done, (number, outcome) in enumerate(run, 1):
+            if outcome is not None:
+                raise _named(headers[number], outcome)
             progress.report(done / len(headers), f"slice {done} of {len(headers)}")
 
 
 def _filling(header: SliceHeader, place: int, dtype: str) -> Task:
-    there = plain(replace(header, path=header.path.absolute()))
+    there = replace(header, path=header.path.absolute())
     pixels = header.format.rows * header.format.columns
-    return Task(["fill", there, place, dtype], _seconds(_size(header.path), pixels))
+    return Task.of(FILL, (there, place, dtype), for_file(size_of(header.path), pixels))
 
 
-def _size(path: Path) -> int:
-    try:
-        return path.stat().st_size
-    except OSError:  # the child says what is wrong with it
-        return 0
-
-
-def _seconds(size: int, pixels: int = 0) -> float:
-    """Processor time that reading a file may take."""
-    return min(MOST_SECONDS, FILE_SECONDS + size * SECONDS_PER_BYTE + pixels * SECONDS_PER_PIXEL)
-
-
-def _check_filled(path: Path, answer: list[Any]) -> None:
-    word, *values = answer
-    if word == "filled":
-        return
-    if word == "inexact":
-        raise NotExactError
-    reason = values[0] if values and isinstance(values[0], str) else "gave no reason"
-    if word == "lost":
-        raise WorkerLostError(
-            f"{path} is damaged or hostile: the process that read it {reason}; leave it out"
-        )
-    raise FileDamagedError(reason if str(path) in reason else f"{path}: {reason}")
+def _named(header: SliceHeader, outcome: Exception) -> Exception:
+    """Error with the file's name in it, and the decoder's where that was lost."""
+    path, text = header.path, str(outcome)
+    if isinstance(outcome, NotExactError):
+        return outcome
+    if isinstance(outcome, WorkerLostError):
+        decoder = DECODERS.get(header.pixels.syntax, ("inflating",))[0]
+        return WorkerLostError(f"{path}: {text} (decoder {decoder}); leave it out")
+    return FileDamagedError(text if str(path) in text else f"{path}: {text}")

@@ -11,6 +11,10 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
+import numpy as np
+
+from app.imaging.worker.luggage import Luggage
+
 Convert = Callable[[Any], Any]
 
 
@@ -18,13 +22,20 @@ class ForeignValueError(ValueError):
     """A value is not of the type that it must have."""
 
 
-def plain(value: Any) -> Any:
-    """Turn a value into what JSON holds: a dataclass becomes the list of its fields."""
+def plain(value: Any, luggage: Luggage | None = None) -> Any:
+    """Turn a value into what JSON holds: a dataclass becomes the list of its fields.
+
+    Args:
+        value: the value.
+        luggage: takes up its arrays, which are not for JSON.
+    """
     if is_dataclass(value):
         cls: Any = type(value)
-        return [plain(getattr(value, name)) for name in _names(cls)]
+        return [plain(getattr(value, name), luggage) for name in _names(cls)]
     if isinstance(value, tuple):
-        return [plain(item) for item in value]
+        return [plain(item, luggage) for item in value]
+    if luggage is not None and isinstance(value, np.ndarray):
+        return luggage.add(value)
     return str(value) if isinstance(value, Path) else value
 
 
@@ -38,7 +49,8 @@ def reader(kind: Any) -> Convert:
     """Make the function that turns JSON into values of a type.
 
     Args:
-        kind: a dataclass, tuple, union, Path, str, int, float, bool or None, or made of these.
+        kind: a dataclass, tuple, union, array, Path, str, int, float, bool or None, or made of
+            these.
 
     Returns:
         A function; it raises ForeignValueError for anything else than such a value.
@@ -49,6 +61,10 @@ def reader(kind: Any) -> Convert:
         return _union_reader(get_args(kind))
     if get_origin(kind) is tuple:
         return _tuple_reader(get_args(kind))
+    if get_origin(kind) is np.ndarray:
+        return _array_reader(get_args(get_args(kind)[1])[0])
+    if kind is None:
+        kind = type(None)
     if kind is Path:
         return lambda value: Path(_checked(value, str))
     if kind is float:
@@ -68,6 +84,17 @@ def _float(value: Any) -> float:
     if type(value) not in (float, int):
         raise ForeignValueError(f"{type(value).__name__} where a number is wanted")
     return float(value)
+
+
+def _array_reader(scalar: Any) -> Convert:
+    def read(value: Any) -> Any:
+        if not isinstance(value, np.ndarray):
+            raise ForeignValueError(f"{type(value).__name__} where an array is wanted")
+        if scalar is not Any and value.dtype != np.dtype(scalar):
+            raise ForeignValueError(f"an array of {value.dtype}, not of {np.dtype(scalar)}")
+        return value
+
+    return read
 
 
 def _dataclass_reader(kind: Any) -> Convert:

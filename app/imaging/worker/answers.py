@@ -1,0 +1,98 @@
+"""What became of a task: its result, or the error that ended it, in words that both sides know."""
+
+from typing import Any
+
+from app.core.errors import AcusError
+from app.imaging.errors import (
+    FileDamagedError,
+    FolderError,
+    SeriesRefusedError,
+    WorkerLostError,
+    brief,
+)
+from app.imaging.privacy.errors import BurnedInError, KeyDamagedError, NotCleanError, PrivacyError
+from app.imaging.rescaling import NotExactError
+from app.imaging.structures.errors import (
+    ExtraMissingError,
+    FrameOfReferenceError,
+    StructureError,
+    StructureFileError,
+)
+from app.imaging.worker.luggage import Luggage, LuggageError, opened
+from app.imaging.worker.values import ForeignValueError, plain, reader
+
+DONE, FAILED, SYSTEM, PROGRESS = "done", "failed", "system", "progress"
+
+_ERRORS = {
+    kind.__name__: kind
+    for kind in (
+        BurnedInError, ExtraMissingError, FileDamagedError, FolderError, FrameOfReferenceError,
+        KeyDamagedError, NotCleanError, NotExactError, PrivacyError, SeriesRefusedError,
+        StructureError, StructureFileError,
+    )
+}  # fmt: skip
+"""Errors that a job may end in; any other one is a file that cannot be read."""
+
+_LONGEST = 600
+Answer = list[Any]
+
+
+def done(result: Any, luggage: Luggage) -> Answer:
+    """Answer a result; what it holds of arrays goes into the luggage."""
+    there = plain(result, luggage)
+    return [DONE, there, bool(luggage)]
+
+
+def failed(error: BaseException, allowed: int) -> Answer:
+    """Answer an error: our own in their words, foreign ones without theirs, which quote the file.
+
+    Args:
+        error: what the job ended in.
+        allowed: memory that it had [bytes].
+    """
+    if isinstance(error, MemoryError):
+        text = f"it needs more than {allowed >> 20} MB of memory to be read"
+        return [FAILED, FileDamagedError.__name__, text]
+    if type(error).__name__ in _ERRORS:
+        return [FAILED, type(error).__name__, str(error)]
+    if isinstance(error, AcusError):
+        return [FAILED, FileDamagedError.__name__, str(error)]
+    if isinstance(error, OSError) and error.errno:
+        return [SYSTEM, error.errno, error.strerror or "error of the system"]
+    return [FAILED, FileDamagedError.__name__, f"it cannot be read ({brief(error)})"]
+
+
+def outcome(kind: Any, answer: Answer, descriptor: int | None) -> Any:
+    """Return the result of a task, or the error that it ended in: made, not raised.
+
+    Args:
+        kind: type that the result must have.
+        answer: of the child.
+        descriptor: memory with the arrays of the result; closed here.
+    """
+    try:
+        if descriptor is not None:
+            answer = opened(answer, descriptor)
+        word, *values = answer
+        if word == DONE:
+            return reader(kind)(values[0])
+        name, text = values
+        return _error(word, name, text)
+    except (ForeignValueError, LuggageError, IndexError, ValueError):
+        return lost("talked nonsense")
+
+
+def lost(reason: str) -> WorkerLostError:
+    """Error of a task that cost its child.
+
+    Args:
+        reason: what the child did, as in "was ended by SIGSEGV".
+    """
+    return WorkerLostError(f"damaged or hostile file: the process that read it {reason}")
+
+
+def _error(word: str, name: Any, text: Any) -> Exception:
+    shown = reader(str)(text)[:_LONGEST]
+    if word == SYSTEM:
+        return OSError(reader(int)(name), shown)
+    return _ERRORS.get(reader(str)(name), FileDamagedError)(shown)

@@ -1,0 +1,177 @@
+"""The children that work for one call: fed, listened to, watched, replaced and given back."""
+
+import select
+import time
+from collections import deque
+from collections.abc import Iterator, Sequence
+from typing import Any, Protocol
+
+from app.core.progress import Progress
+from app.imaging.errors import WorkerError
+from app.imaging.worker.answers import lost as lost_error
+from app.imaging.worker.jobs import Task
+from app.imaging.worker.process import Child, Lost
+
+_AHEAD = 8
+"""Tasks that a child has before it, so that it need not wait for the program."""
+
+_WORTH_STARTING = 1.0
+"""Seconds of work left for which a second child is started; one that is up helps at once."""
+
+_LOOK = 0.1
+"""How often [s] the watchdog looks, and the user may cancel."""
+
+_TELL_AFTER = 1.0
+"""Seconds without an answer after which somebody who waits is told that it goes on."""
+
+Found = tuple[int, Any]
+
+
+class Lender(Protocol):
+    """Who has the children."""
+
+    def lease(self, start: bool = True) -> Child | None:
+        """Take a child; None if all are taken."""
+
+    def give_back(self, child: Child | None) -> None:
+        """Return a child, or None for one that was lost."""
+
+    def wait(self) -> None:
+        """Wait a moment for one to become free."""
+
+
+class Crew:
+    """The children that work for one call of `ImagingWorker.run`.
+
+    Args:
+        lender: where they come from.
+        descriptor: memory that slices are written to.
+        tasks: all that is to be done.
+        progress: of whoever asked.
+    """
+
+    def __init__(
+        self, lender: Lender, descriptor: int | None, tasks: Sequence[Task], progress: Progress
+    ) -> None:
+        self._lender, self._descriptor = lender, descriptor
+        self._tasks, self._progress = tasks, progress
+        self._children: list[Child] = []
+        self._first, self._answered = 0.0, 0
+        self._heard, self._told = time.monotonic(), (0.0, "")
+
+    @property
+    def busy(self) -> bool:
+        """Whether a task is with a child."""
+        return any(child.open for child in self._children)
+
+    def hire(self, waiting: int) -> None:
+        """Take a child, and a second one where that pays."""
+        if len(self._children) == 1 and waiting > _AHEAD:
+            self._take(self._seconds_left(waiting) > _WORTH_STARTING)
+        while not self._children:
+            if not self._take(True):
+                self._progress.check()
+                self._lender.wait()
+
+    def tell(self) -> None:
+        """Tell how far the only task is, or that one takes long."""
+        told = next((child.progress for child in self._children if child.progress[1]), None)
+        count = len(self._tasks)
+        if told and told != self._told:
+            self._told = told
+            self._progress.report((self._answered + told[0]) / count, told[1])
+        elif not told and (quiet := time.monotonic() - self._heard) > _TELL_AFTER:
+            number = min(self._answered + 1, count)
+            text = f"{number} of {count}: {quiet:.0f} s so far"
+            self._progress.report(self._answered / count, text)
+
+    def _take(self, start: bool) -> bool:
+        child = self._lender.lease(start)
+        if child is None:
+            return False
+        self._children.append(child)
+        self._prepare(child)
+        return True
+
+    def _seconds_left(self, waiting: int) -> float:
+        """Work that is left, at the pace so far; nothing is known before the first answers."""
+        if not self._answered:
+            return 0.0
+        return (time.monotonic() - self._first) / self._answered * waiting
+
+    def _prepare(self, child: Child) -> None:
+        try:
+            if self._descriptor is not None:
+                child.give(self._descriptor)
+        except Lost as lost:
+            raise WorkerError(f"the process that reads foreign files {lost}") from lost
+
+    def feed(self, waiting: "deque[int]") -> Iterator[Found]:
+        """Give each child something to do."""
+        for child in tuple(self._children):
+            try:
+                while waiting and len(child.open) < _AHEAD:
+                    number = waiting.popleft()
+                    child.send(self._tasks[number], number)
+            except Lost as lost:
+                yield from self._replace(child, lost, waiting)
+
+    def collect(self, waiting: "deque[int]") -> Iterator[Found]:
+        """Wait a moment for answers, and look after those that give none."""
+        working = [child for child in self._children if child.open]
+        ready = select.select(working, [], [], _LOOK)[0]
+        for child in working:
+            try:
+                if child in ready:
+                    child.listen()
+                    yield from self._counted(child.answers())
+                else:
+                    child.check()
+            except Lost as lost:
+                yield from self._replace(child, lost, waiting)
+
+    def _counted(self, answers: Iterator[Found]) -> Iterator[Found]:
+        for found in answers:
+            self._heard = time.monotonic()
+            self._first = self._first or self._heard
+            self._answered += 1
+            yield found
+
+    def _replace(self, child: Child, lost: Lost, waiting: "deque[int]") -> Iterator[Found]:
+        """Answer for the task that the child was lost on; the others wait for the next child."""
+        self._children.remove(child)
+        child.close()
+        self._lender.give_back(None)
+        if not child.ready:
+            raise WorkerError(
+                f"the process that reads foreign files {lost} before it was ready; its memory "
+                "or its installation may fail: see `acus check`, or install the program again"
+            )
+        if child.open:
+            first, *others = child.open
+            waiting.extendleft(reversed(others))
+            yield from self._counted(iter([(first, lost_error(str(lost)))]))
+
+    def dismiss(self) -> None:
+        """Give the children back; what they are in the middle of is for nobody any more."""
+        for child in self._children:
+            if _finished(child):
+                self._lender.give_back(child)
+            else:
+                child.close()
+                self._lender.give_back(None)
+        self._children = []
+
+
+def _finished(child: Child) -> bool:
+    """Whether a child is done with its open tasks within a moment."""
+    deadline = time.monotonic() + _LOOK
+    try:
+        deque(child.answers(), maxlen=0)  # what has come already is for nobody either
+        while child.open and (left := deadline - time.monotonic()) > 0.0:
+            if select.select([child], [], [], left)[0]:
+                child.listen()
+                deque(child.answers(), maxlen=0)
+    except Lost:
+        return False
+    return not child.open

@@ -1,0 +1,61 @@
+"""The table of jobs: whatever is parsed of a foreign file, and what comes of it.
+
+A job is a function of plain values, with the progress as its last argument. It runs in the child;
+the program names it, and reads what comes back by the type that stands here, never by what the
+child says that it is.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Generic, TypeVar
+
+from app.imaging.header import SliceHeader
+from app.imaging.series import Ignored
+from app.imaging.worker.limits import Allowance
+from app.imaging.worker.luggage import Luggage
+from app.imaging.worker.values import plain
+
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True, slots=True)
+class Job(Generic[Result]):
+    """One kind of work.
+
+    Attributes:
+        place: `module:function`, imported by the child when it is first asked for.
+        gives: type of what comes back: made of dataclasses, tuples, plain values and arrays.
+    """
+
+    place: str
+    gives: Any
+
+
+EXAMINE: Job[tuple[SliceHeader, ...] | Ignored] = Job(
+    "app.imaging.examining:headers_in", tuple[SliceHeader, ...] | Ignored
+)
+FILL: Job[None] = Job("app.imaging.worker.slices:fill", None)
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A job and what it is about.
+
+    Attributes:
+        job: which.
+        message: what the child is told.
+        luggage: arrays that go with it.
+        allowed: what it may take.
+    """
+
+    job: Job[Any]
+    message: Sequence[Any]
+    luggage: Luggage
+    allowed: Allowance
+
+    @classmethod
+    def of(cls, job: Job[Any], arguments: Sequence[Any], allowed: Allowance) -> "Task":
+        """Task of a job with plain arguments, dataclasses, tuples and arrays of them."""
+        luggage = Luggage()
+        there = [plain(argument, luggage) for argument in arguments]
+        return cls(job, [job.place, allowed.bytes, there, bool(luggage)], luggage, allowed)
