@@ -3,8 +3,6 @@
 import os
 from pathlib import Path
 
-import platformdirs
-
 _PACKAGE = Path(__file__).resolve().parents[1]
 
 
@@ -28,23 +26,26 @@ def sessions() -> Path:
 
 def data() -> Path:
     """Per-user data folder (`ACUS_DATA` overrides)."""
-    return Path(os.environ.get("ACUS_DATA") or platformdirs.user_data_dir("acus", appauthor=False))
+    return Path(os.environ.get("ACUS_DATA") or _of_user("data"))
 
 
 def cache() -> Path:
     """Per-user cache folder for what can be made again (`ACUS_CACHE` overrides)."""
-    return Path(
-        os.environ.get("ACUS_CACHE") or platformdirs.user_cache_dir("acus", appauthor=False)
-    )
+    return Path(os.environ.get("ACUS_CACHE") or _of_user("cache"))
 
 
 def settings() -> Path:
     """Per-user settings folder (`ACUS_SETTINGS` overrides)."""
-    return Path(
-        os.environ.get("ACUS_SETTINGS") or platformdirs.user_config_dir("acus", appauthor=False)
-    )
+    return Path(os.environ.get("ACUS_SETTINGS") or _of_user("config"))
 
 
 def laws() -> Path:
     """Per-user folder of a laboratory's own force laws (`ACUS_LAWS` overrides)."""
     return Path(os.environ.get("ACUS_LAWS") or data() / "laws")
+
+
+def _of_user(kind: str) -> str:
+    import platformdirs  # takes its time, and who is told the folders does without
+
+    folder: str = getattr(platformdirs, f"user_{kind}_dir")("acus", appauthor=False)
+    return folder

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from app.imaging import codestream
 from app.imaging.errors import FileDamagedError
-from app.imaging.pixel_data import DECODERS, JPEG, RLE, PixelFormat, keep_bits
+from app.imaging.pixel_data import DECODERS, JPEG, RLE, PixelFormat
+from app.imaging.stored_bits import keep_bits
 
 Stored = NDArray[Any]
 Codec = Callable[[bytes, str, PixelFormat, int], Any]

@@ -19,8 +19,8 @@ from app.imaging.pixel_data import (
     PixelData,
     PixelFormat,
     Stamp,
-    keep_bits,
 )
+from app.imaging.stored_bits import keep_bits
 
 Stored = NDArray[Any]
 

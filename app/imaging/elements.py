@@ -1,32 +1,28 @@
 """Raw DICOM elements as plain values: quick, without pydicom's conversions and their warnings."""
 
+import contextlib
 import math
 import struct
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, BinaryIO, Final
 
-import pydicom
-from pydicom.dataelem import RawDataElement
-from pydicom.dataset import Dataset
-from pydicom.filereader import data_element_generator
-from pydicom.tag import BaseTag
-
 from app.imaging.deflated import inflated_head
+from app.imaging.element_walk import OddError, Walk
 from app.imaging.errors import FileDamagedError
 from app.imaging.pixel_data import (
     DECODERS,
     DEFLATED,
     EXPLICIT_BIG,
-    EXPLICIT_LITTLE,
     IMPLICIT_LITTLE,
     RAW,
 )
 
-_PREAMBLE: Final = 132
-_TRANSFER_SYNTAX: Final = 0x00020010
-_FIRST_PIXEL_TAG: Final = 0x7FE00008
+PREAMBLE: Final = 132
+TRANSFER_SYNTAX: Final = 0x00020010
+FIRST_PIXEL_TAG: Final = 0x7FE00008
+_FIRST_META_TAG: Final = 0x00020000
+_FIRST_DATA_TAG: Final = 0x00030000
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,70 +53,50 @@ def read_elements(stream: BinaryIO, wanted: Sequence[int], forced: bool) -> Elem
     Raises:
         FileDamagedError: if the header cannot be parsed.
     """
+    if not forced:
+        with contextlib.suppress(OddError):
+            return _sound(stream, frozenset(wanted))
     try:
-        quick = None if forced else _quick(stream, wanted)
-        return quick or _thorough(stream, wanted, forced)
+        from app.imaging.odd_elements import read_odd
+
+        return read_odd(stream, wanted, forced)
     except Exception as error:  # hostile bytes make the parser raise nearly anything
         brief = " ".join(f"{type(error).__name__}: {error}".split())[:120]
         raise FileDamagedError(f"its header cannot be read ({brief})") from error
 
 
-def _quick(stream: BinaryIO, wanted: Sequence[int]) -> Elements | None:
-    """Read a file that is what it says; None for one that needs pydicom's whole care."""
-    stream.seek(_PREAMBLE)
-    meta = data_element_generator(
-        stream, False, True, _after_meta, None, "iso8859", [_TRANSFER_SYNTAX]
-    )
-    syntax = text(Elements({int(e.tag): e for e in meta}, ""), _TRANSFER_SYNTAX)
+def _sound(stream: BinaryIO, wanted: frozenset[int]) -> Elements:
+    """Read a file that is what it says, and says so as the standard does.
+
+    Raises:
+        OddError: for any other.
+    """
+    walk = Walk(stream, PREAMBLE)
+    meta = walk.take(frozenset((TRANSFER_SYNTAX,)), False, _FIRST_META_TAG, _FIRST_DATA_TAG)
+    syntax = text(Elements(meta, ""), TRANSFER_SYNTAX)
     if syntax == DEFLATED:
-        return _inflate(stream, wanted)
-    if syntax not in DECODERS and syntax not in RAW:
-        return None
-    start = stream.read(6)
-    stream.seek(-len(start), 1)
-    implicit, little = syntax == IMPLICIT_LITTLE, syntax != EXPLICIT_BIG
-    if (start[4:6].isalpha() and start[4:6].isupper()) == implicit:
-        return None
-    found = data_element_generator(
-        stream, implicit, little, _at_pixels, None, "iso8859", list(wanted)
-    )
-    return Elements({int(element.tag): element for element in found}, syntax)
+        return _deflated(stream, walk.place, wanted)
+    if syntax == EXPLICIT_BIG or (syntax not in DECODERS and syntax not in RAW):
+        raise OddError
+    implicit = syntax == IMPLICIT_LITTLE
+    if walk.is_explicit() == implicit:
+        raise OddError
+    values = walk.take(wanted, implicit, _FIRST_DATA_TAG, FIRST_PIXEL_TAG)
+    stream.seek(walk.place)
+    return Elements(values, syntax)
 
 
-def _inflate(stream: BinaryIO, wanted: Sequence[int]) -> Elements:
+def _deflated(stream: BinaryIO, start: int, wanted: frozenset[int]) -> Elements:
     """Read the elements of a deflated data set, which is explicit and little endian (PS3.5 A.5)."""
-    start = stream.tell()
-    body = inflated_head(stream)
-    found = data_element_generator(body, False, True, _at_pixels, None, "iso8859", list(wanted))
-    return Elements({int(element.tag): element for element in found}, DEFLATED, body, start)
-
-
-def _after_meta(tag: BaseTag, vr: str | None, length: int) -> bool:
-    return tag >> 16 != 2
-
-
-def _at_pixels(tag: BaseTag, vr: str | None, length: int) -> bool:
-    return tag >= _FIRST_PIXEL_TAG
-
-
-def _thorough(stream: BinaryIO, wanted: Sequence[int], forced: bool) -> Elements:
-    stream.seek(0)
-    with warnings.catch_warnings():  # what is wrong with a file is said by name, by us
-        warnings.simplefilter("ignore")
-        header = pydicom.dcmread(
-            stream, stop_before_pixels=True, specific_tags=list(wanted), force=forced
-        )
-    values = {tag: header.get_item(tag) for tag in wanted if tag in header}
-    meta: Dataset = getattr(header, "file_meta", Dataset())
-    syntax = str(meta.get("TransferSyntaxUID", "") or "")
-    return Elements(values, syntax or _assumed_syntax(header))
-
-
-def _assumed_syntax(header: Dataset) -> str:
-    implicit, little = header.original_encoding
-    if little is False:
-        return EXPLICIT_BIG
-    return IMPLICIT_LITTLE if implicit else EXPLICIT_LITTLE
+    stream.seek(start)
+    try:
+        body = inflated_head(stream)
+    except FileDamagedError as error:
+        raise OddError from error
+    walk = Walk(body, 0)
+    values = walk.take(wanted, False, _FIRST_DATA_TAG, FIRST_PIXEL_TAG)
+    body.seek(walk.place)
+    return Elements(values, DEFLATED, body, start)
 
 
 def text(header: Elements, tag: int) -> str:
@@ -169,12 +145,12 @@ def integer(header: Elements, tag: int, name: str, signed: bool = False) -> int 
     value = getattr(element, "value", None)
     if value is None or value == b"":
         return None
-    if isinstance(element, RawDataElement) and isinstance(value, bytes):
-        if element.VR == "IS":
+    if isinstance(value, bytes):
+        if getattr(element, "VR", None) == "IS":
             return _integer_string(value, name)
         if len(value) < 2:
             raise FileDamagedError(f"{name} has {len(value)} bytes; 2 are needed")
-        order = "<" if element.is_little_endian else ">"
+        order = "<" if getattr(element, "is_little_endian", True) else ">"
         return int(struct.unpack_from(order + ("h" if signed else "H"), value)[0])
     return int(value)
 

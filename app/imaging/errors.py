@@ -20,6 +20,10 @@ class FileDamagedError(ImagingError, ValueError):
     """A file cannot be read as the DICOM image that it claims to be."""
 
 
+class NotExactError(Exception):
+    """A value does not fit 16 bits; read again as float32. Nobody outside is told."""
+
+
 class WorkerLostError(FileDamagedError):
     """A file made the process that reads it crash or hang; that process was replaced."""
 

@@ -9,8 +9,7 @@ from app.imaging.errors import FileDamagedError
 from app.imaging.header import MULTI_FRAME, Identity, Plane, Rescale, SliceHeader
 from app.imaging.pixel_data import PixelFormat
 from app.imaging.pixel_finding import find_pixels
-from app.imaging.privacy.forms import fits
-from app.imaging.privacy.profile import profile
+from app.imaging.privacy.known_words import body_parts, is_kernel
 from app.imaging.privacy.pseudonyms import former_pseudonym, pseudonym
 
 _TAGS: Final = {
@@ -157,11 +156,10 @@ def _identity(header: Elements) -> Identity:
 
 def _label(number: str, body_part: str, kernel: str) -> str:
     """Built from coded elements, and of these from known words only: free text may hold a name."""
-    kept = profile().kept
     number = number if number.isdigit() and len(number) <= 5 else "?"
-    body_part = body_part if body_part in kept[_TAGS["BodyPartExamined"]].words else ""
+    body_part = body_part if body_part in body_parts() else ""
     first = kernel.split(chr(92))[0]
-    kernel = f"kernel {first}" if first and fits(kept[_TAGS["ConvolutionKernel"]], first) else ""
+    kernel = f"kernel {first}" if first and is_kernel(first) else ""
     return ", ".join(part for part in (f"Series {number}", body_part, kernel) if part)
 
 

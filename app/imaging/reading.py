@@ -13,6 +13,7 @@ from app.imaging import memory, stack
 from app.imaging.errors import (
     FileDamagedError,
     FolderError,
+    NotExactError,
     OutsideImageError,
     SeriesAmbiguousError,
     SeriesRefusedError,
@@ -22,7 +23,7 @@ from app.imaging.errors import (
 from app.imaging.filling import filled
 from app.imaging.header import SliceHeader
 from app.imaging.reduction import reduced_block
-from app.imaging.rescaling import NotExactError, fresh_array, integral
+from app.imaging.rescaling import fresh_array, integral
 from app.imaging.scanning import scan_folder
 from app.imaging.series import Listing, Remedy, Series
 from app.imaging.volume import Volume

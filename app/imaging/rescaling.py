@@ -8,14 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.imaging.decoding import read_stored
-from app.imaging.errors import FileDamagedError, SeriesRefusedError
+from app.imaging.errors import FileDamagedError, NotExactError, SeriesRefusedError
 from app.imaging.header import Rescale, SliceHeader
 
 _INT16: Final = np.iinfo(np.int16)
-
-
-class NotExactError(Exception):
-    """A value does not fit 16 bits; read again as float32."""
 
 
 def fresh_array(shape: tuple[int, int, int], dtype: np.dtype[Any]) -> NDArray[Any]:

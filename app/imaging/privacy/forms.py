@@ -6,14 +6,10 @@ from typing import Any
 
 from pydicom.multival import MultiValue
 
+from app.imaging.privacy.known_words import is_kernel
 from app.imaging.privacy.profile import Kept
 
 _STANDARD_UID = re.compile(r"1\.2\.840\.10008\.[0-9.]{1,50}")
-_KERNEL = re.compile(
-    r"(?i:STANDARD|STND|SOFT|LUNG|BONE|BONEPLUS|DETAIL|EDGE|ULTRA|CHEST|SMOOTH|SHARP|BRAIN|HEAD)"
-    r"|BODY|ABDOMEN|HD|[A-FL]|[USYE][A-D]"
-    r"|[A-Z][A-Za-z]?\d{1,3}[a-z]{0,2}|\d"
-)
 _LONGEST_NUMBER = 16
 
 
@@ -34,7 +30,7 @@ def fits(kept: Kept, value: Any) -> bool:
     if kept.kind == "words":
         return all(str(item).strip() in kept.words for item in found)
     if kept.kind == "kernel":
-        return all(_is_kernel(str(item)) for item in found)
+        return all(is_kernel(str(item)) for item in found)
     return kept.kind == "tag" and all(int(item) >> 16 & 1 == 0 for item in found)
 
 
@@ -46,8 +42,3 @@ def _is_number(value: Any) -> bool:
         )
     except ValueError:
         return False
-
-
-def _is_kernel(text: str) -> bool:
-    """Whether it reads like a reconstruction kernel: a known word, or a letter and a number."""
-    return _KERNEL.fullmatch(text.strip()) is not None

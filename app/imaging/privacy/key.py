@@ -10,8 +10,8 @@ import hashlib
 import hmac
 import os
 import secrets
+from functools import lru_cache
 from pathlib import Path
-from uuid import uuid4
 
 from app.core import paths
 from app.imaging.privacy.errors import KeyDamagedError
@@ -34,7 +34,8 @@ def installation_key() -> bytes:
     try:
         if not path.exists():
             _make(path)
-        key = path.read_bytes()
+        known = path.stat()
+        key = _read(path, known.st_mtime_ns, known.st_ino)
     except OSError as error:
         raise KeyDamagedError(
             f"the privacy key {path} cannot be read or made: {error.strerror or error}; "
@@ -48,10 +49,16 @@ def installation_key() -> bytes:
     return key
 
 
+@lru_cache(maxsize=1)
+def _read(path: Path, changed_ns: int, number: int) -> bytes:
+    """Read the key; kept as long as the file is the same one: it is asked for at every header."""
+    return path.read_bytes()
+
+
 def _make(path: Path) -> None:
     """Write beside and link: of two processes at once the second takes the first one's key."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    beside = path.with_name(f".{path.name}.{uuid4().hex}")
+    beside = path.with_name(f".{path.name}.{secrets.token_hex(16)}")
     try:
         with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
             file.write(secrets.token_bytes(BYTES))

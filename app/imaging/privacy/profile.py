@@ -10,8 +10,12 @@ from pydicom.datadict import tag_for_keyword
 from app.core import paths
 from app.core.configuration import read_yaml
 from app.core.errors import ConfigurationError
+from app.imaging.privacy.known_words import body_parts
 
 KINDS = ("number", "uid", "date", "age", "kernel", "tag", "items", "pixels")
+BODY_PART = "body part"
+"""Form of an attribute whose words stand in a list of their own."""
+
 ACTIONS = ("X", "Z", "D", "U", "X/Z", "X/D", "Z/D", "X/Z/D", "X/Z/U*")
 
 
@@ -73,10 +77,12 @@ def _kept() -> dict[int, Kept]:
     found = {}
     for keyword, form in read_yaml(path).items():
         tag = tag_for_keyword(keyword)
-        if tag is None or not (isinstance(form, list) or form in KINDS):
+        if tag is None or not (isinstance(form, list) or form in (*KINDS, BODY_PART)):
             raise ConfigurationError(f"{path}: {keyword}: {form}: no such keyword or form")
         if isinstance(form, list):
             found[tag] = Kept(keyword, "words", frozenset(map(str, form)))
+        elif form == BODY_PART:
+            found[tag] = Kept(keyword, "words", body_parts())
         else:
             found[tag] = Kept(keyword, form)
     return found

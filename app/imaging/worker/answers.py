@@ -6,12 +6,12 @@ from app.core.errors import AcusError
 from app.imaging.errors import (
     FileDamagedError,
     FolderError,
+    NotExactError,
     SeriesRefusedError,
     WorkerLostError,
     brief,
 )
 from app.imaging.privacy.errors import BurnedInError, KeyDamagedError, NotCleanError, PrivacyError
-from app.imaging.rescaling import NotExactError
 from app.imaging.structures.errors import (
     ExtraMissingError,
     FrameOfReferenceError,

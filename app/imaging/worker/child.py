@@ -1,4 +1,8 @@
-"""The child's side: takes a task, does it, answers; ends when the program is gone."""
+"""The child's side: takes a task, does it, answers; ends when the program is gone.
+
+It is started while somebody waits for a folder, so it loads what reads sound headers and no more:
+numpy, pydicom and the decoders come with the first file that needs them.
+"""
 
 import importlib
 import logging
@@ -10,7 +14,6 @@ from functools import cache
 from typing import Any, get_type_hints
 
 from app.core.progress import Progress
-from app.imaging.worker import slices
 from app.imaging.worker.answers import PROGRESS, Answer, done, failed
 from app.imaging.worker.channel import VOLUME, Channel
 from app.imaging.worker.limits import MemoryLimit, limit_time
@@ -43,9 +46,15 @@ def main(descriptor: int) -> None:
                 return
         limit_time()
         if message[0] == VOLUME:
-            slices.take_volume(channel.take_descriptor())
+            _take_volume(channel.take_descriptor())
         else:
             _do(channel, memory, message)
+
+
+def _take_volume(descriptor: int) -> None:
+    from app.imaging.worker import slices
+
+    slices.take_volume(descriptor)
 
 
 def _do(channel: Channel, memory: MemoryLimit, message: list[Any]) -> None:

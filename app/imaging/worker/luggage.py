@@ -1,13 +1,17 @@
-"""Arrays beside a message: all of one message in one piece of memory, never in the JSON."""
+"""Arrays beside a message: all of one message in one piece of memory, never in the JSON.
+
+numpy is loaded with the first array: most messages have none.
+"""
 
 import fcntl
 import math
 import mmap
 import os
-from typing import Any
+import sys
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 _ALIGNED = 64
 _KINDS = "biuf"
@@ -17,6 +21,12 @@ _KEY = "array"
 
 class LuggageError(ValueError):
     """What came beside a message is not what the message says."""
+
+
+def is_array(value: Any) -> bool:
+    """Whether a value is an array of numpy."""
+    numpy = sys.modules.get("numpy")
+    return numpy is not None and isinstance(value, numpy.ndarray)
 
 
 class Luggage:
@@ -29,7 +39,7 @@ class Luggage:
     def __bool__(self) -> bool:
         return bool(self._arrays)
 
-    def add(self, array: NDArray[Any]) -> dict[str, Any]:
+    def add(self, array: "NDArray[Any]") -> dict[str, Any]:
         """Take an array along; returns what stands for it in the message."""
         start = -(-self._end // _ALIGNED) * _ALIGNED
         self._arrays.append(array)
@@ -60,7 +70,9 @@ class Luggage:
         return made
 
 
-def _write(descriptor: int, start: int, array: NDArray[Any]) -> None:
+def _write(descriptor: int, start: int, array: "NDArray[Any]") -> None:
+    import numpy as np
+
     view = np.ascontiguousarray(array).data.cast("B") if array.size else memoryview(b"")
     while view:
         written = os.pwrite(descriptor, view, start)
@@ -96,7 +108,9 @@ def _placed(value: Any, memory: Any, size: int) -> Any:
     return value
 
 
-def _array(where: Any, memory: Any, size: int) -> NDArray[Any]:
+def _array(where: Any, memory: Any, size: int) -> "NDArray[Any]":
+    import numpy as np
+
     try:
         kind, shape, start = where
         dtype, count = np.dtype(kind), math.prod(shape)

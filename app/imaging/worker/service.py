@@ -11,11 +11,10 @@ import numpy as np
 
 from app.core import paths as paths_of_user
 from app.core.progress import Progress
-from app.imaging.errors import FileDamagedError, WorkerLostError
+from app.imaging.errors import FileDamagedError, NotExactError, WorkerLostError
 from app.imaging.header import SliceHeader
 from app.imaging.pixel_data import DECODERS
 from app.imaging.privacy.key import installation_key
-from app.imaging.rescaling import NotExactError
 from app.imaging.series import Ignored
 from app.imaging.worker.jobs import EXAMINE, FILL, Task
 from app.imaging.worker.limits import for_file, size_of

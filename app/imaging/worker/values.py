@@ -11,11 +11,10 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-import numpy as np
-
-from app.imaging.worker.luggage import Luggage
+from app.imaging.worker.luggage import Luggage, is_array
 
 Convert = Callable[[Any], Any]
+_AS_THEY_ARE = frozenset((str, int, float, bool, type(None)))
 
 
 class ForeignValueError(ValueError):
@@ -29,12 +28,14 @@ def plain(value: Any, luggage: Luggage | None = None) -> Any:
         value: the value.
         luggage: takes up its arrays, which are not for JSON.
     """
+    if type(value) in _AS_THEY_ARE:
+        return value
     if is_dataclass(value):
         cls: Any = type(value)
         return [plain(getattr(value, name), luggage) for name in _names(cls)]
     if isinstance(value, tuple):
         return [plain(item, luggage) for item in value]
-    if luggage is not None and isinstance(value, np.ndarray):
+    if luggage is not None and is_array(value):
         return luggage.add(value)
     return str(value) if isinstance(value, Path) else value
 
@@ -61,7 +62,7 @@ def reader(kind: Any) -> Convert:
         return _union_reader(get_args(kind))
     if get_origin(kind) is tuple:
         return _tuple_reader(get_args(kind))
-    if get_origin(kind) is np.ndarray:
+    if getattr(get_origin(kind), "__module__", "") == "numpy":
         return _array_reader(get_args(get_args(kind)[1])[0])
     if kind is None:
         kind = type(None)
@@ -88,8 +89,10 @@ def _float(value: Any) -> float:
 
 def _array_reader(scalar: Any) -> Convert:
     def read(value: Any) -> Any:
-        if not isinstance(value, np.ndarray):
+        if not is_array(value):
             raise ForeignValueError(f"{type(value).__name__} where an array is wanted")
+        import numpy as np
+
         if scalar is not Any and value.dtype != np.dtype(scalar):
             raise ForeignValueError(f"an array of {value.dtype}, not of {np.dtype(scalar)}")
         return value
