@@ -9,10 +9,13 @@ from typing import Any
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, FolderError
 from app.imaging.series import Ignored
+from app.imaging.unpacking import unpack
+from app.imaging.worker.jobs import DIRECTORY
+from app.imaging.worker.limits import MOST_SECONDS, Allowance
+from app.imaging.worker.pool import shared_worker
 
 _DIRECTORY_CLASS = b"1.2.840.10008.1.3.10"
 _HEAD = 512
-_MOST_RECORDS = 1_000_000
 _NIFTI_ENDINGS = (".nii", ".nii.gz")
 
 
@@ -56,11 +59,9 @@ def open_source(path: Path, progress: Progress) -> Source:
     if not is_file:
         return _folder(path, progress)
     if head[:2] == b"PK":
-        from app.imaging.unpacking import unpack
-
         return _unpacked(path, unpack(path, progress.part(0.0, 0.5)), progress)
     if _DIRECTORY_CLASS in head:
-        return _directory(path)
+        return _directory(path, progress)
     if head[128:132] == b"DICM" or is_nifti(path):
         return Source(path, path.parent, [path])
     raise FolderError(
@@ -118,14 +119,14 @@ def _unpacked(path: Path, archive: Any, progress: Progress) -> Source:
 # --- DICOMDIR
 
 
-def _directory(path: Path) -> Source:
+def _directory(path: Path, progress: Progress) -> Source:
     """Files that a DICOMDIR, and those it names in turn, name; what is not there is said."""
     root = path.parent
     source = Source(path, root)
     waiting, seen = [path], {path}
     while waiting:
         directory = waiting.pop(0)
-        named = list(dict.fromkeys(_named(directory)))
+        named = _named(directory, progress)
         dropped = _dropped(directory.parent, named)
         for parts in named:
             found = _inside(directory.parent, parts, dropped)
@@ -140,28 +141,16 @@ def _directory(path: Path) -> Source:
     return source
 
 
-def _named(path: Path) -> list[tuple[str, ...]]:
+def _named(path: Path, progress: Progress) -> list[tuple[str, ...]]:
     try:
-        return _referenced(path)
-    except Exception as error:  # hostile bytes make the parser raise nearly anything
-        brief = " ".join(f"{type(error).__name__}: {error}".split())[:120]
+        found = shared_worker().call(
+            DIRECTORY, (path.absolute(),), Allowance(MOST_SECONDS), progress
+        )
+        return list(dict.fromkeys(found))
+    except (FileDamagedError, OSError) as error:
         raise FolderError(
-            f"{path} cannot be read as a DICOMDIR ({brief}); open its folder instead"
+            f"{path} cannot be read as a DICOMDIR ({error}); open its folder instead"
         ) from error
-
-
-def _referenced(path: Path) -> list[tuple[str, ...]]:
-    import warnings
-
-    import pydicom
-
-    with warnings.catch_warnings():  # what is wrong with it is said by name, by us
-        warnings.simplefilter("ignore")
-        records = pydicom.dcmread(path, force=True).get("DirectoryRecordSequence") or []
-        if len(records) > _MOST_RECORDS:
-            raise FileDamagedError(f"{len(records)} records")
-        named = [record.get("ReferencedFileID") for record in records]
-    return [(each,) if isinstance(each, str) else tuple(map(str, each)) for each in named if each]
 
 
 def _dropped(root: Path, named: list[tuple[str, ...]]) -> int:

@@ -2,8 +2,12 @@
 
 import gc
 import os
+import subprocess
+import sys
+import tempfile
 import warnings
 import zipfile
+from pathlib import Path
 
 import nibabel
 import numpy as np
@@ -11,6 +15,7 @@ import pydicom
 import pytest
 from pydicom.fileset import FileSet
 
+from app.core.passing import sweep_passing
 from app.core.progress import Cancelled, Progress
 from app.imaging import unpacking
 from app.imaging.body import find_body, is_inside
@@ -18,6 +23,7 @@ from app.imaging.errors import FolderError, SeriesRefusedError
 from app.imaging.reading import choose, load_ct, read_series
 from app.imaging.scanning import scan_folder
 from app.imaging.window import presets
+from app.imaging.worker.pool import ImagingWorker
 from tests.imaging import dicom_factory as factory
 from tests.imaging.dicom_factory import Slices
 
@@ -27,7 +33,7 @@ def temporary(tmp_path, monkeypatch):
     """Where archives are unpacked."""
     folder = tmp_path / "unpacked"
     folder.mkdir()
-    monkeypatch.setattr(unpacking.tempfile, "tempdir", str(folder))
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
     return folder
 
 
@@ -108,13 +114,33 @@ def test_a_full_disk_while_unpacking_leaves_nothing(tmp_path, temporary, monkeyp
     Slices().write(tmp_path / "a")
     path = zipped(tmp_path / "a", tmp_path / "a.zip")
 
-    def full(*arguments):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(unpacking, "_extract", full)
+    worker = ImagingWorker(1, "tests.imaging.full_disk_child")
+    monkeypatch.setattr(unpacking, "shared_worker", lambda: worker)
     with pytest.raises(FolderError, match="No space left"):
         scan_folder(path)
+    worker.close()
     assert os.listdir(temporary) == []
+
+
+def test_what_a_killed_program_unpacked_is_swept_away_and_nobody_elses(tmp_path, temporary):
+    program = (
+        "import sys, time; from pathlib import Path; from app.core.progress import Progress;"
+        "from app.imaging.unpacking import unpack; kept = unpack(Path(sys.argv[1]), Progress());"
+        "print(kept.root.name, flush=True); time.sleep(60)"
+    )
+    Slices().write(tmp_path / "a")
+    path = zipped(tmp_path / "a", tmp_path / "a.zip")
+    command = [sys.executable, "-c", program, str(path)]
+    root = Path(__file__).resolve().parents[2]
+    environment = os.environ | {"TMPDIR": str(temporary)}
+    (temporary / "acus-zip-of-nobody").mkdir()
+    with subprocess.Popen(command, stdout=subprocess.PIPE, cwd=root, env=environment) as other:
+        theirs = other.stdout.readline().decode().strip()
+        assert sweep_passing() == 0
+        assert (temporary / theirs / "study" / "s000").exists()
+        other.kill()
+    assert sweep_passing() == 1
+    assert os.listdir(temporary) == ["acus-zip-of-nobody"]
 
 
 def test_a_dicomdir_names_the_files_to_read(tmp_path):

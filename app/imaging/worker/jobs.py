@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from app.imaging.header import SliceHeader
+from app.imaging.nifti_file import NiftiHeader, NiftiValues
 from app.imaging.series import Ignored
 from app.imaging.worker.limits import Allowance
 from app.imaging.worker.luggage import Luggage
@@ -35,6 +36,14 @@ EXAMINE: Job[tuple[SliceHeader, ...] | Ignored] = Job(
     "app.imaging.examining:headers_in", tuple[SliceHeader, ...] | Ignored
 )
 FILL: Job[None] = Job("app.imaging.worker.slices:fill", None)
+NIFTI_HEADER: Job[NiftiHeader] = Job("app.imaging.nifti_file:nifti_header", NiftiHeader)
+NIFTI_VALUES: Job[NiftiValues] = Job("app.imaging.nifti_file:nifti_values", NiftiValues)
+DIRECTORY: Job[tuple[tuple[str, ...], ...]] = Job(
+    "app.imaging.directory_file:named_files", tuple[tuple[str, ...], ...]
+)
+UNPACK: Job[tuple[tuple[str, str], ...]] = Job(
+    "app.imaging.archive_file:unpack_into", tuple[tuple[str, str], ...]
+)
 
 
 @dataclass(frozen=True, slots=True)

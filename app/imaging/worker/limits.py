@@ -11,6 +11,10 @@ MEMORY_BYTES = 1 << 31
 FILE_SECONDS = 1.5
 """Processor time after which a small file is given up; with what follows nobody waits over 2 s."""
 
+PACKAGE_SECONDS = 10.0
+"""The same where a package may have to be loaded first, which the child does when it meets a file
+of its kind."""
+
 SECONDS_PER_BYTE = 5e-8
 """What a large file may take beside that: one of many frames has a long header."""
 
@@ -56,8 +60,7 @@ def for_file(size: int, pixels: int = 0, least: float = FILE_SECONDS) -> Allowan
     Args:
         size: of the file [bytes].
         pixels: to decode.
-        least: processor time for the smallest [s]; more than `FILE_SECONDS` where packages are
-            loaded on the way.
+        least: processor time for the smallest [s].
     """
     seconds = least + size * SECONDS_PER_BYTE + pixels * SECONDS_PER_PIXEL
     return Allowance(min(MOST_SECONDS, seconds))
