@@ -9,7 +9,7 @@ from typing import Any, BinaryIO, Final
 
 from app.imaging.deflated import inflated_head
 from app.imaging.element_walk import OddError, Walk
-from app.imaging.errors import FileDamagedError
+from app.imaging.errors import FileDamagedError, brief
 from app.imaging.pixel_data import (
     DECODERS,
     DEFLATED,
@@ -61,8 +61,7 @@ def read_elements(stream: BinaryIO, wanted: Sequence[int], forced: bool) -> Elem
 
         return read_odd(stream, wanted, forced)
     except Exception as error:  # hostile bytes make the parser raise nearly anything
-        brief = " ".join(f"{type(error).__name__}: {error}".split())[:120]
-        raise FileDamagedError(f"its header cannot be read ({brief})") from error
+        raise FileDamagedError(f"its header cannot be read ({brief(error)})") from error
 
 
 def _sound(stream: BinaryIO, wanted: frozenset[int]) -> Elements:

@@ -13,7 +13,7 @@ from typing import Any, BinaryIO
 import pydicom
 from pydicom.dataset import Dataset
 
-from app.imaging.errors import FileDamagedError
+from app.imaging.errors import FileDamagedError, brief
 from app.imaging.header import MULTI_FRAME, Plane, Rescale, SliceHeader
 from app.imaging.header_reading import check_orientation
 
@@ -35,8 +35,7 @@ def frames_of(file: SliceHeader, stream: BinaryIO) -> tuple[SliceHeader, ...]:
     except FileDamagedError as error:
         return (replace(file, damage=str(error)),)
     except Exception as error:  # hostile bytes make the parser raise nearly anything
-        brief = " ".join(f"{type(error).__name__}: {error}".split())[:120]
-        return (replace(file, damage=f"its frames cannot be read ({brief})"),)
+        return (replace(file, damage=f"its frames cannot be read ({brief(error)})"),)
 
 
 @dataclass(frozen=True, slots=True)
