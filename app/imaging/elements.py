@@ -2,6 +2,7 @@
 
 import contextlib
 import math
+import re
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -23,6 +24,7 @@ TRANSFER_SYNTAX: Final = 0x00020010
 FIRST_PIXEL_TAG: Final = 0x7FE00008
 _FIRST_META_TAG: Final = 0x00020000
 _FIRST_DATA_TAG: Final = 0x00030000
+_NUMBER_LIKE: Final = re.compile(r"[-+0-9.,eE]{1,16}|[-+]?(nan|inf)", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,8 +132,16 @@ def numbers(header: Elements, tag: int, name: str, count: int | None = None) -> 
         values = (math.nan,)
     wanted = f" (needs {count})" if count else ""
     if not all(map(math.isfinite, values)) or (count and len(values) != count):
-        raise FileDamagedError(f"{name} does not hold finite numbers{wanted}")
+        raise FileDamagedError(f"{name} does not hold finite numbers{wanted}{_quoted(strings)}")
     return values
+
+
+def _quoted(strings: tuple[str, ...]) -> str:
+    """Quote a mistaken number; any other text may name a person and is left out."""
+    if not all(_NUMBER_LIKE.fullmatch(string) for string in strings):
+        return ""
+    written = "\\".join(strings)
+    return f", not '{written}'"
 
 
 def integer(header: Elements, tag: int, name: str, signed: bool = False) -> int | None:

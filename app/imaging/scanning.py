@@ -86,7 +86,7 @@ def _described(headers: list[SliceHeader], grid: "_Grid", group: Group, verdict:
         former=first.identity.former,
         part=group.part,
         remedy=verdict.remedy,
-        notes=verdict.notes,
+        notes=(*verdict.notes, *_frame_notes(headers)),
         unit="" if is_mr(headers) else "HU",
         tilt_deg=verdict.tilt_deg,
     )
@@ -96,6 +96,16 @@ def _shared_frame(headers: list[SliceHeader]) -> str:
     """Frame of reference of all files; empty where some de-identifier gave each its own."""
     frames = {header.identity.frame_of_reference for header in headers}
     return frames.pop() if len(frames) == 1 else ""
+
+
+def _frame_notes(headers: list[SliceHeader]) -> tuple[str, ...]:
+    frames = {header.identity.frame_of_reference for header in headers}
+    if len(frames) < 2:
+        return ()
+    return (
+        f"its files name {len(frames)} frames of reference: they lie together only if whoever "
+        "de-identified them gave each a number of its own",
+    )
 
 
 @dataclass(frozen=True, slots=True)

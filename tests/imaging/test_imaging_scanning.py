@@ -167,6 +167,36 @@ def test_a_wrong_number_is_named_with_its_field(tmp_path):
     assert "RescaleSlope does not hold finite numbers (needs 1)" in reason(tmp_path)
 
 
+@pytest.mark.parametrize("written", ["0,8\\0,7", "nan\\0.5"])
+def test_a_mistaken_number_is_quoted(tmp_path, written):
+    _with_spacing_written(tmp_path, written)
+    assert f"PixelSpacing does not hold finite numbers (needs 2), not '{written}'" in reason(
+        tmp_path
+    )
+
+
+def test_a_text_in_place_of_a_number_is_not_quoted_for_it_may_name_a_person(tmp_path):
+    _with_spacing_written(tmp_path, "Doe\\Ann")
+    assert "PixelSpacing does not hold finite numbers (needs 2)" in reason(tmp_path)
+    assert "Doe" not in reason(tmp_path)
+
+
+def _with_spacing_written(folder, written):
+    first, *_ = Slices(spacing=(0.125, 0.5)).write(folder)
+    raw, usual = first.read_bytes(), b"0.125\\0.5"
+    assert raw.count(usual) == 1
+    first.write_bytes(raw.replace(usual, written.encode().ljust(len(usual))))
+
+
+def test_files_of_several_frames_of_reference_are_read_and_said_to_be_so(tmp_path):
+    slices = Slices()
+    slices.write(tmp_path)
+    slices.write_one(tmp_path / "s000", 0, 0.0, FrameOfReferenceUID="2.25.7")
+    (series,) = scan_folder(tmp_path).usable
+    assert any("2 frames of reference" in note for note in series.notes)
+    assert series.frame_of_reference == ""
+
+
 def test_the_study_of_a_phantom_is_sorted_out(shared_data):
     listing = scan_folder(shared_data / "ct_phantom_study")
     verdicts = {series.size: (series.usable, series.reason) for series in listing.series}
