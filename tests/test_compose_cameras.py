@@ -14,6 +14,7 @@ from app.compose.trainer import TrainerSetup, build_rig
 from app.core.clock import SystemClock
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of, plan_of
+from app.session.ct_facts import CtFacts
 from app.tracking.calibration.history import CalibrationHistory
 from app.tracking.cameras.settings import (
     CameraSettings,
@@ -81,7 +82,7 @@ def test_a_trainer_measures_the_depth_with_cameras_and_its_record_says_which(
     CalibrationHistory().keep(calibration(wide))
     exercise = load_exercise("first-insertion")
     placed = placed_plan_of(exercise, device_of(exercise), plan_of(exercise))
-    setup = TrainerSetup(exercise, placed, "ct-1", None, 1, tmp_path, cameras=settings)
+    setup = TrainerSetup(exercise, placed, CtFacts("ct-1"), None, 1, tmp_path, cameras=settings)
     rig = build_rig(setup)
     clock = SystemClock()
     try:
@@ -122,7 +123,7 @@ def test_a_learned_colour_is_looked_for_from_the_next_start_on(wide, settings, t
     exercise = load_exercise("first-insertion")
     placed = placed_plan_of(exercise, device_of(exercise), plan_of(exercise))
     rig = build_rig(
-        TrainerSetup(exercise, placed, "ct-1", None, 1, tmp_path, cameras=load_settings())
+        TrainerSetup(exercise, placed, CtFacts("ct-1"), None, 1, tmp_path, cameras=load_settings())
     )
     try:
         assert [one.coarse.colour for one in rig.stereo.extractors] == [blue, blue]

@@ -24,6 +24,7 @@ from app.core.clock import Clock, SystemClock, VirtualClock
 from app.exercises.library import library, load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
+from app.session.ct_facts import CtFacts
 from app.session.errors import ReplayError
 from app.session.recording import Recording, read_recording
 from app.session.replay_contents import contents
@@ -41,7 +42,7 @@ def attempt(
     chosen = load_exercise(exercise)
     profile = device_of(chosen)
     placed = placed_plan_of(chosen, profile, PLAN)
-    setup = TrainerSetup(chosen, placed, "ct-1", skill, 3, folder, clock)
+    setup = TrainerSetup(chosen, placed, CtFacts("ct-1"), skill, 3, folder, clock)
     loop = build_loop(setup, profile)
 
     def measure(now: float) -> None:

@@ -18,6 +18,7 @@ from app.exercises.scene import placed_plan_of
 from app.imaging.body import find_body
 from app.imaging.reading import load_ct
 from app.planning.proposal import demonstration_plan
+from app.session.ct_facts import CtFacts
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.views.application import start
@@ -38,7 +39,7 @@ def attempt(ct: Path, sessions: Path):
     rig = build_rig(
         TrainerSetup(
             exercise, placed_plan_of(exercise, device_of(exercise), plan),
-            ct=volume.series.pseudonym, skill="expert", sessions=sessions, clock=clock,
+            ct=CtFacts.of_volume(volume), skill="expert", sessions=sessions, clock=clock,
         )
     )  # fmt: skip
 

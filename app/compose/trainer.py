@@ -21,6 +21,7 @@ from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.context import RunContext
+from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.hands import TRAINEE
 from app.session.trainer import Trainer
 from app.simulation.plant import initial_plant, plant_stage
@@ -43,7 +44,7 @@ class TrainerSetup:
     Attributes:
         exercise: effects, device, cameras, tolerances.
         placed: the plan in the robot's frame.
-        ct: pseudonym of the CT, for the record.
+        ct: the CT, for the record.
         skill: `novice` or `expert` lets a scripted trainee insert the needle; None leaves it to
             the mouse.
         seed: of everything random in the run.
@@ -58,7 +59,7 @@ class TrainerSetup:
 
     exercise: Exercise
     placed: PlacedPlan
-    ct: str = ""
+    ct: CtFacts = UNKNOWN_CT
     skill: str | None = None
     seed: int = 0
     sessions: Path = field(default_factory=paths.sessions)
@@ -198,7 +199,7 @@ def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
     loop = Loop(table, pen.profile.rate_hz, setup.clock, initial=initial)
     loop.inbox.write(hand_depth=START_DEPTH, hand_holds=1.0, homed=1.0)
     tracker = pen.tracker(loop, setup.clock, setup.seed)
-    metadata = {**pen.metadata(setup.skill), "ct": {"pseudonym": setup.ct}}
+    metadata = {**pen.metadata(setup.skill), "ct": setup.ct.metadata()}
     documents = {"device": pen.profile, "pen": pen.settings.profile()}
     context = run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents)
     trainer = Trainer(loop, tracker, setup.placed, setup.exercise, context, setup.clock)
@@ -252,7 +253,7 @@ def _context(
     metadata = {
         "device": {"name": profile.name, "simulated": "yes"} if robot is None else robot.metadata(),
         "cameras": cameras.metadata,
-        "ct": {"pseudonym": setup.ct},
+        "ct": setup.ct.metadata(),
         TRAINEE: {"scripted": setup.skill or ""} | ({"hand": "robot"} if robot else {}),
     }
     documents = {"device": profile, "cameras": cameras.rig}

@@ -9,6 +9,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from app.core.configuration import Strict
 from app.core.units import MILLIMETRE
+from app.imaging.series import Remedy
 from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
 
@@ -59,11 +60,13 @@ class Ct(Strict):
         phantom: the procedural patient.
         folder: a folder; relative to the exercise file.
         series: SeriesInstanceUID, where the folder holds several.
+        remedy: what is asked for in reading it, of a folder: `resample`, `straighten` or `halve`.
     """
 
     phantom: PhantomCt | None = None
     folder: Path | None = None
     series: str | None = None
+    remedy: Remedy = Remedy.NONE
 
     @model_validator(mode="after")
     def _one_of_two(self) -> "Ct":
@@ -73,6 +76,8 @@ class Ct(Strict):
             raise ValueError("folder holds a character that no path has")
         if self.series is not None and self.folder is None:
             raise ValueError("series goes with folder; the phantom has one series only")
+        if self.remedy is not Remedy.NONE and self.folder is None and self.phantom is not None:
+            raise ValueError("remedy goes with folder; the phantom is read as it is")
         return self
 
 

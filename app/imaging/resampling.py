@@ -20,6 +20,7 @@ from app.core.progress import Progress
 from app.imaging import memory, stack
 from app.imaging.errors import SeriesRefusedError, TooLargeError
 from app.imaging.reading import grid_of, read_pixels, read_series
+from app.imaging.recipe import Recipe
 from app.imaging.reduction import reduced_affine
 from app.imaging.rescaling import fresh_array
 from app.imaging.series import Remedy, Series
@@ -40,6 +41,7 @@ def read_with(
     remedy: Remedy = Remedy.NONE,
     progress: Progress | None = None,
     spacing_mm: float | None = None,
+    factors: tuple[int, int, int] | None = None,
 ) -> Volume:
     """Read a series as it is, or mended in the way asked for.
 
@@ -48,6 +50,8 @@ def read_with(
         remedy: what is asked for.
         progress: told how far it is; cancels.
         spacing_mm: of resampled slices; the usual distance of the series' own where None.
+        factors: voxels along i, j and k that halving averages to one; as the memory needs where
+            None.
 
     Raises:
         SeriesRefusedError: if the series cannot be read that way; says why.
@@ -61,21 +65,30 @@ def read_with(
         why = series.reason or "it is one file that holds a whole volume"
         raise SeriesRefusedError(f"asking to {remedy} series {series.key} does not help: {why}")
     if remedy is Remedy.HALVE:
-        return _halved(series, progress)
-    return _straight(series, spacing_mm, progress)
+        return _halved(series, progress, factors)
+    return _straight(series, remedy, spacing_mm, progress)
 
 
-def _halved(series: Series, progress: Progress) -> Volume:
-    factors = memory.need(series.slices).factors
+def read_again(series: Series, recipe: Recipe, progress: Progress | None = None) -> Volume:
+    """Read a series in the way in which it was read before; raises as `read_with` does."""
+    factors = recipe.factors if recipe.remedy is Remedy.HALVE else None
+    return read_with(series, recipe.remedy, progress, recipe.spacing_mm, factors)
+
+
+def _halved(
+    series: Series, progress: Progress, wanted: tuple[int, int, int] | None = None
+) -> Volume:
+    factors = wanted or memory.need(series.slices).factors
     grid = grid_of(series)
-    if factors == (1, 1, 1):
+    if wanted is None and factors == (1, 1, 1):
         _, pixel, between = np.linalg.norm(grid.affine_mm[:3, :3], axis=0)
         factors = (2, 2, 2 if between < 1.5 * pixel else 1)
     hu = read_pixels(series, progress, factors)
     i, j, k = factors
     made = f"reduced: {i} × {j} × {k} voxels averaged to one"
     affine = reduced_affine(grid.affine_mm, factors)
-    return Volume(read_only(hu), affine, series, (made,), series.unit)
+    recipe = Recipe(Remedy.HALVE, factors)
+    return Volume(read_only(hu), affine, series, (made,), series.unit, recipe)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,14 +99,18 @@ class _Target:
         affine_mm: (i, j, k) -> LPS [mm], shape (4, 4).
         size: columns, rows, slices.
         heights_mm: of its slices along the normal, from the first slice of the series, shape (K,).
+        step_mm: between its slices.
     """
 
     affine_mm: FloatArray
     size: tuple[int, int, int]
     heights_mm: FloatArray
+    step_mm: float
 
 
-def _straight(series: Series, spacing_mm: float | None, progress: Progress) -> Volume:
+def _straight(
+    series: Series, remedy: Remedy, spacing_mm: float | None, progress: Progress
+) -> Volume:
     grid = grid_of(series)
     target = _target(series, grid, spacing_mm)
     both = series.size[0] * series.size[1] * series.size[2] + int(np.prod(target.size))
@@ -115,7 +132,8 @@ def _straight(series: Series, spacing_mm: float | None, progress: Progress) -> V
         picture = np.where(np.isnan(picture), np.float32(empty), picture)
         hu[k] = np.rint(picture) if stored.dtype.kind == "i" else picture
     made = _words(series, grid, target, len(gaps))
-    return Volume(read_only(hu), target.affine_mm, series, made, series.unit)
+    recipe = Recipe(remedy, spacing_mm=target.step_mm)
+    return Volume(read_only(hu), target.affine_mm, series, made, series.unit, recipe)
 
 
 def _target(series: Series, grid: stack.Stack, spacing_mm: float | None) -> _Target:
@@ -138,7 +156,8 @@ def _target(series: Series, grid: stack.Stack, spacing_mm: float | None) -> _Tar
     affine = np.eye(4)
     affine[:3, :3] = axes.T * (*pixel, step)
     affine[:3, 3] = grid.positions_mm[0] + low[0] * axes[0] + low[1] * axes[1]
-    return _Target(affine, (columns + int(more[0]), rows + int(more[1]), len(heights)), heights)
+    size = (columns + int(more[0]), rows + int(more[1]), len(heights))
+    return _Target(affine, size, heights, step)
 
 
 def _sampler(

@@ -11,6 +11,7 @@ from app.core.arrays import FloatArray, frozen
 from app.core.errors import NumericalError
 from app.core.units import MILLIMETRE
 from app.imaging.interpolation import Interpolation, interpolate
+from app.imaging.recipe import AS_IT_IS, Recipe
 from app.imaging.series import Series
 
 SHEAR_MM = 0.01
@@ -28,6 +29,7 @@ class Volume:
         series: where it comes from.
         made: what was done to the files' own values to get here, in words; empty where nothing was.
         unit: of the values, "HU"; empty for MR and others without one.
+        recipe: what was asked for in reading it; the same asked again gives the same volume.
 
     The axes of i and j are perpendicular but for what the files themselves say; that of k leaves
     their normal where the gantry was tilted (`tilt_deg`).
@@ -41,6 +43,7 @@ class Volume:
     series: Series
     made: tuple[str, ...] = ()
     unit: str = "HU"
+    recipe: Recipe = AS_IT_IS
 
     def __post_init__(self) -> None:
         affine = frozen(self.affine_mm, (4, 4), "affine_mm")

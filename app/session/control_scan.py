@@ -7,7 +7,7 @@ makes the same picture of them again from the CT.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 import numpy as np
@@ -26,6 +26,9 @@ from app.session.observation import Observation
 KIND: Final = "scan"
 """Kind of the event."""
 
+VERSION: Final = 2
+"""Of the event's data; the first had neither `version` nor `range_mm` nor `streak`."""
+
 TEACHING_ESTIMATE: Final = "teaching estimate"
 """Stands wherever a dose is shown: it is no dose of any scanner."""
 
@@ -41,6 +44,7 @@ class ControlScan:
         needle: where the needle was, DICOM LPS [mm].
         shift_mm: how far breathing had moved the target, LPS, shape (3,), read-only.
         dose: notional dose-length product [mGy·cm]: a teaching estimate.
+        streak: whether its pictures show the metal's streak; None where the record does not say.
     """
 
     number: int
@@ -49,6 +53,7 @@ class ControlScan:
     needle: ScanNeedle
     shift_mm: FloatArray
     dose: float
+    streak: bool | None = None
 
     @property
     def seen(self) -> Seen:
@@ -59,8 +64,11 @@ class ControlScan:
         """JSON-ready values for the event; `of` reads them back to the last bit."""
         order = self.order
         return {
+            "version": VERSION,
             "order": {"centre_mm": order.centre_mm, "slices": order.slices,
                       "slice_mm": order.slice_mm},
+            "range_mm": list(order.range_mm),
+            "streak": self.streak,
             "seen": self.seen.value,
             "dose_mgy_cm": self.dose,
             "dose_note": TEACHING_ESTIMATE,
@@ -85,6 +93,7 @@ class ControlScan:
                 ScanNeedle(data["hub_lps_mm"], data["tip_lps_mm"]),
                 frozen(data["shift_lps_mm"], (3,), "shift_lps_mm"),
                 float(data["dose_mgy_cm"]),
+                streak if isinstance(streak := data.get("streak"), bool) else None,
             )  # fmt: skip
         except (AcusError, LookupError, TypeError, ValueError):
             return None  # of a damaged record; the scan is still counted
@@ -112,7 +121,7 @@ SEEN_WORDS: Final = {
 
 def take(
     number: int, order: ScanOrder, dose: float, now: float, look: Observation | None,
-    placed: PlacedPlan,
+    placed: PlacedPlan, streak: bool = False,
 ) -> ControlScan:  # fmt: skip
     """Take a scan at `now` [s].
 
@@ -123,6 +132,7 @@ def take(
         now: time [s].
         look: newest observation of robot and cameras.
         placed: the plan, for where the patient lies.
+        streak: whether its pictures show the metal's streak.
 
     Raises:
         ScanNotPossibleError: if nobody knows where the needle is: a picture would be a guess.
@@ -144,13 +154,21 @@ def take(
         ScanNeedle(hub_mm / MILLIMETRE, tip_mm / MILLIMETRE),
         frozen(moved / MILLIMETRE, (3,), "shift"),
         dose,
+        streak,
     )
 
 
-def scans_of(events: Iterable[Event]) -> tuple[ControlScan, ...]:
-    """Control scans with an order among events, in order."""
+def scans_of(events: Iterable[Event], streak: bool | None = None) -> tuple[ControlScan, ...]:
+    """Control scans with an order among events, in order.
+
+    `streak`: for those whose event does not say it.
+    """
     found = (ControlScan.of(event) for event in events)
-    return tuple(scan for scan in found if scan is not None)
+    return tuple(
+        replace(scan, streak=streak) if scan.streak is None else scan
+        for scan in found
+        if scan is not None
+    )
 
 
 def scan_marks(events: Iterable[Event]) -> tuple[ScanMark, ...]:

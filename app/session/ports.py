@@ -108,6 +108,11 @@ class TrackerPort(Protocol):
 class GuidancePort(Protocol):
     """How an exercise guides by pictures (`exercises.guidance.GuidancePart`)."""
 
+    @property
+    def streak(self) -> bool:
+        """Whether the metal leaves its streak in a scan's pictures."""
+        ...
+
     def dose(self, order: ScanOrder) -> float:
         """Notional dose-length product of a scan [mGy·cm]: a teaching estimate."""
         ...

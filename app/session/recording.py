@@ -13,7 +13,8 @@ from app.core.arrays import read_only
 from app.core.events import Event
 from app.planning.placement import PlacedPlan
 from app.scoring.trajectory import Trajectory
-from app.session.control_scan import scan_marks
+from app.session.control_scan import ControlScan, scan_marks, scans_of
+from app.session.ct_facts import CtFacts
 from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
 from app.session.samples import Samples, floats, vectors, words
@@ -62,6 +63,22 @@ class Recording:
         except (KeyError, ValueError):
             origin = math.nan
         return origin if math.isfinite(origin) else 0.0
+
+    @property
+    def ct(self) -> CtFacts:
+        """The CT, and how it was read."""
+        return CtFacts.of_metadata(self.metadata.get("ct", {}))
+
+    def control_scans(self) -> tuple[ControlScan, ...]:
+        """Control scans with an order; the streak of old ones is that of the recorded exercise."""
+        return scans_of(self.events, self._streak())
+
+    def _streak(self) -> bool | None:
+        try:
+            streak = json.loads(self.attachments["exercise.json"])["guidance"]["streak"]
+        except (KeyError, TypeError, ValueError, RecursionError):
+            return None
+        return streak if isinstance(streak, bool) else None
 
     def trajectory(self) -> Trajectory:
         """Return the attempt as scoring wants it.

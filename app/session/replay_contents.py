@@ -8,7 +8,8 @@ import numpy as np
 
 from app.core.build import BUILD
 from app.session.blocks import INPUTS
-from app.session.control_scan import ControlScan, scans_of
+from app.session.control_scan import ControlScan
+from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.recording import Recording
 from app.session.replay import is_simulated, why_not
 
@@ -31,6 +32,7 @@ class ReplayContents:
         build: what recorded it.
         scans: control scans with an order.
         origin: monotonic time of the beginning, which their times are told from [s].
+        ct: the CT, and how it was read.
     """
 
     session: str
@@ -46,6 +48,7 @@ class ReplayContents:
     build: Mapping[str, str]
     scans: tuple[ControlScan, ...] = ()
     origin: float = 0.0
+    ct: CtFacts = UNKNOWN_CT
 
     def sentences(self) -> list[str]:
         """Say it, one line each."""
@@ -60,6 +63,8 @@ class ReplayContents:
         inputs = ", ".join(f"{name} ({count})" for name, count in self.changing.items())
         lines.append(f"inputs that change (how often): {inputs or 'none'}")
         lines += [f"{count} ticks from tick {first} on are missing" for first, count in self.gaps]
+        if self.ct.recipe is not None:
+            lines.append(f"CT {self.ct.pseudonym}: {self.ct.words()}")
         lines += [scan.sentence(self.origin) for scan in self.scans]
         build = ", ".join(f"{name} {value}" for name, value in self.build.items())
         return [*lines, f"build: {build or 'not recorded'}"]
@@ -79,6 +84,7 @@ class ReplayContents:
             "missed": self.missed,
             "gaps": [{"first_tick": first, "ticks": count} for first, count in self.gaps],
             "build": dict(self.build),
+            "ct": self.ct.document(),
             "scans": [scan.document(self.origin) for scan in self.scans],
         }
 
@@ -103,8 +109,9 @@ def contents(recording: Recording) -> ReplayContents:
         missed=int(missed[-1] - missed[0]),
         gaps=inputs.gaps(),
         build=recording.metadata.get(BUILD, {}),
-        scans=scans_of(recording.events),
+        scans=recording.control_scans(),
         origin=recording.origin,
+        ct=recording.ct,
     )
 
 

@@ -88,11 +88,11 @@ class Running:
 
     def scan(
         self, seen: Observation | None, now: float, order: ScanOrder | None = None,
-        dose: float = 0.0,
+        dose: float = 0.0, streak: bool = False,
     ) -> int:  # fmt: skip
         """Take a control scan at `now` [s]; without an order it is only counted.
 
-        `dose` is notional, of the whole scan [mGy·cm].
+        `dose` is notional, of the whole scan [mGy·cm]; `streak` whether the metal leaves one.
 
         Raises:
             IllegalTransitionError: if no attempt is running.
@@ -105,7 +105,9 @@ class Running:
         number = self.log.scans + 1
         data: dict[str, object] = {"number": number}
         if order is not None:
-            data |= control_scan.take(number, order, dose, now, seen, self.log.placed).data()
+            data |= control_scan.take(
+                number, order, dose, now, seen, self.log.placed, streak
+            ).data()
         self.log.scans = number
         if seen is not None and seen.pose.valid:
             data["tip_m"] = seen.pose.p_tip.tolist()

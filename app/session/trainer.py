@@ -170,9 +170,11 @@ class Trainer:
             IllegalTransitionError: if no attempt is running.
             ScanNotPossibleError: if there is an order and nobody knows where the needle is.
         """
-        dose = 0.0 if order is None else self._exercise.guidance.dose(order)
+        guidance = self._exercise.guidance
+        dose = 0.0 if order is None else guidance.dose(order)
         with self._lock:
-            return self._running.scan(self._watch.seen, self._clock.now(), order, dose)
+            now = self._clock.now()
+            return self._running.scan(self._watch.seen, now, order, dose, guidance.streak)
 
     # --- intents ----------------------------------------------------------------------------------
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:

@@ -12,6 +12,7 @@ from app.exercises.scene import device_of, draft_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.planning.draft import DraftPlan
+from app.session.ct_facts import CtFacts
 from app.session.machine import RUNNING
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.settings import CameraSettings
@@ -155,7 +156,8 @@ class Conductor(QObject):
         ct = self.exercise.ct
         if ct.phantom is not None:
             return patient.phantom_seed == ct.phantom.seed
-        return ct.folder is not None and patient.folder == ct.folder
+        same_way = patient.volume.recipe.remedy is ct.remedy
+        return ct.folder is not None and patient.folder == ct.folder and same_way
 
     def _start_plan(self, patient: Patient) -> None:
         draft = None if patient.proposed is None else DraftPlan.of(patient.proposed)
@@ -184,8 +186,8 @@ class Conductor(QObject):
             return  # a run that is open stays with its plan until there is a better one
         if self.exercise is None or self.patient is None:
             return
-        pseudonym = self.patient.volume.series.pseudonym
-        self._runs.want(RunSetup(self.exercise, placed, pseudonym, self._robot, self._cameras))
+        ct = CtFacts.of_volume(self.patient.volume)
+        self._runs.want(RunSetup(self.exercise, placed, ct, self._robot, self._cameras))
 
     def _click_in_scene(self, point: FloatArray, direction: FloatArray) -> None:
         """Take a click on the skin in 3D as the entry, if one is being placed."""

@@ -56,18 +56,21 @@ class OpenCt(QObject):
         if name:
             self.open_folder(Path(name))
 
-    def open_folder(self, path: Path, series: str | None = None) -> None:
+    def open_folder(
+        self, path: Path, series: str | None = None, remedy: Remedy = Remedy.NONE
+    ) -> None:
         """Open the CT in a folder, archive, DICOMDIR or NIfTI file (of another: in its folder).
 
         Args:
             path: where.
             series: which series; where None and several could be opened, one is asked for.
+            remedy: what is asked for in reading it; then nothing is asked of the user.
         """
         source = path.parent if path.is_file() and not _is_source(path) else path
         self._start(
             tr("Looking for CT series in {name}", name=source.name),
             lambda progress: _scan(source, progress),
-            lambda listing: self._choose(listing, series),
+            lambda listing: self._choose(listing, series, remedy),
         )
 
     def browse(self) -> None:
@@ -107,17 +110,20 @@ class OpenCt(QObject):
             self, operation, on_success, self._fail, title=title, indicator=self._indicator
         )
 
-    def _choose(self, listing: Listing, series: str | None = None) -> None:
+    def _choose(
+        self, listing: Listing, series: str | None = None, remedy: Remedy = Remedy.NONE
+    ) -> None:
         self._task = None
         self._listing = listing
         openable = [s for s in listing.series if s.usable or s.remedy is not Remedy.NONE]
-        if series is None and listing.series and (len(openable) > 1 or not listing.usable):
+        unclear = len(openable) > 1 or not listing.usable
+        if series is None and remedy is Remedy.NONE and listing.series and unclear:
             self._browse(listing)
             return
         from app.imaging.reading import choose  # pydicom: loaded by the scan
 
         try:
-            self.open_series(listing, choose(listing, series))
+            self.open_series(listing, choose(listing, series, remedy), remedy)
         except ImagingError as error:
             self._fail(error)
 

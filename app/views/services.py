@@ -10,6 +10,7 @@ from app.core.progress import Progress
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
+from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.tracking.cameras.settings import CameraSettings
 from app.views.cameras.live import AimPort, LiveCamera
 from app.views.exercise.run import ExerciseRun
@@ -57,21 +58,21 @@ class RunSetup:
     Attributes:
         exercise: effects, device, cameras, tolerances.
         placed: the plan in the robot's frame.
-        ct: pseudonym of the CT, for the record.
+        ct: the CT, for the record.
         robot: which robot.
         cameras: real ones; None for simulated ones.
     """
 
     exercise: Exercise
     placed: PlacedPlan
-    ct: str = ""
+    ct: CtFacts = UNKNOWN_CT
     robot: RobotChoice = RobotChoice()
     cameras: CameraSettings | None = None
 
     def same_run(self, other: RunSetup) -> bool:
         """Whether a run of the other setup only has to take this plan."""
-        mine = (self.exercise, self.robot, self.cameras)
-        return mine == (other.exercise, other.robot, other.cameras)
+        mine = (self.exercise, self.ct, self.robot, self.cameras)
+        return mine == (other.exercise, other.ct, other.robot, other.cameras)
 
 
 class OpenRun(Protocol):

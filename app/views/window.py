@@ -82,7 +82,7 @@ class MainWindow(QMainWindow):
         self.debrief = DebriefController(
             self.debrief_page, self.sessions_page, services.sessions(), parent=self
         )
-        self.scan_pictures = ScanPictures(self.debrief_page, self.conductor)
+        self.scan_pictures = ScanPictures(self.debrief_page, self.conductor, self.progress)
         self.exercises = {exercise.id: exercise for exercise in services.exercises()}
         self._lay_out()
         self.projector = Projector(self)
@@ -142,8 +142,8 @@ class MainWindow(QMainWindow):
             self.show_workspace()
         elif exercise.ct.phantom is not None:
             self.open_ct.open_phantom(exercise.ct.phantom.seed)
-        elif exercise.ct.folder is not None:
-            self.open_ct.open_folder(exercise.ct.folder, exercise.ct.series)
+        elif (ct := exercise.ct).folder is not None:
+            self.open_ct.open_folder(ct.folder, ct.series, ct.remedy)
 
     def cursor_to_target(self) -> None:
         """Let the slices pass through the target."""

@@ -22,6 +22,7 @@ from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.planning.plan import Plan
 from app.session import blocks
+from app.session.ct_facts import CtFacts
 from app.session.recording import read_recording
 from app.session.scan import scan
 
@@ -33,7 +34,7 @@ def rig(folder: Path, clock: Clock, skill: str | None) -> Rig:
     """Build a trainer on the simulated robot; nothing looks at its cameras."""
     exercise = load_exercise("thick-tissue")
     placed = placed_plan_of(exercise, device_of(exercise), PLAN)
-    return build_rig(TrainerSetup(exercise, placed, "bench", skill, 1, folder, clock))
+    return build_rig(TrainerSetup(exercise, placed, CtFacts("bench"), skill, 1, folder, clock))
 
 
 def virtual(folder: Path, seconds: float, skill: str | None) -> Path:

@@ -18,6 +18,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.imaging.scan_order import Seen
+from app.session.control_scan import scans_of
 from app.session.recording import read_recording
 from app.session.store import list_sessions
 
@@ -74,6 +76,13 @@ class User:
         """Press and release keys."""
         self.do("key", *keys)
         time.sleep(0.3)
+
+    def keep_picture(self, name: str) -> None:
+        """Keep the screen as it is now, if `ACUS_BY_HAND_PICTURES` names a folder."""
+        folder = os.environ.get("ACUS_BY_HAND_PICTURES")
+        if folder:
+            path = Path(folder) / f"{name}.png"
+            subprocess.run(["import", "-window", "root", str(path)], check=True)
 
     @staticmethod
     def do(command: str, *arguments: object) -> None:
@@ -148,3 +157,67 @@ def test_open_place_insert_end_debrief_by_hand(user: User, sessions: Path) -> No
     tips = recording.trajectory().tip
     missed = np.linalg.norm(tips - recording.placed_plan().p_target, axis=1)
     assert np.nanmin(missed) < 5e-3
+
+
+def test_an_assessment_by_control_scans_alone_by_hand(user: User, sessions: Path) -> None:
+    user.wait(lambda seen: seen["page"] == "StartPage", "start page", 60)
+    user.do("mousemove", *user.see()["begin"])
+    user.do("mousemove", *next(iter(user.see()["exercises"].values())))
+    while "scans-only" not in user.see()["exercises"]:  # further down the list
+        user.do("click", 5, "sleep", 0.3)
+    user.keep_picture("1-start")
+    user.click(user.see()["exercises"]["scans-only"])
+    user.click(user.see()["begin"])
+    user.wait(lambda seen: seen["page"] == "Workspace", "patient", 120)
+    user.click(user.see()["exercise_tab"])
+    seen = user.wait(lambda seen: seen if seen["start"] else None, "robot and cameras", 180)
+    user.keep_picture("2-ready")
+
+    user.click(seen["start"])
+    seen = user.wait(lambda seen: seen if seen["state"] == "aligning" else None, "attempt", 10)
+    panel = seen["scan_panel"]
+    user.click(panel["here"])  # the crosshair stands at the target
+    user.click(panel["slices"])
+    user.key("Up", "Up")
+    user.click(panel["head"])
+    seen = user.wait(lambda seen: seen if seen["scan_panel"]["number"] == 5 else None, "range", 5)
+    assert seen["scan_panel"]["centre_mm"] == pytest.approx(seen["plan"]["target_mm"][2] + 5, 0.1)
+    user.click(panel["feet"])
+    for _ in range(3):  # the pad moves the hand half as far as the mouse
+        pad = user.see()["pad"]
+        user.drag(pad["centre"], 2.0 * np.subtract(pad["centre"], pad["hand"]))
+    user.do("mousemove", *user.see()["pad"]["centre"])
+    user.keep_picture("3-aligned")
+    user.wheel(45)
+    time.sleep(1.5)
+    for number in range(1, 5):
+        user.key("s")
+        scan = user.wait(
+            lambda seen, n=number: seen["scan"] if seen["scan"] and seen["scan"]["number"] == n
+            else None, f"scan {number}", 60,
+        )  # fmt: skip
+        user.keep_picture(f"4-scan-{number}")
+        assert scan["slices"] == 5
+        if abs(scan["remaining_mm"]) < 2.0:
+            break
+        user.do("mousemove", *user.see()["pad"]["centre"])
+        user.wheel(max(1, round(scan["remaining_mm"])))
+        time.sleep(1.5)
+        assert not user.see()["needle_shown"]
+    user.key("Return")
+    user.wait(lambda seen: seen["page"] == "DebriefPage", "debrief", 30)
+    time.sleep(1.0)
+    user.keep_picture("5-debrief")
+    assert user.see()["debrief_scans"] == number
+
+    (summary,) = list_sessions(sessions)
+    assert (summary.state, summary.scans) == ("ended", number)
+    recording = read_recording(next(sessions.rglob("*.mcap")))
+    scans = scans_of(recording.events)
+    assert len(scans) == number
+    assert scans[-1].seen is Seen.TIP
+    assert scans[-1].order.slices == 5
+    assert scans[-1].streak is True
+    attempt = recording.trajectory()
+    missed = np.linalg.norm(attempt.tip[attempt.final()] - attempt.placed.p_target)
+    assert missed < 4e-3  # found by the pictures alone

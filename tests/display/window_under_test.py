@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PySide6.QtCore import QPointF, QTimer
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QPointF, Qt, QTimer
+from PySide6.QtWidgets import QPushButton, QWidget
 
 from app.compose import Desktop
 from app.core.files import write_atomically
@@ -22,6 +22,7 @@ from app.views.collector import collect_for
 from app.views.window import MainWindow
 
 PERIOD_MS = 100
+METAL_HU, NEAR_MM = 1000, 6.0
 
 
 def main() -> None:
@@ -48,12 +49,17 @@ def look(window: MainWindow) -> dict[str, Any]:
         "page": type(window.pages.currentWidget()).__name__,
         "message": window.message_bar.text if not window.message_bar.isHidden() else "",
         "begin": middle(window.start_page.begin),
+        "exercises": exercises(window),
         "exercise_tab": tab(window, 1),
         "start": middle(panel.buttons.start) if panel.buttons.start.isEnabled() else None,
         "tool": window.workspace.viewing.tool.value,
         "plan": plan(window),
         "marks": marks(window),
         "pad": pad(window),
+        "needle_shown": workspace.viewing.needle is not None,
+        "scan": scan(window),
+        "scan_panel": scan_panel(window),
+        "debrief_scans": window.debrief_page.scans.rowCount(),
         "state": None if snapshot is None else snapshot.state.value,
         "measured": snapshot is not None and snapshot.pose.measured,
         "remaining_mm": None if snapshot is None else 1e3 * snapshot.offset.remaining,
@@ -67,11 +73,54 @@ def middle(widget: QWidget) -> list[int]:
     return [at.x(), at.y()]
 
 
+def exercises(window: MainWindow) -> dict[str, list[int]]:
+    """Middle of each exercise's row on the start page that can be seen."""
+    rows, places = window.start_page.exercises, {}
+    for number in range(rows.count()):
+        item = rows.item(number)
+        box = rows.visualItemRect(item)
+        if rows.viewport().rect().contains(box.center()):
+            at = rows.viewport().mapToGlobal(box.center())
+            places[item.data(Qt.ItemDataRole.UserRole)] = [at.x(), at.y()]
+    return places
+
+
+def scan_panel(window: MainWindow) -> dict[str, Any] | None:
+    """Where the scanner's controls lie, and what they say."""
+    panel = window.workspace.exercise_panel.scan
+    if not panel.isVisible():
+        return None
+    parts = {name: middle(getattr(panel, name)) for name in ("head", "feet", "here", "slices")}
+    return parts | {
+        "centre_mm": panel.order.centre_mm,
+        "number": panel.order.slices,
+        "count": panel.count.text(),
+    }
+
+
+def scan(window: MainWindow) -> dict[str, Any] | None:
+    """What eyes read off the slices of the last scan: where along the plan the metal ends."""
+    view, draft = window.workspace.scan_view, window.editor.edit.draft
+    volume = view.viewing.volume
+    if view.scan is None or volume is None or not (draft.entry_mm and draft.target_mm):
+        return None
+    entry = np.asarray(draft.entry_mm)
+    path = np.asarray(draft.target_mm) - entry
+    length = float(np.linalg.norm(path))
+    k, j, i = np.nonzero(volume.hu >= METAL_HU)
+    offsets = volume.lps_mm(np.column_stack([i, j, k])) - entry
+    along = offsets @ path / length
+    near = np.linalg.norm(offsets - np.outer(along, path / length), axis=1) < NEAR_MM
+    seen: dict[str, Any] = {"number": view.scan.number, "slices": volume.size[2]}
+    if near.any():
+        seen["remaining_mm"] = length - float(along[near].max())
+    return seen
+
+
 def tab(window: MainWindow, number: int) -> list[int]:
-    """Middle of a tab beside the panes."""
-    bar = window.workspace.side.tabBar()
-    at = bar.mapToGlobal(bar.tabRect(number).center())
-    return [at.x(), at.y()]
+    """Middle of a panel's name beside the panes."""
+    names = window.workspace.side.findChildren(QPushButton, "side-name")
+    return middle(names[number])
 
 
 def plan(window: MainWindow) -> dict[str, Any]:

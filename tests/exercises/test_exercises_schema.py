@@ -6,6 +6,7 @@ from app.core.errors import ConfigurationError
 from app.exercises.library import read_exercise
 from app.exercises.parts import View
 from app.exercises.schema import Exercise
+from app.imaging.series import Remedy
 from app.planning.placement import PatientOrientation
 from app.scoring.defaults import DEFAULT_TOLERANCES
 
@@ -24,6 +25,17 @@ def test_a_name_and_a_title_are_enough(tmp_path: Path) -> None:
     assert exercise.plan == "phantom_default"
     assert exercise.tolerances == dict(DEFAULT_TOLERANCES)
     assert exercise.placement.placement().orientation is PatientOrientation.SUPINE
+
+
+def test_a_remedy_can_be_asked_for_of_a_folder(tmp_path: Path) -> None:
+    plan = "plan: {entry_mm: [0, -90, 300], target_mm: [5, -20, 300]}\n"
+    exercise = read(tmp_path, plan + "ct: {folder: chest, remedy: straighten}\n")
+    assert exercise.ct.remedy is Remedy.STRAIGHTEN
+    assert read(tmp_path, plan + "ct: {folder: chest}\n").ct.remedy is Remedy.NONE
+    with pytest.raises(ConfigurationError, match="remedy goes with folder"):
+        read(tmp_path, "ct: {phantom: {seed: 1}, remedy: halve}\n")
+    with pytest.raises(ConfigurationError, match="'resample', 'straighten' or 'halve'"):
+        read(tmp_path, plan + "ct: {folder: chest, remedy: paint}\n")
 
 
 def test_everything_can_be_given(tmp_path: Path) -> None:

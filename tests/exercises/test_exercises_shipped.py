@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from app.exercises.errors import ExerciseError
+from app.exercises.guidance import GuidanceMode, Purpose
 from app.exercises.library import load_exercise
+from app.exercises.parts import TELLING, View
 from app.exercises.scene import device_of, draft_of, plan_of
 from app.exercises.schema import Exercise
 from app.imaging.phantom import anatomy
@@ -89,6 +91,20 @@ def test_the_path_of_each_shipped_exercise_is_within_reach(name: str) -> None:
     assert answer.reachable, answer.message()
     assert 50.0 < plan.length_mm < 110.0
     assert plan.name == name
+
+
+def test_assessments_guide_by_control_scans_and_show_nothing_live() -> None:
+    assessments = [e for e in map(load_exercise, SHIPPED) if e.purpose is Purpose.ASSESSMENT]
+    assert [exercise.id for exercise in assessments] == ["scans-only"]
+    for exercise in assessments:
+        assert exercise.guidance.mode is None  # by default, not because the file says so
+        assert exercise.guidance_mode is GuidanceMode.CONTROL_CT
+        assert not set(exercise.shown_views) & TELLING
+    practice = load_exercise("first-insertion")
+    asked = practice.model_copy(update={"purpose": Purpose.ASSESSMENT})
+    assert asked.guidance_mode is GuidanceMode.CONTROL_CT
+    assert View.LIVE_OVERLAY in practice.shown_views
+    assert View.LIVE_OVERLAY not in asked.shown_views
 
 
 def test_an_entry_can_be_found_for_the_exercise_without_one() -> None:

@@ -11,7 +11,8 @@ from app.imaging.body import find_body
 from app.imaging.errors import SeriesRefusedError, TooLargeError
 from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.reading import choose, load_ct
-from app.imaging.resampling import read_with
+from app.imaging.recipe import AS_IT_IS
+from app.imaging.resampling import read_again, read_with
 from app.imaging.scanning import scan_folder
 from app.imaging.series import Remedy
 from tests.imaging import dicom_factory as factory
@@ -106,6 +107,33 @@ def test_halving_averages_blocks_and_keeps_their_places(tmp_path):
     assert volume.size == (8, 6, 2)
     assert volume.made == ("reduced: 2 × 2 × 2 voxels averaged to one",)
     check_field(volume, field)
+
+
+@pytest.mark.parametrize(
+    ("remedy", "changes", "asked"),
+    [
+        (Remedy.RESAMPLE, {"offsets": (0.0, 2.0, 4.0, 6.3, 8.0)}, {"spacing_mm": 1.5}),
+        (Remedy.RESAMPLE, {"offsets": (0.0, 2.0, 4.0, 6.3, 8.0)}, {}),
+        (Remedy.STRAIGHTEN, {"shear": 0.25}, {}),
+        (Remedy.HALVE, {}, {"factors": (2, 1, 3)}),
+    ],
+)
+def test_a_volume_knows_how_to_be_read_the_same_way_again(tmp_path, remedy, changes, asked):
+    Field(**changes).write(tmp_path)
+    first = read_with(choose(scan_folder(tmp_path), None, remedy), remedy, **asked)
+    assert first.recipe.remedy is remedy
+    again = read_again(scan_folder(tmp_path).series[0], first.recipe)
+    assert again.recipe == first.recipe
+    assert again.made == first.made
+    np.testing.assert_array_equal(again.hu, first.hu)
+    np.testing.assert_array_equal(again.affine_mm, first.affine_mm)
+
+
+def test_a_series_read_as_it_is_asks_for_nothing(tmp_path):
+    Field().write(tmp_path)
+    volume = read_with(scan_folder(tmp_path).series[0])
+    assert volume.recipe == AS_IT_IS
+    np.testing.assert_array_equal(read_again(volume.series, volume.recipe).hu, volume.hu)
 
 
 def test_what_does_not_fit_the_memory_is_refused_and_halving_offered(tmp_path, monkeypatch):

@@ -2,13 +2,16 @@
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
 import pytest
-from session_fakes import Bench
+from session_fakes import EXERCISE, Bench
 
 from app.core.events import Event
+from app.exercises.guidance import GuidancePart
 from app.imaging.scan_order import ScanOrder, Seen
 from app.session.control_scan import ControlScan, scan_marks, scans_of
 from app.session.errors import IllegalTransitionError, ScanNotPossibleError
@@ -81,6 +84,36 @@ def test_the_record_gives_the_same_scans_back_and_lists_them_for_a_replay(bench:
     assert "control scan 2" in text
     assert "teaching estimate" in text
     assert [s["seen"] for s in listed.document()["scans"]] == ["tip", "nothing"]
+
+
+def test_a_scan_says_by_itself_what_its_pictures_showed(bench: Bench) -> None:
+    bench.trainer._exercise = SimpleNamespace(
+        **vars(EXERCISE) | {"guidance": GuidancePart(streak=True)}
+    )
+    (scan,) = scanned(bench, ScanOrder(310.2, 4, 2.5))
+    data = scan.data()
+    assert scan.streak is True
+    assert (data["version"], data["streak"]) == (2, True)
+    assert data["range_mm"] == [305.2, 315.2]
+
+
+def test_a_scan_of_an_older_record_has_the_streak_of_its_exercise(bench: Bench) -> None:
+    (scan,) = scanned(bench, ScanOrder(310.2))
+    old = {key: value for key, value in scan.data().items()
+           if key not in ("version", "streak", "range_mm")}  # fmt: skip
+    event = Event(1.0, "scan", "control scan 1", {"number": 1} | old)
+    assert [s.streak for s in scans_of([event])] == [None]
+    record = bench.trainer.end().record
+    assert record is not None
+    recording = replace(
+        read_recording(record), events=(event,),
+        attachments=MappingProxyType({"exercise.json": b'{"guidance": {"streak": true}}'}),
+    )  # fmt: skip
+    (again,) = recording.control_scans()
+    assert again.streak is True
+    assert again.needle.tip_mm.tolist() == scan.needle.tip_mm.tolist()
+    damaged = replace(recording, attachments=MappingProxyType({"exercise.json": b"[1"}))
+    assert [s.streak for s in damaged.control_scans()] == [None]
 
 
 def test_a_needle_that_nobody_sees_is_not_scanned_and_nothing_is_counted(bench: Bench) -> None:

@@ -17,6 +17,7 @@ from app.core.events import Event
 from app.exercises.guidance import GuidanceMode, GuidancePart
 from app.imaging.scan_order import ScanNeedle, ScanOrder
 from app.session.control_scan import ControlScan
+from app.session.ct_facts import CtFacts
 from app.session.machine import State
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.scan_view import ScanView
@@ -274,7 +275,8 @@ def test_the_debrief_lists_every_scan_with_what_it_showed(window) -> None:
         for row in range(page.scans.rowCount())
     ]
     assert rows[0] == ["1", "0:02", "3 × 4 mm, S 134.0 to S 146.0", "● tip",
-                       "11.6 (teaching estimate)"]  # fmt: skip
+                       "11.6"]  # fmt: skip
+    assert "teaching estimate" in page.scans.horizontalHeaderItem(4).text()
     assert rows[1][3] == "✖ no needle"
     assert not page.scans.isHidden()
     page.show_review(replace(reviewed(), control_scans=()))
@@ -294,7 +296,7 @@ def test_the_debrief_shows_a_scan_again_beside_the_truth(guided, settle) -> None
 
 def test_a_scan_of_another_ct_is_not_made_of_this_one(guided, settle) -> None:
     window, _ = guided
-    window.debrief_page.show_review(reviewed(ct="CT-OTHER"))
+    window.debrief_page.show_review(reviewed(ct=CtFacts("CT-OTHER")))
     failures = []
     window.conductor.failed.connect(failures.append)
     window.debrief_page.scans.cellActivated.emit(0, 0)

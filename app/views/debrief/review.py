@@ -15,6 +15,7 @@ from app.scoring.result import Score
 from app.scoring.trajectory import Phase
 from app.session.calibration_flag import CalibrationFlags
 from app.session.control_scan import ControlScan, scans_of
+from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.curves import Curves, curves
 from app.session.errors import SessionError
 from app.session.needle import FROM_CAMERAS
@@ -74,7 +75,7 @@ class Review:
         renders: whether something could push the hand; without it there is no curve of the force.
         control_scans: those with slices, in order.
         origin: moment that their times are told from [s].
-        ct: pseudonym of the CT; empty if not known.
+        ct: the CT, and how it was read.
         tip_radius: round the tip that holds the true one with 95 %, median [m]; None if not known.
     """
 
@@ -100,7 +101,7 @@ class Review:
     renders: bool = True
     control_scans: tuple[ControlScan, ...] = ()
     origin: float = 0.0
-    ct: str = ""
+    ct: CtFacts = UNKNOWN_CT
 
     @property
     def rings(self) -> tuple[float, float]:
@@ -168,9 +169,9 @@ def review(recording: Recording) -> Review:
         measured_force=samples.measured if np.isfinite(samples.measured).any() else None,
         tip_radius=samples.tip_radius(),
         renders=renders_force(recording.metadata),
-        control_scans=scans_of(recording.events),
+        control_scans=recording.control_scans(),
         origin=origin,
-        ct=recording.metadata.get("ct", {}).get("pseudonym", ""),
+        ct=recording.ct,
     )
 
 

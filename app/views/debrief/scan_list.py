@@ -34,7 +34,8 @@ class ScanList(QTableWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(0, _COLUMNS, parent)
         self._scans: tuple[ControlScan, ...] = ()
-        titles = (tr("Scan"), tr("Time"), tr("Slices"), tr("Shows"), tr("Dose, mGy·cm"))
+        titles = (tr("Scan"), tr("Time"), tr("Slices"), tr("Shows"),
+                  tr("Dose, mGy·cm\n({estimate})", estimate=tr(TEACHING_ESTIMATE)))  # fmt: skip
         for column, title in enumerate(titles):
             self.setHorizontalHeaderItem(column, QTableWidgetItem(title))
         dose = self.horizontalHeaderItem(_COLUMNS - 1)
@@ -78,9 +79,8 @@ def cells(scan: ControlScan, origin: float) -> tuple[str, ...]:
     )  # fmt: skip
     shows = {
         Seen.TIP: tr("● tip"),
-        Seen.SHAFT: tr("▲ shaft only: the tip lies outside"),
+        Seen.SHAFT: tr("▲ shaft only"),
         Seen.NOTHING: tr("✖ no needle"),
     }
     time = clock_text(scan.time - origin)
-    dose = tr("{dose:.1f} ({estimate})", dose=scan.dose, estimate=tr(TEACHING_ESTIMATE))
-    return str(scan.number), time, slices, shows[scan.seen], dose
+    return str(scan.number), time, slices, shows[scan.seen], f"{scan.dose:.1f}"

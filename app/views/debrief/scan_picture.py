@@ -5,11 +5,12 @@ from __future__ import annotations
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QDialog, QVBoxLayout
 
+from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.session.control_scan import ControlScan
-from app.views.background import run_in_background
+from app.views.background import Indicator, run_in_background
 from app.views.conductor import Conductor
 from app.views.debrief.page import DebriefPage
 from app.views.exercise.scan_view import ScanView, caption
@@ -20,9 +21,9 @@ from app.views.text import tr
 class ScanPictures(QObject):
     """Opens a scan of the debrief, if the CT that it was taken of is open."""
 
-    def __init__(self, page: DebriefPage, conductor: Conductor) -> None:
+    def __init__(self, page: DebriefPage, conductor: Conductor, indicator: Indicator) -> None:
         super().__init__(page)
-        self._page, self._conductor = page, conductor
+        self._page, self._conductor, self._indicator = page, conductor, indicator
         self.dialog: QDialog | None = None
         page.scans.scan_wanted.connect(self.open)
 
@@ -31,24 +32,29 @@ class ScanPictures(QObject):
         patient, review = self._conductor.patient, self._page.review
         if review is None:
             return
-        known = patient is not None and review.ct in ("", patient.volume.series.pseudonym)
+        pseudonym = review.ct.pseudonym
+        known = patient is not None and pseudonym in ("", patient.volume.series.pseudonym)
         if patient is None or not known:
             self._conductor.failed.emit(
                 tr("The slices are made of the CT that was scanned, {ct}: open it first",
-                   ct=review.ct or tr("which is not open"))
+                   ct=pseudonym or tr("which is not open"))
             )  # fmt: skip
             return
-        volume, exercise = patient.volume, self._conductor.exercise
-        streak = exercise is not None and exercise.guidance.streak
+        volume, recipe = patient.volume, review.ct.recipe
 
-        def make(_: Progress) -> Volume:
-            from app.imaging.scanned import scan_image  # compiled parts: beside the window
-
-            return scan_image(volume, scan.order, scan.needle, streak, scan.shift_mm)
+        def make(progress: Progress) -> Volume:
+            with ONE_AT_A_TIME:  # compiled parts: beside the window
+                from app.imaging.resampling import read_again
+                from app.imaging.scanned import scan_image
+            ct = volume
+            if recipe is not None and recipe != volume.recipe:  # the scan was of a mended one
+                ct = read_again(volume.series, recipe, progress)
+            return scan_image(ct, scan.order, scan.needle, bool(scan.streak), scan.shift_mm)
 
         run_in_background(
-            self, make, lambda picture: self._show(picture, scan), self._conductor.failed.emit
-        )
+            self, make, lambda picture: self._show(picture, scan), self._conductor.failed.emit,
+            title=tr("Making the slices again"), indicator=self._indicator,
+        )  # fmt: skip
 
     def _show(self, picture: Volume, scan: ControlScan) -> None:
         review = self._page.review

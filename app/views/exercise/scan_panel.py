@@ -87,6 +87,7 @@ class ScanPanel(QWidget):
         """Say that the slices are being made."""
         self.progress.setRange(0, 0 if busy else 1)
         self.progress.setValue(0)
+        self.progress.setVisible(busy)
         self.progress.setFormat(tr("scanning…") if busy else "")
 
     # --- inside -----------------------------------------------------------------------------------
@@ -106,8 +107,12 @@ class ScanPanel(QWidget):
         button.setText(text)
         button.setAutoRepeat(True)
         button.setFixedSize(theme.CONTROL_HEIGHT, theme.CONTROL_HEIGHT)
-        button.clicked.connect(lambda: self.table.stepBy(way))
+        button.clicked.connect(lambda: self._move_table(way))
         return button
+
+    def _move_table(self, slices: int) -> None:
+        self.table.stepBy(slices)
+        self.table.lineEdit().deselect()  # a step selects the number, as if it were to be typed
 
     def _prepare(self) -> None:
         self.table.setRange(-FARTHEST_MM, FARTHEST_MM)
@@ -128,6 +133,9 @@ class ScanPanel(QWidget):
         )  # fmt: skip
         self.progress.setTextVisible(True)
         self.progress.setFixedHeight(14)
+        kept = self.progress.sizePolicy()
+        kept.setRetainSizeWhenHidden(True)  # nothing below it jumps
+        self.progress.setSizePolicy(kept)
         for widget in (self.table, self.slices):
             widget.setFocusPolicy(Qt.FocusPolicy.ClickFocus)  # S stays the pedal
         for button in (self.feet, self.head, self.here):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QSize, Qt
-from PySide6.QtGui import QIcon, QImage, QPixmap
+from PySide6.QtGui import QIcon, QImage, QPixmap, QResizeEvent
 from PySide6.QtWidgets import (
     QButtonGroup,
     QHBoxLayout,
@@ -25,7 +25,11 @@ from app.views.slices.panes import PaneId
 from app.views.slices.viewing import Viewing
 from app.views.text import tr
 
-THUMB_PX = 76
+THUMB_PX, LEAST_THUMB_PX = 76, 28
+"""Width of a small slice where there is room, and the least."""
+
+WORDS_PX = 30
+"""Height that a small slice needs beside its picture."""
 
 
 class ScanView(QWidget):
@@ -36,6 +40,7 @@ class ScanView(QWidget):
         super().__init__(parent)
         self.viewing = Viewing(planning.window, self)
         self.pane = SlicePane(self.viewing, PaneId.AXIAL, self)
+        self.pane.canvas.layers.crosshair.ends_only = True  # a line would lie on the needle
         self.scan: ControlScan | None = None
         self._planning = planning
         self._caption, self._nothing = QLabel(self), QLabel(self)
@@ -91,13 +96,25 @@ class ScanView(QWidget):
             button = QToolButton(self)
             button.setCheckable(True)
             button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
-            button.setIconSize(QSize(THUMB_PX, THUMB_PX))
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
             button.setText(axis_words(2, float(picture.lps_mm((0, 0, number))[2])))
             button.setStyleSheet(f"font-size: {theme.SMALL_PX}px; padding: 1px;")
             self._thumbs.addButton(button, number)
             self._strip.insertWidget(self._strip.count() - 1, button)
         self._draw_thumbs()
+        self._size_thumbs()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Let all small slices fit beside the large one, with their places below them."""
+        super().resizeEvent(event)
+        self._size_thumbs()
+
+    def _size_thumbs(self) -> None:
+        buttons = self._thumbs.buttons()
+        room = (self.height() - 2 * WORDS_PX) // max(1, len(buttons)) - WORDS_PX
+        side = min(THUMB_PX, max(LEAST_THUMB_PX, room))
+        for button in buttons:
+            button.setIconSize(QSize(side, side))
 
     def _draw_thumbs(self) -> None:
         volume = self.viewing.volume

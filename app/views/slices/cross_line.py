@@ -13,6 +13,10 @@ GAP_PX = 14.0
 """Half of the gap in the crosshair: the voxel under it stays visible."""
 
 
+END_SHARE = 0.06
+"""Length of the ends of a line that shows nothing else, as a share of it."""
+
+
 class CrossLine(QGraphicsItem):
     """One line of the crosshair through the whole plane, with a gap around the point."""
 
@@ -30,6 +34,7 @@ class CrossLine(QGraphicsItem):
         direction: tuple[float, float],
         bounds_mm: tuple[float, float, float, float],
         scale: float,
+        ends_only: bool = False,
     ) -> None:
         """Run through a point and leave the gap there.
 
@@ -38,9 +43,10 @@ class CrossLine(QGraphicsItem):
             direction: of the line, unit.
             bounds_mm: rectangle (left, top, width, height) that the line fills.
             scale: zoom [px/mm].
+            ends_only: draw nothing but the ends: what lies along the line stays visible.
         """
         gap = GAP_PX / scale
-        state = (*at, *direction, *bounds_mm, gap)
+        state = (*at, *direction, *bounds_mm, gap, float(ends_only))
         self.setVisible(True)
         if state == self._state:
             return
@@ -48,6 +54,9 @@ class CrossLine(QGraphicsItem):
         self._state = state
         first, last = chord(at, direction, bounds_mm)
         halves = ((first, min(-gap, last)), (max(gap, first), last))
+        if ends_only:
+            end = END_SHARE * (last - first)
+            halves = ((first, min(-gap, first + end)), (max(gap, last - end), last))
         x, y, (dx, dy) = *at, direction
         self._ends = tuple(
             (QPointF(x + a * dx, y + a * dy), QPointF(x + b * dx, y + b * dy))

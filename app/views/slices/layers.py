@@ -31,10 +31,15 @@ LINE_POINTS = 24
 
 
 class CrosshairLayer:
-    """The traces of the two other panes of the family, in their colours."""
+    """The traces of the two other panes of the family, in their colours.
+
+    Attributes:
+        ends_only: draw their ends alone, so that they cover nothing of the picture.
+    """
 
     def __init__(self, scene: QGraphicsScene, viewing: Viewing, pane: PaneId) -> None:
         self._viewing = viewing
+        self.ends_only = False
         self._lines = {other: CrossLine(PANE_MARKS[other]) for other in crossing_panes(pane)}
         for line in self._lines.values():
             line.setVisible(False)
@@ -52,7 +57,7 @@ class CrosshairLayer:
                 line.setVisible(False)
                 continue
             at = meeting or cut[:2]
-            line.place(at, cut[2:], plane.bounds_mm, scale)
+            line.place(at, cut[2:], plane.bounds_mm, scale, self.ends_only)
 
     def hide(self) -> None:
         """Show nothing."""

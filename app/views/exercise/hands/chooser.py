@@ -1,7 +1,7 @@
 """Chooses what moves the simulated hand, and how far; says how it works."""
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QSizePolicy, QWidget
 
 from app.core.errors import AcusError
 from app.views import theme
@@ -42,7 +42,7 @@ class HandChooser(QWidget):
         self._help.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         self._title = title = QLabel(tr("Hand"), self)
         title.setProperty("role", "dim")
-        row = QHBoxLayout(self)
+        self._row = row = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self._help, 1)
         for widget in (title, self.box, self.gain):
@@ -78,7 +78,9 @@ class HandChooser(QWidget):
         self._reopen()
 
     def set_compact(self, compact: bool) -> None:
-        """Leave only the two choices; how the hand is moved stands in their help."""
+        """Leave only the two choices, one below the other; their help says how the hand moves."""
+        ways = QBoxLayout.Direction
+        self._row.setDirection(ways.TopToBottom if compact else ways.LeftToRight)
         for label in (self._title, self._help):
             label.setVisible(not compact)
 
