@@ -191,6 +191,7 @@ def test_an_assessment_by_control_scans_alone_by_hand(user: User, sessions: Path
     user.wheel(45)
     time.sleep(1.5)
     for number in range(1, 5):
+        user.wait(lambda seen: seen["measured"] and seen["state"] != "paused", "cameras", 60)
         user.key("s")
         scan = user.wait(
             lambda seen, n=number: seen["scan"] if seen["scan"] and seen["scan"]["number"] == n
