@@ -42,7 +42,7 @@ def examine(path: Path) -> tuple[SliceHeader, ...] | Ignored:
 def _read(path: Path, stream: BinaryIO) -> tuple[SliceHeader, ...] | Ignored:
     head = stream.read(512)
     preamble = head[_PREAMBLE - 4 : _PREAMBLE] == b"DICM"
-    if not preamble and not _plausible(head):
+    if not preamble and not starts_like_dicom(head):
         return Ignored(path, "empty file" if not head else "not a DICOM file")
     if _DICOMDIR in head:
         return Ignored(path, "DICOM directory (DICOMDIR), not an image")
@@ -54,7 +54,7 @@ def _read(path: Path, stream: BinaryIO) -> tuple[SliceHeader, ...] | Ignored:
     return headers
 
 
-def _plausible(head: bytes) -> bool:
+def starts_like_dicom(head: bytes) -> bool:
     """Whether bytes without a preamble start like a data set: a low group, a VR or a length."""
     if len(head) < 16:
         return False

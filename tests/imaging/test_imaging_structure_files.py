@@ -1,5 +1,7 @@
 """Structures in and out of files: SEG, RTSTRUCT, .seg.nrrd and NIfTI."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import nibabel
@@ -21,6 +23,7 @@ from app.imaging.structures.errors import (
     StructureFileError,
 )
 from app.imaging.structures.files import read_structures, write_structures
+from app.imaging.structures.seg_nrrd import read_nrrd
 from app.imaging.structures.structure import Kind, Structure, StructureSet
 from app.imaging.volume import Volume
 
@@ -346,4 +349,25 @@ def test_without_the_extra_its_name_is_told(volume, tmp_path, monkeypatch):
     write_structures(tmp_path / "x.seg.nrrd", two(volume), volume)
     monkeypatch.setitem(__import__("sys").modules, "nrrd", None)
     with pytest.raises(ExtraMissingError, match=r"acus\[structures\]"):
-        read_structures(tmp_path / "x.seg.nrrd", volume)
+        read_nrrd(tmp_path / "x.seg.nrrd")
+
+
+def test_a_file_of_structures_is_read_in_the_worker_and_loads_nothing_here(volume, tmp_path):
+    write_structures(tmp_path / "x.seg.nrrd", two(volume), volume)
+    program = (
+        "import sys, numpy as np; from pathlib import Path; from app.imaging.series import Series;"
+        "from app.imaging.structures.files import read_structures;"
+        "from app.imaging.volume import Volume; "
+        "affine = np.array(eval(sys.argv[2]), float); size = eval(sys.argv[3]);"
+        "series = Series('', 'CT', '', size, None, None, None, True, '', (), '', '', ());"
+        "found = read_structures(Path(sys.argv[1]),"
+        " Volume(np.zeros(size[::-1], np.int16), affine, series));"
+        "print(len(found), [n for n in ('nrrd', 'pydicom', 'highdicom') if n in sys.modules])"
+    )
+    root = Path(__file__).resolve().parents[2]
+    arguments = [tmp_path / "x.seg.nrrd", volume.affine_mm.tolist(), volume.size]
+    done = subprocess.run(
+        [sys.executable, "-c", program, *map(str, arguments)],
+        capture_output=True, cwd=root, text=True,
+    )  # fmt: skip
+    assert done.stdout.strip() == "2 []", done.stderr

@@ -8,7 +8,7 @@ from app.imaging.series import Series
 from app.imaging.structures.contours import contours, outlines
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.errors import FrameOfReferenceError, StructureError
-from app.imaging.structures.placing import Labelled, guessed_kind, place
+from app.imaging.structures.placing import Found, Labelled, guessed_kind, place
 from app.imaging.structures.polygons import even_odd
 from app.imaging.structures.structure import Kind, Structure, StructureSet, cropped
 from app.imaging.volume import Volume
@@ -37,6 +37,10 @@ def ball(volume, centre, radius):
     k, j, i = np.indices(volume.hu.shape)
     points = volume.lps_mm(np.stack([i, j, k], axis=-1).reshape(-1, 3))
     return (np.linalg.norm(points - centre, axis=1) <= radius).reshape(volume.hu.shape)
+
+
+def placed_on(labelled, frame, volume):
+    return place(Found(labelled, len(labelled), frame), volume, Progress())
 
 
 def middle(volume):
@@ -244,7 +248,7 @@ def test_a_grid_that_differs_only_in_the_order_of_its_axes_is_taken_voxel_for_vo
     flipped[:3, 0] *= -1
     swapped = flipped[:, [1, 0, 2, 3]]
     other = mask[:, :, ::-1].transpose(0, 2, 1)
-    placed = place([Labelled("lesion", other, swapped)], FRAME, volume)
+    placed = placed_on([Labelled("lesion", other, swapped)], FRAME, volume)
     one = placed.find("lesion")
     assert np.array_equal(one.full(volume.hu.shape), mask)
     assert one.kind is Kind.TARGET
@@ -258,7 +262,7 @@ def test_another_grid_is_resampled_to_the_same_place_and_volume(spacing):
     other = made(tuple(int(n) for n in extent / spacing), spacing, turn=turned(8.0))
     centre = middle(volume)
     mask = ball(other, centre, 12.0)
-    one = place([Labelled("x", mask, other.affine_mm)], "", volume).find("x")
+    one = placed_on([Labelled("x", mask, other.affine_mm)], "", volume).find("x")
     assert np.allclose(one.centre_mm, centre, atol=0.3)
     assert one.millilitres == pytest.approx(4 / 3 * np.pi * 1.2**3, rel=0.06)
 
@@ -268,16 +272,16 @@ def test_what_lies_outside_is_told_and_another_frame_of_reference_refused():
     mask = ball(volume, middle(volume), 8.0)
     found = [Labelled("x", mask, volume.affine_mm)]
     with pytest.raises(FrameOfReferenceError, match="another frame"):
-        place(found, "2.25.78", volume)
+        placed_on(found, "2.25.78", volume)
     away = volume.affine_mm.copy()
     away[0, 3] += 500.0
     with pytest.raises(StructureError, match="none of the structures"):
-        place([Labelled("x", mask, away)], FRAME, volume)
+        placed_on([Labelled("x", mask, away)], FRAME, volume)
     half = volume.affine_mm.copy()
     half[0, 3] = volume.affine_mm[0, 3] - 0.8 * 30
-    placed = place([Labelled("x", mask, half)], FRAME, volume)
+    placed = placed_on([Labelled("x", mask, half)], FRAME, volume)
     assert "% of x lie outside" in placed.notes[0]
-    assert "no frame of reference" in place(found, "", volume).notes[0]
+    assert "no frame of reference" in placed_on(found, "", volume).notes[0]
 
 
 def test_a_vessel_thinner_than_the_voxels_is_not_lost():
@@ -285,7 +289,7 @@ def test_a_vessel_thinner_than_the_voxels_is_not_lost():
     fine = made((80, 80, 200), (0.5, 0.5, 0.5))
     mask = np.zeros(fine.hu.shape, bool)
     mask[60, 40, 20:60] = True
-    one = place([Labelled("vein", mask, fine.affine_mm)], FRAME, volume).find("vein")
+    one = placed_on([Labelled("vein", mask, fine.affine_mm)], FRAME, volume).find("vein")
     assert one.mask.any()
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -11,9 +13,10 @@ import numpy as np
 
 from app.core.errors import AcusError
 from app.core.files import write_atomically
+from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
-from app.imaging.structures.placing import Labelled, guessed_kind
+from app.imaging.structures.placing import Found, Labelled, guessed_kind
 from app.imaging.structures.structure import Colour, Kind, Structure, StructureSet
 from app.imaging.volume import Volume
 
@@ -31,31 +34,47 @@ _CODES = {
 _KINDS = {codes[1][0]: kind for kind, codes in _CODES.items() if kind is not Kind.OTHER}
 
 
-def read_seg(dataset: Any, path: Path) -> tuple[list[Labelled], str, tuple[str, ...]]:
+def read_seg(dataset: Any, path: Path) -> Found:
     """Read the segments of a DICOM Segmentation: binary, fractional (from one half) or label map.
-
-    Returns:
-        Structures, FrameOfReferenceUID, and remarks.
 
     Raises:
         StructureFileError: if the file is damaged, or its frames make no volume.
         ExtraMissingError: without the extra `structures`.
     """
     highdicom = extra("highdicom", "DICOM SEG files")
-    try:
+    if dataset.original_encoding[1] is False:
+        raise StructureFileError(
+            f"{path.name} is big endian; DICOM segmentations are read in little endian only"
+        )
+    with _named(path):
         segmentation = highdicom.seg.Segmentation.from_dataset(dataset, copy=False)
         numbers = [int(number) for number in segmentation.segment_numbers]
-        found = [_segment(segmentation, number) for number in numbers]
         frame = str(dataset.get("FrameOfReferenceUID", ""))
         kind = str(segmentation.segmentation_type.value)
-    except Exception as error:  # highdicom and pydicom raise whatever the file leads them to
-        raise StructureFileError(
-            f"{path.name} cannot be read as a DICOM segmentation: {error}"
-        ) from error
     notes: tuple[str, ...] = ()
     if kind == "FRACTIONAL":
         notes = ("fractional segments: a voxel belongs to one from 50 %",)
-    return found, frame, notes
+    return Found(_segments(segmentation, numbers, path), len(numbers), frame, notes)
+
+
+def _segments(segmentation: Any, numbers: list[int], path: Path) -> Iterator[Labelled]:
+    """Yield the segments one after the other: each has the size of a whole CT."""
+    for number in numbers:
+        with _named(path):
+            found = _segment(segmentation, number)
+        yield found
+
+
+@contextmanager
+def _named(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except MemoryError:
+        raise
+    except Exception as error:  # highdicom and pydicom raise whatever the file leads them to
+        raise StructureFileError(
+            f"{path.name} cannot be read as a DICOM segmentation ({brief(error)})"
+        ) from error
 
 
 def _segment(segmentation: Any, number: int) -> Labelled:

@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
+from app.core.errors import AcusError
 from app.core.progress import Progress
+from app.imaging.errors import FileDamagedError
 from app.imaging.structures.errors import StructureFileError
-from app.imaging.structures.placing import Labelled, place
-from app.imaging.structures.structure import StructureSet
+from app.imaging.structures.placed import PlacedStructure
+from app.imaging.structures.structure import LONGEST_NAME, Structure, StructureSet
 from app.imaging.volume import Volume
-
-SEG, RTSTRUCT = "1.2.840.10008.5.1.4.1.1.66.4", "1.2.840.10008.5.1.4.1.1.481.3"
-LABEL_SEG = "1.2.840.10008.5.1.4.1.1.66.7"
+from app.imaging.worker.jobs import STRUCTURES
+from app.imaging.worker.limits import MEMORY_BYTES, MOST_SECONDS, Allowance
+from app.imaging.worker.pool import shared_worker
 
 FORMATS = {".seg.nrrd": "3D Slicer segmentation", ".dcm": "DICOM SEG"}
 """Endings of files that can be written, and what they are."""
 
-_NIFTI = (b"n+1\0", b"ni1\0")
+_COPY_BYTES = 16
+"""Memory at work for each voxel of the CT, while a structure is placed on it."""
 
 
 def read_structures(path: Path, volume: Volume, progress: Progress | None = None) -> StructureSet:
-    """Read DICOM SEG, RTSTRUCT, `.seg.nrrd` or NIfTI labels onto the grid of a CT.
+    """Read DICOM SEG, RTSTRUCT, `.seg.nrrd` or NIfTI labels onto the grid of a CT, in the worker.
 
     Args:
         path: the file.
@@ -33,55 +35,39 @@ def read_structures(path: Path, volume: Volume, progress: Progress | None = None
         FrameOfReferenceError: if it was drawn on another frame of reference.
         StructureError: if none of it lies in this CT.
         ExtraMissingError: if the package that reads it is not installed.
+        WorkerError: if the process that reads it cannot be started.
         Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
     progress.report(0.0, f"reading {path.name}")
-    found, frame, notes = _read(path, volume)
-    progress.report(0.6, "placing the structures")
-    structures = place(found, frame, volume, notes)
-    progress.report(1.0, "structures placed")
-    return structures
-
-
-def _read(path: Path, volume: Volume) -> tuple[list[Labelled], str, tuple[str, ...]]:
+    numbers = tuple(float(number) for number in volume.affine_mm.ravel())
+    arguments = (path.absolute(), volume.size, numbers, volume.series.frame_of_reference)
     try:
-        with path.open("rb") as file:
-            head = file.read(352)
+        parsed = shared_worker().call(STRUCTURES, arguments, _allowed(volume), progress)
+        structures = tuple(_structure(one, volume) for one in parsed.structures)
+    except FileDamagedError as error:  # WorkerLostError is one too
+        raise StructureFileError(f"{path.name}: {error}") from error
     except OSError as error:
-        raise StructureFileError(f"{path} cannot be read: {error.strerror or error}") from error
-    if head[:4] == b"NRRD":
-        from app.imaging.structures.seg_nrrd import read_nrrd
-
-        return read_nrrd(path), "", ()
-    if head[:2] == b"\x1f\x8b" or head[344:348] in _NIFTI or head[:4] in (
-        b"\x5c\x01\0\0", b"\0\0\x01\x5c", b"\x1c\x02\0\0", b"\0\0\x02\x1c",
-    ):  # fmt: skip
-        from app.imaging.structures.labels import read_labels
-
-        return read_labels(path), "", ()
-    return _read_dicom(path, volume)
+        if isinstance(error, AcusError):
+            raise
+        raise StructureFileError(f"{path} cannot be read: {error.strerror}") from error
+    progress.report(1.0, "structures placed")
+    return StructureSet(structures, parsed.notes)
 
 
-def _read_dicom(path: Path, volume: Volume) -> tuple[list[Labelled], str, tuple[str, ...]]:
-    from pydicom import dcmread
+def _allowed(volume: Volume) -> Allowance:
+    i, j, k = volume.size
+    return Allowance(MOST_SECONDS, MEMORY_BYTES + _COPY_BYTES * i * j * k)
 
-    try:
-        dataset: Any = dcmread(path, force=True)
-        kind, name = str(dataset.get("SOPClassUID", "")), str(dataset.get("Modality", ""))
-    except Exception as error:  # pydicom raises whatever the bytes lead it to
-        raise StructureFileError(f"{path.name} cannot be read: {error}") from error
-    if kind in (SEG, LABEL_SEG):
-        from app.imaging.structures.dicom_seg import read_seg
 
-        return read_seg(dataset, path)
-    if kind == RTSTRUCT:
-        from app.imaging.structures.rtstruct import read_rtstruct
-
-        return read_rtstruct(dataset, path, volume)
-    what = f"a DICOM file of modality {name[:16]}" if kind else "no file of structures"
-    raise StructureFileError(
-        f"{path.name} is {what}; DICOM SEG, RTSTRUCT, .seg.nrrd and NIfTI labels are read"
+def _structure(one: PlacedStructure, volume: Volume) -> Structure:
+    """Structure on the CT's own grid, of a box that must lie in it."""
+    ends = [first + count for first, count in zip(one.corner, one.mask.shape[::-1], strict=True)]
+    inside = all(end <= size for end, size in zip(ends, volume.size, strict=True))
+    if min(one.corner) < 0 or not inside:
+        raise StructureFileError(f"{one.name[:LONGEST_NAME]} lies outside this CT")
+    return Structure(
+        one.name, one.kind, one.colour, one.mask, one.corner, volume.affine_mm, one.warn_mm
     )
 
 

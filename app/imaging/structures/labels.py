@@ -7,16 +7,17 @@ from typing import Any
 
 import numpy as np
 
+from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
-from app.imaging.structures.placing import Labelled
+from app.imaging.structures.placing import Found, Labelled
 
 LARGEST = 2_000_000_000
 MOST_LABELS = 256
 _UNITS_MM = {"mm": 1.0, "unknown": 1.0, "meter": 1000.0, "micron": 0.001}
 
 
-def read_labels(path: Path) -> list[Labelled]:
+def read_labels(path: Path) -> Found:
     """Read the labels of a NIfTI file, placed by its sform, else its qform.
 
     Raises:
@@ -32,14 +33,15 @@ def read_labels(path: Path) -> list[Labelled]:
         if len(shape) != 3 or min(shape) < 1 or np.prod(shape, dtype=np.float64) > LARGEST:
             raise StructureFileError(f"{path.name} has sizes {image.shape}; three are read")
         values = np.asanyarray(image.dataobj).reshape(shape)
-    except StructureFileError:
+    except (StructureFileError, MemoryError):
         raise
     except Exception as error:  # nibabel raises whatever the bytes lead it to
-        raise StructureFileError(f"{path.name} cannot be read as NIfTI: {error}") from error
-    whole = np.rint(values)
-    if not np.isfinite(values).all() or (whole != values).any():
+        what = brief(error)
+        raise StructureFileError(f"{path.name} cannot be read as NIfTI ({what})") from error
+    exact = values.dtype.kind in "iub"
+    if not exact and (not np.isfinite(values).all() or (np.rint(values) != values).any()):
         raise StructureFileError(f"{path.name} holds fractions; a label map holds whole numbers")
-    labels = [int(label) for label in np.unique(whole) if label > 0]
+    labels = [int(label) for label in np.unique(values) if label > 0]
     if not labels or len(labels) > MOST_LABELS:
         raise StructureFileError(
             f"{path.name} holds {len(labels)} labels above 0; a label map holds 1 to {MOST_LABELS}"
@@ -47,8 +49,8 @@ def read_labels(path: Path) -> list[Labelled]:
     stem = path.name.split(".")[0]
     names = [stem] if len(labels) == 1 else [f"{stem} {label}" for label in labels]
     kji = values.transpose(2, 1, 0)
-    return [Labelled(name, kji == label, affine)
-            for name, label in zip(names, labels, strict=True)]  # fmt: skip
+    named = zip(names, labels, strict=True)
+    return Found((Labelled(name, kji == label, affine) for name, label in named), len(labels))
 
 
 def _affine(image: Any, path: Path) -> Any:

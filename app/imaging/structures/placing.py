@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import permutations, product
 
@@ -9,6 +10,7 @@ import numpy as np
 from scipy import ndimage
 
 from app.core.arrays import FloatArray
+from app.core.progress import Progress
 from app.imaging.structures.errors import FrameOfReferenceError, StructureError
 from app.imaging.structures.structure import (
     COLOURS,
@@ -44,33 +46,48 @@ class Labelled:
     warn_mm: float | None = None
 
 
-def place(
-    found: list[Labelled], frame_of_reference: str, volume: Volume, notes: tuple[str, ...] = ()
-) -> StructureSet:
+@dataclass(frozen=True, slots=True, eq=False)
+class Found:
+    """What a reader found in a file.
+
+    Attributes:
+        structures: on grids of their own; made one after the other where each is large.
+        count: how many there are.
+        frame_of_reference: FrameOfReferenceUID of the file; empty where it carries none.
+        notes: what the reader has to say.
+    """
+
+    structures: Iterable[Labelled]
+    count: int
+    frame_of_reference: str = ""
+    notes: tuple[str, ...] = ()
+
+
+def place(found: Found, volume: Volume, progress: Progress) -> StructureSet:
     """Put structures of a file onto a CT.
 
     Args:
-        found: on grids of their own.
-        frame_of_reference: FrameOfReferenceUID of the file; empty where it carries none.
-        volume: the CT.
-        notes: what the reader has to say.
+        found: what its reader found.
+        volume: the CT; its grid is enough.
+        progress: told of each structure.
 
     Raises:
         FrameOfReferenceError: if file and CT name different ones.
         StructureError: if none of the structures has a voxel in the CT.
     """
-    own = volume.series.frame_of_reference
+    own, frame_of_reference = volume.series.frame_of_reference, found.frame_of_reference
     if frame_of_reference and own and frame_of_reference != own:
         raise FrameOfReferenceError(
             "the structures were drawn on another frame of reference "
             f"(…{frame_of_reference[-12:]}) than that of this CT (…{own[-12:]}): "
             "open the CT that they belong to"
         )
-    said = list(notes)
+    said = list(found.notes)
     if not frame_of_reference:
         said.append("the file names no frame of reference: placed by its coordinates alone")
     placed = StructureSet()
-    for number, labelled in enumerate(found):
+    for number, labelled in enumerate(found.structures):
+        progress.report(number / found.count, f"structure {number + 1} of {found.count}")
         mask, note = _onto(labelled, volume)
         if note:
             said.append(note)
@@ -81,7 +98,7 @@ def place(
         colour = labelled.colour or COLOURS[number % len(COLOURS)]
         structure = Structure.of(name, mask, volume, kind, colour, labelled.warn_mm)
         placed = placed.with_one(structure)
-    if found and not len(placed):
+    if found.count and not len(placed):
         raise StructureError(
             "none of the structures in the file lies in this CT: they belong to another patient "
             "or another scan"

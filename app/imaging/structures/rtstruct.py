@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
-from app.imaging.structures.placing import Labelled
+from app.imaging.structures.placing import Found, Labelled
 from app.imaging.structures.polygons import even_odd
 from app.imaging.structures.structure import Colour, Kind
 from app.imaging.volume import Volume
@@ -26,9 +27,7 @@ _PARALLEL = 1e-3
 _KINDS = {"GTV": Kind.TARGET, "CTV": Kind.TARGET, "PTV": Kind.TARGET, "AVOIDANCE": Kind.RISK}
 
 
-def read_rtstruct(
-    dataset: Any, path: Path, volume: Volume
-) -> tuple[list[Labelled], str, tuple[str, ...]]:
+def read_rtstruct(dataset: Any, path: Path, volume: Volume) -> Found:
     """Read the regions of an RT Structure Set.
 
     Contours of one plane are taken together by the even-odd rule: one inside another is a hole, as
@@ -38,9 +37,6 @@ def read_rtstruct(
         dataset: the file, read by pydicom.
         path: for messages.
         volume: gives the spacing of the grid on which the contours are filled.
-
-    Returns:
-        Structures, FrameOfReferenceUID, and what was left out.
 
     Raises:
         StructureFileError: if the file is damaged, or holds no closed contour.
@@ -53,7 +49,9 @@ def read_rtstruct(
         }
         contours = list(dataset.ROIContourSequence)
     except (AttributeError, TypeError, ValueError) as error:
-        raise StructureFileError(f"{path.name} is no whole RT Structure Set: {error}") from error
+        raise StructureFileError(
+            f"{path.name} is no whole RT Structure Set ({brief(error)})"
+        ) from error
     found, notes, frames = [], [], set()
     for item in contours:
         try:
@@ -63,7 +61,9 @@ def read_rtstruct(
         except (AttributeError, KeyError, TypeError, ValueError) as error:
             if isinstance(error, StructureFileError):
                 raise
-            raise StructureFileError(f"{path.name}: a region is damaged: {error!r}") from error
+            raise StructureFileError(
+                f"{path.name}: a region is damaged ({brief(error)})"
+            ) from error
         name = str(roi.get("ROIName", "")) or f"region {number}"
         if skipped:
             notes.append(f"{name}: {skipped} contours that are not closed were left out")
@@ -77,7 +77,7 @@ def read_rtstruct(
         raise StructureFileError(f"{path.name} holds no closed contour")
     if len(frames) > 1:
         raise StructureFileError(f"{path.name} mixes regions of {len(frames)} frames of reference")
-    return found, frames.pop(), tuple(notes)
+    return Found(found, len(found), frames.pop(), tuple(notes))
 
 
 def _lines(item: Any, path: Path) -> tuple[list[FloatArray], int]:

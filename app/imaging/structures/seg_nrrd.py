@@ -15,14 +15,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
-from app.imaging.structures.placing import Labelled
+from app.imaging.structures.placing import Found, Labelled
 from app.imaging.structures.structure import Colour, Kind, StructureSet
 from app.imaging.volume import Volume
 
 LARGEST = 2_000_000_000
 """Most voxels that a file may claim."""
+
+MOST_LABELS = 256
 
 _SPACES = {
     "left-posterior-superior": (1.0, 1.0, 1.0), "lps": (1.0, 1.0, 1.0),
@@ -31,7 +34,7 @@ _SPACES = {
 }  # fmt: skip
 
 
-def read_nrrd(path: Path) -> list[Labelled]:
+def read_nrrd(path: Path) -> Found:
     """Read the segments of a `.seg.nrrd` file, or the labels of a plain label map.
 
     Raises:
@@ -44,10 +47,11 @@ def read_nrrd(path: Path) -> list[Labelled]:
             header = nrrd.read_header(file)
             _check_size(header, path)
             values = nrrd.read_data(header, file, str(path), index_order="F")
-    except StructureFileError:
+    except (StructureFileError, MemoryError):
         raise
     except Exception as error:  # pynrrd raises whatever the bytes lead it to
-        raise StructureFileError(f"{path.name} cannot be read as NRRD: {error}") from error
+        what = brief(error)
+        raise StructureFileError(f"{path.name} cannot be read as NRRD ({what})") from error
     if values.dtype.kind not in "iub":
         raise StructureFileError(
             f"{path.name} holds {values.dtype} values; a label map holds whole numbers"
@@ -94,32 +98,35 @@ def _geometry(header: Any, values: NDArray[Any], path: Path) -> tuple[FloatArray
     return affine, values.transpose(0, 3, 2, 1)
 
 
-def _segments(header: Any, layers: NDArray[Any], affine: FloatArray, path: Path) -> list[Labelled]:
+def _segments(header: Any, layers: NDArray[Any], affine: FloatArray, path: Path) -> Found:
     numbers = sorted(int(m[1]) for key in header if (m := re.fullmatch(r"Segment(\d+)_ID", key)))
     if not numbers:
-        labels = np.unique(layers[0])
-        if len(labels) > 257:
+        labels = [label for label in np.unique(layers[0]).tolist() if label]
+        if len(labels) > MOST_LABELS:
             raise StructureFileError(f"{path.name} holds {len(labels)} labels: not a label map")
-        return [Labelled(f"label {n}", layers[0] == n, affine) for n in labels.tolist() if n]
-    found = []
-    for number in numbers:
+        plain = (Labelled(f"label {n}", layers[0] == n, affine) for n in labels)
+        return Found(plain, len(labels))
+    segments = (_segment(header, number, layers, affine, path) for number in numbers)
+    return Found(segments, len(numbers))
 
-        def value(key: str, number: int = number, default: str = "") -> str:
-            return str(header.get(f"Segment{number}_{key}", default))
 
-        try:
-            layer, label = int(value("Layer", default="0")), int(value("LabelValue", default="1"))
-        except ValueError as error:
-            raise StructureFileError(f"{path.name}, segment {number}: {error}") from error
-        if not 0 <= layer < len(layers):
-            raise StructureFileError(
-                f"{path.name}, segment {number}: layer {layer} of {len(layers)}"
-            )
-        kind, warn = _tags(value("Tags"))
-        name = value("Name") or f"segment {number + 1}"
-        found.append(Labelled(name, layers[layer] == label, affine, kind, _colour(value("Color")),
-                              warn))  # fmt: skip
-    return found
+def _segment(
+    header: Any, number: int, layers: NDArray[Any], affine: FloatArray, path: Path
+) -> Labelled:
+    def value(key: str, default: str = "") -> str:
+        return str(header.get(f"Segment{number}_{key}", default))
+
+    try:
+        layer, label = int(value("Layer", "0")), int(value("LabelValue", "1"))
+    except ValueError:
+        raise StructureFileError(
+            f"{path.name}, segment {number}: its layer or label is no whole number"
+        ) from None
+    if not 0 <= layer < len(layers):
+        raise StructureFileError(f"{path.name}, segment {number}: layer {layer} of {len(layers)}")
+    kind, warn = _tags(value("Tags"))
+    name = value("Name") or f"segment {number + 1}"
+    return Labelled(name, layers[layer] == label, affine, kind, _colour(value("Color")), warn)
 
 
 def _colour(text: str) -> Colour | None:

@@ -12,6 +12,7 @@ from typing import Any, Generic, TypeVar
 from app.imaging.header import SliceHeader
 from app.imaging.nifti_file import NiftiHeader, NiftiValues
 from app.imaging.series import Ignored
+from app.imaging.structures.placed import Placed
 from app.imaging.worker.limits import Allowance
 from app.imaging.worker.luggage import Luggage
 from app.imaging.worker.values import plain
@@ -41,6 +42,7 @@ NIFTI_VALUES: Job[NiftiValues] = Job("app.imaging.nifti_file:nifti_values", Nift
 DIRECTORY: Job[tuple[tuple[str, ...], ...]] = Job(
     "app.imaging.directory_file:named_files", tuple[tuple[str, ...], ...]
 )
+STRUCTURES: Job[Placed] = Job("app.imaging.structures.parsing:parse_structures", Placed)
 UNPACK: Job[tuple[tuple[str, str], ...]] = Job(
     "app.imaging.archive_file:unpack_into", tuple[tuple[str, str], ...]
 )

@@ -21,7 +21,7 @@ SECONDS_PER_BYTE = 5e-8
 SECONDS_PER_PIXEL = 5e-7
 """What decoding a frame may take beside that; JPEG 2000 needs a quarter of it."""
 
-MOST_SECONDS = 30.0
+MOST_SECONDS = 60.0
 """What no file may exceed, however large, without a sign of progress."""
 
 CLOCK_FACTOR = 10.0
@@ -30,7 +30,7 @@ CLOCK_FACTOR = 10.0
 LEAST_CLOCK_SECONDS = 20.0
 """Time on the clock that every file gets: a disk may sleep, a network may stall."""
 
-_KILLED_AFTER = 60
+_KILLED_AFTER = 120
 """Seconds of processor time without a sign of progress after which the system itself ends the
 child: the program's watchdog comes first, unless the program is gone."""
 
