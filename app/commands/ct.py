@@ -36,6 +36,7 @@ def register(root: typer.Typer) -> None:
 @app.command("list")
 def list_series(folder: Folder, as_json: AsJson = False) -> None:
     """List every series: modality, size, spacing, origin, direction, usable or why not."""
+    _start_reader()
     from app.imaging.scanning import scan_folder
 
     listing = scan_folder(folder)
@@ -73,6 +74,7 @@ def point(
         raise ConfigurationError(
             "name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW"
         )
+    _start_reader()
     if voxel is not None:
         lps_mm, hu = _voxel(folder, series, remedy, _integers(voxel, 3, "--voxel", "I,J,K"))
     elif remedy is not None:
@@ -122,6 +124,13 @@ def _volume(folder: Path, series_uid: str | None, remedy: str | None) -> "Volume
     for words in volume.made:
         typer.echo(words, err=True)
     return volume
+
+
+def _start_reader() -> None:
+    """Start the process that reads files: it comes up while the rest is still loaded."""
+    from app.imaging.worker.pool import shared_worker
+
+    shared_worker().warm()
 
 
 def _pixel(folder: Path, sop: str, place: list[int]) -> tuple[list[float], float | int]:

@@ -81,13 +81,17 @@ class Desktop:
     def prepare(self, progress: Progress) -> None:
         """Load what an exercise needs; called beside the window as soon as it is painted."""
         from app.core.passing import sweep_passing
-        from app.imaging.errors import WorkerError
+        from app.imaging.errors import WorkerError, WorkerLostError
         from app.imaging.worker.pool import shared_worker
 
         sweep_passing()
-        load_modules(HEAVY_MODULES, progress)
         with contextlib.suppress(WorkerError):  # said by the first folder that is opened
             shared_worker().warm()
+        load_modules(HEAVY_MODULES, progress)
+        from app.imaging.worker.service import load_decoders
+
+        with contextlib.suppress(WorkerError, WorkerLostError):
+            load_decoders(progress)
 
     def robots(self) -> tuple[RobotPort, ...]:
         """Ports at which a robot may be plugged in now."""

@@ -4,6 +4,7 @@ The libraries are called on the frame's own bytes: through pydicom each frame co
 of the file's header. Which library decodes which transfer syntax stands in `pixel_data.DECODERS`.
 """
 
+import contextlib
 from collections.abc import Callable
 from typing import Any
 
@@ -62,6 +63,13 @@ def _installed(syntax: str) -> Codec:
     raise FileDamagedError(
         f"a decoder for transfer syntax {syntax} is missing: pip install {DECODERS[syntax][0]}"
     )
+
+
+def load() -> None:
+    """Load every decoder that is installed."""
+    for make in _CODECS.values():
+        with contextlib.suppress(ImportError):
+            make()
 
 
 def _jpeg_ls() -> Codec:

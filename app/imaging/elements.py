@@ -44,20 +44,26 @@ class Elements:
     start: int = 0
 
 
-def read_elements(stream: BinaryIO, wanted: Sequence[int], forced: bool) -> Elements:
+def read_elements(
+    stream: BinaryIO, wanted: Sequence[int], forced: bool, sound: bool = False
+) -> Elements:
     """Read the wanted elements before the pixels; the stream then stands at the pixels.
 
     Args:
         stream: the file, at its start.
         wanted: tags.
         forced: read although the DICOM preamble is missing.
+        sound: only if it can be done without pydicom.
 
     Raises:
         FileDamagedError: if the header cannot be parsed.
+        OddError: if only what is sound was asked for, and this is not.
     """
     if not forced:
         with contextlib.suppress(OddError):
             return _sound(stream, frozenset(wanted))
+    if sound:
+        raise OddError
     try:
         from app.imaging.odd_elements import read_odd
 

@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import BinaryIO, Final
 
 from app.imaging import elements
+from app.imaging.element_walk import OddError
 from app.imaging.elements import Elements
 from app.imaging.errors import FileDamagedError
 from app.imaging.header import MULTI_FRAME, Identity, Plane, Rescale, SliceHeader
@@ -66,13 +67,16 @@ _MARKS: Final = {
 _AS_STORED: Final = Rescale(1.0, 0.0)
 
 
-def read_headers(path: Path, stream: BinaryIO, forced: bool) -> tuple[SliceHeader, ...]:
+def read_headers(
+    path: Path, stream: BinaryIO, forced: bool, sound: bool = False
+) -> tuple[SliceHeader, ...]:
     """Read the header of one file up to its pixels; nothing if it is no instance of a series.
 
     Args:
         path: the file, for messages.
         stream: the file, opened for reading at its start.
         forced: read although the DICOM preamble is missing.
+        sound: only if it can be done without pydicom.
 
     Returns:
         One header for each image: one, or for a multi-frame file that says where its frames lie
@@ -80,13 +84,16 @@ def read_headers(path: Path, stream: BinaryIO, forced: bool) -> tuple[SliceHeade
 
     Raises:
         FileDamagedError: if the header cannot be parsed.
+        OddError: if only what is sound was asked for, and this is not.
     """
-    header = elements.read_elements(stream, _TAG_LIST, forced)
+    header = elements.read_elements(stream, _TAG_LIST, forced, sound)
     if not elements.text(header, _TAGS["SeriesInstanceUID"]):
         return ()
     found = _slice_header(path, stream, header)
     if found.identity.sop_class not in MULTI_FRAME or found.damage:
         return (found,)
+    if sound:
+        raise OddError
     from app.imaging.enhanced import frames_of
 
     return frames_of(found, stream)

@@ -13,6 +13,7 @@ from app.imaging.nifti import find_nifti
 from app.imaging.series import Ignored, Listing, Remedy, Series
 from app.imaging.sources import is_nifti, open_source
 from app.imaging.suitability import Verdict, is_mr, judge
+from app.imaging.worker.pool import shared_worker
 from app.imaging.worker.service import examine_files
 
 
@@ -24,10 +25,12 @@ def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
         progress: told how far the search is; cancels it.
 
     Raises:
+        WorkerError: if the process that reads files cannot be started.
         FolderError: if it does not exist, cannot be read, or is none of these.
         Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
+    shared_worker().warm()  # it comes up while the folder is searched
     source = open_source(Path(path), progress)
     ignored = source.ignored
     whole = [find_nifti(file, progress) for file in source.files if is_nifti(file)]

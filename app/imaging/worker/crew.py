@@ -15,7 +15,7 @@ from app.imaging.worker.process import Child, Lost
 _AHEAD = 8
 """Tasks that a child has before it, so that it need not wait for the program."""
 
-_WORTH_STARTING = 1.0
+_WORTH_STARTING = 0.6
 """Seconds of work left for which a second child is started; one that is up helps at once."""
 
 _LOOK = 0.1
@@ -48,11 +48,18 @@ class Crew:
         descriptor: memory that slices are written to.
         tasks: all that is to be done.
         progress: of whoever asked.
+        is_long: whether a second child is worth starting at once.
     """
 
     def __init__(
-        self, lender: Lender, descriptor: int | None, tasks: Sequence[Task], progress: Progress
+        self,
+        lender: Lender,
+        descriptor: int | None,
+        tasks: Sequence[Task],
+        progress: Progress,
+        is_long: bool = False,
     ) -> None:
+        self._is_long = is_long
         self._lender, self._descriptor = lender, descriptor
         self._tasks, self._progress = tasks, progress
         self._children: list[Child] = []
@@ -67,7 +74,7 @@ class Crew:
     def hire(self, waiting: int) -> None:
         """Take a child, and a second one where that pays."""
         if len(self._children) == 1 and waiting > _AHEAD:
-            self._take(self._seconds_left(waiting) > _WORTH_STARTING)
+            self._take(self._is_long or self._seconds_left(waiting) > _WORTH_STARTING)
         while not self._children:
             if not self._take(True):
                 self._progress.check()

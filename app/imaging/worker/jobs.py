@@ -36,6 +36,7 @@ class Job(Generic[Result]):
 EXAMINE: Job[tuple[SliceHeader, ...] | Ignored] = Job(
     "app.imaging.examining:headers_in", tuple[SliceHeader, ...] | Ignored
 )
+LOAD_DECODERS: Job[None] = Job("app.imaging.worker.slices:load_decoders", None)
 FILL: Job[None] = Job("app.imaging.worker.slices:fill", None)
 NIFTI_HEADER: Job[NiftiHeader] = Job("app.imaging.nifti_file:nifti_header", NiftiHeader)
 NIFTI_VALUES: Job[NiftiValues] = Job("app.imaging.nifti_file:nifti_values", NiftiValues)

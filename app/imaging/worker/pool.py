@@ -54,7 +54,11 @@ class ImagingWorker:
             child.close()
 
     def run(
-        self, tasks: Sequence[Task], progress: Progress, descriptor: int | None = None
+        self,
+        tasks: Sequence[Task],
+        progress: Progress,
+        descriptor: int | None = None,
+        is_long: bool = False,
     ) -> Generator[tuple[int, Any], None, None]:
         """Do tasks, in any order. Close what is returned: an error leaves children at work.
 
@@ -63,6 +67,8 @@ class ImagingWorker:
             progress: cancels within a tenth of a second, and is told of tasks that tell how far
                 they are or take over a second; who asked tells it of each that is done.
             descriptor: memory that slices are written to.
+            is_long: whether a second child is worth starting at once, and not only when the first
+                answers say so.
 
         Yields:
             The task's number and its outcome: the result of its job, or an error, made and not
@@ -72,7 +78,7 @@ class ImagingWorker:
             WorkerError: if no child can be started.
             Cancelled: if `progress` was cancelled.
         """
-        crew = Crew(self, descriptor, tasks, progress)
+        crew = Crew(self, descriptor, tasks, progress, is_long)
         waiting = deque(range(len(tasks)))
         try:
             while waiting or crew.busy:

@@ -13,14 +13,35 @@ from app.core import paths as paths_of_user
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, NotExactError, WorkerLostError
 from app.imaging.header import SliceHeader
-from app.imaging.pixel_data import DECODERS
+from app.imaging.pixel_data import DECODERS, RLE
 from app.imaging.privacy.key import installation_key
 from app.imaging.series import Ignored
-from app.imaging.worker.jobs import EXAMINE, FILL, Task
-from app.imaging.worker.limits import for_file, size_of
+from app.imaging.worker.jobs import EXAMINE, FILL, LOAD_DECODERS, Task
+from app.imaging.worker.limits import Allowance, for_file, size_of
 from app.imaging.worker.pool import ImagingWorker, shared_worker
 
+_LONG = 10_000_000
+"""Pixels that take so long to decode that two do it sooner, though the second must come up first:
+a third of a second of JPEG-LS, more than one of JPEG 2000."""
+
+_LOADING = Allowance(60.0)
+
 Examined = tuple[SliceHeader, ...] | Ignored
+
+
+def load_decoders(progress: Progress, worker: ImagingWorker | None = None) -> None:
+    """Let the worker load what decodes now, so that the first compressed series need not wait.
+
+    Args:
+        progress: cancels.
+        worker: which one; the shared one if left out.
+
+    Raises:
+        WorkerError: if the process cannot be started.
+        WorkerLostError: if a decoder ends it.
+        Cancelled: if `progress` was cancelled.
+    """
+    (worker or shared_worker()).call(LOAD_DECODERS, (), _LOADING, progress)
 
 
 def examine_files(
@@ -94,11 +115,18 @@ def fill_slices(
     tasks = [
         _filling(header, place, dtype.name) for header, place in zip(headers, places, strict=True)
     ]
-    with closing((worker or shared_worker()).run(tasks, progress, descriptor)) as run:
+    is_long = sum(map(_work, headers)) > _LONG
+    run_all = (worker or shared_worker()).run(tasks, progress, descriptor, is_long)
+    with closing(run_all) as run:
         for done, (number, outcome) in enumerate(run, 1):
             if outcome is not None:
                 raise _named(headers[number], outcome)
             progress.report(done / len(headers), f"slice {done} of {len(headers)}")
+
+
+def _work(header: SliceHeader) -> int:
+    """Pixels of a slice that take their time to decode; RLE hardly takes any."""
+    return 0 if header.pixels.syntax == RLE else header.format.rows * header.format.columns
 
 
 def _filling(header: SliceHeader, place: int, dtype: str) -> Task:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.progress import Progress
+from app.imaging import codecs
 from app.imaging.decoding import stored_type
 from app.imaging.errors import FileDamagedError
 from app.imaging.header import SliceHeader
@@ -21,6 +22,11 @@ def take_volume(descriptor: int) -> None:
     if "volume" in _shared:
         os.close(_shared["volume"])
     _shared["volume"] = descriptor
+
+
+def load_decoders(progress: Progress) -> None:
+    """Load what decodes slices; what is not installed is told by the first file that needs it."""
+    codecs.load()
 
 
 def fill(header: SliceHeader, place: int, dtype: str, progress: Progress) -> None:
