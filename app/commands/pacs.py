@@ -1,9 +1,12 @@
 """`acus pacs`: ask a PACS, find, and take a series into the library; nothing is written to it."""
 
 import json
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+from app.commands.library import MASK_HELP
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
@@ -18,6 +21,9 @@ Server = Annotated[
     str | None, typer.Option("--pacs", metavar="NAME", help="Which, where several are configured.")
 ]
 StudyUid = Annotated[str, typer.Argument(metavar="STUDY", help="StudyInstanceUID, of `find`.")]
+Mask = Annotated[
+    list[str] | None, typer.Option(metavar="COL,ROW,WIDTH,HEIGHT[,PICTURE]", help=MASK_HELP)
+]
 SeriesUid = Annotated[str, typer.Argument(metavar="SERIES", help="SeriesInstanceUID, of `find`.")]
 
 
@@ -37,7 +43,8 @@ def list_servers(as_json: AsJson = False) -> None:
         return
     for one in servers:
         typer.echo(f"{one.name}  {one.title} at {one.host}:{one.port}, as {one.own_title}, "
-                   f"C-{one.retrieve.upper()}, waits {one.timeout_s:g} s")  # fmt: skip
+                   f"C-{one.retrieve.upper()}, waits {one.timeout_s:g} s"
+                   f"{', TLS' if one.tls else ''}")  # fmt: skip
     if not servers:
         typer.echo(f"none; acus pacs add NAME writes {pacs_path()}")
 
@@ -49,16 +56,32 @@ def add(
     title: Annotated[str, typer.Option(help="Its AE title.")],
     port: Annotated[int, typer.Option(help="Its DICOM port.")] = 104,
     own_title: Annotated[str, typer.Option(help="AE title of Acus.")] = "ACUS",
+    own_host: Annotated[
+        str, typer.Option(help="Address on which C-MOVE's pictures come; the one towards it.")
+    ] = "",
     own_port: Annotated[int, typer.Option(help="Port on which C-MOVE's pictures come.")] = 11112,
     retrieve: Annotated[str, typer.Option(help="get or move.")] = "get",
     timeout_s: Annotated[float, typer.Option(help="Longest silence that is borne [s].")] = 30.0,
+    tls: Annotated[bool, typer.Option("--tls", help="Encrypt the connections.")] = False,
+    tls_authority: Annotated[str, typer.Option(help="Who signs its certificate, PEM.")] = "",
+    tls_certificate: Annotated[str, typer.Option(help="Our own certificate, PEM.")] = "",
+    tls_key: Annotated[str, typer.Option(help="Key of ours, PEM without a password.")] = "",
+    tls_any_name: Annotated[
+        bool, typer.Option("--tls-any-name", help="Its certificate may name another host.")
+    ] = False,
 ) -> None:
     """Configure a PACS, or change the one of that name."""
     from app.core.configuration import parse
     from app.imaging.pacs.settings import PacsSettings, configured, keep
 
-    given = {"name": name, "host": host, "title": title, "port": port, "own_title": own_title,
-             "own_port": own_port, "retrieve": retrieve, "timeout_s": timeout_s}  # fmt: skip
+    given: dict[str, Any] = {
+        "name": name, "host": host, "title": title, "port": port, "own_title": own_title,
+        "own_host": own_host, "own_port": own_port, "retrieve": retrieve, "timeout_s": timeout_s,
+    }  # fmt: skip
+    if tls or tls_authority or tls_certificate or tls_key or tls_any_name:
+        files = (tls_authority, tls_certificate, tls_key)
+        given["tls"] = dict(zip(("authority", "certificate", "key"), map(_whole, files),
+                                strict=True)) | {"check_name": not tls_any_name}  # fmt: skip
     one = parse(given, PacsSettings, "acus pacs add")
     keep((*(other for other in configured() if other.name != name), one))
     typer.echo(f"{name} is configured; acus pacs echo --pacs {name} asks whether it is there")
@@ -122,29 +145,38 @@ def find(
 
 
 @app.command()
-def get(study: StudyUid, series: SeriesUid, pacs: Server = None, as_json: AsJson = False) -> None:
+def get(
+    study: StudyUid, series: SeriesUid, pacs: Server = None, mask: Mask = None,
+    as_json: AsJson = False,
+) -> None:  # fmt: skip
     """Take a series into the library, de-identified (C-GET); repeated, it fetches the rest."""
-    _take(study, series, pacs, "get", as_json)
+    _take(study, series, pacs, "get", mask, as_json)
 
 
 @app.command()
-def move(study: StudyUid, series: SeriesUid, pacs: Server = None, as_json: AsJson = False) -> None:
+def move(
+    study: StudyUid, series: SeriesUid, pacs: Server = None, mask: Mask = None,
+    as_json: AsJson = False,
+) -> None:  # fmt: skip
     """Do the same by C-MOVE: the PACS sends to our own port and must know our AE title."""
-    _take(study, series, pacs, "move", as_json)
+    _take(study, series, pacs, "move", mask, as_json)
 
 
-def _take(study: str, series: str, name: str | None, way: str, as_json: bool) -> None:
+def _take(
+    study: str, series: str, name: str | None, way: str, mask: list[str] | None, as_json: bool
+) -> None:
     from app.commands.calibrate import with_progress
-    from app.commands.library import document, lines
+    from app.commands.library import boxes_of, document, lines
     from app.imaging.library import CtLibrary
     from app.imaging.pacs.client import Pacs
     from app.imaging.pacs.settings import chosen
     from app.imaging.pacs.taking import take
 
+    boxes = boxes_of(mask)
     settings: PacsSettings = chosen(name).model_copy(update={"retrieve": way})
 
     def work(progress: "Progress") -> "Imported":
-        return take(Pacs(settings), study, series, CtLibrary(), progress)
+        return take(Pacs(settings), study, series, CtLibrary(), progress, boxes)
 
     imported = with_progress(work, as_json)
     if as_json:
@@ -152,6 +184,11 @@ def _take(study: str, series: str, name: str | None, way: str, as_json: bool) ->
         return
     for line in lines(imported):
         typer.echo(line)
+
+
+def _whole(file: str) -> str:
+    """Path that means the same from every folder."""
+    return str(Path(file).expanduser().absolute()) if file else ""
 
 
 def _series(series: "FoundSeries") -> dict[str, Any]:

@@ -29,7 +29,10 @@ def free_port() -> int:
 class FakePacs:
     """Serves the files of a folder; `ill` names what it does wrong."""
 
-    def __init__(self, folder: Path, ill: str = "", calling: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, folder: Path, ill: str = "", calling: tuple[str, ...] = (), tls: tuple | None = None
+    ) -> None:
+        self._tls = tls
         self.files = [pydicom.dcmread(path) for path in sorted(folder.glob("*"))]
         self.ill, self.asked, self.sent = ill, [], []
         self.port, self.own_port = free_port(), free_port()
@@ -52,8 +55,10 @@ class FakePacs:
             (evt.EVT_C_ECHO, self._echo), (evt.EVT_C_FIND, self._find),
             (evt.EVT_C_GET, self._get), (evt.EVT_C_MOVE, self._move),
         ]  # fmt: skip
-        self._server = self._ae.start_server(("127.0.0.1", self.port), block=False,
-                                             evt_handlers=handlers)  # fmt: skip
+        self._server = self._ae.start_server(
+            ("127.0.0.1" if self._tls is None else "0.0.0.0", self.port), block=False,
+            evt_handlers=handlers, ssl_context=None if self._tls is None else self._tls[0],
+        )  # fmt: skip
         return self
 
     def __exit__(self, *_):
@@ -74,6 +79,8 @@ class FakePacs:
     def _find(self, event):
         keys = event.identifier
         self.asked.append(keys)
+        if self.ill == "slow find":
+            time.sleep(5.0)
         if self.ill == "find fails":
             yield 0xA700, None
             return
@@ -141,5 +148,6 @@ class FakePacs:
         if self.ill == "unknown destination" or event.move_destination != "ACUS":
             yield None, None
             return
-        yield "127.0.0.1", self.own_port
+        tls = {} if self._tls is None else {"tls_args": (self._tls[1], "127.0.0.1")}
+        yield "127.0.0.1", self.own_port, tls
         yield from self._send(event)

@@ -12,6 +12,7 @@ from app.core.progress import Cancelled, Progress
 from app.imaging.pacs.errors import PacsError, PacsRefusedError, PacsUnreachableError
 from app.imaging.pacs.settings import PacsSettings
 from app.imaging.pacs.statuses import rejected, words
+from app.imaging.pacs.tls import client_context, shake_hands
 
 _LOOK_S = 0.2
 
@@ -64,6 +65,7 @@ def association(
     Raises:
         PacsUnreachableError: no connection, or it was lost.
         PacsRefusedError: it does not accept this program.
+        ConfigurationError: a file of the encryption cannot be used.
         Cancelled: if `progress` was cancelled.
     """
     made = entity(settings)
@@ -73,9 +75,11 @@ def association(
     _connect(settings)
     opened = (network().evt.EVT_CONN_OPEN, lambda event: own.append(event.assoc.dul.socket.socket))
     own: list[socket.socket] = []
+    context = client_context(settings)
     linked = made.associate(
         settings.host, settings.port, ae_title=settings.title,
         ext_neg=list(roles), evt_handlers=[*handlers, opened],
+        tls_args=None if context is None else (context, settings.host),
     )  # fmt: skip
     with _closed(own), _watched(linked, progress) as cancelled:
         if not linked.is_established:
@@ -160,9 +164,17 @@ def _refused(settings: PacsSettings, linked: Any) -> PacsError:
         )
     if linked.acceptor.primitive is not None:
         return PacsRefusedError(f"{where} supports nothing of what is needed for this request")
+    tls = settings.tls
+    wish = (
+        "; perhaps it wants a certificate of our own (tls: certificate, key)"
+        if tls is not None and not tls.certificate
+        else "; perhaps that port wants TLS"
+        if tls is None
+        else ""
+    )
     return PacsUnreachableError(
         f"{where} cannot be reached: something listens there, but it does not answer as a DICOM "
-        "service"
+        f"service{wish}"
     )
 
 
@@ -174,13 +186,34 @@ def _connect(settings: PacsSettings) -> None:
     """
     where = f"{settings.name} ({settings.host} port {settings.port}) cannot be reached"
     try:
-        socket.create_connection((settings.host, settings.port), settings.timeout_s).close()
+        with socket.create_connection((settings.host, settings.port), settings.timeout_s) as tried:
+            why = shake_hands(tried, settings)
     except socket.gaierror:
         why = "no computer of this name is known"
     except TimeoutError:
         why = f"no answer within {settings.timeout_s:g} s; a firewall, or the computer is off"
     except OSError as error:
         why = error.strerror or type(error).__name__
-    else:
-        return
-    raise PacsUnreachableError(f"{where}: {why}")
+    if why:
+        raise PacsUnreachableError(f"{where}: {why}")
+
+
+def own_address(settings: PacsSettings) -> str:
+    """Address on which C-MOVE's pictures are received: as configured, or towards the PACS.
+
+    Raises:
+        PacsUnreachableError: if no way leads there.
+    """
+    if settings.own_host:
+        return settings.own_host
+    try:
+        family, kind, _, _, address = socket.getaddrinfo(
+            settings.host, settings.port, type=socket.SOCK_DGRAM
+        )[0]
+        with socket.socket(family, kind) as probe:
+            probe.connect(address)  # sends nothing: the system only looks which way it would go
+            return str(probe.getsockname()[0])
+    except OSError as error:
+        raise PacsUnreachableError(
+            f"no way leads from this computer to {settings.host}: {error.strerror or error}"
+        ) from error

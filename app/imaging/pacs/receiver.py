@@ -4,10 +4,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from app.imaging.pacs.association import entity, network
+from app.imaging.pacs.association import entity, network, own_address
 from app.imaging.pacs.errors import PacsError
 from app.imaging.pacs.incoming import COMPRESSED, PLAIN, STORAGE_CLASSES, Incoming, handler
 from app.imaging.pacs.settings import PacsSettings
+from app.imaging.pacs.tls import server_context
 
 
 @contextmanager
@@ -16,6 +17,7 @@ def receiving(settings: PacsSettings, incoming: Incoming, counter: Any) -> Itera
 
     Raises:
         PacsError: if the port cannot be used.
+        ConfigurationError: if the encryption cannot.
     """
     pynetdicom = network()
     made = entity(settings)
@@ -23,14 +25,15 @@ def receiving(settings: PacsSettings, incoming: Incoming, counter: Any) -> Itera
     made.require_calling_aet = [settings.title]
     for kind in STORAGE_CLASSES:
         made.add_supported_context(kind, [*PLAIN, *COMPRESSED])
+    address, context = own_address(settings), server_context(settings)
     handlers = [(pynetdicom.evt.EVT_C_STORE, handler(incoming, counter))]
     try:
         server = made.start_server(
-            (settings.own_host, settings.own_port), block=False, evt_handlers=handlers
+            (address, settings.own_port), block=False, evt_handlers=handlers, ssl_context=context
         )
     except OSError as error:
         raise PacsError(
-            f"port {settings.own_port} on {settings.own_host} cannot be used to receive pictures: "
+            f"port {settings.own_port} on {address} cannot be used to receive pictures: "
             f"{error.strerror or error}; name another as own_port, or retrieve with C-GET"
         ) from error
     try:

@@ -15,6 +15,22 @@ Port = Annotated[int, Field(ge=1, le=65535)]
 Title = Annotated[str, Field(pattern=r"^[A-Za-z0-9_. -]{1,16}$")]
 
 
+class TlsSettings(Strict):
+    """Encryption of the connections; files are PEM, named by their whole paths.
+
+    Attributes:
+        authority: certificates that the PACS' own must be signed by; the system's where empty.
+        certificate: our own; needed where the PACS wants one, and for C-MOVE.
+        key: of our own certificate, not encrypted; may stand in the same file.
+        check_name: whether the PACS' certificate must name the host that we connect to.
+    """
+
+    authority: str = ""
+    certificate: str = ""
+    key: str = ""
+    check_name: bool = True
+
+
 class PacsSettings(Strict):
     """One PACS.
 
@@ -24,10 +40,12 @@ class PacsSettings(Strict):
         port: of its DICOM service.
         title: its AE title, at most 16 characters.
         own_title: AE title of this program; the PACS may have to be told of it.
-        own_host: address on which C-MOVE's pictures are received.
+        own_host: address on which C-MOVE's pictures are received; where empty, the one of this
+            computer that the way to the PACS leads out of.
         own_port: port of the same.
         timeout_s: longest silence that is borne [s].
         retrieve: `get` over the same connection, or `move` to `own_port`.
+        tls: encryption; none where absent.
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]{1,32}$")]
@@ -35,10 +53,11 @@ class PacsSettings(Strict):
     port: Port
     title: Title
     own_title: Title = "ACUS"
-    own_host: str = "0.0.0.0"
+    own_host: Annotated[str, Field(max_length=253)] = ""
     own_port: Port = 11112
     timeout_s: Annotated[float, Field(gt=0.0, le=600.0)] = 30.0
     retrieve: Literal["get", "move"] = "get"
+    tls: TlsSettings | None = None
 
 
 class PacsList(Strict):
@@ -85,5 +104,5 @@ def chosen(name: str | None) -> PacsSettings:
 
 def keep(servers: tuple[PacsSettings, ...]) -> None:
     """Write the configuration."""
-    document = {"servers": [server.model_dump() for server in servers]}
+    document = {"servers": [server.model_dump(exclude_none=True) for server in servers]}
     write_atomically(pacs_path(), yaml.safe_dump(document, sort_keys=False))

@@ -1,40 +1,97 @@
 """From the PACS into the library: retrieved, de-identified, and the originals deleted."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 from app.core.progress import Progress
-from app.imaging.errors import SeriesRefusedError
-from app.imaging.library import CtLibrary, Imported
+from app.imaging.errors import FileDamagedError, SeriesRefusedError
+from app.imaging.library import CtLibrary, Imported, ImportFailedError
 from app.imaging.pacs.client import Pacs
 from app.imaging.pacs.errors import PacsDataError
 from app.imaging.pacs.incoming import Incoming
-from app.imaging.privacy.errors import PrivacyError
+from app.imaging.privacy.burned_in import Box
+from app.imaging.privacy.errors import AnnotatedError, PrivacyError
 from app.imaging.scanning import scan_folder
+from app.imaging.series import Series
 
 
-def take(
-    pacs: Pacs, study_uid: str, series_uid: str, library: CtLibrary, progress: Progress
-) -> Imported:
-    """Retrieve a series into the library, de-identified.
+@dataclass(frozen=True, slots=True)
+class Fetched:
+    """A series that has come, not yet de-identified: to be kept or forgotten.
+
+    Attributes:
+        series: its best one, where the archive sent several.
+        incoming: its files, aside.
+    """
+
+    series: Series
+    incoming: Incoming
+
+    def forget(self) -> None:
+        """Delete what has come; idempotent."""
+        self.incoming.forget()
+
+
+def fetch(pacs: Pacs, study_uid: str, series_uid: str, progress: Progress) -> Fetched:
+    """Retrieve a series and set it aside.
 
     After an error of the network or a cancel, what has come is kept aside for a day and not
     fetched again; after one of the data it is deleted.
 
     Raises:
         PacsError: it cannot be retrieved.
-        SeriesRefusedError, PrivacyError: it can, but cannot be used or not be taken in.
-        ImportFailedError: the library cannot be written.
+        SeriesRefusedError: it can, but not be used.
         Cancelled: if `progress` was cancelled.
     """
     incoming = Incoming(pacs.settings, series_uid).open()
     try:
-        pacs.retrieve(study_uid, series_uid, incoming, progress.part(0.0, 0.6))
-        series = scan_folder(incoming.folder, progress.part(0.6, 0.65)).series
+        pacs.retrieve(study_uid, series_uid, incoming, progress.part(0.0, 0.9))
+        series = scan_folder(incoming.folder, progress.part(0.9, 1.0)).series
         if not series:
+            incoming.forget()
             raise PacsDataError(f"{pacs.settings.name} sent nothing that can be read")
         best = max(series, key=lambda one: (one.usable, len(one.slices)))
-        imported = library.import_series(best, progress=progress.part(0.65, 1.0))
-    except (PacsDataError, PrivacyError, SeriesRefusedError) as error:
+        if not best.usable:
+            raise SeriesRefusedError(f"this series cannot be used: {best.reason}")
+    except (PacsDataError, SeriesRefusedError) as error:
         if not isinstance(error, PacsDataError) or incoming.problems:
             incoming.forget()
         raise
-    incoming.forget()
+    return Fetched(best, incoming)
+
+
+def keep(
+    fetched: Fetched, library: CtLibrary, progress: Progress, boxes: Sequence[Box] = ()
+) -> Imported:
+    """De-identify what was fetched into the library and delete the originals.
+
+    They are deleted after a refusal too, but for one that boxes over the writing would mend, and
+    kept after an error of the disk.
+
+    Raises:
+        SeriesRefusedError, PrivacyError: it must not be taken in.
+        ImportFailedError: the library cannot be written.
+        Cancelled: if `progress` was cancelled.
+    """
+    try:
+        imported = library.import_series(fetched.series, boxes, progress)
+    except AnnotatedError:
+        raise
+    except ImportFailedError as error:
+        if isinstance(error.__context__, FileDamagedError):  # a repeated retrieval would keep it
+            fetched.forget()
+        raise
+    except (PrivacyError, SeriesRefusedError):
+        fetched.forget()
+        raise
+    fetched.forget()
     return imported
+
+
+def take(
+    pacs: Pacs, study_uid: str, series_uid: str, library: CtLibrary, progress: Progress,
+    boxes: Sequence[Box] = (),
+) -> Imported:  # fmt: skip
+    """Retrieve a series into the library, de-identified; see `fetch` and `keep` for the errors."""
+    fetched = fetch(pacs, study_uid, series_uid, progress.part(0.0, 0.65))
+    return keep(fetched, library, progress.part(0.65, 1.0), boxes)

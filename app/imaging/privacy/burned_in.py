@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydicom.dataset import Dataset
 
-from app.imaging.privacy.errors import BurnedInError
+from app.imaging.privacy.errors import AnnotatedError, BurnedInError
 
 _SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
 _SCREENS = ("SCREEN SAVE", "SCREEN", "SCREENSHOT", "DOSE_INFO", "DOSE", "PROT", "POSDISP")
@@ -62,7 +62,8 @@ def check(dataset: Dataset, boxes: Sequence[Box]) -> None:
     """Refuse a picture that carries writing, unless somebody has drawn over it.
 
     Raises:
-        BurnedInError: saying what was found; without boxes only.
+        AnnotatedError: if it says so itself and has no box.
+        BurnedInError: if it is a picture of a screen or a secondary capture, boxes or not.
     """
     if str(dataset.get("SOPClassUID", "")).startswith(_SECONDARY_CAPTURE):
         raise BurnedInError("it is a secondary capture: such pictures often carry a name")
@@ -71,7 +72,7 @@ def check(dataset: Dataset, boxes: Sequence[Box]) -> None:
         raise BurnedInError(f"it is a picture of a screen (ImageType {sorted(found)[0]})")
     annotated = str(dataset.get("BurnedInAnnotation", "") or "").strip().upper()
     if annotated == "YES" and not boxes:
-        raise BurnedInError(
+        raise AnnotatedError(
             "its pictures carry writing (BurnedInAnnotation YES), which may be a name; draw boxes "
             "over the writing (--mask COL,ROW,WIDTH,HEIGHT) or choose another series"
         )

@@ -15,5 +15,9 @@ class BurnedInError(PrivacyError, ValueError):
     """The picture itself carries, or may carry, writing about the patient."""
 
 
+class AnnotatedError(BurnedInError):
+    """The files say that there is writing in the pictures, and nobody has drawn over it."""
+
+
 class NotCleanError(PrivacyError, ValueError):
     """The second pass found in a written file what should not be there."""
