@@ -108,6 +108,21 @@ def test_names_identifiers_and_free_text_are_gone_and_it_is_said_what_was_done(t
     assert "Secret" not in report
 
 
+def test_the_report_names_nothing_twice_and_no_lengths_of_groups(tmp_path):
+    recipe = Slices(tags={"BodyPartExamined": "NOTHING", "PatientIdentityRemoved": "NO"})
+    for path in recipe.write(tmp_path / "in"):
+        dataset = pydicom.dcmread(path)
+        dataset.add_new(0x00080000, "UL", 500)
+        dataset.save_as(path)
+    report = CtLibrary().import_series(scan_folder(tmp_path / "in").series[0]).report
+    assert {"PatientID", "PatientName"} <= report.replaced.keys()
+    kinds = (report.removed, report.emptied, report.replaced, report.shifted, report.unfit)
+    named = [keyword for kind in kinds for keyword in kind]
+    assert len(named) == len(set(named))
+    assert not any("0000)" in keyword for keyword in named)
+    assert "PatientIdentityRemoved" not in named
+
+
 def test_uids_are_new_the_same_at_every_import_and_shared_by_what_was_shared(tmp_path):
     imported = CtLibrary().import_series(series_of(tmp_path / "in"))
     files = written(imported.entry)
@@ -378,10 +393,10 @@ def nothing_left():
 def test_a_full_disk_leaves_nothing(tmp_path, monkeypatch):
     series = series_of(tmp_path / "in")
     usage = shutil.disk_usage(tmp_path)
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: usage._replace(free=1000))
-    with pytest.raises(ImportFailedError, match="MB free"):
-        CtLibrary().import_series(series)
-    monkeypatch.undo()
+    with monkeypatch.context() as patched:
+        patched.setattr(shutil, "disk_usage", lambda _: usage._replace(free=1000))
+        with pytest.raises(ImportFailedError, match="MB free"):
+            CtLibrary().import_series(series)
     assert nothing_left()
 
 

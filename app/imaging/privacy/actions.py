@@ -77,9 +77,15 @@ def deidentified(dataset: Dataset, rules: Rules, tally: Tally) -> Dataset:
     result.StudyID = rules.study
     tally.replaced.update(("PatientName", "PatientID", "StudyID"))
     _declare(result)
+    for keyword in _DECLARING:  # written anew at once: no news that the old one is gone
+        tally.removed.pop(keyword, None)
     return result
 
 
+_DECLARING = (
+    "PatientIdentityRemoved", "DeidentificationMethod", "DeidentificationMethodCodeSequence",
+    "LongitudinalTemporalInformationModified",
+)  # fmt: skip
 _PIXELS = BaseTag(0x7FE00010)
 
 
@@ -116,6 +122,8 @@ def _treated(dataset: Dataset, rules: Rules, tally: Tally, depth: int) -> Datase
         kept = rules.profile.kept.get(int(tag))
         if tag.is_private:
             tally.private += 1
+        elif tag.element == 0:
+            continue  # a group's length (PS3.5 7.2, retired): says nothing, and is written no more
         elif kept is None:
             tally.removed[keyword_for_tag(tag) or f"({tag.group:04X},{tag.element:04X})"] += 1
         elif kept.kind == "items":

@@ -25,7 +25,11 @@ class Tally:
         self.warnings[text] = None
 
     def report(self) -> "Report":
-        """Freeze the counts."""
+        """Freeze the counts: what was written anew, or empty, does not count as removed too."""
+        for keyword in (*self.replaced, *self.emptied):
+            self.removed.pop(keyword, None)
+        for keyword in self.emptied:
+            self.unfit.pop(keyword, None)
         return Report(
             removed=dict(sorted(self.removed.items())),
             emptied=dict(sorted(self.emptied.items())),
