@@ -99,8 +99,10 @@ class Menus:
         def fill() -> None:
             menu.clear()
             self._add(menu, [
-                (tr("Import CT, de-identified…"), "", desk.ask),
+                (tr("Import CT folder, de-identified…"), "", desk.ask),
+                (tr("Import CT archive or file, de-identified…"), "", desk.ask_file),
                 (tr("From the PACS…"), "", desk.ask_pacs),
+                (tr("Configure PACS…"), "", desk.configure_pacs),
                 None,
             ])  # fmt: skip
             for name, folder in desk.entries():

@@ -29,19 +29,23 @@ SIZE = 980, 620
 class SeriesBrowser(QDialog):
     """Lets choose among the series of a folder, those that can be used first.
 
+    With `taking` the one chosen goes into the library: as it is, no other way is offered.
+
     Signals:
         chosen(Series, Remedy): open it, as it is or in the way asked for.
     """
 
     chosen = Signal(object, object)
 
-    def __init__(self, listing: Listing, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, listing: Listing, parent: QWidget | None = None, *, taking: bool = False
+    ) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Series of {name}", name=NAMES.shown(listing.path.name)))
         self.resize(*SIZE)
         self.listing = listing
         shown = sorted(listing.series, key=_rank)
-        self.cards = [SeriesCard(series, self) for series in shown]
+        self.cards = [SeriesCard(series, self, taking=taking) for series in shown]
         self.ignored = QPlainTextEdit(self)
         self._more = QPushButton(self)
         column = QVBoxLayout(self)

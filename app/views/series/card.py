@@ -25,7 +25,9 @@ class SeriesCard(QFrame):
 
     chosen = Signal(object, object)
 
-    def __init__(self, series: Series, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, series: Series, parent: QWidget | None = None, *, taking: bool = False
+    ) -> None:
         super().__init__(parent)
         self.series = series
         self.setProperty("role", "panel")
@@ -41,7 +43,7 @@ class SeriesCard(QFrame):
         row.setSpacing(theme.MARGIN)
         row.addWidget(self.picture)
         row.addLayout(self._words(), 1)
-        self.buttons = _buttons(series, self)
+        self.buttons = _buttons(series, self, taking)
         column = QVBoxLayout()
         for button, remedy in self.buttons:
             button.clicked.connect(lambda _=False, r=remedy: self.chosen.emit(self.series, r))
@@ -119,13 +121,13 @@ def _remedy_tip(remedy: Remedy) -> str:
     }.get(remedy, "")
 
 
-def _buttons(series: Series, parent: QWidget) -> list[tuple[QPushButton, Remedy]]:
+def _buttons(series: Series, parent: QWidget, taking: bool) -> list[tuple[QPushButton, Remedy]]:
     ways = [Remedy.NONE] if series.usable else []
-    if series.remedy is not Remedy.NONE:
+    if series.remedy is not Remedy.NONE and not taking:
         ways.append(series.remedy)
     found = []
     for remedy in ways:
-        button = QPushButton(remedy_words(remedy), parent)
+        button = QPushButton(tr("Import…") if taking else remedy_words(remedy), parent)
         button.setMinimumWidth(_BUTTON_PX)
         button.setToolTip(_remedy_tip(remedy))
         if remedy is Remedy.NONE:

@@ -1,8 +1,7 @@
-"""The library in the window: a CT is taken in de-identified, said what was removed, opened."""
+"""The library in the window: ways for a CT in, and what it holds."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,20 +13,20 @@ from app.core.progress import Progress
 from app.imaging.series import Listing, Series
 from app.views.background import Indicator, Task, run_in_background
 from app.views.series.browser import SeriesBrowser
-from app.views.series.import_report import ImportReport
+from app.views.series.candidate import of_folder, of_pacs
+from app.views.series.intake import Intake
 from app.views.series.pacs_panel import PacsPanel
+from app.views.series.pacs_settings import PacsSettingsDialog
 from app.views.text import tr
 
 if TYPE_CHECKING:
-    from app.imaging.library import Imported
     from app.imaging.pacs.query import FoundSeries
     from app.imaging.pacs.settings import PacsSettings
-
-Work = Callable[[Progress], "Imported"]
+    from app.imaging.pacs.taking import Fetched
 
 
 class LibraryDesk(QObject):
-    """Takes CTs into the library, from a folder or a PACS, beside the window.
+    """Takes CTs into the library, from a folder, an archive, a file or a PACS, beside the window.
 
     Signals:
         open_wanted(Path): the folder of a library's CT is to be opened.
@@ -41,8 +40,11 @@ class LibraryDesk(QObject):
         super().__init__(window)
         self._indicator, self._window = indicator, window
         self._task: Task | None = None
-        self.report: ImportReport | None = None
+        self.intake = Intake(indicator, window)
+        self.intake.open_wanted.connect(self.open_wanted)
+        self.intake.failed.connect(self.failed)
         self.panel: PacsPanel | None = None
+        self.configuration: PacsSettingsDialog | None = None
 
     def ask(self) -> None:
         """Ask for a folder and take a series of it in."""
@@ -50,23 +52,46 @@ class LibraryDesk(QObject):
             self._window, tr("Import CT into the library"), str(Path.home())
         )
         if name:
-            self.import_folder(Path(name))
+            self.import_from(Path(name))
 
-    def import_folder(self, folder: Path) -> None:
-        """Take the series of a folder in; where several could be, one is asked for."""
+    def ask_file(self) -> None:
+        """Ask for a zip archive, a DICOMDIR or a DICOM file and take a series of it in."""
+        kinds = f"{tr('Archives and DICOM files')} (*.zip DICOMDIR *.dcm);;{tr('All')} (*)"
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, tr("Import CT into the library"), str(Path.home()), kinds
+        )
+        if name:
+            self.import_from(Path(name))
+
+    def import_from(self, path: Path) -> None:
+        """Take in a series of a folder, archive, DICOMDIR or file; of several one is asked for."""
         self._task = run_in_background(
-            self, lambda progress: _scan(folder, progress), self._choose, self._fail,
+            self, lambda progress: _scan(path, progress), self._choose, self.failed.emit,
             title=tr("Looking for CT series"), indicator=self._indicator,
         )  # fmt: skip
 
     def ask_pacs(self) -> None:
         """Open the browser of the PACS."""
-        panel = PacsPanel(self._indicator, self._window)
+        panel = PacsPanel(self._window)
         panel.wanted.connect(self._retrieve)
-        panel.failed.connect(self.failed)
-        panel.finished.connect(panel.deleteLater)
+        panel.configure_wanted.connect(self.configure_pacs)
+        panel.finished.connect(self._panel_closed)
         self.panel = panel
         panel.open()
+
+    def configure_pacs(self) -> None:
+        """Open the dialog in which PACS are entered; an open browser follows it."""
+        dialog = PacsSettingsDialog(self.panel or self._window)
+        if self.panel is not None:
+            dialog.kept.connect(self.panel.fill_servers)
+        dialog.finished.connect(dialog.deleteLater)
+        self.configuration = dialog
+        dialog.open()
+
+    def _panel_closed(self) -> None:
+        if self.panel is not None:
+            self.panel.deleteLater()
+            self.panel = None
 
     def entries(self) -> list[tuple[str, Path]]:
         """CTs of the library: what to call each, and its folder."""
@@ -76,8 +101,8 @@ class LibraryDesk(QObject):
 
     def _choose(self, listing: Listing) -> None:
         if len(listing.usable) > 1:
-            browser = SeriesBrowser(listing, self._window)
-            browser.chosen.connect(lambda series, _: self._take(series))
+            browser = SeriesBrowser(listing, self._window, taking=True)
+            browser.chosen.connect(lambda series, _: self._begin(series, listing))
             browser.finished.connect(browser.deleteLater)
             browser.open()
             return
@@ -85,48 +110,29 @@ class LibraryDesk(QObject):
         from app.imaging.reading import choose
 
         try:
-            self._take(choose(listing))
+            self._begin(choose(listing), listing)
         except ImagingError as error:
             self.failed.emit(error)
 
-    def _take(self, series: Series) -> None:
-        self._work(lambda progress: _import(series, progress), tr("Importing, de-identified"))
+    def _begin(self, series: Series, listing: Listing) -> None:
+        self.intake.begin(of_folder(series, listing.keeper))
 
     def _retrieve(self, settings: PacsSettings, series: FoundSeries) -> None:
-        title = tr("Retrieving from {name}", name=settings.name)
-        self._work(lambda progress: _fetch(settings, series, progress), title)
-
-    def _work(self, work: Work, title: str) -> None:
         self._task = run_in_background(
-            self, work, self._tell, self._fail, title=title, indicator=self._indicator
-        )
-
-    def _tell(self, imported: Imported) -> None:
-        report = ImportReport(imported, self._window)
-        report.open_wanted.connect(self.open_wanted)
-        report.finished.connect(report.deleteLater)
-        self.report = report
-        report.open()
-
-    def _fail(self, error: Exception) -> None:
-        self.failed.emit(error)
+            self, lambda progress: _fetch(settings, series, progress),
+            lambda fetched: self.intake.begin(of_pacs(fetched)), self.failed.emit,
+            title=tr("Retrieving from {name}", name=settings.name), indicator=self._indicator,
+        )  # fmt: skip
 
 
-def _scan(folder: Path, progress: Progress) -> Listing:
+def _scan(path: Path, progress: Progress) -> Listing:
     with ONE_AT_A_TIME:  # pydicom: behind the window, not before it
         from app.imaging.scanning import scan_folder
-    return scan_folder(folder, progress)
+    return scan_folder(path, progress)
 
 
-def _import(series: Series, progress: Progress) -> Imported:
+def _fetch(settings: PacsSettings, series: FoundSeries, progress: Progress) -> Fetched:
     with ONE_AT_A_TIME:
-        from app.imaging.library import CtLibrary
-    return CtLibrary().import_series(series, progress=progress)
-
-
-def _fetch(settings: PacsSettings, series: FoundSeries, progress: Progress) -> Imported:
-    with ONE_AT_A_TIME:
-        from app.imaging.library import CtLibrary
         from app.imaging.pacs.client import Pacs
-        from app.imaging.pacs.taking import take
-    return take(Pacs(settings), series.study.uid, series.uid, CtLibrary(), progress)
+        from app.imaging.pacs.taking import fetch
+    return fetch(Pacs(settings), series.study.uid, series.uid, progress)

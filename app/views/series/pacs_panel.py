@@ -29,13 +29,15 @@ from app.core.errors import AcusError
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.views import theme
-from app.views.background import Indicator, Task, run_in_background
+from app.views.background import Task, run_in_background
+from app.views.progress_strip import ProgressStrip
 from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.imaging.pacs.query import FoundSeries, Query
     from app.imaging.pacs.settings import PacsSettings
 
+Found = tuple["FoundSeries", int]
 _ROLE = Qt.ItemDataRole.UserRole
 
 
@@ -44,28 +46,30 @@ class PacsPanel(QDialog):
 
     Signals:
         wanted(PacsSettings, FoundSeries): take this series into the library.
-        failed(object): the error of a search.
+        configure_wanted(): the PACS are to be entered or changed.
     """
 
     wanted = Signal(object, object)
-    failed = Signal(object)
+    configure_wanted = Signal()
 
-    def __init__(self, indicator: Indicator, parent: QWidget | None = None) -> None:
+    def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("PACS"))
         self.resize(980, 620)
-        self._indicator = indicator
         self._task: Task | None = None
+        self.strip = ProgressStrip(self)  # its own: the window's cannot be clicked meanwhile
         self.servers, self.note = QComboBox(self), QLabel(self)
         self.patient, self.name = QLineEdit(self), QLineEdit(self)
         self.date = QLineEdit(self)
         self.search = QPushButton(tr("Search"), self)
+        self.configure = QPushButton(tr("Configure…"), self)
         self.take = QPushButton(tr("Take into the library, de-identified"), self)
         self.tree = self._make_tree()
         self._lay_out()
-        self._fill_servers()
+        self.fill_servers()
         self.search.clicked.connect(self.look)
         self.take.clicked.connect(self._want)
+        self.configure.clicked.connect(self.configure_wanted)
         self.tree.itemSelectionChanged.connect(self._enable)
         self.finished.connect(lambda _: self._stop())
         self._enable()
@@ -86,7 +90,7 @@ class PacsPanel(QDialog):
         self._task = run_in_background(
             self, lambda progress: _find(settings, query, progress), self._show, self._fail,
             self._stopped, title=tr("Searching {name}", name=settings.name),
-            indicator=self._indicator,
+            indicator=self.strip,
         )  # fmt: skip
 
     def selected(self) -> FoundSeries | None:
@@ -109,9 +113,14 @@ class PacsPanel(QDialog):
         self.patient.setPlaceholderText(tr("* and ? stand for what is not known"))
         self.name.setPlaceholderText(tr("FAMILY^GIVEN, with * and ?"))
         self.date.setPlaceholderText(tr("YYYYMMDD or YYYYMMDD-YYYYMMDD"))
+        server = QHBoxLayout()
+        server.addWidget(self.servers, 1)
+        server.addWidget(self.configure)
+        self.configure.setAutoDefault(False)
         form = QFormLayout()
+        form.addRow(tr("PACS"), server)
         for title, field in (
-            (tr("PACS"), self.servers), (tr("Patient ID"), self.patient),
+            (tr("Patient ID"), self.patient),
             (tr("Name"), self.name), (tr("Date of the study"), self.date),
         ):  # fmt: skip
             form.addRow(title, field)
@@ -130,28 +139,33 @@ class PacsPanel(QDialog):
         column.addLayout(form)
         column.addWidget(self.note)
         column.addWidget(self.tree, 1)
+        column.addWidget(self.strip)
         column.addLayout(foot)
 
-    def _fill_servers(self) -> None:
-        from app.imaging.pacs.settings import configured, pacs_path
+    def fill_servers(self) -> None:
+        """Read the configuration, at first and after it was changed."""
+        from app.imaging.pacs.settings import configured
 
+        chosen = self.servers.currentData()
+        self.servers.clear()
+        self.note.clear()
         try:
             for one in configured():
                 self.servers.addItem(f"{one.name}  ({one.title}, {one.host}:{one.port})", one)
+                if chosen is not None and one.name == chosen.name:
+                    self.servers.setCurrentIndex(self.servers.count() - 1)
         except AcusError as error:
             self.note.setText(str(error))
-            return
-        if self.servers.count() == 0:
-            self.note.setText(
-                tr("No PACS is configured: acus pacs add NAME, or write {path}.",
-                   path=str(pacs_path()))
-            )  # fmt: skip
+        else:
+            if self.servers.count() == 0:
+                self.note.setText(tr("No PACS is configured yet: press Configure…"))
+        self._enable()
 
-    def _show(self, found: list[FoundSeries]) -> None:
+    def _show(self, found: list[Found]) -> None:
         self._stopped()
         self.tree.clear()
-        for series in found:
-            self.tree.addTopLevelItem(_row(series))
+        for series, here in found:
+            self.tree.addTopLevelItem(_row(series, here))
         self.note.setText(tr("{count} series", count=len(found)))
         first = self.tree.topLevelItem(0)
         if first is not None:
@@ -161,7 +175,6 @@ class PacsPanel(QDialog):
     def _fail(self, error: Exception) -> None:
         self._stopped()
         self.note.setText(str(error) if isinstance(error, AcusError) else type(error).__name__)
-        self.failed.emit(error)
 
     def _want(self) -> None:
         series = self.selected()
@@ -183,21 +196,25 @@ class PacsPanel(QDialog):
         self._task = None
 
 
-def _find(settings: PacsSettings, query: Query, progress: Progress) -> list[FoundSeries]:
+def _find(settings: PacsSettings, query: Query, progress: Progress) -> list[Found]:
     with ONE_AT_A_TIME:
         from app.imaging.pacs.client import Pacs
+        from app.imaging.pacs.incoming import Incoming
     client = Pacs(settings)
     found: list[FoundSeries] = []
     studies = client.find_studies(query, progress.part(0.0, 0.2))
     for index, study in enumerate(studies):
         share = 0.2 + 0.8 * index / len(studies)
         found += client.find_series(study, progress=progress.part(share, 1.0))
-    return found
+    return [(series, Incoming(settings, series.uid).count()) for series in found]
 
 
-def _row(series: FoundSeries) -> QTreeWidgetItem:
+def _row(series: FoundSeries, here: int) -> QTreeWidgetItem:
+    """Line of the table; `here` is how many pictures an interrupted retrieval has left."""
     study = series.study
     count = "?" if series.instances is None else str(series.instances)
+    if here:
+        count = tr("{here} of {count} here, to be resumed", here=here, count=count)
     item = QTreeWidgetItem([
         study.patient_name, study.patient_id, study.date, study.description,
         f"{series.number}  {series.description}".strip(), series.body_part, count,

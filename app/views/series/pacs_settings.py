@@ -1,0 +1,250 @@
+"""Where PACS are entered, changed, tried and removed; what `acus pacs add` writes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QMessageBox,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.configuration import parse
+from app.core.errors import AcusError
+from app.core.loading import ONE_AT_A_TIME
+from app.core.progress import Progress
+from app.views import theme
+from app.views.background import Task, run_in_background
+from app.views.progress_strip import ProgressStrip
+from app.views.series.pacs_form import PacsForm
+from app.views.text import tr
+
+if TYPE_CHECKING:
+    from app.imaging.pacs.settings import PacsSettings
+
+
+class PacsSettingsDialog(QDialog):
+    """A list of PACS and a form for the chosen one; nothing is written before Save.
+
+    Signals:
+        kept(): the configuration was written.
+    """
+
+    kept = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("PACS: configuration"))
+        self.resize(860, 640)
+        self._task: Task | None = None
+        self._shown = -1
+        self._forms: list[dict[str, object]] = []
+        self._as_read: list[dict[str, object]] = []
+        self.list, self.form, self.strip = QListWidget(self), PacsForm(self), ProgressStrip(self)
+        self.note = QLabel(self)
+        self.add_button = QPushButton(tr("Add"), self)
+        self.remove_button = QPushButton(tr("Remove"), self)
+        self.test_button = QPushButton(tr("Test (C-ECHO)"), self)
+        kinds = QDialogButtonBox.StandardButton
+        self.buttons = QDialogButtonBox(kinds.Save | kinds.Cancel, parent=self)
+        self._lay_out()
+        self._connect()
+        self._read()
+
+    # --- commands -------------------------------------------------------------------------------
+    def add(self) -> None:
+        """Begin another PACS."""
+        self._take_form()
+        taken = {str(one.get("name")) for one in self._forms}
+        names = (f"pacs{n}" if n > 1 else "pacs" for n in range(1, len(taken) + 2))
+        self._forms.append({"name": next(n for n in names if n not in taken), "port": 104})
+        self._show_list(len(self._forms) - 1)
+        self.form.fields["name"].setFocus()
+
+    def remove(self) -> None:
+        """Take the chosen PACS off the list; Save makes it last."""
+        row = self.list.currentRow()
+        if row >= 0:
+            del self._forms[row]
+            self._show_list(min(row, len(self._forms) - 1))
+
+    def test(self) -> None:
+        """Ask the PACS of the form whether it is there, without keeping anything."""
+        try:
+            settings = _parsed(self.form.values())
+        except AcusError as error:
+            self._say("bad", str(error))
+            return
+        self._stop()
+        self._say("", tr("Asking {name}…", name=settings.name))
+        self.test_button.setEnabled(False)
+        self._task = run_in_background(
+            self, lambda progress: _echo(settings, progress),
+            lambda seconds: self._say(
+                "good", tr("{name} answers in {time} ms", name=settings.name,
+                           time=f"{1e3 * seconds:.1f}")
+            ),
+            lambda error: self._say("bad", str(error)), lambda: self._say("", tr("Cancelled")),
+            title=tr("Asking {name}", name=settings.name), indicator=self.strip,
+        )  # fmt: skip
+        self._task.finished.connect(self._enable)
+
+    def save(self) -> bool:
+        """Check everything, write it, close; return whether that was done."""
+        from app.imaging.pacs.settings import keep
+
+        self._take_form()
+        servers = []
+        for row, form in enumerate(self._forms):
+            try:
+                servers.append(_parsed(form))
+            except AcusError as error:
+                self._show_list(row)
+                self._say("bad", str(error))
+                return False
+        names = [one.name for one in servers]
+        twice = next((name for name in names if names.count(name) > 1), "")
+        if twice:
+            self._say("bad", tr("The name {name} is given twice", name=twice))
+            return False
+        try:
+            keep(tuple(servers))
+        except OSError as error:
+            self._say("bad", tr("It cannot be written: {why}", why=error.strerror or str(error)))
+            return False
+        self._as_read = list(self._forms)
+        self.kept.emit()
+        self.accept()
+        return True
+
+    def reject(self) -> None:
+        """Close, after a question if something was changed."""
+        self._take_form()
+        if self._forms != self._as_read and not self._may_lose():
+            return
+        super().reject()
+
+    # --- inside ---------------------------------------------------------------------------------
+    def _may_lose(self) -> bool:
+        buttons = QMessageBox.StandardButton
+        answer = QMessageBox.question(
+            self, tr("PACS: configuration"), tr("The changes are not saved. Save them first?"),
+            buttons.Save | buttons.Discard | buttons.Cancel, buttons.Save,
+        )  # fmt: skip
+        if answer == buttons.Save:
+            self.save()
+            return False  # it is closed already, or says what is wrong
+        return answer == buttons.Discard
+
+    def _read(self) -> None:
+        from app.imaging.pacs.settings import configured
+
+        try:
+            found = [one.model_dump(exclude_none=True) for one in configured()]
+        except AcusError as error:
+            found = []
+            self._say("bad", str(error) + "\n" + tr("Save replaces the file."))
+        self._forms = [self.form.complete(one) for one in found]
+        self._as_read = list(self._forms)
+        self._show_list(0 if found else -1)
+
+    def _take_form(self) -> None:
+        row = self.list.currentRow()
+        if 0 <= row < len(self._forms):
+            self._forms[row] = self.form.values()
+
+    def _show_list(self, row: int) -> None:
+        with QSignalBlocker(self.list):
+            self.list.clear()
+            self.list.addItems([str(one.get("name", "")) for one in self._forms])
+            self.list.setCurrentRow(row)
+        self._shown = row
+        self.form.show_values(self._forms[row] if row >= 0 else {})
+        self._enable()
+
+    def _choose(self, row: int) -> None:
+        if 0 <= self._shown < len(self._forms) and row != self._shown:
+            self._forms[self._shown] = self.form.values()
+            self._show_list(row)
+
+    def _renamed(self, name: str) -> None:
+        item = self.list.currentItem()
+        if item is not None:
+            item.setText(name)
+
+    def _enable(self) -> None:
+        chosen = self.list.currentRow() >= 0
+        self.form.setEnabled(chosen)
+        self.remove_button.setEnabled(chosen)
+        running = self._task is not None and self.strip.count > 0
+        self.test_button.setEnabled(chosen and not running)
+
+    def _say(self, kind: str, text: str) -> None:
+        colour, sign = theme.VERDICTS.get(kind, (theme.TEXT, ""))
+        self.note.setStyleSheet(f"color: {colour};")
+        self.note.setText(f"{sign}  {text}".strip())
+
+    def _stop(self) -> None:
+        if self._task is not None and self.strip.count:
+            self._task.cancel()
+        self._task = None
+
+    def _connect(self) -> None:
+        self.list.currentRowChanged.connect(self._choose)
+        self.form.fields["name"].textEdited.connect(self._renamed)
+        for button, command in (
+            (self.add_button, self.add), (self.remove_button, self.remove),
+            (self.test_button, self.test),
+        ):  # fmt: skip
+            button.setAutoDefault(False)
+            button.clicked.connect(lambda _=False, command=command: command())
+        self.buttons.accepted.connect(self.save)
+        self.buttons.rejected.connect(self.reject)
+        self.finished.connect(lambda _: self._stop())
+
+    def _lay_out(self) -> None:
+        left = QVBoxLayout()
+        left.addWidget(self.list, 1)
+        pair = QHBoxLayout()
+        pair.addWidget(self.add_button)
+        pair.addWidget(self.remove_button)
+        left.addLayout(pair)
+        self.list.setFixedWidth(200)
+        self.list.setAccessibleName(tr("Configured PACS"))
+        both = QHBoxLayout()
+        both.setSpacing(theme.MARGIN)
+        both.addLayout(left)
+        both.addWidget(self.form, 1)
+        self.note.setWordWrap(True)
+        self.note.setTextFormat(Qt.TextFormat.PlainText)
+        self.note.setMinimumHeight(3 * theme.FONT_PX)
+        foot = QHBoxLayout()
+        foot.addWidget(self.test_button)
+        foot.addStretch()
+        foot.addWidget(self.buttons)
+        column = QVBoxLayout(self)
+        column.setSpacing(theme.SPACING)
+        column.addLayout(both, 1)
+        column.addWidget(self.note)
+        column.addWidget(self.strip)
+        column.addLayout(foot)
+
+
+def _parsed(form: dict[str, object]) -> PacsSettings:
+    from app.imaging.pacs.settings import PacsSettings
+
+    return parse(form, PacsSettings, str(form.get("name") or tr("without a name")))
+
+
+def _echo(settings: PacsSettings, progress: Progress) -> float:
+    with ONE_AT_A_TIME:
+        from app.imaging.pacs.client import Pacs
+    return Pacs(settings).echo(progress)
