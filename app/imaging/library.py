@@ -5,51 +5,30 @@ to its place. Whatever ends it (an error, a full disk, a cancel, a kill) leaves 
 library; the staging of a process that died is swept away at the next look.
 """
 
-import errno
-import fcntl
 import json
-import os
-import shutil
-import tempfile
-import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from app.core import paths
-from app.core.files import sync, write_atomically
-from app.core.progress import Cancelled, Progress
-from app.imaging.errors import (
-    FileDamagedError,
-    ImagingError,
-    SeriesRefusedError,
-    SeriesUnknownError,
-)
-from app.imaging.privacy import dates
-from app.imaging.privacy.actions import Rules
-from app.imaging.privacy.burned_in import Box, check_numbers, of_picture
-from app.imaging.privacy.errors import PrivacyError
-from app.imaging.privacy.files import convert, read_original
-from app.imaging.privacy.key import installation_key
-from app.imaging.privacy.profile import profile
-from app.imaging.privacy.pseudonyms import patient_pseudonym, pseudonym
-from app.imaging.privacy.report import Report, Tally
-from app.imaging.privacy.uids import UidMap
-from app.imaging.privacy.verify import Secrets, verify
+from app.core.files import write_atomically
+from app.core.progress import Progress
+from app.imaging.errors import FileDamagedError, SeriesRefusedError, SeriesUnknownError
+from app.imaging.privacy.burned_in import Box
+from app.imaging.privacy.deidentified import Deidentified
+from app.imaging.privacy.report import Report
 from app.imaging.scanning import scan_folder
 from app.imaging.series import Series
+from app.imaging.staging import ImportFailedError as ImportFailedError  # named here for others
+from app.imaging.staging import discard, publish, staging, sweep
+from app.imaging.worker.jobs import DEIDENTIFY
+from app.imaging.worker.limits import MEMORY_BYTES, MOST_SECONDS, Allowance, size_of
+from app.imaging.worker.pool import shared_worker
 
-_STAGING = ".staging-"
-_LOCK = ".lock"
 _ABOUT = "about.json"
-_SPARE_BYTES = 64 * 1024 * 1024
-_YOUNG_S = 60.0
-
-
-class ImportFailedError(ImagingError):
-    """A series was not taken into the library; the message says why, and nothing was kept."""
+_COPIES = 6
+"""Of its largest file the process that writes a series anew may have so many in memory."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,19 +96,11 @@ class CtLibrary:
         Raises:
             SeriesUnknownError: if there is none.
         """
-        entry = self.find(name)
-        gone = Path(tempfile.mkdtemp(dir=self.folder, prefix=_STAGING))
-        os.rename(entry.folder, gone / entry.name)
-        shutil.rmtree(gone, ignore_errors=True)
+        discard(self.find(name).folder)
 
     def sweep(self) -> int:
         """Delete what imports left that died; returns how many. Living ones hold their lock."""
-        swept = 0
-        for folder in self.folder.glob(f"{_STAGING}*"):
-            if _abandoned(folder):
-                shutil.rmtree(folder, ignore_errors=True)
-                swept += 1
-        return swept
+        return sweep(self.folder)
 
     def import_series(
         self, series: Series, boxes: Sequence[Box] = (), progress: Progress | None = None
@@ -152,149 +123,36 @@ class CtLibrary:
         if not series.slices:
             raise SeriesRefusedError("only DICOM series are taken into the library; open this file")
         progress = progress or Progress()
-        with self._staging(series) as staging:
-            report, name = _fill(staging, series, boxes, progress)
-            again = (self.folder / name).is_dir() and not boxes
+        with staging(self.folder, series) as folder:
+            made = _fill(folder, series, boxes, progress)
+            place = self.folder / made.name
+            again = place.is_dir() and not boxes
             if not again:
-                self._publish(staging, name)
-        entry = self.find(name)
-        progress.report(1.0, f"{report.files} files taken into the library")
-        return Imported(entry, report, again)
-
-    @contextmanager
-    def _staging(self, series: Series) -> Iterator[Path]:
-        try:
-            self.folder.mkdir(parents=True, exist_ok=True)
-            self.sweep()
-            self._room(series)
-            staging = Path(tempfile.mkdtemp(dir=self.folder, prefix=_STAGING))
-        except OSError as error:
-            raise ImportFailedError(
-                f"the library {self.folder} cannot be written: {_why(error)}"
-            ) from None
-        lock = os.open(staging / _LOCK, os.O_CREAT | os.O_RDWR)
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            yield staging
-        except OSError as error:
-            if isinstance(error, ImagingError):
-                raise
-            raise ImportFailedError(f"{_why(error)}; nothing was kept") from None
-        finally:
-            shutil.rmtree(staging, ignore_errors=True)
-            os.close(lock)
-
-    def _room(self, series: Series) -> None:
-        """Ask before writing whether it will fit; a disk that fills meanwhile is met later."""
-        try:
-            needed = sum(path.stat().st_size for path in dict.fromkeys(series.files))
-        except OSError:
-            raise ImportFailedError(
-                "a file of the series is gone: the folder was moved or its medium taken out; "
-                "nothing was kept"
-            ) from None
-        free = shutil.disk_usage(self.folder).free
-        if free < needed + _SPARE_BYTES:
-            raise ImportFailedError(
-                f"the disk of the library has {free / 1e6:.0f} MB free, this series needs "
-                f"{(needed + _SPARE_BYTES) / 1e6:.0f} MB; make room, nothing was kept"
-            )
-
-    def _publish(self, staging: Path, name: str) -> None:
-        """Rename to its place; the lock goes last, so that no sweep takes a living folder."""
-        staging.chmod(0o755)
-        sync(staging)
-        if (self.folder / name).is_dir():
-            self.remove(name)
-        os.rename(staging, self.folder / name)
-        (self.folder / name / _LOCK).unlink(missing_ok=True)
-        sync(self.folder)
+                if place.is_dir():
+                    discard(place)
+                publish(folder, place)
+        entry = self.find(made.name)
+        progress.report(1.0, f"{made.report.files} files taken into the library")
+        return Imported(entry, made.report, again)
 
 
-def _fill(
-    staging: Path, series: Series, boxes: Sequence[Box], progress: Progress
-) -> tuple[Report, str]:
-    """Write and verify every file; returns the report and the entry's name."""
-    headers = list({header.path: header for header in series.slices}.values())
-    check_numbers(boxes, len(headers))
-    rules = _counted(1, len(headers), lambda: _rules(headers[0]))
-    secrets, tally = Secrets(rules.profile), Tally()
-    digests = []
-    for index, header in enumerate(headers):
-        progress.report(0.7 * index / len(headers), f"file {index + 1} of {len(headers)}")
-        drawn = of_picture(boxes, index + 1)
-        write = _writer(header, staging / _file(index), rules, drawn, secrets, tally)
-        digests.append(_counted(index + 1, len(headers), write))
-    for index, digest in enumerate(digests):
-        share = 0.7 + 0.3 * index / len(headers)
-        progress.report(share, f"checking file {index + 1} of {len(headers)}")
-        verify(staging / _file(index), secrets, rules.uids.old, digest)
-    progress.report(0.99, "looking at what was written")
-    report = tally.report()
-    label = scan_folder(staging).series[0].label  # of the new files: the old ones may say more
-    about = {"label": label, "pseudonym": rules.study, "report": report.document()}
-    write_atomically(staging / _ABOUT, json.dumps(about, indent=1) + "\n")
-    new_uid = rules.uids.new(f"{series.uid}#{series.part}" if series.part else series.uid)
-    return report, f"{rules.study}-{int(new_uid.split('.')[-1]) % 16**6:06X}"
-
-
-def _writer(
-    header: Any, to: Path, rules: Rules, boxes: Sequence[Box], secrets: Secrets, tally: Tally
-) -> Callable[[], str]:
-    return lambda: convert(header, to, rules, boxes, secrets, tally)
-
-
-def _counted(number: int, count: int, work: Callable[[], Any]) -> Any:
-    """Name a file by its number: the names of files and folders may tell who the patient is."""
+def _fill(folder: Path, series: Series, boxes: Sequence[Box], progress: Progress) -> Deidentified:
+    """Have every file written and verified by the worker process, and say what it is about."""
+    headers = {header.path: header for header in series.slices}.values()
+    there = tuple(replace(header, path=header.path.absolute()) for header in headers)
+    largest = max(size_of(header.path) for header in there)
+    arguments = (there, series.key, folder, tuple(boxes), paths.settings().absolute())
+    allowed = Allowance(MOST_SECONDS, MEMORY_BYTES + _COPIES * largest)
+    part = progress.part(0.0, 0.98)
     try:
-        return work()
-    except Cancelled:
-        raise
-    except PrivacyError as error:
-        raise type(error)(f"file {number} of {count}: {error}") from None
+        made = shared_worker().call(DEIDENTIFY, arguments, allowed, part)
     except FileDamagedError as error:
-        raise ImportFailedError(f"file {number} of {count}: {error}; nothing was kept") from None
-
-
-def _rules(first: Any) -> Rules:
-    original = read_original(first)
-    key = installation_key()
-    patient = str(original.get("PatientID", "") or "").strip(" \0")
-    study = str(original.get("StudyInstanceUID", "") or "").strip(" \0")
-    return Rules(
-        profile(),
-        UidMap(key),
-        dates.shift_of(key, patient, study),
-        patient_pseudonym(key, patient, study),
-        pseudonym(patient, study),
-    )
-
-
-def _file(index: int) -> str:
-    return f"{index + 1:06d}.dcm"
-
-
-def _why(error: OSError) -> str:
-    if error.errno == errno.ENOSPC:
-        return "the disk of the library is full"
-    return error.strerror or type(error).__name__
-
-
-def _abandoned(folder: Path) -> bool:
-    """Whether nobody holds the lock of a staging folder any more; a kill lets go of it too."""
-    try:
-        lock = os.open(folder / _LOCK, os.O_RDWR)
-    except FileNotFoundError:  # just being made, or just being deleted
-        return time.time() - folder.stat().st_mtime > _YOUNG_S
-    except OSError:
-        return False
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
-    finally:
-        os.close(lock)
-    return True
+        raise ImportFailedError(f"{error}; nothing was kept") from None
+    progress.report(0.98, "looking at what was written")
+    label = scan_folder(folder).series[0].label  # of the new files: the old ones may say more
+    about = {"label": label, "pseudonym": made.study, "report": made.report.document()}
+    write_atomically(folder / _ABOUT, json.dumps(about, indent=1) + "\n")
+    return made
 
 
 def _entry(folder: Path) -> Entry | None:

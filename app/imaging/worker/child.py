@@ -7,7 +7,6 @@ numpy, pydicom and the decoders come with the first file that needs them.
 import importlib
 import logging
 import socket
-import time
 import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -22,7 +21,6 @@ from app.imaging.worker.values import Convert, reader
 
 READY = "ready"
 
-_TELLING_S = 0.05
 _AT_START = ("app.imaging.examining:headers_in",)
 """Imported before the child is ready: every folder needs it."""
 
@@ -97,14 +95,10 @@ def _job(place: str) -> tuple[Callable[..., Any], tuple[Convert, ...]]:
 
 
 def _progress(channel: Channel) -> Progress:
-    """Progress that the program hears of, now and then."""
-    told = time.monotonic()
+    """Progress that the program hears of."""
 
     def tell(fraction: float, text: str) -> None:
-        nonlocal told
-        if time.monotonic() - told > _TELLING_S:
-            told = time.monotonic()
-            limit_time()
-            channel.send([PROGRESS, fraction, text[:200]])
+        limit_time()
+        channel.send([PROGRESS, float(fraction), text[:200]])
 
     return Progress(tell)

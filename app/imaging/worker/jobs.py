@@ -11,6 +11,7 @@ from typing import Any, Generic, TypeVar
 
 from app.imaging.header import SliceHeader
 from app.imaging.nifti_file import NiftiHeader, NiftiValues
+from app.imaging.privacy.deidentified import Deidentified
 from app.imaging.series import Ignored
 from app.imaging.structures.placed import Placed
 from app.imaging.worker.limits import Allowance
@@ -44,6 +45,9 @@ DIRECTORY: Job[tuple[tuple[str, ...], ...]] = Job(
     "app.imaging.directory_file:named_files", tuple[tuple[str, ...], ...]
 )
 STRUCTURES: Job[Placed] = Job("app.imaging.structures.parsing:parse_structures", Placed)
+DEIDENTIFY: Job[Deidentified] = Job(
+    "app.imaging.privacy.deidentifying:deidentify_series", Deidentified
+)
 UNPACK: Job[tuple[tuple[str, str], ...]] = Job(
     "app.imaging.archive_file:unpack_into", tuple[tuple[str, str], ...]
 )

@@ -5,7 +5,7 @@ says is refused, and no class is made but those that the reader names (which pic
 """
 
 import types
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cache
 from pathlib import Path
@@ -50,8 +50,8 @@ def reader(kind: Any) -> Convert:
     """Make the function that turns JSON into values of a type.
 
     Args:
-        kind: a dataclass, tuple, union, array, Path, str, int, float, bool or None, or made of
-            these.
+        kind: a dataclass, tuple, mapping, union, array, Path, str, int, float, bool or None, or
+            made of these.
 
     Returns:
         A function; it raises ForeignValueError for anything else than such a value.
@@ -64,6 +64,8 @@ def reader(kind: Any) -> Convert:
         return _tuple_reader(get_args(kind))
     if getattr(get_origin(kind), "__module__", "") == "numpy":
         return _array_reader(get_args(get_args(kind)[1])[0])
+    if get_origin(kind) is Mapping:
+        return _mapping_reader(*get_args(kind))
     if kind is None:
         kind = type(None)
     if kind is Path:
@@ -126,6 +128,11 @@ def _tuple_reader(kinds: tuple[Any, ...]) -> Convert:
         return tuple(convert(item) for convert, item in zip(converts, items, strict=True))
 
     return read
+
+
+def _mapping_reader(keys: Any, values: Any) -> Convert:
+    key, convert = reader(keys), reader(values)
+    return lambda found: {key(k): convert(v) for k, v in _checked(found, dict).items()}
 
 
 def _union_reader(kinds: tuple[Any, ...]) -> Convert:
