@@ -101,6 +101,24 @@ class Placement:
         return RigidTransform(rotation, frozen(fulcrum, (3,), "fulcrum") - rotation @ entry)
 
 
+def placement_of(rotation: ArrayLike) -> Placement:
+    """Return the placement of a rotation LPS → world: the orientation that needs least turning.
+
+    Args:
+        rotation: proper rotation, shape (3, 3).
+
+    Raises:
+        NumericalError: if it is none.
+    """
+    R_world_patient = frozen(rotation, (3, 3), "rotation")
+    vectors = {
+        one: rotation_log(R_world_patient @ one.rotation.T) / DEGREE for one in PatientOrientation
+    }
+    nearest = min(vectors, key=lambda one: float(np.linalg.norm(vectors[one])))
+    x, y, z = vectors[nearest].tolist()
+    return Placement(nearest, (x, y, z))
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class PlacedPlan:
     """The plan in `world`, in metres: what the loop, the views and the scoring use.

@@ -13,6 +13,7 @@ from app.views.cameras.menu import CamerasMenu
 from app.views.measure.menu import MeasureMenu
 from app.views.names import NAMES
 from app.views.pen.menu import PenMenu
+from app.views.plan.position_files import PositionFiles
 from app.views.robot.menu import RobotMenu
 from app.views.series.library_desk import LibraryDesk
 from app.views.slices.viewing import Tool
@@ -31,6 +32,7 @@ class Menus:
     def __init__(self, window: MainWindow) -> None:
         self._window = window
         self.library = LibraryDesk(window.progress, window)
+        self.position = PositionFiles(window)
         self.recent_cts, self.recent_plans = self._file()
         self.undo, self.redo = self._edit()
         self.view = ViewMenu(self._menu(tr("&View")), window)
@@ -81,6 +83,9 @@ class Menus:
         self._add(menu, [
             (tr("Save plan"), "Ctrl+S", files.save),
             (tr("Save plan as…"), "Ctrl+Shift+S", files.save_as),
+        ])  # fmt: skip
+        self._slicer(menu.addMenu(tr("3D Slicer")))
+        self._add(menu, [
             None,
             (tr("Quit"), "Ctrl+Q", window.close),
         ])  # fmt: skip
@@ -91,6 +96,18 @@ class Menus:
             lambda: self._fill(recent_plans, window.recent_plans.paths(), files.open)
         )
         return recent_cts, recent_plans
+
+    def _slicer(self, menu: QMenu) -> None:
+        """Fill in what goes to and comes from 3D Slicer, in one place."""
+        window, files = self._window, self._window.plan_files
+        self._add(menu, [
+            (tr("Open plan (.mrk.json)…"), "", files.ask_open),
+            (tr("Save plan as (.mrk.json)…"), "", files.save_as),
+            (tr("Export measurements (.mrk.json)…"), "", window.measuring.export),
+            None,
+            (tr("Import position of the patient (.tfm)…"), "", self.position.ask_open),
+            (tr("Export position of the patient (.tfm)…"), "", self.position.ask_export),
+        ])  # fmt: skip
 
     def _library(self, menu: QMenu) -> None:
         """CTs that were taken in de-identified, and the ways in."""

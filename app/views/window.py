@@ -17,7 +17,7 @@ from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.scan_picture import ScanPictures
 from app.views.debrief.sessions import SessionsPage
-from app.views.drops import dropped
+from app.views.drops import dropped, open_dropped
 from app.views.measure.desk import MeasureDesk
 from app.views.menus import Menus
 from app.views.message_bar import MessageBar
@@ -243,12 +243,9 @@ class MainWindow(QMainWindow):
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:
-        """Open a dropped folder, or a dropped plan."""
+        """Open a dropped folder, plan or position."""
         for path in dropped(event)[:1]:
-            if path.suffix == ".json":
-                self.plan_files.open(path)
-            else:
-                self.open_ct.open_folder(path)
+            open_dropped(self, path)
             event.acceptProposedAction()
 
     def closeEvent(self, event: QCloseEvent) -> None:
