@@ -3,34 +3,21 @@
 from typing import Any
 
 from app.core.errors import AcusError
-from app.imaging.errors import (
-    FileDamagedError,
-    FolderError,
-    NotExactError,
-    SeriesRefusedError,
-    WorkerLostError,
-    brief,
-)
-from app.imaging.privacy.errors import BurnedInError, KeyDamagedError, NotCleanError, PrivacyError
-from app.imaging.structures.errors import (
-    ExtraMissingError,
-    FrameOfReferenceError,
-    StructureError,
-    StructureFileError,
-)
+from app.imaging import errors as imaging
+from app.imaging.errors import FileDamagedError, WorkerLostError, brief
+from app.imaging.privacy import errors as privacy
+from app.imaging.structures import errors as structures
 from app.imaging.worker.luggage import Luggage, LuggageError, opened
 from app.imaging.worker.values import ForeignValueError, plain, reader
 
 DONE, FAILED, SYSTEM, PROGRESS = "done", "failed", "system", "progress"
 
-_ERRORS = {
-    kind.__name__: kind
-    for kind in (
-        BurnedInError, ExtraMissingError, FileDamagedError, FolderError, FrameOfReferenceError,
-        KeyDamagedError, NotCleanError, NotExactError, PrivacyError, SeriesRefusedError,
-        StructureError, StructureFileError,
-    )
-}  # fmt: skip
+_ERRORS: dict[str, type[Exception]] = {
+    name: kind
+    for module in (imaging, privacy, structures)
+    for name, kind in vars(module).items()
+    if isinstance(kind, type) and issubclass(kind, Exception) and kind.__module__ == module.__name__
+}
 """Errors that a job may end in; any other one is a file that cannot be read."""
 
 _LONGEST = 600
@@ -78,7 +65,7 @@ def outcome(kind: Any, answer: Answer, descriptor: int | None) -> Any:
             return reader(kind)(values[0])
         name, text = values
         return _error(word, name, text)
-    except (ForeignValueError, LuggageError, IndexError, ValueError):
+    except (ForeignValueError, LuggageError, IndexError, TypeError, ValueError):
         return lost("talked nonsense")
 
 
