@@ -8,16 +8,18 @@ import os
 import shutil
 import threading
 import time
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-import pydicom
-
 from app.core import paths
 from app.core.files import sync
+from app.core.progress import Progress
+from app.imaging.errors import FileDamagedError, WorkerError
 from app.imaging.pacs.settings import PacsSettings
 from app.imaging.privacy.key import derived, installation_key
+from app.imaging.worker.jobs import IDENTIFY
+from app.imaging.worker.limits import PACKAGE_SECONDS, for_file, size_of
+from app.imaging.worker.pool import shared_worker
 
 ACCEPTED = 0x0000
 NO_ROOM = 0xA700
@@ -39,7 +41,6 @@ COMPRESSED = (
 _KEPT_S = 24 * 3600.0
 _LARGEST = 2 * 1024**3
 _SPARE_BYTES = 256 * 1024**2
-_IDENTITY = ["SOPClassUID", "SOPInstanceUID", "SeriesInstanceUID"]
 
 
 class Incoming:
@@ -82,36 +83,52 @@ class Incoming:
             encoded: the whole file.
         """
         with self._lock:
-            status, problem = self._judge(sop_class, sop_uid, encoded)
+            status, problem = self._room(sop_class, len(encoded))
+            if not problem:
+                status, problem = self._kept(sop_class, sop_uid, encoded)
             if problem:
                 self.problems.append(problem)
-                return status
-            try:
-                self._write(self._path(sop_uid), encoded)
-            except OSError as error:
-                self.problems.append(f"a picture cannot be kept: {error.strerror or 'disk error'}")
-                return NO_ROOM
-        return ACCEPTED
+        return status
 
     def forget(self) -> None:
         """Delete everything that has come; idempotent."""
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def _judge(self, sop_class: str, sop_uid: str, encoded: bytes) -> tuple[int, str]:
+    def _room(self, sop_class: str, size: int) -> tuple[int, str]:
         if sop_class not in STORAGE_CLASSES:
             return WRONG_CLASS, "it sent an object that is no CT or MR picture"
-        if len(encoded) > _LARGEST:
+        if size > _LARGEST:
             return NO_ROOM, f"it sent a file of more than {_LARGEST // 1024**3} GB"
-        if shutil.disk_usage(self.folder).free < len(encoded) + _SPARE_BYTES:
+        if shutil.disk_usage(self.folder).free < size + _SPARE_BYTES:
             return NO_ROOM, "the disk is full"
+        return ACCEPTED, ""
+
+    def _kept(self, sop_class: str, sop_uid: str, encoded: bytes) -> tuple[int, str]:
+        """Write a file beside its place, have it looked at, and put it there if it is right."""
+        path = self._path(sop_uid)
+        beside = path.with_suffix(".part")
         try:
-            head = pydicom.dcmread(
-                BytesIO(encoded), stop_before_pixels=True, specific_tags=list(_IDENTITY)
-            )
-            said = [str(head.get(name, "")) for name in _IDENTITY]
-        except Exception:  # whatever bytes came, they are no DICOM data set
+            with open(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as file:
+                file.write(encoded)
+            status, problem = self._judged(beside, sop_class, sop_uid)
+            if not problem:
+                sync(beside)
+                os.replace(beside, path)
+            return status, problem
+        except OSError as error:
+            return NO_ROOM, f"a picture cannot be kept: {error.strerror or 'disk error'}"
+        finally:
+            beside.unlink(missing_ok=True)
+
+    def _judged(self, path: Path, sop_class: str, sop_uid: str) -> tuple[int, str]:
+        allowed = for_file(size_of(path), least=PACKAGE_SECONDS)
+        try:
+            said = shared_worker().call(IDENTIFY, (path.absolute(),), allowed, Progress())
+        except FileDamagedError:  # whatever bytes came, they are no DICOM data set
             return NOT_UNDERSTOOD, "it sent something that is no DICOM data set"
-        if said[:2] != [sop_class, sop_uid]:
+        except WorkerError as error:
+            return NO_ROOM, str(error)
+        if said[:2] != (sop_class, sop_uid):
             return WRONG_CLASS, "it sent a picture under another one's name"
         if said[2] != self.series_uid:
             return WRONG_CLASS, "it sent a picture of another series"
@@ -119,17 +136,6 @@ class Incoming:
 
     def _path(self, sop_uid: str) -> Path:
         return self.folder / f"{derived(self._key, 'instance', sop_uid).hex()[:24]}.dcm"
-
-    def _write(self, path: Path, encoded: bytes) -> None:
-        beside = path.with_suffix(".part")
-        try:
-            with open(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as file:
-                file.write(encoded)
-            sync(beside)
-            os.replace(beside, path)
-        except BaseException:
-            beside.unlink(missing_ok=True)
-            raise
 
 
 def sweep(now: float | None = None) -> int:

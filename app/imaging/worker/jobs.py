@@ -48,6 +48,7 @@ STRUCTURES: Job[Placed] = Job("app.imaging.structures.parsing:parse_structures",
 DEIDENTIFY: Job[Deidentified] = Job(
     "app.imaging.privacy.deidentifying:deidentify_series", Deidentified
 )
+IDENTIFY: Job[tuple[str, str, str]] = Job("app.imaging.pacs.looking:identity", tuple[str, str, str])
 UNPACK: Job[tuple[tuple[str, str], ...]] = Job(
     "app.imaging.archive_file:unpack_into", tuple[tuple[str, str], ...]
 )
