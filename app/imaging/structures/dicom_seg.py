@@ -1,37 +1,26 @@
-"""DICOM Segmentation (PS3.3 A.51), read and written by highdicom."""
+"""DICOM Segmentation (PS3.3 A.51), read by highdicom."""
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from app.core.errors import AcusError
-from app.core.files import write_atomically
 from app.imaging.errors import brief
+from app.imaging.structures.cielab import rgb_of
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
 from app.imaging.structures.placing import Found, Labelled, guessed_kind
-from app.imaging.structures.structure import Colour, Kind, Structure, StructureSet
-from app.imaging.volume import Volume
+from app.imaging.structures.segment_codes import CODES
+from app.imaging.structures.structure import Colour, Kind
 
 SHARE = 0.5
 """A voxel of a fractional segment belongs to it from this value."""
 
-# Category and type of a segment by kind, SNOMED CT codes of PS3.16 CID 7150, 7159 and below
-_CODES = {
-    Kind.RISK: (("123037004", "Anatomical structure"), ("113343008", "Organ")),
-    Kind.VESSEL: (("123037004", "Anatomical structure"), ("59820001", "Blood vessel")),
-    Kind.BONE: (("123037004", "Anatomical structure"), ("272673000", "Bone")),
-    Kind.TARGET: (("49755003", "Morphologically abnormal structure"), ("52988006", "Lesion")),
-    Kind.OTHER: (("85756007", "Tissue"), ("85756007", "Tissue")),
-}
-_KINDS = {codes[1][0]: kind for kind, codes in _CODES.items() if kind is not Kind.OTHER}
+_KINDS = {codes[1][0]: kind for kind, codes in CODES.items() if kind is not Kind.OTHER}
 
 
 def read_seg(dataset: Any, path: Path) -> Found:
@@ -94,115 +83,4 @@ def _colour(description: Any) -> Colour | None:
     lightness, a, b = (int(v) for v in value)
     lab = np.array([lightness * 100.0 / 65535.0, a * 255.0 / 65535.0 - 128.0,
                     b * 255.0 / 65535.0 - 128.0])  # fmt: skip
-    return _rgb(lab)
-
-
-def _rgb(lab: Any) -> Colour:
-    """Colour of CIELab values, white point D50 as DICOM has it, in sRGB (IEC 61966-2-1)."""
-    fy = (lab[0] + 16.0) / 116.0
-    f = np.array([fy + lab[1] / 500.0, fy, fy - lab[2] / 200.0])
-    xyz = np.where(f > 6 / 29, f**3, 3 * (6 / 29) ** 2 * (f - 4 / 29)) * (0.96422, 1.0, 0.82521)
-    linear = _XYZ_TO_RGB @ xyz
-    curve = np.where(linear <= 0.0031308, 12.92 * linear,
-                     1.055 * np.clip(linear, 1e-9, None) ** (1 / 2.4) - 0.055)  # fmt: skip
-    r, g, b = (int(v) for v in np.rint(255.0 * np.clip(curve, 0.0, 1.0)))
-    return r, g, b
-
-
-_XYZ_TO_RGB = np.array([
-    [3.1338561, -1.6168667, -0.4906146],
-    [-0.9787684, 1.9161415, 0.0334540],
-    [0.0719453, -0.2289914, 1.4052427],
-])  # fmt: skip
-"""From D50 to linear sRGB (Bradford adapted)."""
-
-
-def _lab(colour: Colour) -> Any:
-    """CIELab of a colour: L* 0 to 100, a*, b*."""
-    c = np.array(colour) / 255.0
-    linear = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
-    xyz = np.linalg.solve(_XYZ_TO_RGB, linear) / (0.96422, 1.0, 0.82521)
-    f = np.where(xyz > (6 / 29) ** 3, np.cbrt(xyz), xyz / (3 * (6 / 29) ** 2) + 4 / 29)
-    return np.array([116 * f[1] - 16, 500 * (f[0] - f[1]), 200 * (f[1] - f[2])])
-
-
-def write_seg(path: Path, structures: StructureSet, volume: Volume) -> None:
-    """Write structures as a binary DICOM Segmentation that refers to the files of their CT.
-
-    Raises:
-        StructureFileError: if the CT's own files are not there or have another grid, there is
-            nothing to write, or it cannot be written.
-        ExtraMissingError: without the extra `structures`.
-    """
-    highdicom = extra("highdicom", "DICOM SEG files")
-    if not len(structures):
-        raise StructureFileError("there are no structures to write")
-    sources = _sources(volume)
-    masks = np.stack([one.full(volume.hu.shape) for one in structures], axis=-1)
-    descriptions = [
-        _description(highdicom, number, one) for number, one in enumerate(structures, start=1)
-    ]
-    names = repr([(one.name, one.corner, one.mask.tobytes()) for one in structures])
-    try:
-        segmentation = highdicom.seg.Segmentation(
-            source_images=sources,
-            pixel_array=masks.astype(np.uint8),
-            segmentation_type="BINARY",
-            segment_descriptions=descriptions,
-            series_instance_uid=_uid("series", volume.series.uid, names),
-            series_number=300,
-            sop_instance_uid=_uid("instance", volume.series.uid, names),
-            instance_number=1,
-            manufacturer="Acus",
-            manufacturer_model_name="Acus trainer",
-            software_versions="1",
-            device_serial_number="0",
-            content_label="STRUCTURES",
-        )
-    except (AttributeError, TypeError, ValueError) as error:
-        raise StructureFileError(
-            f"this CT lacks what a DICOM segmentation has to repeat of it ({error}); "
-            "write a .seg.nrrd instead"
-        ) from error
-    buffer = BytesIO()
-    segmentation.save_as(buffer)
-    try:
-        write_atomically(path, buffer.getvalue())
-    except OSError as error:
-        raise StructureFileError(f"{path} cannot be written: {error.strerror or error}") from error
-
-
-def _sources(volume: Volume) -> list[Any]:
-    from pydicom import dcmread
-
-    headers = volume.series.slices
-    if len(headers) != volume.hu.shape[0]:
-        raise StructureFileError(
-            "this volume is not slice for slice that of DICOM files (it was resampled, or comes "
-            "from another format); write a .seg.nrrd instead"
-        )
-    try:
-        return [dcmread(header.path, stop_before_pixels=True) for header in headers]
-    except (OSError, AcusError) as error:
-        raise StructureFileError(f"the files of this CT are gone: {error}") from error
-
-
-def _description(highdicom: Any, number: int, structure: Structure) -> Any:
-    from pydicom.sr.coding import Code
-
-    category, kind = (Code(value, "SCT", meaning) for value, meaning in _CODES[structure.kind])
-    lightness, a, b = _lab(structure.colour)
-    return highdicom.seg.SegmentDescription(
-        segment_number=number,
-        segment_label=structure.name,
-        segmented_property_category=category,
-        segmented_property_type=kind,
-        algorithm_type="MANUAL",
-        display_color=highdicom.color.CIELabColor(float(lightness), float(a), float(b)),
-    )
-
-
-def _uid(*parts: object) -> str:
-    """UID under 2.25 (PS3.5 B.2) of what it stands for."""
-    digest = hashlib.sha256(repr(parts).encode()).digest()[:16]
-    return f"2.25.{int.from_bytes(digest, 'big')}"
+    return rgb_of(lab)

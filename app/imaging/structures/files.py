@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
+from uuid import uuid4
 
 from app.core.errors import AcusError
+from app.core.files import sync
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.placed import PlacedStructure
 from app.imaging.structures.structure import LONGEST_NAME, Structure, StructureSet
 from app.imaging.volume import Volume
-from app.imaging.worker.jobs import STRUCTURES
+from app.imaging.worker.jobs import STRUCTURES, WRITE_SEG
 from app.imaging.worker.limits import MEMORY_BYTES, MOST_SECONDS, Allowance
 from app.imaging.worker.pool import shared_worker
 
@@ -71,22 +74,59 @@ def _structure(one: PlacedStructure, volume: Volume) -> Structure:
     )
 
 
-def write_structures(path: Path, structures: StructureSet, volume: Volume) -> None:
+def write_structures(
+    path: Path, structures: StructureSet, volume: Volume, progress: Progress | None = None
+) -> None:
     """Write structures, as the ending of the path says: `.seg.nrrd` or `.dcm` (DICOM SEG).
 
     Raises:
-        StructureFileError: for another ending, or if it cannot be written.
+        StructureFileError: for another ending, or if it cannot be written; for DICOM SEG also if
+            the CT's own files are not there or have another grid, or lack what has to be repeated.
         ExtraMissingError: if the package that writes it is not installed.
+        WorkerError: if the process that reads the CT's files for it cannot be started.
+        Cancelled: if `progress` was cancelled; nothing is left behind.
     """
     if path.name.endswith(".seg.nrrd"):
         from app.imaging.structures.seg_nrrd import write_nrrd
 
         write_nrrd(path, structures, volume)
     elif path.suffix == ".dcm":
-        from app.imaging.structures.dicom_seg import write_seg
-
-        write_seg(path, structures, volume)
+        _write_seg(path, structures, volume, progress or Progress())
     else:
         raise StructureFileError(
             f"{path.name}: structures are written as .seg.nrrd (3D Slicer) or .dcm (DICOM SEG)"
         )
+
+
+def _write_seg(path: Path, structures: StructureSet, volume: Volume, progress: Progress) -> None:
+    """Have it written beside its place: it repeats what foreign files say, so the worker does."""
+    if not len(structures):
+        raise StructureFileError("there are no structures to write")
+    headers = volume.series.slices
+    if len(headers) != volume.size[2] or len(set(volume.series.files)) != volume.size[2]:
+        raise StructureFileError(
+            "this volume is not slice for slice that of DICOM files (it was resampled, or comes "
+            "from another format); write a .seg.nrrd instead"
+        )
+    beside = path.absolute().with_name(f".{path.name}.{uuid4().hex}")
+    files = tuple(header.path.absolute() for header in headers)
+    arguments = (beside, files, tuple(map(_plain, structures)), volume.size, volume.series.uid)
+    voxels = _COPY_BYTES * len(structures) * volume.hu.size
+    try:
+        shared_worker().call(
+            WRITE_SEG, arguments, Allowance(MOST_SECONDS, MEMORY_BYTES + voxels), progress
+        )
+        sync(beside)
+        os.replace(beside, path)
+    except FileDamagedError as error:
+        raise StructureFileError(f"{path.name}: {error}") from error
+    except OSError as error:
+        if isinstance(error, AcusError):
+            raise
+        raise StructureFileError(f"{path} cannot be written: {error.strerror or error}") from error
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def _plain(one: Structure) -> PlacedStructure:
+    return PlacedStructure(one.name, one.kind, one.colour, one.mask, one.corner, one.warn_mm)

@@ -49,6 +49,7 @@ DEIDENTIFY: Job[Deidentified] = Job(
     "app.imaging.privacy.deidentifying:deidentify_series", Deidentified
 )
 IDENTIFY: Job[tuple[str, str, str]] = Job("app.imaging.pacs.looking:identity", tuple[str, str, str])
+WRITE_SEG: Job[None] = Job("app.imaging.structures.seg_file:write_seg_file", None)
 UNPACK: Job[tuple[tuple[str, str], ...]] = Job(
     "app.imaging.archive_file:unpack_into", tuple[tuple[str, str], ...]
 )
