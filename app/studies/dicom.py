@@ -13,9 +13,16 @@ from app.studies.dicom_cases.cases import (
     pydicom_files,
     pydicom_folder,
 )
-from app.studies.dicom_cases.comparison import SAME_MM, Agreement, compare, read
+from app.studies.dicom_cases.comparison import (
+    ROUNDED,
+    SAME_MM,
+    UNEXPLAINED,
+    Agreement,
+    compare,
+    read,
+)
 from app.studies.dicom_cases.peer import Peer
-from app.studies.dicom_cases.reasons import justified
+from app.studies.dicom_cases.reasons import justified, meaning
 from app.studies.findings import Cell, Findings, Sheet, Survey
 
 _COLUMNS = (
@@ -26,8 +33,9 @@ _COLUMNS = (
     "geometry",
     "Acus off [mm]",
     "GDCM off [mm]",
+    "because",
 )
-_REFUSED = ("reason", "files or series", "right", "for example")
+_REFUSED = ("reason", "what that is", "files or series", "right", "for example")
 
 
 def measure(progress: Progress | None, inputs: tuple[Path, ...] = ()) -> Findings:
@@ -52,7 +60,7 @@ def measure(progress: Progress | None, inputs: tuple[Path, ...] = ()) -> Finding
     finally:
         peer.close()
     refusals = tuple(
-        (reason, len(found), sum(right for _, right in found), found[0][0])
+        (reason, meaning(reason), len(found), sum(right for _, right in found), found[0][0])
         for reason, found in sorted(refused.items(), key=lambda item: -len(item[1]))
     )
     return Findings(
@@ -105,21 +113,25 @@ def _compared(case: Case, peer: Peer) -> tuple[Cell, ...] | None:
         found.values,
         found.geometry or "-",
         *("-" if off is None else round(off, 6) for off in (found.ours_mm, found.peer_mm)),
+        found.because or "-",
     )
 
 
 def _lines(
-    rows: list[tuple[Cell, ...]], refusals: tuple[tuple[str, int, int, str], ...]
+    rows: list[tuple[Cell, ...]], refusals: tuple[tuple[str, str, int, int, str], ...]
 ) -> tuple[str, ...]:
-    count = sum(row[1] for row in refusals)
-    right = sum(row[2] for row in refusals)
+    count = sum(row[2] for row in refusals)
+    right = sum(row[3] for row in refusals)
     equal = sum(row[3] == "equal" for row in rows)
+    rounded = sum(row[3] == ROUNDED for row in rows)
+    unexplained = sum(UNEXPLAINED in str(row[7]) for row in rows)
     ours = [row[5] for row in rows if isinstance(row[5], float)]
     theirs = [row[6] for row in rows if isinstance(row[6], float)]
     wrong = sum(off > SAME_MM for off in theirs)
     return (
-        f"{len(rows)} series and files compared, {equal} with equal voxels; "
-        f"{count} refused, {right} of them for a reason that pydicom confirms.",
+        f"{len(rows)} series and files compared: {equal} with equal voxels, {rounded} equal "
+        f"but for rounding to 32 bits; {unexplained} differences unexplained. {count} refused, "
+        f"{right} of them for a reason that pydicom confirms.",
         f"Farthest that Acus puts a voxel from where its file says: {max(ours, default=0.0):.2g} "
         f"mm; GDCM through SimpleITK: {max(theirs, default=0.0):.3g} mm, above {SAME_MM} mm in "
         f"{wrong} cases.",

@@ -9,12 +9,13 @@ from app.core.progress import Progress
 from app.imaging.reading import load_ct
 from app.imaging.scanning import scan_folder
 from app.studies.dicom_cases.cases import file_cases, folder_cases, pydicom_files
-from app.studies.dicom_cases.comparison import compare, read
+from app.studies.dicom_cases.comparison import ROUNDED, UNEXPLAINED, compare, read
 from app.studies.dicom_cases.peer import Peer, PeerImage
-from app.studies.dicom_cases.reasons import justified
+from app.studies.dicom_cases.reasons import justified, meaning
 from app.studies.errors import StudyError
 from app.studies.runner import examine
 from tests.imaging.dicom_factory import Slices
+from tests.studies.pydicom_refusals import REFUSED
 
 pytest.importorskip("SimpleITK")
 
@@ -71,16 +72,41 @@ def test_a_difference_in_a_voxel_and_in_a_place_is_told(tmp_path, peer):
 def test_the_peer_survives_what_it_cannot_read(tmp_path, peer):
     (tmp_path / "text").write_text("no image")
     assert "Error" in peer.image([tmp_path / "text"])
-    assert peer.facts([tmp_path / "text"]) == []
+    (fact,) = peer.facts([tmp_path / "text"])
+    assert not any(fact[name] for name in ("series", "preamble", "pixels"))
 
 
-def test_each_of_pydicoms_files_is_a_case_of_its_own_and_refused_for_a_right_reason(peer):
-    names = ("no_meta.dcm", "rtplan.dcm", "MR_truncated.dcm", "SC_rgb_rle.dcm", "CT_small.dcm")
-    files = [file for file in pydicom_files() if file.name in names]
-    cases = list(file_cases(files, Progress()))
-    assert sorted(case.name for case in cases) == sorted(names)
-    for case in cases:
+@pytest.fixture(scope="module")
+def pydicoms():
+    """Every case of pydicom's files, scanned once."""
+    return tuple(file_cases(pydicom_files(), Progress()))
+
+
+def test_each_of_pydicoms_files_is_refused_for_the_reason_that_stands_in_the_table(pydicoms):
+    expected = {name: reason for reason, names in REFUSED.items() for name in names.split()}
+    assert len({case.name for case in pydicoms}) == len(pydicoms)
+    for case in pydicoms:
+        assert case.name in expected, f"{case.name} is not in the table: {case.found.reason}"
+        assert case.found.reason.startswith(expected[case.name]), case.name
+    own = {file.name for file in pydicom_files() if "test_files" in file.parts}
+    assert own <= {case.name for case in pydicoms}
+
+
+def test_every_one_of_those_reasons_is_confirmed_by_pydicom(pydicoms, peer):
+    for case in pydicoms:
         assert justified(case.found.reason, peer.facts(case.files)), case.name
+        assert meaning(case.found.reason), case.found.reason
+
+
+def test_hardly_another_reason_would_have_been_confirmed(pydicoms, peer):
+    """No other modality for any file, and nothing at all but "a single slice" for a sound slice."""
+    for case in pydicoms[::3]:
+        facts = peer.facts(case.files)
+        alone = case.found.reason.startswith("a single slice")
+        for other in REFUSED:
+            other_kind = "modality" in other and "none given" not in other
+            if not case.found.reason.startswith(other) and (alone or other_kind):
+                assert not justified(other, facts), (case.name, other)
 
 
 def test_a_wrong_reason_is_not_taken_for_right(peer):
@@ -88,7 +114,46 @@ def test_a_wrong_reason_is_not_taken_for_right(peer):
     facts = peer.facts([file])
     assert not justified("not CT (modality MR)", facts)
     assert not justified("damaged file (truncated)", facts)
+    assert not justified("gap: 1 slice is missing", facts)
     assert not justified("something else", facts)
+    assert not justified("not CT (modality MR)", [])
+
+
+@pytest.mark.parametrize(
+    ("offsets", "right", "wrong"),
+    [
+        ((0.0, 2.0, 6.0, 8.0), ("gap", "uneven"), ("doubled", "mixed orientations")),
+        ((0.0, 2.0, 4.1, 6.1), ("uneven",), ("gap", "doubled")),
+        ((0.0, 2.0, 2.0, 4.0), ("doubled",), ("mixed orientations", "mixed image sizes")),
+        ((0.0, 2.0, 4.0, 6.0), (), ("gap", "uneven", "doubled", "mixed pixel spacings")),
+    ],
+)
+def test_what_is_said_of_the_places_of_slices_is_measured_anew(
+    tmp_path, peer, offsets, right, wrong
+):
+    facts = peer.facts(Slices(offsets=offsets).write(tmp_path))
+    assert all(justified(f"{reason}: so they say", facts) for reason in right)
+    assert not any(justified(f"{reason}: so they say", facts) for reason in wrong)
+
+
+def test_a_difference_of_rounding_is_told_from_one_of_voxels(tmp_path, peer):
+    Slices(tags={"RescaleSlope": "1.3"}).write(tmp_path / "ct")
+    (series,) = scan_folder(tmp_path / "ct").series
+    ours, theirs = read(series), peer.image(series.files)
+    found = compare(series, ours, theirs, peer)
+    assert found.values == ROUNDED
+    assert found.because.startswith("slope 1.3: GDCM keeps 64 bits")
+    spoilt = theirs.values.copy()
+    spoilt[0, 0, 0] += 0.01
+    found = compare(series, ours, PeerImage(spoilt, theirs.affine_mm), peer)
+    assert (found.values, found.because) == ("to 0.01", UNEXPLAINED)
+
+
+def test_a_misplacement_by_the_peer_is_explained(tmp_path, peer):
+    Slices(shear=0.25).write(tmp_path / "tilted")
+    (series,) = scan_folder(tmp_path / "tilted").series
+    found = compare(series, read(series), peer.image(series.files), peer)
+    assert found.because == "gantry tilt 14.0°: GDCM stacks the slices straight"
 
 
 def test_files_of_a_refused_series_are_cases_too(tmp_path):

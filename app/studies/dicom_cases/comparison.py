@@ -18,6 +18,11 @@ from app.studies.dicom_cases.peer import Peer, PeerImage
 VOXELS = 1000
 """Voxels drawn at random, for their place."""
 
+ROUNDED = "equal, rounded"
+"""Voxels that are the nearest 32-bit numbers to the peer's of 64 bits."""
+
+UNEXPLAINED = "unexplained"
+
 SAME_MM = 0.01
 """Places that differ by less are the same."""
 
@@ -42,16 +47,18 @@ class Agreement:
     """How two readings compare.
 
     Attributes:
-        values: "equal", "to 3" for the largest difference, or why there is none.
+        values: "equal", `ROUNDED`, "to 3" for the largest difference, or why there is none.
         geometry: "equal", or how far apart the same voxel lies.
         ours_mm, peer_mm: farthest that a voxel lies from where its own file puts it; None where
             there is no volume.
+        because: where the two differ, what makes them.
     """
 
     values: str
     geometry: str
     ours_mm: float | None
     peer_mm: float | None
+    because: str = ""
 
 
 def read(series: Series) -> Ours:
@@ -102,11 +109,14 @@ def compare(series: Series, ours: Ours, theirs: PeerImage, peer: Peer) -> Agreem
     apart = ""
     if ours.affine_mm is not None:
         apart = _apart(ours.affine_mm, affine, ours.values.shape)
+    off = _off(affine, planes, ours.values.shape)
+    differ = _differ(ours.values, values)
     return Agreement(
-        _differ(ours.values, values),
+        differ,
         apart,
         _off(ours.affine_mm, planes, ours.values.shape),
-        _off(affine, planes, ours.values.shape),
+        off,
+        "; ".join(filter(None, (_cause(series, differ), _misplacement(series, off)))),
     )
 
 
@@ -138,11 +148,34 @@ def _reversed(theirs: PeerImage) -> FloatArray:
 def _differ(ours: NDArray[Any], theirs: NDArray[Any]) -> str:
     if np.array_equal(ours, theirs):
         return "equal"
+    if ours.dtype == np.float32 and np.array_equal(ours, theirs.astype(np.float32)):
+        return ROUNDED
     most = max(
         float(np.abs(a.astype(np.float64) - b.astype(np.float64)).max())
         for a, b in zip(ours, theirs, strict=True)
     )
     return f"to {most:.3g}"
+
+
+def _cause(series: Series, differ: str) -> str:
+    if differ == "equal":
+        return ""
+    slopes = {header.rescale.slope for header in series.slices if header.rescale is not None}
+    broken = sorted(slope for slope in slopes if not slope.is_integer())
+    if differ == ROUNDED and broken:
+        return f"slope {broken[0]:g}: GDCM keeps 64 bits, Acus the nearest number of 32"
+    return UNEXPLAINED
+
+
+def _misplacement(series: Series, peer_mm: float | None) -> str:
+    """Why the peer puts voxels elsewhere than their files do."""
+    if peer_mm is None or peer_mm < SAME_MM:
+        return ""
+    if series.tilt_deg:
+        return f"gantry tilt {series.tilt_deg:.1f}°: GDCM stacks the slices straight"
+    if series.reason.startswith(("gap", "uneven")):
+        return "GDCM takes the mean distance for every slice"
+    return UNEXPLAINED
 
 
 def _apart(ours: FloatArray, theirs: FloatArray, shape: tuple[int, ...]) -> str:

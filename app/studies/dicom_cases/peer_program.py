@@ -43,8 +43,10 @@ def facts(file: str) -> dict[str, Any]:
     """Read with pydicom what a refusal is about, and where the standard puts each frame."""
     import pydicom
 
-    data = pydicom.dcmread(file, stop_before_pixels=True)
-    frames = int(data.get("NumberOfFrames") or 1)
+    data = pydicom.dcmread(file, stop_before_pixels=True, force=True)
+    if len(data) == 0:
+        raise ValueError("no element can be read")
+    frames = frames_of(data)
     return {
         "modality": str(data.get("Modality", "")),
         "sop_class": str(data.get("SOPClassUID", "")),
@@ -52,6 +54,9 @@ def facts(file: str) -> dict[str, Any]:
         "frames": frames,
         "samples": int(data.get("SamplesPerPixel") or 0),
         "photometric": str(data.get("PhotometricInterpretation", "")),
+        "bits": int(data.get("BitsAllocated") or 0),
+        "size": [int(data.get("Columns") or 0), int(data.get("Rows") or 0)],
+        "preamble": data.preamble is not None,
         "image_type": [str(word) for word in data.get("ImageType") or ()],
         "rescale": "RescaleSlope" in data,
         "pixels": decodes(file),
@@ -59,12 +64,20 @@ def facts(file: str) -> dict[str, Any]:
     }
 
 
+def frames_of(data: Any) -> int:
+    """Return the number of frames; 1 where what stands there is no number."""
+    try:
+        return int(data.get("NumberOfFrames") or 1)
+    except ValueError:
+        return 1
+
+
 def decodes(file: str) -> bool:
     """Whether pydicom makes pixels of it."""
     import pydicom
 
     try:
-        return bool(pydicom.dcmread(file).pixel_array.size)
+        return bool(pydicom.dcmread(file, force=True).pixel_array.size)
     except Exception:  # whatever a damaged file makes it raise
         return False
 
