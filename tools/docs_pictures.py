@@ -73,6 +73,7 @@ def main() -> None:
     own_settings("tools.calibration_pictures")
     own_settings("tools.eyes_pictures")
     own_settings("tools.pen_pictures")
+    own_settings("tools.reading_pictures")
     studies()
 
 

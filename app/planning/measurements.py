@@ -265,7 +265,7 @@ def _is_shown(quantity: Quantity) -> bool:
 
 
 def _said(quantity: Quantity) -> str:
-    sign = {"mean": "⌀ ", "deviation": "± "}.get(quantity.name, "")
+    sign = {"mean": "mean ", "deviation": "± "}.get(quantity.name, "")
     if quantity.value is None:
         return f"{sign}–"
     digits = 0 if quantity.name == "value" else 1

@@ -123,7 +123,7 @@ class Menus:
                 None,
             ])  # fmt: skip
             for name, folder in desk.entries():
-                action = menu.addAction(name)
+                action = menu.addAction(NAMES.shown(name))
                 action.triggered.connect(lambda _=False, f=folder: window.open_ct.open_folder(f))
 
         menu.aboutToShow.connect(fill)

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QMessageBox, QToolButton, QWi
 
 from app.core.errors import AcusError
 from app.views import theme
+from app.views.names import NAMES
 from app.views.text import tr
 
 NOTE_MS = 6000
@@ -31,7 +32,7 @@ class MessageBar(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
-        self._details = ""
+        self._line = self._details = ""
         self._topic = ""
         self._standing: dict[str, Exception | str] = {}
         self._note = QTimer(self, interval=NOTE_MS, singleShot=True)
@@ -52,6 +53,7 @@ class MessageBar(QWidget):
         row.addWidget(self._text, 1)
         row.addWidget(self._more)
         row.addWidget(self._close)
+        NAMES.changed.connect(self._write)
         self.hide()
 
     @property
@@ -105,7 +107,7 @@ class MessageBar(QWidget):
     def show_details(self) -> None:
         """Open a window with the whole message and where it comes from."""
         box = QMessageBox(QMessageBox.Icon.NoIcon, tr("Details"), self._text.text(), parent=self)
-        box.setDetailedText(self._details)
+        box.setDetailedText(NAMES.veiled(self._details))
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         box.open()
 
@@ -127,8 +129,13 @@ class MessageBar(QWidget):
         self.setStyleSheet(
             f"MessageBar {{ background: {theme.RAISED}; border-bottom: 2px solid {colour}; }}"
         )
-        line = " ".join(text.split())
-        self._text.setText(line if len(line) <= LONGEST else line[: LONGEST - 1] + "…")
-        self._details = details or (text if len(line) > LONGEST else "")
+        self._line = " ".join(text.split())
+        self._details = details or (text if len(self._line) > LONGEST else "")
         self._more.setVisible(bool(self._details))
+        self._write()
         self.show()
+
+    def _write(self) -> None:
+        """Write the message, without names while they are hidden."""
+        line = NAMES.veiled(self._line)
+        self._text.setText(line if len(line) <= LONGEST else line[: LONGEST - 1] + "…")

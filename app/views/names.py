@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 from PySide6.QtCore import QObject, Signal
 
 HIDDEN = "•••"
 
+SHORTEST = 3
+"""Shorter names are not looked for in other texts: they would be found within words."""
+
+_PSEUDONYM = re.compile(r"\b(?:CT|P)-[0-9A-Z]{6,}\b")
+_PATH = re.compile(r"(?<![\w/\\])(?:[A-Za-z]:)?[/\\](?:[^/\\:\n'\"]+[/\\])*[^\s/\\:,;'\"()]+")
+_RELATIVE = re.compile(r"[^\s:,;'\"()]+[/\\][^\s:,;'\"()]+")
+_FILE = re.compile(
+    r"[^\s/\\:,;'\"()]+\.(?:dcm|ima|nii|gz|zip|nrrd|json|csv|pdf|yaml|mcap)\b", re.IGNORECASE
+)
+
 
 class Names(QObject):
-    """Says whether names are shown.
+    """Says whether names are shown, and takes them out of texts that may hold them.
 
     Signals:
         changed(): they are hidden now, or shown again.
@@ -19,6 +32,7 @@ class Names(QObject):
     def __init__(self) -> None:
         super().__init__()
         self._hidden = False
+        self._known: set[str] = set()
 
     @property
     def are_hidden(self) -> bool:
@@ -34,6 +48,33 @@ class Names(QObject):
     def shown(self, name: str) -> str:
         """Return a name, or dots in its place; nothing stays nothing."""
         return HIDDEN if self._hidden and name else name
+
+    def learn(self, *names: str | Path) -> None:
+        """Know names that may stand in texts from now on; of a path also its last part."""
+        for name in names:
+            parts = (str(name), name.name) if isinstance(name, Path) else (name.strip(),)
+            self._known.update(part for part in parts if len(part) >= SHORTEST)
+
+    def veiled(self, text: str, files: bool = False) -> str:
+        """Return a text, or while names are hidden the text with dots for every name in it.
+
+        Names are those that were learnt, pseudonyms, and whatever looks like a path or a file.
+
+        Args:
+            text: that may hold names.
+            files: whether it speaks of files of a folder: all with a slash in it is one then.
+        """
+        if not self._hidden or not text:
+            return text
+        for name in sorted(self._known, key=len, reverse=True):
+            text = re.sub(rf"(?<!\w){re.escape(name)}(?!\w)", HIDDEN, text)
+        for pattern in (_PATH, *((_RELATIVE,) if files else ()), _FILE, _PSEUDONYM):
+            text = pattern.sub(HIDDEN, text)
+        return text
+
+    def folder(self, wanted: Path) -> Path:
+        """Return where a file dialog begins: the home folder while names are hidden."""
+        return Path.home() if self._hidden else wanted
 
 
 NAMES = Names()

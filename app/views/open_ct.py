@@ -14,6 +14,7 @@ from app.core.progress import Progress
 from app.imaging.errors import ImagingError
 from app.imaging.series import Listing, Remedy, Series
 from app.views.background import Indicator, Task, run_in_background
+from app.views.names import NAMES
 from app.views.patient import Patient, load_phantom, read_patient
 from app.views.series.browser import SeriesBrowser
 from app.views.settings import Recents
@@ -41,16 +42,15 @@ class OpenCt(QObject):
 
     def ask(self) -> None:
         """Ask for a folder and open it."""
-        recent = self._recents.paths()
-        start = str(recent[0].parent if recent else Path.home())
-        name = QFileDialog.getExistingDirectory(self._window, tr("Open CT folder"), start)
+        name = QFileDialog.getExistingDirectory(
+            self._window, tr("Open CT folder"), str(self._start_folder())
+        )
         if name:
             self.open_folder(Path(name))
 
     def ask_file(self) -> None:
         """Ask for an archive, a directory of a medium or a NIfTI file and open it."""
-        recent = self._recents.paths()
-        start = str(recent[0].parent if recent else Path.home())
+        start = str(self._start_folder())
         kinds = tr("CT archives and files") + " (*.zip DICOMDIR *.nii *.nii.gz);;" + tr("All (*)")
         name = QFileDialog.getOpenFileName(self._window, tr("Open CT file"), start, kinds)[0]
         if name:
@@ -67,11 +67,16 @@ class OpenCt(QObject):
             remedy: what is asked for in reading it; then nothing is asked of the user.
         """
         source = path.parent if path.is_file() and not _is_source(path) else path
+        NAMES.learn(path, source)
         self._start(
             tr("Looking for CT series in {name}", name=source.name),
             lambda progress: _scan(source, progress),
             lambda listing: self._choose(listing, series, remedy),
         )
+
+    def _start_folder(self) -> Path:
+        recent = self._recents.paths()
+        return NAMES.folder(recent[0].parent if recent else Path.home())
 
     def browse(self) -> None:
         """Show the series of the folder that was opened last."""

@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QToolButton, QV
 
 from app.views import theme
 from app.views.background import Task
+from app.views.names import NAMES
 from app.views.text import tr
 
 
@@ -47,8 +48,8 @@ class ProgressStrip(QWidget):
 class _Row(QWidget):
     def __init__(self, title: str, parent: QWidget) -> None:
         super().__init__(parent)
-        self._title = title
-        self._text = QLabel(title, self)
+        self._title, self._line = title, title
+        self._text = QLabel(self)
         self._bar = QProgressBar(self)
         self._bar.setRange(0, 1000)
         self._bar.setTextVisible(False)
@@ -60,8 +61,15 @@ class _Row(QWidget):
         row.addWidget(self._text)
         row.addWidget(self._bar, 1, Qt.AlignmentFlag.AlignVCenter)
         row.addWidget(self.cancel)
+        NAMES.changed.connect(self._write)
+        self._write()
 
     def show_progress(self, fraction: float, text: str) -> None:
         """Move the bar."""
         self._bar.setValue(int(1000 * fraction))
-        self._text.setText(f"{self._title}: {text}" if text else self._title)
+        self._line = f"{self._title}: {text}" if text else self._title
+        self._write()
+
+    def _write(self) -> None:
+        """Write the title, without names while they are hidden."""
+        self._text.setText(NAMES.veiled(self._line))

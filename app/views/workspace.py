@@ -72,11 +72,10 @@ class Workspace(QWidget):
         self.bullseye = Bullseye(self)
         self.scan_view = ScanView(self.viewing, self)
         self.needle_cell = NeedleCell(self.bullseye, self.scan_view)
-        slices = (*self.panes, *self.needle_panes)
-        panes: dict[str, QWidget] = {str(pane.pane): pane for pane in slices}
+        panes: dict[str, QWidget] = {str(pane.pane): pane for pane in self.slices}
         self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: _Cell(self.needle_cell)}, self)
         self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
-        for pane in slices:
+        for pane in self.slices:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
             pane.leave_wanted.connect(lambda on, pane=pane: self._go_on(pane, on))
         cell = self.grid.pane(BULLSEYE)
@@ -96,6 +95,11 @@ class Workspace(QWidget):
         self._lay_out()
 
     @property
+    def slices(self) -> tuple[SlicePane, ...]:
+        """All slice panes of the planning CT, whether the layout shows them or not."""
+        return (*self.panes, *self.needle_panes)
+
+    @property
     def exercise_views(self) -> ExerciseViews:
         """The widgets that the exercise controller feeds."""
         return ExerciseViews(
@@ -107,7 +111,7 @@ class Workspace(QWidget):
         for pane in self.needle_panes:
             pane.canvas.seen.connect(self._watch_needle_panes)
             pane.menu_parts.append(lambda menu: fill_needle_menu(menu, planes, viewing))
-        for pane in (*self.panes, *self.needle_panes):
+        for pane in self.slices:
             self.two_points.show_in(pane)
         planes.changed.connect(self._show_needle_words)
         planes.changed.connect(self._show_two_points)

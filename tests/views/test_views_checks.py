@@ -21,7 +21,7 @@ from app.views.checks.registration_dialog import RegistrationDialog
 from app.views.checks.words import agreement_item
 from app.views.error_overlay import PATIENCE, Enlargement, ErrorOverlay
 from app.views.exercise.status_items import Verdict
-from app.views.scene.view import error_note
+from app.views.scene.words import error_note
 
 MM = 1e-3
 PLATE = load_plate("stepped-plate")

@@ -88,7 +88,7 @@ def test_a_click_probes_and_a_drag_makes_a_region(shown) -> None:
     assert isinstance(region, Region)
     np.testing.assert_allclose(region.centre_mm, (-5.0, -7.0, 140.0), atol=1e-6)
     text = editor.measured(region).text
-    assert text.startswith("⌀ 40.0 HU  ± 0.0 HU")
+    assert text.startswith("mean 40.0 HU  ± 0.0 HU")
 
 
 def test_a_click_with_distance_or_region_measures_nothing(shown) -> None:

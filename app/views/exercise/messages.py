@@ -2,16 +2,21 @@
 
 from typing import Final
 
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
 
 from app.core.events import Event
 from app.views import theme
 from app.views.exercise.readouts import clock_text
+from app.views.names import NAMES
 from app.views.text import tr
 
 LONGEST: Final = 200
 """Lines kept; older ones are in the record."""
+
+_LINE: Final = Qt.ItemDataRole.UserRole
+"""The line as it came, names and all."""
 
 _LOOKS: Final = {
     "state": (theme.TEXT, "•"),
@@ -32,6 +37,7 @@ class MessageList(QListWidget):
         self._origin: float | None = None
         self.setWordWrap(True)
         self.setAccessibleName(tr("Messages"))
+        NAMES.changed.connect(self._write)
 
     def start_clock(self, origin: float) -> None:
         """Count times from `origin` [s]; before that they are left out."""
@@ -42,9 +48,16 @@ class MessageList(QListWidget):
         colour, symbol = _LOOKS.get(event.kind, (theme.TEXT_DIM, "•"))
         known = self._origin is not None and event.time >= self._origin
         when = clock_text(event.time - (self._origin or 0.0)) + "  " if known else ""
-        item = QListWidgetItem(f"{symbol} {when}{event.message}")
+        line = f"{symbol} {when}{event.message}"
+        item = QListWidgetItem(NAMES.veiled(line))
+        item.setData(_LINE, line)
         item.setForeground(QColor(theme.now(colour)))
         self.addItem(item)
         while self.count() > LONGEST:
             self.takeItem(0)
         self.scrollToBottom()
+
+    def _write(self) -> None:
+        """Write all lines anew, without names while they are hidden."""
+        for row in range(self.count()):
+            self.item(row).setText(NAMES.veiled(str(self.item(row).data(_LINE))))

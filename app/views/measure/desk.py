@@ -43,7 +43,7 @@ class MeasureDesk(QObject):
         workspace = window.workspace
         editor, panel, viewing = workspace.measure, workspace.measure_panel, workspace.viewing
         self._editor, self._viewing, self._window = editor, viewing, window
-        self.attach((*workspace.panes, *workspace.needle_panes))
+        self.attach(workspace.slices)
         viewing.volume_changed.connect(lambda: editor.set_volume(viewing.volume))
         viewing.tool_changed.connect(self._plan_tool_taken)
         editor.tool_changed.connect(self._measure_tool_taken)

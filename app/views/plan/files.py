@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from app.core.errors import AcusError
 from app.exchange.markups import read_plan, write_plan
+from app.views.names import NAMES
 from app.views.plan.editor import PlanEditor
 from app.views.settings import Recents
 from app.views.text import tr
@@ -51,7 +52,8 @@ class PlanFiles(QObject):
 
     def save_as(self) -> bool:
         """Ask where to write; return whether it was written."""
-        start = str(self._editor.path or Path.home() / f"{self._editor.edit.draft.name}{SUFFIX}")
+        own = self._editor.path or Path.home() / f"{self._editor.edit.draft.name}{SUFFIX}"
+        start = str(NAMES.folder(own))
         name, _ = QFileDialog.getSaveFileName(
             self._window, tr("Save plan"), start, tr("Plans (*{suffix})", suffix=SUFFIX)
         )
@@ -81,13 +83,15 @@ class PlanFiles(QObject):
         return answer == buttons.Discard
 
     def _ask_open(self) -> None:
-        start = str(self._editor.path.parent if self._editor.path else Path.home())
+        own = self._editor.path.parent if self._editor.path else Path.home()
+        start = str(NAMES.folder(own))
         kinds = tr("Plans (*{suffix} *.json)", suffix=SUFFIX)
         name, _ = QFileDialog.getOpenFileName(self._window, tr("Open plan"), start, kinds)
         if name:
             self._open(Path(name))
 
     def _open(self, path: Path) -> None:
+        NAMES.learn(path)
         try:
             plan = read_plan(path)
         except AcusError as error:
@@ -98,6 +102,7 @@ class PlanFiles(QObject):
         self.noted.emit(tr("Opened {name}", name=path.name))
 
     def _write(self, path: Path) -> bool:
+        NAMES.learn(path)
         try:
             write_plan(path, self._editor.edit.draft.plan())
         except AcusError as error:

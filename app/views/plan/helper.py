@@ -55,7 +55,7 @@ class PathsHelper(QObject):
         self._task: Task | None = None
         self._stands_on: tuple[object, ...] = ()
         self._layers = []
-        for pane in workspace.panes:
+        for pane in workspace.slices:
             layer = EntryMapLayer(pane.canvas.scene())
             pane.canvas.add_layer(layer)
             self._layers.append(layer)
@@ -123,7 +123,7 @@ class PathsHelper(QObject):
         self._draw(None)
 
     def _draw(self, shown: EntryMap | None) -> None:
-        for pane, layer in zip(self._workspace.panes, self._layers, strict=True):
+        for pane, layer in zip(self._workspace.slices, self._layers, strict=True):
             layer.set_map(shown)
             pane.canvas.refresh()
         self._workspace.scene.set_entry_map(shown)

@@ -136,7 +136,7 @@ class PathsPanel(QWidget):
 def _table() -> QTableWidget:
     table = QTableWidget(0, 4)
     table.setHorizontalHeaderLabels(
-        [tr("Score"), tr("Length\n[mm]"), tr("Angle\n[°]"), tr("Nearest structure\n[mm]")]
+        [tr("Score"), tr("Length\n[mm]"), tr("Angle\n[°]"), tr("Nearest\n[mm]")]
     )
     table.verticalHeader().setVisible(False)
     table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)

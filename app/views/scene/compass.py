@@ -30,6 +30,7 @@ def compass_ends(orbit: Orbit) -> list[tuple[str, FloatArray]]:
 
 def draw_compass(painter: QPainter, orbit: Orbit, middle: QPointF) -> None:
     """Draw the axes around `middle`; what points at the viewer is bright and on top."""
+    painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     font = QFont(painter.font())
     font.setPixelSize(theme.SMALL_PX)
@@ -44,3 +45,4 @@ def draw_compass(painter: QPainter, orbit: Orbit, middle: QPointF) -> None:
         place = middle + QPointF(right, down) * (LENGTH_PX + 9.0)
         box = QRectF(place.x() - 10, place.y() - 10, 20, 20)
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, letter)
+    painter.restore()

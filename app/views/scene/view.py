@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from time import monotonic
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import QPointF, Qt, QTimer, Signal
+from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtGui import (
     QCloseEvent,
     QColor,
@@ -29,9 +28,11 @@ from app.views import theme
 from app.views.error_overlay import Enlargement
 from app.views.needle_overlay import NeedleOverlay
 from app.views.scene.compass import draw_compass
+from app.views.scene.feed import SceneFeed
 from app.views.scene.orbit import Orbit
-from app.views.scene.renderer import Change, SceneRenderer, Shot
+from app.views.scene.renderer import SceneRenderer
 from app.views.scene.robot import RobotShape
+from app.views.scene.words import Entry, draw_words
 from app.views.text import tr
 
 if TYPE_CHECKING:
@@ -39,13 +40,6 @@ if TYPE_CHECKING:
     from app.views.plan.entry_map import EntryMap
     from app.views.scene.mesh import Mesh
     from app.views.scene.surfaces import Surfaces
-
-POLL_MS = 25
-SETTLE_S = 0.3
-"""How long the view must not be turned before it is drawn fine."""
-
-SHORTEST_PAUSE_S, SHARE = 0.1, 0.25
-"""Fine pictures come at most this often, and take at most this share of the time."""
 
 HOME_TURN_PX = (-50.0, 30.0)
 """From the front one first looks a little from the left and from above, for depth."""
@@ -72,58 +66,66 @@ class SceneView(QWidget):
         super().__init__(parent)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(120, 90)
-        self._renderer = renderer
-        self._image = QImage()
         self._home = Orbit.look_from("A", np.zeros(3), 250.0)
-        self.orbit = self._home
+        self._feed = SceneFeed(renderer, self._home, self)
+        self._feed.arrived.connect(self.update)
         self._body: FloatArray = _box(np.zeros((1, 3)))
         self._robot: FloatArray | None = None
         self.note = ""
+        self.legend: tuple[Entry, ...] = ()
         self._enlargement = Enlargement()
-        self._turned_at = self._fine_at = -SETTLE_S
-        self._fine, self._pending = False, False
         self._pressed, self._last = QPointF(), QPointF()
-        self._timer = QTimer(self, interval=POLL_MS)
-        self._timer.timeout.connect(self._look)
-        self._timer.start()
-        renderer.open()
+
+    @property
+    def orbit(self) -> Orbit:
+        """From where one looks."""
+        return self._feed.orbit
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether the picture is the fine one of what there is to be seen."""
+        return self._feed.is_settled
 
     # --- what is shown ------------------------------------------------------------------------
     def set_volume(self, volume: Volume) -> None:
         """Look at another patient; the old surfaces go."""
         corners = volume.lps_mm(np.array([(0, 0, 0), volume.size]) - 0.5)
         self._body, self._robot = _box(corners), None
-        self._change("surfaces", lambda stage: stage.set_surfaces(None))
+        self._feed.change("surfaces", lambda stage: stage.set_surfaces(None))
         self._fit_home()
         self.set_orbit(self._home)
 
     def set_surfaces(self, surfaces: Surfaces | None) -> None:
         """Show skin and bone."""
-        self._change("surfaces", lambda stage: stage.set_surfaces(surfaces))
+        self._feed.change("surfaces", lambda stage: stage.set_surfaces(surfaces))
         if surfaces is not None and len(surfaces.skin.points):
             self._body = _box(surfaces.skin.points.astype(np.float64))
             self._fit_home()
 
-    def set_structures(self, shown: tuple[tuple[Colour, Mesh], ...]) -> None:
-        """Show structures as surfaces, each in its colour."""
-        self._change("structures", lambda stage: stage.set_structures(shown))
+    def set_structures(
+        self, shown: tuple[tuple[Colour, Mesh], ...], legend: tuple[Entry, ...] = ()
+    ) -> None:
+        """Show structures as surfaces, each in its colour, and say which is which."""
+        self._feed.change("structures", lambda stage: stage.set_structures(shown))
+        self.legend = legend
+        self.update()
 
     def set_entry_map(self, shown: EntryMap | None) -> None:
         """Show scored entries on the skin, or none."""
-        self._change("entry map", lambda stage: stage.set_entry_map(shown))
+        self._feed.change("entry map", lambda stage: stage.set_entry_map(shown))
 
     def set_plan(self, draft: DraftPlan) -> None:
         """Show entry, target and path."""
-        self._change("plan", lambda stage: stage.set_plan(draft))
+        self._feed.change("plan", lambda stage: stage.set_plan(draft))
 
     def set_needle(self, needle: NeedleOverlay | None) -> None:
         """Show the needle."""
         scale = self._enlargement.follow(needle.error if needle is not None else None)
-        self._change("needle", lambda stage: stage.set_needle(needle, scale))
+        self._feed.change("needle", lambda stage: stage.set_needle(needle, scale))
 
     def set_robot(self, robot: RobotShape | None, T_patient_world: RigidTransform) -> None:
         """Show the robot, placed under the patient."""
-        self._change("robot", lambda stage: stage.set_robot(robot, T_patient_world))
+        self._feed.change("robot", lambda stage: stage.set_robot(robot, T_patient_world))
         if robot is None:
             return
         rods = np.array([point for rod in robot.links() for point in rod])
@@ -146,9 +148,7 @@ class SceneView(QWidget):
 
     def set_orbit(self, orbit: Orbit) -> None:
         """Look from somewhere else."""
-        self.orbit = orbit
-        self._turned_at = monotonic()
-        self._pending = True
+        self._feed.turn(orbit)
 
     def set_note(self, note: str) -> None:
         """Write a line at the bottom, such as the progress of the surfaces."""
@@ -157,68 +157,28 @@ class SceneView(QWidget):
 
     def picture(self) -> QImage:
         """Return the newest picture."""
-        return self._image
+        return self._feed.image
 
     def close_renderer(self) -> None:
         """Stop looking and stop the thread; idempotent."""
-        self._timer.stop()
-        self._renderer.close()
-
-    # --- rendering ----------------------------------------------------------------------------
-    def _change(self, kind: str, change: Change) -> None:
-        self._renderer.change(kind, change)
-        self._pending = True
-
-    def _look(self) -> None:
-        picture = self._renderer.take()
-        if picture is not None:
-            height, width, _ = picture.shape
-            borrowed = QImage(picture.data, width, height, QImage.Format.Format_RGBX8888)
-            self._image = borrowed.convertToFormat(QImage.Format.Format_RGB32)
-            self.update()
-        if not self.isVisible() or not self._renderer.idle:
-            return
-        now = monotonic()
-        if now - self._turned_at < SETTLE_S:
-            if self._pending:
-                self._request(moving=True)
-                self._fine = False
-        elif (self._pending or not self._fine) and now - self._fine_at >= self._pause():
-            self._request(moving=False)
-            self._fine, self._fine_at = True, now
-
-    def _pause(self) -> float:
-        """Shortest time between fine pictures [s]: a live needle must not take a whole core."""
-        return max(SHORTEST_PAUSE_S, self._renderer.seconds / SHARE)
-
-    def _request(self, moving: bool) -> None:
-        ratio = self.devicePixelRatioF()
-        size = (max(1, int(self.width() * ratio)), max(1, int(self.height() * ratio)))
-        self._pending = False
-        self._renderer.request(Shot(self.orbit, size, moving))
+        self._feed.close()
 
     # --- events -------------------------------------------------------------------------------
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw the newest picture, stretched while a better one is on its way."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(theme.IMAGE_BACKGROUND))
-        if not self._image.isNull():
+        if not self._feed.image.isNull():
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
-            painter.drawImage(self.rect(), self._image)
+            painter.drawImage(self.rect(), self._feed.image)
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0))
-        painter.setPen(QColor(theme.IMAGE_TEXT))
-        painter.drawText(8, 20, tr("3D"))
-        if self._enlargement.scale > 0.0:
-            painter.setPen(QColor(theme.NEEDLE_TIP.colour))
-            painter.drawText(8, 38, error_note(self._enlargement.scale))
-            painter.setPen(QColor(theme.IMAGE_TEXT))
-        note = self._renderer.error and tr("3D view off: {why}", why=self._renderer.error)
-        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignBottom
-        painter.drawText(self.rect().adjusted(110, 0, -8, -6), flags, note or self.note)
+        error = self._feed.error and tr("3D view off: {why}", why=self._feed.error)
+        scale, note = self._enlargement.scale, error or self.note
+        draw_words(painter, self.rect(), scale, self.legend, note)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Ask for a picture of the new size."""
-        self._pending = True
+        self._feed.refresh()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin to turn, pan or zoom."""
@@ -272,10 +232,3 @@ def _box(points_mm: FloatArray) -> FloatArray:
     """Eight corners of the box around points, shape (8, 3)."""
     low, high = points_mm.min(axis=0), points_mm.max(axis=0)
     return np.array([np.where(bits, high, low) for bits in np.ndindex(2, 2, 2)])
-
-
-def error_note(scale: float) -> str:
-    """Say how large the tip's error is drawn."""
-    if scale == 1.0:
-        return tr("Tip error 95 %, true to scale")
-    return tr("Tip error 95 %, {scale:.0f}× enlarged", scale=scale)

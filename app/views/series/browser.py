@@ -80,7 +80,10 @@ class SeriesBrowser(QDialog):
 
     def _add_ignored(self, column: QVBoxLayout) -> None:
         files = self.listing.ignored
-        lines = [f"{self.listing.shown(file.path)}: {file.reason}" for file in files]
+        lines = [
+            f"{NAMES.shown(self.listing.shown(file.path))}: {NAMES.veiled(file.reason, files=True)}"
+            for file in files
+        ]
         self.ignored.setPlainText("\n".join(lines))
         self.ignored.setReadOnly(True)
         self.ignored.setMaximumHeight(160)

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLay
 
 from app.imaging.series import Remedy, Series
 from app.views import theme
+from app.views.names import HIDDEN, NAMES
 from app.views.text import tr
 
 PICTURE_PX = 112
@@ -37,7 +38,7 @@ class SeriesCard(QFrame):
         self.picture.setStyleSheet(
             f"background: {theme.IMAGE_BACKGROUND}; color: {theme.IMAGE_DIM}"
         )
-        self.verdict = _line(verdict(series), wraps=True)
+        self.verdict = _line(_veiled(series, verdict(series)), wraps=True)
         self.verdict.setStyleSheet(f"color: {_colour(series)}")
         row = QHBoxLayout(self)
         row.setSpacing(theme.MARGIN)
@@ -52,14 +53,14 @@ class SeriesCard(QFrame):
         row.addLayout(column)
 
     def _words(self) -> QVBoxLayout:
-        heading = _line(self.series.label, "heading")
+        heading = _line(NAMES.shown(self.series.label), "heading")
         column = QVBoxLayout()
         column.setSpacing(4)
         column.addWidget(heading)
         column.addWidget(_line(facts(self.series), "dim"))
         column.addWidget(self.verdict)
         for note in self.series.notes:
-            column.addWidget(_line(f"•  {note}", "dim", wraps=True))
+            column.addWidget(_line(f"•  {_veiled(self.series, note)}", "dim", wraps=True))
         column.addStretch()
         return column
 
@@ -134,6 +135,14 @@ def _buttons(series: Series, parent: QWidget, taking: bool) -> list[tuple[QPushB
             button.setProperty("role", "primary")
         found.append((button, remedy))
     return found
+
+
+def _veiled(series: Series, text: str) -> str:
+    """Take the files' names out of a reason while names are hidden."""
+    if NAMES.are_hidden:
+        for one in series.slices:
+            text = text.replace(one.path.name, HIDDEN)
+    return NAMES.veiled(text, files=True)
 
 
 def _line(text: str, role: str = "", wraps: bool = False) -> QLabel:

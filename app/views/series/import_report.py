@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.views import theme
+from app.views.names import NAMES
 from app.views.text import tr
 
 if TYPE_CHECKING:
@@ -41,13 +42,13 @@ class ImportReport(QDialog):
             else tr("{label}: {count} files, de-identified and checked", label=entry.label,
                     count=entry.files)
         )  # fmt: skip
-        heading = QLabel(f"{entry.name}\n{words}", self)
+        heading = QLabel(f"{NAMES.shown(entry.name)}\n{NAMES.veiled(words)}", self)
         heading.setProperty("role", "heading")
         self.warning = QLabel("\n".join(f"⚠  {text}" for text in report.warnings), self)
         self.warning.setWordWrap(True)
         self.warning.setVisible(bool(report.warnings))
         lines = [line for line in report.lines() if not line.startswith("look at this")]
-        self.text = QPlainTextEdit("\n\n".join(lines), self)
+        self.text = QPlainTextEdit(NAMES.veiled("\n\n".join(lines)), self)
         self.text.setReadOnly(True)
         kinds = QDialogButtonBox.StandardButton
         self.buttons = QDialogButtonBox(kinds.Open | kinds.Close, parent=self)

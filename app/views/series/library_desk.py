@@ -12,6 +12,7 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.series import Listing, Series
 from app.views.background import Indicator, Task, run_in_background
+from app.views.names import NAMES
 from app.views.series.browser import SeriesBrowser
 from app.views.series.candidate import of_folder, of_pacs
 from app.views.series.intake import Intake
@@ -65,6 +66,7 @@ class LibraryDesk(QObject):
 
     def import_from(self, path: Path) -> None:
         """Take in a series of a folder, archive, DICOMDIR or file; of several one is asked for."""
+        NAMES.learn(path)
         self._task = run_in_background(
             self, lambda progress: _scan(path, progress), self._choose, self.failed.emit,
             title=tr("Looking for CT series"), indicator=self._indicator,

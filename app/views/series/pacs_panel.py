@@ -30,6 +30,7 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.views import theme
 from app.views.background import Task, run_in_background
+from app.views.names import NAMES
 from app.views.progress_strip import ProgressStrip
 from app.views.text import tr
 
@@ -61,6 +62,9 @@ class PacsPanel(QDialog):
         self.servers, self.note = QComboBox(self), QLabel(self)
         self.patient, self.name = QLineEdit(self), QLineEdit(self)
         self.date = QLineEdit(self)
+        if NAMES.are_hidden:
+            for field in (self.patient, self.name):
+                field.setEchoMode(QLineEdit.EchoMode.Password)
         self.search = QPushButton(tr("Search"), self)
         self.configure = QPushButton(tr("Configure…"), self)
         self.take = QPushButton(tr("Take into the library, de-identified"), self)
@@ -88,7 +92,7 @@ class PacsPanel(QDialog):
         self.search.setEnabled(False)
         self.note.setText(tr("Searching…"))
         self._task = run_in_background(
-            self, lambda progress: _find(settings, query, progress), self._show, self._fail,
+            self, lambda progress: _find(settings, query, progress), self.show_found, self._fail,
             self._stopped, title=tr("Searching {name}", name=settings.name),
             indicator=self.strip,
         )  # fmt: skip
@@ -161,7 +165,8 @@ class PacsPanel(QDialog):
                 self.note.setText(tr("No PACS is configured yet: press Configure…"))
         self._enable()
 
-    def _show(self, found: list[Found]) -> None:
+    def show_found(self, found: list[Found]) -> None:
+        """List what a search has found."""
         self._stopped()
         self.tree.clear()
         for series, here in found:
@@ -216,8 +221,9 @@ def _row(series: FoundSeries, here: int) -> QTreeWidgetItem:
     if here:
         count = tr("{here} of {count} here, to be resumed", here=here, count=count)
     item = QTreeWidgetItem([
-        study.patient_name, study.patient_id, study.date, study.description,
-        f"{series.number}  {series.description}".strip(), series.body_part, count,
+        NAMES.shown(study.patient_name), NAMES.shown(study.patient_id), study.date,
+        NAMES.shown(study.description),
+        f"{series.number}  {NAMES.shown(series.description)}".strip(), series.body_part, count,
     ])  # fmt: skip
     item.setData(0, _ROLE, series)
     return item

@@ -27,6 +27,11 @@ class Thumbnails(QObject):
         self._series, self._size_px = tuple(series), size_px
         self._task: Task | None = None
 
+    @property
+    def is_busy(self) -> bool:
+        """Whether pictures are still to come."""
+        return self._task is not None
+
     def open(self) -> None:
         """Begin with the first."""
         self._make(0)

@@ -146,6 +146,7 @@ class SliceCanvas(MouseView):
         turn = self.viewing.look(self.pane).turn
         if pane is self.pane and turn != self._turn:
             self._turn = turn
+            self._take_plane()  # first, or the crosshair would be kept at its pixel afterwards
             self.fit()
 
     def _take_plane(self) -> None:

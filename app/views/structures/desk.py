@@ -15,9 +15,11 @@ from app.planning.clearance import Clearance
 from app.views.background import Indicator, Task, run_in_background
 from app.views.conductor import Conductor
 from app.views.plan.editor import PlanEditor
+from app.views.slices.resting import RestingLayer
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip
 from app.views.structures.layer import StructureLayer
+from app.views.structures.looks import named
 from app.views.structures.panel import StructurePanel
 from app.views.structures.watch import StructureWatch, words
 from app.views.text import tr
@@ -68,6 +70,9 @@ class StructuresDesk(QObject):
         for pane in workspace.panes:
             pane.canvas.add_layer(StructureLayer(pane.canvas.scene(), self.book))
             pane.gestures.add_grip(BrushGrip(pane.canvas, self.book, self.brush))
+        for pane in workspace.needle_panes:
+            outlines = StructureLayer(pane.canvas.scene(), self.book)
+            pane.canvas.add_layer(RestingLayer(outlines, self))
         self._connect()
 
     def _connect(self) -> None:
@@ -97,19 +102,17 @@ class StructuresDesk(QObject):
         self.book.set_locked(self._editor.locked)
 
     def _show(self) -> None:
-        for pane in self._workspace.panes:
+        for pane in self._workspace.slices:
             pane.canvas.refresh()
         self._show_surfaces()
         if self.book.unmeasured:
             self._settle.start()
 
     def _show_surfaces(self) -> None:
-        shown = tuple(
-            (one.colour, mesh)
-            for one in self.book.visible
-            if (mesh := self._meshes.get(id(one.mask))) is not None
-        )
-        self._workspace.scene.set_structures(shown)
+        meshes = [(one, self._meshes.get(id(one.mask))) for one in self.book.visible]
+        shown = tuple((one.colour, mesh) for one, mesh in meshes if mesh is not None)
+        legend = tuple((one.colour, named(one)) for one, mesh in meshes if mesh is not None)
+        self._workspace.scene.set_structures(shown, legend)
 
     def _warn(self, clearance: Clearance | None) -> None:
         self.panel.show_needle(clearance, "" if clearance is None else words(clearance))

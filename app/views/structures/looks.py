@@ -43,3 +43,8 @@ def pen(structure: Structure, width: float = 2.0) -> QPen:
     if structure.kind in DASHES:
         result.setDashPattern(list(DASHES[structure.kind]))
     return result
+
+
+def named(structure: Structure) -> str:
+    """Return its name with the sign of its kind."""
+    return f"{SIGNS[structure.kind]} {structure.name}"

@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 from app.imaging.structures.structure import Kind, Structure
 from app.planning.clearance import Clearance, Nearness
 from app.views import theme
+from app.views.names import NAMES
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, Mode
 from app.views.structures.looks import SIGNS, kind_names
@@ -104,7 +105,7 @@ class StructurePanel(QWidget):
 
     def set_note(self, text: str) -> None:
         """Say what happened to what was read or written last."""
-        self.note.setText(text)
+        self.note.setText(NAMES.veiled(text))
 
     def refresh_path(self) -> None:
         """Show the distances of the planned path."""

@@ -1,0 +1,101 @@
+"""When the 3D view asks for pictures: coarse ones while it is turned, a fine one when it rests."""
+
+from __future__ import annotations
+
+from time import monotonic
+
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QWidget
+
+from app.views.scene.orbit import Orbit
+from app.views.scene.renderer import Change, SceneRenderer, Shot
+
+POLL_MS = 25
+SETTLE_S = 0.3
+"""How long the view must not be turned before it is drawn fine."""
+
+SHORTEST_PAUSE_S, SHARE = 0.1, 0.25
+"""Fine pictures come at most this often, and take at most this share of the time."""
+
+
+class SceneFeed(QObject):
+    """Gets the pictures of one widget from the render thread.
+
+    Attributes:
+        orbit: from where the pictures are taken.
+        image: the newest picture.
+
+    Signals:
+        arrived(): there is a newer picture.
+    """
+
+    arrived = Signal()
+
+    def __init__(self, renderer: SceneRenderer, orbit: Orbit, pane: QWidget) -> None:
+        super().__init__(pane)
+        self._renderer, self._pane = renderer, pane
+        self.orbit, self.image = orbit, QImage()
+        self._turned_at = self._fine_at = -SETTLE_S
+        self._fine, self._pending = False, False
+        self._timer = QTimer(self, interval=POLL_MS)
+        self._timer.timeout.connect(self._look)
+        self._timer.start()
+        renderer.open()
+
+    @property
+    def error(self) -> str:
+        """Why no pictures come, one line; empty while all is well."""
+        return self._renderer.error
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether the picture is the fine one of what there is to be seen."""
+        return self._fine and not self._pending and self._renderer.idle
+
+    def change(self, kind: str, change: Change) -> None:
+        """Change what is seen; the newest of a kind wins."""
+        self._renderer.change(kind, change)
+        self._pending = True
+
+    def turn(self, orbit: Orbit) -> None:
+        """Look from somewhere else."""
+        self.orbit, self._turned_at = orbit, monotonic()
+        self._pending = True
+
+    def refresh(self) -> None:
+        """Ask for another picture, as after a change of the size."""
+        self._pending = True
+
+    def close(self) -> None:
+        """Stop looking and stop the thread; idempotent."""
+        self._timer.stop()
+        self._renderer.close()
+
+    def _look(self) -> None:
+        picture = self._renderer.take()
+        if picture is not None:
+            height, width, _ = picture.shape
+            borrowed = QImage(picture.data, width, height, QImage.Format.Format_RGBX8888)
+            self.image = borrowed.convertToFormat(QImage.Format.Format_RGB32)
+            self.arrived.emit()
+        if not self._pane.isVisible() or not self._renderer.idle:
+            return
+        now = monotonic()
+        if now - self._turned_at < SETTLE_S:
+            if self._pending:
+                self._request(moving=True)
+                self._fine = False
+        elif (self._pending or not self._fine) and now - self._fine_at >= self._pause():
+            self._request(moving=False)
+            self._fine, self._fine_at = True, now
+
+    def _pause(self) -> float:
+        """Shortest time between fine pictures [s]: a live needle must not take a whole core."""
+        return max(SHORTEST_PAUSE_S, self._renderer.seconds / SHARE)
+
+    def _request(self, moving: bool) -> None:
+        ratio, pane = self._pane.devicePixelRatioF(), self._pane
+        size = (max(1, int(pane.width() * ratio)), max(1, int(pane.height() * ratio)))
+        self._pending = False
+        self._renderer.request(Shot(self.orbit, size, moving))

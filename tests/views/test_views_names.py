@@ -1,0 +1,143 @@
+"""Names hidden from the room: in titles, messages, lists and dialogs."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from PySide6.QtWidgets import QLabel
+
+from app.core.errors import AcusError
+from app.core.events import Event
+from app.imaging.pacs.query import FoundSeries, FoundStudy
+from app.imaging.series import Ignored, Listing
+from app.views.exercise.messages import MessageList
+from app.views.message_bar import MessageBar
+from app.views.names import HIDDEN, NAMES, Names
+from app.views.progress_strip import ProgressStrip
+from app.views.series.browser import SeriesBrowser
+from app.views.series.card import SeriesCard
+from app.views.series.pacs_panel import PacsPanel
+
+
+@pytest.fixture(autouse=True)
+def shown_again(application):
+    yield
+    NAMES.hide(False)
+
+
+@pytest.mark.parametrize(
+    ("text", "secret"),
+    [
+        ("Looking for CT series in Smith John", "Smith"),
+        ("cannot read /home/me/Smith John/ct 3/IM1: no DICOM", "Smith"),
+        (r"cannot read C:\patients\Smith\a.dcm: no DICOM", "Smith"),
+        ("Saved smith-plan.mrk.json", "smith"),
+        ("slices 1 and 2 of SMITH_1.dcm and SMITH_2.dcm differ", "SMITH"),
+        ("CT-0F3A99B1 is not the CT of this record", "0F3A"),
+        ("patient P-0F3A99B1", "0F3A"),
+    ],
+)
+def test_names_paths_files_and_pseudonyms_become_dots_and_come_back(text, secret):
+    names = Names()
+    names.learn(Path("/data/Smith John"))
+    assert names.veiled(text) == text
+    names.hide(True)
+    assert secret not in names.veiled(text)
+    assert HIDDEN in names.veiled(text)
+    names.hide(False)
+    assert names.veiled(text) == text
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["W 400 / L 40", "1/3 of 12 mm", "W/L locked", "10 and/or 20 HU", "gap: 1 slice is missing",
+     "0.78 × 0.78 × 1.0 mm", ""],
+)  # fmt: skip
+def test_what_is_no_name_stays_as_it_is(text):
+    names = Names()
+    names.learn("ct", "", "  ")  # too short to be looked for
+    names.hide(True)
+    assert names.veiled(text) == text
+
+
+def test_a_known_name_is_not_found_within_a_word():
+    names = Names()
+    names.learn("demo")
+    names.hide(True)
+    assert names.veiled("demonstration of demo") == f"demonstration of {HIDDEN}"
+
+
+def test_an_error_that_is_shown_loses_its_path_at_once(application, destroy):
+    bar = MessageBar()
+    destroy(bar)
+    bar.show_error(AcusError("/data/Smith John/IM1 is no DICOM file"))
+    assert "Smith" in bar.text
+    NAMES.hide(True)
+    assert "Smith" not in bar.text
+    NAMES.hide(False)
+    assert "Smith" in bar.text
+
+
+def test_the_title_of_what_is_going_on_loses_the_folder(window, settle, tmp_path):
+    folder = tmp_path / "Smith John"
+    folder.mkdir()
+    window.open_ct.open_folder(folder)
+    rows = window.findChildren(ProgressStrip)[0]
+    texts = [label.text() for label in rows.findChildren(QLabel)]
+    assert any("Smith John" in text for text in texts)
+    window.projector.hide_names(True)
+    texts = [label.text() for label in rows.findChildren(QLabel)]
+    assert not any("Smith" in text for text in texts)
+    assert settle(lambda: bool(window.message_bar.text), 20.0)
+    assert "Smith" not in window.message_bar.text
+
+
+def test_lines_of_the_message_list_are_veiled_and_come_back(application, destroy):
+    lines = MessageList()
+    destroy(lines)
+    lines.add_event(Event(1.0, "recorder", "cannot write /records/smith/a.mcap"))
+    NAMES.hide(True)
+    lines.add_event(Event(2.0, "recorder", "cannot write /records/smith/b.mcap"))
+    assert all("smith" not in lines.item(row).text() for row in range(2))
+    NAMES.hide(False)
+    assert all("smith" in lines.item(row).text() for row in range(2))
+
+
+def test_the_series_browser_names_neither_folder_nor_files(application, destroy, volume):
+    NAMES.hide(True)
+    folder = Path("/data/Smith")
+    listing = Listing(
+        path=folder, series=(volume.series,),
+        ignored=(Ignored(folder / "smith.txt", "not a DICOM file"),),
+    )  # fmt: skip
+    browser = SeriesBrowser(listing)
+    destroy(browser)
+    browser.thumbnails.close()
+    said = browser.windowTitle() + browser.ignored.toPlainText()
+    assert "mith" not in said
+    assert "not a DICOM file" in said
+
+
+def test_a_card_keeps_its_reason_without_the_files(application, destroy, volume):
+    NAMES.hide(True)
+    series = replace(volume.series, usable=False, reason="smith/a.dcm and smith/b.dcm differ")
+    card = SeriesCard(series)
+    destroy(card)
+    assert "smith" not in card.verdict.text()
+    assert "differ" in card.verdict.text()
+
+
+def test_the_pacs_browser_shows_nobodys_name_before_a_room(application, destroy, tmp_path,
+                                                           monkeypatch):  # fmt: skip
+    monkeypatch.setenv("ACUS_SETTINGS", str(tmp_path))
+    NAMES.hide(True)
+    panel = PacsPanel(ProgressStrip())
+    destroy(panel)
+    study = FoundStudy("1.1", "20260101", "SMITH^JOHN", "4711", "", "SMITH's CT", ("CT",), 3)
+    panel.show_found([FoundSeries("1.2", study, "2", "CT", "for Dr Smith", "CHEST", 3)])
+    item = panel.tree.topLevelItem(0)
+    words = " ".join(item.text(column) for column in range(item.columnCount()))
+    assert "mith" not in words.lower()
+    assert "4711" not in words
+    assert "20260101" in words
+    assert "CHEST" in words
