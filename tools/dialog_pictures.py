@@ -51,9 +51,9 @@ def report(studio: Studio) -> None:
 def pacs(studio: Studio) -> None:
     """Show the browser of an archive with what a search might bring; nobody in it is real."""
     keep((PacsSettings(name="archive", host="pacs.hospital.example", port=104, title="ARCHIVE"),))
-    panel = PacsPanel(studio.window.progress)
+    panel = PacsPanel()
     panel.patient.setText("40071*")
-    panel.show_found(list(_found()))
+    panel.show_found([(series, 0) for series in _found()])
     panel.show()
     studio.keep("pacs-panel", panel)
     panel.close()

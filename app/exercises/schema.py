@@ -22,6 +22,7 @@ from app.exercises.parts import (
     PlanPoints,
     View,
 )
+from app.exercises.reading import ReadingPart
 from app.planning.placement import Placement
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoringError
@@ -56,6 +57,7 @@ class Exercise(Strict):
         purpose: practice, or an assessment; the latter guides by control scans alone unless
             `guidance.mode` says otherwise.
         guidance: what pictures the student has of the needle.
+        reading: window and layout that it is read with.
         views: what is shown.
         seed: of everything random in the attempt.
     """
@@ -80,6 +82,7 @@ class Exercise(Strict):
     rules: Rules = Rules()
     purpose: Purpose = Purpose.PRACTICE
     guidance: GuidancePart = GuidancePart()
+    reading: ReadingPart = ReadingPart()
     views: tuple[View, ...] = (View.LIVE_OVERLAY, View.BULLSEYE, View.THREE_D)
     seed: Annotated[int, Field(ge=0)] = 1
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import pairwise
 
-from PySide6.QtWidgets import QGridLayout, QSizePolicy, QWidget
+from PySide6.QtWidgets import QGridLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from app.views.layouts import COLUMNS, FOUR, Layout
 
@@ -86,3 +86,17 @@ class ViewGrid(QWidget):
                 other.setVisible(other is pane)
             self._grid.addWidget(pane, 0, 0, self._rows, COLUMNS)
         pane.setFocus()
+
+
+class Cell(QWidget):
+    """Gives a widget whose texts wrap the size of its cell, not the height it would like."""
+
+    def __init__(self, content: QWidget) -> None:
+        super().__init__()
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(content)
+
+    def hasHeightForWidth(self) -> bool:
+        """Return False: the grid's shares decide."""
+        return False

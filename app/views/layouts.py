@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
+from app.exercises.reading import LayoutName
 from app.views.text import tr
 
 COLUMNS = 12
@@ -51,29 +52,29 @@ class Layout:
 _THIRDS: tuple[Cell, ...] = tuple((row, column, 1, 4) for row in (0, 1) for column in (0, 4, 8))
 _SLICES = (AXIAL, SAGITTAL, CORONAL)
 
-FOUR = Layout("2x2", (
+FOUR = Layout(LayoutName.FOUR, (
     (AXIAL, (0, 0, 1, 6)), (SAGITTAL, (0, 6, 1, 6)), (CORONAL, (1, 0, 1, 6)), (SCENE, (1, 6, 1, 6)),
 ))  # fmt: skip
-FIVE = Layout("2x2", (
+FIVE = Layout(LayoutName.FOUR, (
     (AXIAL, (0, 0, 5, 4)), (SAGITTAL, (0, 4, 5, 4)), (CORONAL, (0, 8, 5, 4)),
     (SCENE, (5, 0, 6, 4)), (BULLSEYE, (5, 4, 6, 8)),
 ))  # fmt: skip
-ONE_AND_THREE = Layout("1+3", (
+ONE_AND_THREE = Layout(LayoutName.ONE_AND_THREE, (
     (AXIAL, (0, 0, 3, 8)), (SAGITTAL, (0, 8, 1, 4)), (CORONAL, (1, 8, 1, 4)), (SCENE, (2, 8, 1, 4)),
 ))  # fmt: skip
-ONE_AND_BULLSEYE = Layout("1+3", (
+ONE_AND_BULLSEYE = Layout(LayoutName.ONE_AND_THREE, (
     (AXIAL, (0, 0, 12, 6)), (SAGITTAL, (0, 6, 5, 3)), (CORONAL, (0, 9, 5, 3)),
     (BULLSEYE, (5, 6, 7, 6)),
 ))  # fmt: skip
-SIX = Layout("6-up", tuple(
+SIX = Layout(LayoutName.SIX, tuple(
     zip((*_SLICES, IN_PLANE, IN_PLANE_90, SCENE), _THIRDS, strict=True)
 ))  # fmt: skip
-SIX_AND_BULLSEYE = Layout("6-up", (
+SIX_AND_BULLSEYE = Layout(LayoutName.SIX, (
     *zip(_SLICES, ((0, 0, 5, 4), (0, 4, 5, 4), (0, 8, 5, 4)), strict=True),
     (IN_PLANE, (5, 0, 6, 3)), (IN_PLANE_90, (5, 3, 6, 3)), (BULLSEYE, (5, 6, 6, 6)),
 ))  # fmt: skip
-NEEDLE = Layout("needle", ((IN_PLANE, (0, 0, 1, 6)), (PROBE, (0, 6, 1, 6))))
-NEEDLE_AND_BULLSEYE = Layout("needle", (
+NEEDLE = Layout(LayoutName.NEEDLE, ((IN_PLANE, (0, 0, 1, 6)), (PROBE, (0, 6, 1, 6))))
+NEEDLE_AND_BULLSEYE = Layout(LayoutName.NEEDLE, (
     (IN_PLANE, (0, 0, 12, 6)), (PROBE, (0, 6, 5, 6)), (BULLSEYE, (5, 6, 7, 6)),
 ))  # fmt: skip
 
@@ -91,11 +92,11 @@ LAYOUTS: dict[str, tuple[Layout, Layout]] = {
 
 def layout_title(name: str) -> str:
     """Name of a layout for people."""
-    titles = {
-        "2x2": tr("Two by two"),
-        "1+3": tr("One large and three"),
-        "6-up": tr("Six: slices, needle's planes, 3D"),
-        "needle": tr("Needle: in-plane and probe's-eye"),
+    titles: dict[str, str] = {
+        LayoutName.FOUR: tr("Two by two"),
+        LayoutName.ONE_AND_THREE: tr("One large and three"),
+        LayoutName.SIX: tr("Six: slices, needle's planes, 3D"),
+        LayoutName.NEEDLE: tr("Needle: in-plane and probe's-eye"),
     }
     return titles.get(name, name)
 

@@ -10,6 +10,7 @@ from PySide6.QtCore import QSettings, QSize
 
 from app.core.errors import AcusError
 from app.imaging.window import WindowLevel
+from app.views.fixed_reading import apply, let_go
 from app.views.layouts import LAYOUTS
 from app.views.slices.bindings import SCHEMES
 from app.views.slices.looks import KINDS, THICKEST_MM, Look, Slab, Turn
@@ -56,13 +57,21 @@ class Remembered:
         self._settings.sync()
 
     def follow(self, exercise: str) -> None:
-        """Keep how the last exercise was read, and read this one as it was read before."""
-        if exercise != self._exercise:
-            if self._exercise:
-                self._keep_reading()
-            self._exercise = exercise
-            workspace = self._window.workspace
-            self._take(f"exercises/{exercise}", lambda state: set_reading(workspace, state))
+        """Keep how the last exercise was read, and read this one as it was read before.
+
+        What the exercise itself says of that counts the first time, and always where it locks it.
+        """
+        if exercise == self._exercise:
+            return
+        if self._exercise:
+            self._keep_reading()
+        self._exercise = exercise
+        workspace, key = self._window.workspace, f"exercises/{exercise}"
+        let_go(workspace)
+        self._take(key, lambda state: set_reading(workspace, state))
+        taken = self._window.conductor.exercise
+        if taken is not None and (taken.reading.locked or self._settings.value(key) is None):
+            apply(workspace, taken.reading)
 
     def _keep_reading(self) -> None:
         state = json.dumps(reading(self._window.workspace))
@@ -111,6 +120,7 @@ def reading(workspace: Workspace) -> dict[str, Any]:
     return {
         "window": [greys.common.width, greys.common.level], "linked": greys.is_linked,
         "inverted": greys.is_inverted, "layout": workspace.layout_name, "looks": looks,
+        "locked": greys.is_locked and not greys.is_fixed,
     }  # fmt: skip
 
 
@@ -125,10 +135,12 @@ def set_reading(workspace: Workspace, state: Mapping[str, Any]) -> None:
     layout, viewing = state["layout"], workspace.viewing
     if layout not in LAYOUTS:
         raise ValueError(f"there is no layout {layout}")
-    if not viewing.greys.is_locked:
-        viewing.greys.set_linked(bool(state["linked"]))
-        viewing.set_window(window)
-    viewing.greys.set_inverted(bool(state["inverted"]))
+    greys = viewing.greys
+    greys.set_locked(False)
+    greys.set_linked(bool(state["linked"]))
+    viewing.set_window(window)
+    greys.set_locked(bool(state.get("locked", False)))  # states of earlier versions have none
+    greys.set_inverted(bool(state["inverted"]))
     for pane in PaneId:
         viewing.set_look(pane, looks.get(pane, Look()))
     workspace.show_layout(layout)

@@ -110,6 +110,11 @@ def scale() -> float:
     return _scale
 
 
+def px(usual: int) -> int:
+    """Return a length for the present size of the text, of one for the usual size."""
+    return round(usual * _scale)
+
+
 def now(colour: str) -> str:
     """Return what a colour of any theme is in the present one; a mark's is readable as text."""
     return translated(colour, _present)

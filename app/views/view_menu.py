@@ -149,8 +149,9 @@ class ViewMenu:
         workspace, greys = self._window.workspace, self._greys
         for name, action in self.layouts.items():
             action.setVisible(name in workspace.layouts)
-            action.setEnabled(name in workspace.layouts)
+            action.setEnabled(name in workspace.layouts and not workspace.is_layout_fixed)
             action.setChecked(name == workspace.layout_name)
+        self._locked.setEnabled(not greys.is_fixed)
         for action, is_on in self._room:
             action.setChecked(is_on())
         scheme = workspace.viewing.scheme

@@ -6,8 +6,6 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
 from PySide6.QtWidgets import QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
-from app.core.errors import AcusError
-from app.exercises.schema import Exercise
 from app.session.result import AttemptResult
 from app.views.about import about
 from app.views.cameras.desk import CamerasDesk
@@ -18,6 +16,7 @@ from app.views.debrief.page import DebriefPage
 from app.views.debrief.scan_picture import ScanPictures
 from app.views.debrief.sessions import SessionsPage
 from app.views.drops import dropped, open_dropped
+from app.views.exercise_choice import ExerciseChoice
 from app.views.measure.desk import MeasureDesk
 from app.views.menus import Menus
 from app.views.message_bar import MessageBar
@@ -41,7 +40,6 @@ from app.views.settings import Recents, open_settings
 from app.views.shortcuts import ShortcutSheet
 from app.views.start_page import StartPage
 from app.views.structures.desk import StructuresDesk
-from app.views.text import tr
 from app.views.undo import UndoOrder
 from app.views.workspace import Workspace
 
@@ -83,6 +81,7 @@ class MainWindow(QMainWindow):
             self.debrief_page, self.sessions_page, services.sessions(), parent=self
         )
         self.scan_pictures = ScanPictures(self.debrief_page, self.conductor, self.progress)
+        self.choice = ExerciseChoice(self)
         self.exercises = {exercise.id: exercise for exercise in services.exercises()}
         self._lay_out()
         self.projector = Projector(self)
@@ -117,33 +116,11 @@ class MainWindow(QMainWindow):
     # --- commands -----------------------------------------------------------------------------
     def open_phantom(self) -> None:
         """Open the phantom of the present exercise, or the first."""
-        exercise = self.conductor.exercise
-        phantom = exercise.ct.phantom if exercise is not None else None
-        self.open_ct.open_phantom(phantom.seed if phantom is not None else 1)
+        self.choice.open_phantom()
 
     def begin_exercise(self, identifier: str) -> None:
         """Take an exercise and open its patient, unless it is shown already."""
-        exercise = self.exercises.get(identifier)
-        if exercise is None:
-            names = ", ".join(self.exercises)
-            self.message_bar.show_error(tr("There is no exercise {name}; there are: {names}",
-                                           name=identifier, names=names))  # fmt: skip
-        elif self.plan_files.after_question(lambda: self._begin(exercise)):
-            self.workspace.exercise_panel.set_exercises(self._titles(), identifier)
-
-    def _begin(self, exercise: Exercise) -> None:
-        try:
-            self.conductor.set_exercise(exercise)
-        except AcusError as error:
-            self.message_bar.show_error(error)
-            return
-        patient = self.conductor.patient
-        if patient is not None and self.conductor.fits(patient):
-            self.show_workspace()
-        elif exercise.ct.phantom is not None:
-            self.open_ct.open_phantom(exercise.ct.phantom.seed)
-        elif (ct := exercise.ct).folder is not None:
-            self.open_ct.open_folder(ct.folder, ct.series, ct.remedy)
+        self.choice.begin(identifier)
 
     def cursor_to_target(self) -> None:
         """Let the slices pass through the target."""
@@ -171,18 +148,7 @@ class MainWindow(QMainWindow):
     # --- what happens -------------------------------------------------------------------------
     def show_patient(self, patient: Patient) -> None:
         """Show a patient that was opened."""
-        self.message_bar.clear()  # what went wrong before is over
-        if self.conductor.exercise is None and self.exercises:
-            self._take_first_exercise()
-        self.conductor.set_patient(patient)
-        self.show_workspace()
-
-    def _take_first_exercise(self) -> None:
-        exercise = next(iter(self.exercises.values()))
-        try:
-            self.conductor.set_exercise(exercise)
-        except AcusError as error:
-            self.message_bar.show_error(error)
+        self.choice.show_patient(patient)
 
     def show_result(self, result: AttemptResult) -> None:
         """Show the debrief of an attempt that ended."""
@@ -195,9 +161,6 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(f"{NAMES.shown(name)} – Acus" if name else "Acus")
         self.menus.undo.setEnabled(self.undo.can_undo)
         self.menus.redo.setEnabled(self.undo.can_redo)
-
-    def _titles(self) -> list[tuple[str, str]]:
-        return [(exercise.id, exercise.title) for exercise in self.exercises.values()]
 
     # --- set-up -------------------------------------------------------------------------------
     def _lay_out(self) -> None:
@@ -212,7 +175,7 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(centre)
         self.setAcceptDrops(True)
         self.start_page.set_exercises(tuple(self.exercises.values()))
-        self.workspace.exercise_panel.set_exercises(self._titles())
+        self.workspace.exercise_panel.set_exercises(self.choice.titles)
         self.workspace.exercise_panel.buttons.watch(self)
 
     def _connect(self) -> None:

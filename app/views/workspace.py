@@ -5,9 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QBoxLayout,
-    QFrame,
     QHBoxLayout,
-    QScrollArea,
     QSplitter,
     QVBoxLayout,
     QWidget,
@@ -23,7 +21,7 @@ from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.scan_view import ScanView
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.tracker_panel import TrackerPanel
-from app.views.grid import ViewGrid
+from app.views.grid import Cell, ViewGrid
 from app.views.layouts import BULLSEYE, FOUR, SCENE, chosen, possible
 from app.views.measure.editor import MeasureEditor
 from app.views.measure.panel import MeasurePanel
@@ -33,7 +31,7 @@ from app.views.robot.health_panel import HealthPanel
 from app.views.scene.renderer import SceneRenderer
 from app.views.scene.view import SceneView
 from app.views.shortcuts import disclaimer_label
-from app.views.side_panel import SidePanel
+from app.views.side_panel import SidePanel, scrolled
 from app.views.slices.lines import LineGrip, fill_turn_menu
 from app.views.slices.needle_menu import fill_needle_menu
 from app.views.slices.needle_source import Along, NeedlePlanes
@@ -73,8 +71,9 @@ class Workspace(QWidget):
         self.scan_view = ScanView(self.viewing, self)
         self.needle_cell = NeedleCell(self.bullseye, self.scan_view)
         panes: dict[str, QWidget] = {str(pane.pane): pane for pane in self.slices}
-        self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: _Cell(self.needle_cell)}, self)
+        self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: Cell(self.needle_cell)}, self)
         self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
+        self.is_layout_fixed = False
         for pane in self.slices:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
             pane.leave_wanted.connect(lambda on, pane=pane: self._go_on(pane, on))
@@ -137,9 +136,15 @@ class Workspace(QWidget):
         return possible(self.grid.names)
 
     def show_layout(self, name: str) -> None:
-        """Arrange the panes otherwise; the bull's-eye stays if it is there."""
-        self.layout_name = name if name in self.layouts else FOUR.name
+        """Arrange the panes otherwise, unless they are fixed; the bull's-eye stays."""
+        if not self.is_layout_fixed:
+            self.layout_name = name if name in self.layouts else FOUR.name
         self._arrange()
+
+    def fix_layout(self, fixed: bool) -> None:
+        """Keep the layout as it is for an exercise, or end that."""
+        self.is_layout_fixed = fixed
+        self.arranged.emit()
 
     def show_bullseye(self, shown: bool) -> None:
         """Give the bull's-eye a place in the layout, or take it away."""
@@ -169,7 +174,7 @@ class Workspace(QWidget):
 
     def add_panel(self, panel: QWidget, title: str) -> None:
         """Give one more panel its tab at the end."""
-        self.side.addTab(_scrolled(panel), title)
+        self.side.addTab(scrolled(panel), title)
 
     def show_exercise(self) -> None:
         """Bring the exercise panel and the bull's-eye to the front."""
@@ -200,8 +205,8 @@ class Workspace(QWidget):
         cameras.setStretchFactor(1, 1)
         tabs = SidePanel(self)
         tabs.setFixedWidth(SIDE_WIDTH)
-        tabs.addTab(_scrolled(self.plan_panel), tr("Plan"))
-        tabs.addTab(_scrolled(self.exercise_panel), tr("Exercise"))
+        tabs.addTab(scrolled(self.plan_panel), tr("Plan"))
+        tabs.addTab(scrolled(self.exercise_panel), tr("Exercise"))
         tabs.addTab(cameras, tr("Cameras"))
         tabs.addTab(self.health_panel, tr("Robot"))
         tabs.addTab(self.measure_panel, tr("Measure"))
@@ -222,26 +227,3 @@ class Workspace(QWidget):
         page.setSpacing(0)
         page.addLayout(row, 1)
         page.addWidget(self.status)
-
-
-class _Cell(QWidget):
-    """Gives a widget whose texts wrap the size of its cell, not the height it would like."""
-
-    def __init__(self, content: QWidget) -> None:
-        super().__init__()
-        column = QVBoxLayout(self)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(content)
-
-    def hasHeightForWidth(self) -> bool:
-        """Return False: the grid's shares decide."""
-        return False
-
-
-def _scrolled(panel: QWidget) -> QScrollArea:
-    area = QScrollArea()
-    area.setFrameShape(QFrame.Shape.NoFrame)
-    area.setWidgetResizable(True)
-    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    area.setWidget(panel)
-    return area

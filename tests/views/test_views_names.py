@@ -131,10 +131,10 @@ def test_the_pacs_browser_shows_nobodys_name_before_a_room(application, destroy,
                                                            monkeypatch):  # fmt: skip
     monkeypatch.setenv("ACUS_SETTINGS", str(tmp_path))
     NAMES.hide(True)
-    panel = PacsPanel(ProgressStrip())
+    panel = PacsPanel()
     destroy(panel)
     study = FoundStudy("1.1", "20260101", "SMITH^JOHN", "4711", "", "SMITH's CT", ("CT",), 3)
-    panel.show_found([FoundSeries("1.2", study, "2", "CT", "for Dr Smith", "CHEST", 3)])
+    panel.show_found([(FoundSeries("1.2", study, "2", "CT", "for Dr Smith", "CHEST", 3), 0)])
     item = panel.tree.topLevelItem(0)
     words = " ".join(item.text(column) for column in range(item.columnCount()))
     assert "mith" not in words.lower()

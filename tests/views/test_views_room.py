@@ -4,9 +4,12 @@ import json
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QApplication, QLineEdit
+from PySide6.QtWidgets import QApplication, QLabel, QLineEdit
+from views_exercise_attempts import review
 
+from app.exercises.reading import ReadingPart
 from app.imaging.orthogonal import OrthogonalSlicer, View
+from app.imaging.window import PRESETS, WindowLevel
 from app.planning.placement import PatientOrientation
 from app.views import theme
 from app.views.names import HIDDEN, NAMES
@@ -100,6 +103,96 @@ def test_pictures_stay_on_black_and_keep_their_colours(window, patient, desk_aga
 
 
 # --- remembered -------------------------------------------------------------------------------
+def with_reading(shown, number, /, **reading):
+    """Exercise of the list that says how it is read."""
+    exercise = list(shown.exercises.values())[number]
+    return exercise.model_copy(update={"reading": ReadingPart.model_validate(reading)})
+
+
+def test_the_lock_is_kept_for_each_exercise_alone(window, patient):
+    window.show_patient(patient)
+    greys = window.workspace.viewing.greys
+    first, second, *_ = window.exercises.values()
+    window.conductor.set_exercise(first)
+    greys.set(WindowLevel(800.0, 12.0))
+    greys.set_locked(True)
+    window.conductor.set_exercise(second)
+    greys.set_locked(False)
+    greys.set(WindowLevel(300.0, 30.0))
+    window.conductor.set_exercise(first)
+    assert greys.is_locked
+    assert greys.common == WindowLevel(800.0, 12.0)
+    window.conductor.set_exercise(second)
+    assert not greys.is_locked
+    assert greys.common == WindowLevel(300.0, 30.0)
+
+
+def test_an_exercise_says_what_one_begins_with_and_later_what_one_left_counts(window, patient):
+    window.show_patient(patient)
+    workspace, greys = window.workspace, window.workspace.viewing.greys
+    third = with_reading(window, 2, window="lung", layout="1+3")
+    window.conductor.set_exercise(third)
+    assert greys.common == PRESETS["Lung"]
+    assert workspace.layout_name == "1+3"
+    assert not greys.is_locked
+    greys.set(WindowLevel(500.0, 5.0))
+    workspace.show_layout("needle")
+    window.conductor.set_exercise(window.exercises["first-insertion"])
+    window.conductor.set_exercise(third)
+    assert greys.common == WindowLevel(500.0, 5.0)
+    assert workspace.layout_name == "needle"
+
+
+def test_what_an_exercise_locks_can_be_changed_by_nobody_until_the_next(window, patient):
+    window.show_patient(patient)
+    workspace, greys, menu = window.workspace, window.workspace.viewing.greys, window.menus.view
+    fixed = with_reading(window, 3, window="lung", layout="1+3", locked=True)
+    window.conductor.set_exercise(fixed)
+    greys.set_locked(False)
+    greys.set(WindowLevel(500.0, 5.0))
+    workspace.show_layout("2x2")
+    workspace.panes[0].reset()
+    menu._locked.trigger()
+    menu.layouts["2x2"].trigger()
+    assert greys.is_locked
+    assert greys.common == PRESETS["Lung"]
+    assert workspace.layout_name == "1+3"
+    assert workspace.grid.shown.name == "1+3"
+    assert menu._locked.isChecked()
+    assert not menu._locked.isEnabled()
+    assert not any(action.isEnabled() for action in menu.layouts.values())
+    lock = [a for a in workspace.panes[0].build_menu().actions() if "Lock" in a.text()]
+    assert not lock[0].isEnabled()
+    window.conductor.set_exercise(window.exercises["first-insertion"])
+    assert not greys.is_locked
+    greys.set(WindowLevel(500.0, 5.0))
+    workspace.show_layout("2x2")
+    assert greys.common == WindowLevel(500.0, 5.0)
+    assert workspace.layout_name == "2x2"
+    window.conductor.set_exercise(fixed)  # whatever was remembered of it
+    assert greys.common == PRESETS["Lung"]
+
+
+def test_what_an_exercise_does_not_name_it_does_not_lock(window, patient):
+    window.show_patient(patient)
+    window.conductor.set_exercise(with_reading(window, 4, layout="1+3", locked=True))
+    window.workspace.viewing.greys.set(WindowLevel(500.0, 5.0))
+    assert window.workspace.viewing.greys.common == WindowLevel(500.0, 5.0)
+
+
+def test_the_debrief_and_the_map_stay_readable_when_the_light_goes_on(window, patient, desk_again):
+    window.show_patient(patient)
+    page = window.debrief_page
+    page.show_review(review())
+    window.projector.set_light(True)
+    words = [page.table.item(0, column).foreground().color().name() for column in range(4)]
+    assert all(contrast(word, LIGHT.field) >= 4.5 for word in words), words
+    key = window.paths.panel._key.findChildren(QLabel)
+    colours = [label.styleSheet().split("#")[1][:6] for label in key]
+    assert all(contrast(f"#{colour}", LIGHT.background) >= 3.0 for colour in colours), colours
+    assert len(set(colours)) == len(colours)
+
+
 def test_each_exercise_is_read_as_it_was_read_before(window, patient):
     window.show_patient(patient)
     workspace, viewing = window.workspace, window.workspace.viewing

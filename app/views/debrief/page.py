@@ -17,6 +17,9 @@ from app.views.exercise.state_words import state_word
 from app.views.names import NAMES
 from app.views.text import disclaimer, tr
 
+_LEFT = 500
+"""Width of what stands beside the curves [px]."""
+
 
 class DebriefPage(QWidget):
     """Shows one attempt; what its buttons do is up to whoever listens.
@@ -97,11 +100,11 @@ class DebriefPage(QWidget):
         column.addWidget(self.table, 3)
         column.addWidget(self.scans, 2)
         column.addWidget(self.path, 4)
-        splitter = QSplitter(Qt.Orientation.Horizontal, self)
+        self._splitter = splitter = QSplitter(Qt.Orientation.Horizontal, self)
         splitter.addWidget(left)
         splitter.addWidget(self.curves)
         splitter.setStretchFactor(1, 1)
-        splitter.setSizes([500, 900])
+        splitter.setSizes([_LEFT, 900])
         buttons = QHBoxLayout()
         note = QLabel(disclaimer(), self)
         note.setProperty("role", "disclaimer")
@@ -119,10 +122,16 @@ class DebriefPage(QWidget):
         self.retry.clicked.connect(self.retry_requested)
         self.sessions.clicked.connect(self.sessions_requested)
 
-    def show_names(self) -> None:
-        """Write anew who it was, or hide it."""
+    def suit_room(self) -> None:
+        """Write anew who it was, or hide it; take the present colours and size of the text."""
+        self._share_width()
         if self._review is not None:
             self._facts.setText(facts(self._review))
+            self.table.show_score(self._review.score)
+
+    def _share_width(self) -> None:
+        left = theme.px(_LEFT)
+        self._splitter.setSizes([left, max(left, self.width() - left)])
 
     def _emit(self, signal: SignalInstance) -> None:
         if self._review is not None:

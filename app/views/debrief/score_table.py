@@ -15,7 +15,7 @@ from app.views import theme
 from app.views.debrief.score_words import counting, row_texts, shown_only
 from app.views.text import tr
 
-_ROW_HEIGHT = 26
+_ROW_HEIGHT, _WEIGHT = 26, 4
 
 
 class ScoreTable(QTableWidget):
@@ -40,6 +40,8 @@ class ScoreTable(QTableWidget):
     def show_score(self, score: Score | None) -> None:
         """Fill the table; None empties it."""
         self.setRowCount(0)
+        self.verticalHeader().setDefaultSectionSize(theme.px(_ROW_HEIGHT))
+        self.setColumnHidden(_WEIGHT, theme.scale() > 1.0)  # the points say it too
         if score is None:
             return
         for row in (*counting(score), *shown_only(score)):

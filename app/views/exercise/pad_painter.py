@@ -41,10 +41,10 @@ class PadArea:
 
 def paint_blind(painter: QPainter, area: PadArea, words: str) -> None:
     """Rim and words: a field to move the hand in that says nothing of where it is."""
-    painter.setPen(QPen(QColor(theme.BORDER), 1.5))
+    painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.5))
     painter.setBrush(QColor("#0e1114"))
     painter.drawEllipse(area.centre, area.radius, area.radius)
-    painter.setPen(QColor(theme.TEXT_DIM))
+    painter.setPen(QColor(theme.IMAGE_DIM))
     half = 0.7 * area.radius
     box = QRectF(area.centre.x() - half, area.centre.y() - half, 2 * half, 2 * half)
     flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap

@@ -73,7 +73,7 @@ class DirectionsView(QWidget):
             if filled:  # not by colour alone
                 angle = 2.0 * pi * side / len(SIDES)
                 place = middle + QPointF(cos(angle), -sin(angle)) * (0.72 * radius)
-                painter.setPen(QColor("#0b0d0f"))
+                painter.setPen(QColor(theme.present().on_accent))
                 painter.drawText(
                     QRectF(place.x() - 9, place.y() - 9, 18, 18), Qt.AlignmentFlag.AlignCenter, "✔"
                 )

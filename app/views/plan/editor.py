@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from numpy.typing import ArrayLike
 from PySide6.QtCore import QObject, Signal
 
-from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.mechanisms.profile import DeviceProfile
 from app.planning.draft import DraftPlan
 from app.planning.history import History
-from app.planning.placement import PlacedPlan, Placement
+from app.planning.placement import Placement
 from app.planning.plan import Plan
-from app.planning.reach import Reach, reach
+from app.views.plan.judge import Edit, Judge, Verdict
 from app.views.slices.viewing import Tool
 
 if TYPE_CHECKING:
@@ -27,33 +25,6 @@ Point = tuple[float, float, float]
 
 OWN_TOOLS = (Tool.ENTRY, Tool.TARGET)
 """Tools whose points the plan takes."""
-
-
-@dataclass(frozen=True, slots=True)
-class Edit:
-    """What undo goes back to: points and position together."""
-
-    draft: DraftPlan = field(default_factory=DraftPlan)
-    placement: Placement = field(default_factory=Placement)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Verdict:
-    """What can be said about an edit.
-
-    Attributes:
-        reach: the robot's answer; None while the plan is incomplete or not usable.
-        problem: why there is no answer, or what else is wrong; empty if nothing is.
-    """
-
-    reach: Reach | None
-    problem: str = ""
-
-    @property
-    def placed(self) -> PlacedPlan | None:
-        """The plan in the robot's frame, if the robot can follow it."""
-        usable = self.reach is not None and self.reach.reachable and not self.problem
-        return self.reach.placed if usable and self.reach is not None else None
 
 
 KEPT = "this exercise gives the target; the entry is yours to choose"
@@ -76,8 +47,7 @@ class PlanEditor(QObject):
         super().__init__(parent)
         self._history = History(Edit())
         self._saved = Edit()
-        self._body: Body | None = None
-        self._profile: DeviceProfile | None = None
+        self._judge = Judge()
         self.path: Path | None = None
         self.locked = self.keeps_target = False
         self._fresh = True  # the present gesture has changed nothing yet
@@ -107,12 +77,12 @@ class PlanEditor(QObject):
     # --- what it stands on --------------------------------------------------------------------
     def set_body(self, body: Body | None) -> None:
         """Take the patient whose skin entries snap to."""
-        self._body = body
+        self._judge.body = body
         self._announce()
 
     def set_profile(self, profile: DeviceProfile) -> None:
         """Take the device whose reach is judged."""
-        self._profile = profile
+        self._judge.profile = profile
         self._announce()
 
     def set_locked(self, locked: bool) -> None:
@@ -167,7 +137,7 @@ class PlanEditor(QObject):
             return
         self._fresh = self._fresh or starts_step
         try:
-            place = self._on_skin(point) if tool is Tool.ENTRY else point
+            place = self._judge.on_skin(point) if tool is Tool.ENTRY else point
             draft = self.edit.draft
             draft = draft.with_entry(place) if tool is Tool.ENTRY else draft.with_target(place)
         except AcusError as error:
@@ -228,33 +198,6 @@ class PlanEditor(QObject):
             self.refused.emit("the plan cannot change while an attempt runs: end it first")
         return self.locked
 
-    def _on_skin(self, point: ArrayLike) -> ArrayLike:
-        if self._body is None:
-            return point
-        from app.imaging.body import snap_to_skin  # scipy: loaded since there is a body
-
-        return snap_to_skin(self._body, point)
-
     def _announce(self) -> None:
-        self.verdict = self._judge()
+        self.verdict = self._judge.verdict(self.edit)
         self.changed.emit()
-
-    def _judge(self) -> Verdict:
-        draft = self.edit.draft
-        if not draft.complete or self._profile is None:
-            return Verdict(None)
-        try:
-            plan = draft.plan()
-            reached = reach(plan, self.edit.placement, self._profile)
-            if self._body is not None:
-                plan.require_inside(self._inside)
-        except AcusError as error:
-            return Verdict(None, str(error))
-        return Verdict(reached)
-
-    def _inside(self, point: FloatArray) -> bool:
-        if self._body is None:
-            return True
-        from app.imaging.body import is_inside  # scipy: loaded since there is a body
-
-        return is_inside(self._body, point)

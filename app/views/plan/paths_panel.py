@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from app.planning.paths import PathScores
 
 
+_WIDTHS = 58, 64, 58
+"""Of the columns before the last [px]."""
+
+
 class PathsPanel(QWidget):
     """Shows what the map found; who chooses is the user.
 
@@ -58,6 +62,7 @@ class PathsPanel(QWidget):
         self.clear.clicked.connect(self.clear_wanted)
         self.take.clicked.connect(self._take)
         self.table.itemSelectionChanged.connect(self._look)
+        self.suit_text()
         self.show_scores(None, ())
 
     def show_scores(self, scores: PathScores | None, numbers: tuple[int, ...]) -> None:
@@ -86,6 +91,13 @@ class PathsPanel(QWidget):
         if not scores.names:
             words += " " + tr("No structure warns: the scores know only bone and reach.")
         self.note.setText(words)
+
+    def suit_text(self) -> None:
+        """Give the columns room for the present size of the text."""
+        for column, width in enumerate(_WIDTHS):
+            self.table.setColumnWidth(column, theme.px(width))
+        for label, (rgb, _) in zip(self._key.findChildren(QLabel), legend(), strict=True):
+            label.setStyleSheet(f"color: {readable(rgb)};")
 
     def _show_row(self, row: int, scores: PathScores, number: int) -> None:
         nearest = tr("none")
@@ -124,9 +136,8 @@ class PathsPanel(QWidget):
         column.addWidget(self.note)
         grid = QGridLayout(self._key)
         grid.setContentsMargins(0, 0, 0, 0)
-        for place, (rgb, text) in enumerate(legend()):
+        for place, (_, text) in enumerate(legend()):
             label = QLabel(text)
-            label.setStyleSheet(f"color: {QColor(*rgb).lighter(125).name()};")
             grid.addWidget(label, place // 3, place % 3)
         column.addWidget(self._key)
         column.addWidget(self.table)
@@ -144,9 +155,16 @@ def _table() -> QTableWidget:
     table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
     table.setMinimumHeight(230)
     header = table.horizontalHeader()
-    for column, width in ((0, 58), (1, 64), (2, 58)):
+    for column in range(len(_WIDTHS)):
         header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
-        table.setColumnWidth(column, width)
     header.setSectionResizeMode(3, QHeaderView.ResizeMode.Stretch)
     table.setAccessibleName(tr("Candidate paths"))
     return table
+
+
+def readable(rgb: tuple[int, int, int]) -> str:
+    """Return a colour of the map as words can have it: lighter on dark, darker on light."""
+    colour, ground = QColor(*rgb), QColor(theme.BACKGROUND)
+    if ground.lightnessF() > 0.5:
+        return QColor.fromHslF(colour.hslHueF() % 1.0, colour.hslSaturationF(), 0.27).name()
+    return colour.lighter(125).name()

@@ -19,6 +19,7 @@ class Greys(QObject):
         common: window of the panes that have none of their own.
         is_linked: whether all panes share one window.
         is_locked: whether window and level stay as they are.
+        is_fixed: whether the exercise has locked them: nobody else can unlock them then.
         is_inverted: whether what is dense is dark.
         kept: windows that the user has named.
     """
@@ -30,6 +31,7 @@ class Greys(QObject):
         super().__init__(parent)
         self.common = window
         self.is_linked, self.is_locked, self.is_inverted = True, False, False
+        self.is_fixed = False
         self.kept: dict[str, WindowLevel] = {}
         self._own: dict[PaneId, WindowLevel] = {}
 
@@ -60,9 +62,18 @@ class Greys(QObject):
         self.changed.emit()
 
     def set_locked(self, locked: bool) -> None:
-        """Keep window and level from being changed by a slip, or by a student."""
-        self.is_locked = locked
+        """Keep window and level from being changed by a slip; not what the exercise has fixed."""
+        if self.is_fixed:
+            self.refused.emit()
+        else:
+            self.is_locked = locked
         self.changed.emit()
+
+    def fix(self, fixed: bool) -> None:
+        """Lock window and level for an exercise, or end that lock."""
+        if fixed or self.is_fixed:
+            self.is_fixed = self.is_locked = fixed
+            self.changed.emit()
 
     def set_inverted(self, inverted: bool) -> None:
         """Show what is dense dark, or bright again."""

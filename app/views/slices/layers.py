@@ -157,7 +157,7 @@ class NeedleLayer:
 
     def __init__(self, scene: QGraphicsScene) -> None:
         self._shaft = SegmentLayer(scene, theme.NEEDLE, 3)
-        self._doubtful = SegmentLayer(scene, Mark(theme.TEXT_DIM, width=2.0), 3)
+        self._doubtful = SegmentLayer(scene, Mark(theme.IMAGE_DIM, width=2.0), 3)
         self.tip = MarkItem(theme.NEEDLE_TIP, 5, optional=True)
         self.tip.setVisible(False)
         scene.addItem(self.tip)

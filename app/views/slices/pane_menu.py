@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QInputDialog, QMenu
 
 from app.views.slices.cine import RATES
@@ -42,8 +43,9 @@ def build_menu(pane: SlicePane) -> QMenu:
     _switch(menu, tr("Invert grey") + "\tI", greys.is_inverted, pane.actions_of.invert)
     _switch(menu, tr("One window for all panes"), greys.is_linked,
             lambda: greys.set_linked(not greys.is_linked))  # fmt: skip
-    _switch(menu, tr("Lock window and level"), greys.is_locked,
-            lambda: greys.set_locked(not greys.is_locked))  # fmt: skip
+    lock = _switch(menu, tr("Lock window and level"), greys.is_locked,
+                   lambda: greys.set_locked(not greys.is_locked))  # fmt: skip
+    lock.setEnabled(not greys.is_fixed)
     menu.addSeparator()
     _slabs(menu.addMenu(tr("Slab")), pane)
     _turns(menu.addMenu(tr("Turn and mirror")), pane)
@@ -64,11 +66,12 @@ def _entry(menu: QMenu, text: str, command: Callable[[], object]) -> None:
     menu.addAction(text).triggered.connect(lambda _=False: command())
 
 
-def _switch(menu: QMenu, text: str, on: bool, command: Callable[[], object]) -> None:
+def _switch(menu: QMenu, text: str, on: bool, command: Callable[[], object]) -> QAction:
     action = menu.addAction(text)
     action.setCheckable(True)
     action.setChecked(on)
     action.triggered.connect(lambda _=False: command())
+    return action
 
 
 def _slabs(menu: QMenu, pane: SlicePane) -> None:

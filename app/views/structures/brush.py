@@ -73,7 +73,7 @@ class BrushGrip:
         self._name, self._fresh = "", False
         self._last: FloatArray | None = None
         self._ring = QGraphicsEllipseItem()
-        ring = QPen(QColor(theme.TEXT), 1.5)
+        ring = QPen(QColor(theme.IMAGE_TEXT), 1.5)
         ring.setCosmetic(True)
         self._ring.setPen(ring)
         self._ring.setZValue(6)

@@ -15,10 +15,9 @@ from app.planning.clearance import Clearance
 from app.views.background import Indicator, Task, run_in_background
 from app.views.conductor import Conductor
 from app.views.plan.editor import PlanEditor
-from app.views.slices.resting import RestingLayer
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip
-from app.views.structures.layer import StructureLayer
+from app.views.structures.layer import draw_in
 from app.views.structures.looks import named
 from app.views.structures.panel import StructurePanel
 from app.views.structures.watch import StructureWatch, words
@@ -67,12 +66,10 @@ class StructuresDesk(QObject):
         self._settle = QTimer(self, interval=SETTLE_MS, singleShot=True)
         self._settle.timeout.connect(self._measure)
         workspace.add_panel(self.panel, tr("Structures"))
+        for pane in workspace.slices:
+            draw_in(pane.canvas, self.book)
         for pane in workspace.panes:
-            pane.canvas.add_layer(StructureLayer(pane.canvas.scene(), self.book))
             pane.gestures.add_grip(BrushGrip(pane.canvas, self.book, self.brush))
-        for pane in workspace.needle_panes:
-            outlines = StructureLayer(pane.canvas.scene(), self.book)
-            pane.canvas.add_layer(RestingLayer(outlines, self))
         self._connect()
 
     def _connect(self) -> None:

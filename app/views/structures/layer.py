@@ -12,8 +12,10 @@ from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphic
 from app.core.arrays import FloatArray
 from app.imaging.structures.contours import contours
 from app.imaging.structures.structure import Mask, Structure
+from app.views.slices.canvas import SliceCanvas
 from app.views.slices.items import label_font
 from app.views.slices.plane import SlicePlane
+from app.views.slices.resting import RestingLayer
 from app.views.structures.book import StructureBook
 from app.views.structures.looks import HATCHES, colour, pen
 
@@ -155,3 +157,9 @@ class StructureLayer:
         for name in set(self._items) - kept:
             self._scene.removeItem(self._items.pop(name))
             self._shown.pop(name, None)
+
+
+def draw_in(canvas: SliceCanvas, book: StructureBook) -> None:
+    """Draw the structures in a pane; in a needle's only at rest: they cannot follow it live."""
+    layer = StructureLayer(canvas.scene(), book)
+    canvas.add_layer(RestingLayer(layer, canvas) if canvas.pane.is_needle else layer)

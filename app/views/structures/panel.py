@@ -153,7 +153,7 @@ class StructurePanel(QWidget):
         if clearance is not None:
             look, sign = _LOOKS[clearance.nearness]
             item.setText(f"{sign} {clearance.distance_mm:.1f}")
-            item.setForeground(QColor(look))
+            item.setForeground(QColor(theme.now(look)))
             item.setToolTip(tr("The path comes nearest {depth:.0f} mm behind its entry",
                                depth=clearance.depth_mm))  # fmt: skip
         item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
