@@ -246,6 +246,7 @@ class DesktopRun:
             clearance=None if robot is None else robot.clearance(),
             readiness=None if robot is None else robot.readiness,
             velocity=DEFAULT_VELOCITY.value,
+            forceful=setup.pen is None,
             held_arming=self._rig.trainer.held_arming,
             guidance=setup.exercise.guidance,
             shown=Shown(live=setup.exercise.guidance_mode is GuidanceMode.LIVE),

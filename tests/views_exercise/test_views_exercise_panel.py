@@ -2,11 +2,14 @@ from dataclasses import replace
 from math import inf, nan, radians
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from views_exercise_fakes import snapshot, statistics
 
+from app.exercises.guidance import GuidancePart
+from app.planning.plan import Plan
 from app.session.machine import State
 from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.fix import FixStatus
@@ -27,7 +30,7 @@ from app.views.exercise.status_items import (
     recorder_item,
     tracker_item,
 )
-from app.views.exercise.tracker_panel import TrackerFigures, _Figures
+from app.views.exercise.tracker_panel import TrackerFigures, _Figures, residual_text
 
 
 @pytest.fixture
@@ -246,3 +249,29 @@ def test_a_radius_without_the_calibrations_error_says_so(qt):
     table.show_figures(shown, 0.31e-3)
     assert "not known" not in table._values["radius"].toolTip()
     table.deleteLater()
+
+
+@pytest.mark.parametrize(
+    ("residual", "said"),
+    [(None, "–"), (0.0, "< 0.01 px"), (0.004, "< 0.01 px"), (0.01, "0.01 px"), (1.234, "1.23 px")],
+)
+def test_no_measurement_is_said_to_be_nothing(residual, said):
+    assert residual_text(residual) == said
+
+
+def test_without_a_robot_there_is_neither_dial_nor_force(panel):
+    dial, bar = panel.assistance, panel.readouts.force
+    plan = Plan(np.zeros(3), np.array([0.0, 50.0, 0.0]), "plan")
+    panel.show()
+    panel.set_forceful(False)
+    assert not dial.isVisible()
+    assert not bar.isVisible()
+    panel.set_guidance(None, plan)  # all is told, but there is nothing to tell of a force
+    assert not bar.isVisible()
+    panel.set_forceful(True)
+    assert dial.isVisible()
+    assert bar.isVisible()
+    panel.set_guidance(GuidancePart(), plan)  # control scans alone: the force would tell
+    assert not bar.isVisible()
+    panel.set_forceful(True)
+    assert not bar.isVisible()

@@ -60,6 +60,7 @@ class ExerciseDisplay:
         live = run.shown.live
         self._views.bullseye.set_blind(not live)
         self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
+        self._views.panel.set_forceful(run.forceful)
         self._views.panel.set_guidance(None if live else run.guidance, run.placed.plan)
 
     def take_hand(self, snapshot: Snapshot) -> None:

@@ -105,6 +105,11 @@ class ExercisePanel(QWidget):
         self.readouts.set_telling(None if guidance is None else TELLING_NOTHING)
         self.buttons.set_pedal(guidance is not None)
 
+    def set_forceful(self, forceful: bool) -> None:
+        """Show the dial and the force felt, or neither where there is nothing that could push."""
+        self._form.setRowVisible(self.assistance, forceful)
+        self.readouts.set_forceful(forceful)
+
     def show_figures(self, figures: LiveFigures | None) -> None:
         """Show a moment of the attempt; None without one."""
         self.readouts.show_figures(figures)
@@ -133,7 +138,7 @@ class ExercisePanel(QWidget):
         self._note.hide()
 
     def _lay_out(self) -> None:
-        form = QFormLayout()
+        self._form = form = QFormLayout()
         form.setContentsMargins(0, 0, 0, 0)
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.ExpandingFieldsGrow)
         form.addRow(tr("Exercise"), self.exercise)

@@ -22,6 +22,7 @@ class Readouts(QWidget):
         self._values: dict[str, QLabel] = {}
         self._titles: dict[str, QLabel] = {}
         self.force = ForceBar(self)
+        self._tells_all = self._forceful = True
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setVerticalSpacing(3)
@@ -50,8 +51,17 @@ class Readouts(QWidget):
         for key, value in self._values.items():
             for label in (value, self._titles[key]):
                 label.setVisible(keys is None or key in keys)
+        self._tells_all = keys is None
+        self._show_force_bar()
+
+    def set_forceful(self, forceful: bool) -> None:
+        """Show the force felt, or not where nothing can push."""
+        self._forceful = forceful
+        self._show_force_bar()
+
+    def _show_force_bar(self) -> None:
         for widget in (self._force_title, self.force):
-            widget.setVisible(keys is None)
+            widget.setVisible(self._tells_all and self._forceful)
 
     def text(self, key: str) -> str:
         """Text of one read-out: `elapsed`, `depth`, `angle`, `lateral`, `to_target`, `scans`."""

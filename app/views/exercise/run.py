@@ -95,6 +95,7 @@ class ExerciseRun:
             nobody tells.
         readiness: what was commissioned on it; None where nobody tells.
         velocity: name of the estimator of joint velocities; empty where nobody tells.
+        forceful: whether anything can push a hand: False with a pen in place of the robot.
         held_arming: whether the forces are armed only while key, pedal or button is held.
         guidance: control scans as the exercise has them.
         shown: what may be told of the needle.
@@ -113,6 +114,7 @@ class ExerciseRun:
     clearance: Clearance | None = None
     readiness: Readiness | None = None
     velocity: str = ""
+    forceful: bool = True
     held_arming: bool = False
     guidance: GuidancePart = field(default_factory=GuidancePart)
     shown: Shown = field(default_factory=Shown)

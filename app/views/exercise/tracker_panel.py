@@ -189,7 +189,7 @@ class _Figures(QWidget):
         else:
             self._values["radius"].setToolTip(_HELP["radius"])
         texts = {
-            "residual": "–" if residual is None else tr("{px:.2f} px", px=residual),
+            "residual": residual_text(residual),
             "radius": size,
             "rate": tr("{rate:.0f} pairs/s", rate=figures.rate),
             "valid": tr("{share:.0f} %", share=100.0 * figures.valid_share),
@@ -202,6 +202,13 @@ class _Figures(QWidget):
     def text(self, name: str) -> str:
         """Shown value."""
         return self._values[name].text()
+
+
+def residual_text(residual_px: float | None) -> str:
+    """Say how far the pictures disagree; never nothing, which no measurement is."""
+    if residual_px is None:
+        return "–"
+    return tr("{px:.2f} px", px=residual_px) if residual_px >= 0.01 else tr("< 0.01 px")
 
 
 _TITLES: Final = (
