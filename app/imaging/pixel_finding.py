@@ -52,9 +52,12 @@ def _find(stream: BinaryIO, size: int, header: Elements, form: PixelFormat) -> P
 
 
 def _named(syntax: str) -> str:
+    """Name of a transfer syntax; one that is no UID may say anything, and is not repeated."""
     from pydicom import config
     from pydicom.uid import UID
 
+    if not set(syntax) <= set("0123456789."):
+        return "(what stands there is no UID)"
     name = UID(syntax, config.IGNORE).name
     return repr(syntax[:64]) if name == syntax else f"{syntax} ({name})"
 
