@@ -134,7 +134,7 @@ def _start_reader() -> None:
 
 
 def _pixel(folder: Path, sop: str, place: list[int]) -> tuple[list[float], float | int]:
-    from app.imaging.reading import pixel_lps_mm
+    from app.imaging.pixel_place import pixel_lps_mm
 
     column, row = place
     lps_mm, hu = pixel_lps_mm(folder, sop, column, row)

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.progress import Progress
+from app.imaging import memory
 from app.imaging.decoding import is_raw, stored_type
 from app.imaging.errors import SeriesRefusedError
 from app.imaging.header import SliceHeader
@@ -52,6 +53,17 @@ def filled(
     """
     progress = progress or Progress()
     shape = (len(headers), headers[0].format.rows, headers[0].format.columns)
+    hu = _all_filled(headers, shape, dtype, progress)
+    memory.hold(hu)
+    return hu
+
+
+def _all_filled(
+    headers: Sequence[SliceHeader],
+    shape: tuple[int, int, int],
+    dtype: np.dtype[Any],
+    progress: Progress,
+) -> NDArray[Any]:
     encoded = [k for k, header in enumerate(headers) if not is_raw(header)]
     if not encoded:
         hu = fresh_array(shape, dtype)

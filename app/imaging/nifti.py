@@ -35,6 +35,9 @@ AIR_HU = -500.0
 
 UNIT_UNKNOWN = "NIfTI, for practice only: its unit is not said, values below −500 count as air"
 
+_READING = 3.0
+"""Copies of the values while they are read: two in the worker, and those that it hands over."""
+
 _COPY_BYTES = 12
 """Memory at work for each voxel while it is read: 16 and 32 bit values, and what is sent."""
 
@@ -65,7 +68,7 @@ def find_nifti(path: Path, progress: Progress | None = None) -> Series | Ignored
 def _series(path: Path, header: NiftiHeader) -> Series:
     affine = _affine(header.affine_mm)
     size, lost = header.size, bool(header.misplaced)
-    reason = header.misplaced or header.flaw or memory.need_of(size, 4).reason
+    reason = header.misplaced or header.flaw or memory.need_of(size, 4, _READING).reason
     spacing = np.linalg.norm(affine[:3, :3], axis=0)
     x, y, z = affine[:3, 3].tolist()
     return Series(
@@ -110,7 +113,7 @@ def read_nifti(series: Series, progress: Progress | None = None) -> Volume:
     path = series.volume_file
     if path is None or not series.usable:
         raise SeriesRefusedError(f"series {series.key} cannot be used: {series.reason}")
-    if too_large := memory.need_of(series.size, 4).reason:
+    if too_large := memory.need_of(series.size, 4, _READING).reason:
         raise TooLargeError(f"{path.name} {too_large}")
     progress.report(0.0, f"reading {path.name}")
     voxels = series.size[0] * series.size[1] * series.size[2]

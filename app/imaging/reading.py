@@ -1,29 +1,25 @@
 """Series to volume: each slice is read into its place, then scaled there to Hounsfield units."""
 
-import contextlib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.core.arrays import FloatArray, read_only
+from app.core.arrays import read_only
 from app.core.progress import Progress
 from app.imaging import memory, stack
 from app.imaging.errors import (
-    FileDamagedError,
     FolderError,
     NotExactError,
-    OutsideImageError,
     SeriesAmbiguousError,
     SeriesRefusedError,
     SeriesUnknownError,
     TooLargeError,
 )
 from app.imaging.filling import filled
-from app.imaging.header import SliceHeader
 from app.imaging.reduction import reduced_block
-from app.imaging.rescaling import fresh_array, integral
+from app.imaging.rescaling import fresh_array
 from app.imaging.scanning import scan_folder
 from app.imaging.series import Listing, Remedy, Series
 from app.imaging.volume import Volume
@@ -65,7 +61,7 @@ def choose(listing: Listing, series_uid: str | None = None, remedy: Remedy = Rem
         FolderError: if the folder has no DICOM series.
     """
     if not listing.series:
-        raise FolderError(_nothing(listing))
+        raise FolderError(nothing_in(listing))
     if series_uid is not None:
         return _named(listing, series_uid, remedy)
     usable = tuple(s for s in listing.series if s.usable or remedy is s.remedy is not Remedy.NONE)
@@ -80,7 +76,8 @@ def choose(listing: Listing, series_uid: str | None = None, remedy: Remedy = Rem
     return usable[0]
 
 
-def _nothing(listing: Listing) -> str:
+def nothing_in(listing: Listing) -> str:
+    """Say that a place holds no series, and what it does hold."""
     if not listing.ignored:
         return f"{listing.path} is empty; name a folder with DICOM files"
     first = listing.ignored[0]
@@ -162,16 +159,27 @@ def read_pixels(
 
     Raises:
         FileDamagedError: if a file has changed since the scan or cannot be decoded; names it.
+        TooLargeError: if its values turn out to need more memory than there is.
         SeriesRefusedError: if the memory does not suffice.
         Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
-    if all(integral(header) for header in series.slices):
+    if memory.voxel_bytes(series.slices) == 2:
         try:
             return _filled(series, np.dtype(np.int16), progress, factors)
         except NotExactError:
             progress.report(0.0, "values beyond 16 bits: reading as float32")
+        _check_room(series, factors)
     return _filled(series, np.dtype(np.float32), progress, factors)
+
+
+def _check_room(series: Series, factors: tuple[int, int, int]) -> None:
+    """See that there is room for twice the memory that was counted on."""
+    i, j, k = (max(1, n // f) for n, f in zip(series.size, factors, strict=True))
+    if too_large := memory.need_of((i, j, k), 4).reason:
+        raise TooLargeError(
+            f"series {series.key} has values beyond 16 bits and {too_large}; ask to halve it"
+        )
 
 
 def _filled(
@@ -182,76 +190,10 @@ def _filled(
     columns, rows, count = series.size
     i, j, k = (max(1, min(f, n)) for f, n in zip(factors, series.size, strict=True))
     hu = fresh_array((count // k, rows // j, columns // i), dtype)
+    memory.hold(hu)
     for block in range(len(hu)):  # never more than a few slices at full size in memory
         progress.report(block / len(hu), f"slice {block * k + 1} of {count}")
         whole = filled(series.slices[block * k : (block + 1) * k], dtype)
         hu[block] = reduced_block(whole, (i, j))
     progress.report(1.0, f"{count} slices read, {i} × {j} × {k} voxels taken together")
     return hu
-
-
-def pixel_lps_mm(
-    path: Path | str,
-    sop_uid: str,
-    column: int,
-    row: int,
-    progress: Progress | None = None,
-    frame: int = 0,
-) -> tuple[FloatArray, float]:
-    """Where one pixel of one file lies, by that file's own position and orientation.
-
-    Works for files of refused series too (tilted, gapped, single).
-
-    Args:
-        path: the folder that holds the file.
-        sop_uid: its SOPInstanceUID.
-        column: of the pixel, from 0.
-        row: of the pixel, from 0.
-        progress: told how far the search is; cancels it.
-        frame: of a multi-frame file, from 0.
-
-    Returns:
-        The point [mm, LPS], shape (3,), and the Hounsfield value.
-
-    Raises:
-        SeriesUnknownError: if no file has this UID.
-        OutsideImageError: if the pixel is not in the image.
-        SeriesRefusedError: if the file has no position or no Hounsfield units.
-        FileDamagedError: if its pixels cannot be read.
-    """
-    listing = scan_folder(path, progress)
-    header = _instance(listing, sop_uid, frame)
-    form = header.format
-    if not (0 <= column < form.columns and 0 <= row < form.rows):
-        raise OutsideImageError(
-            f"pixel ({column}, {row}) is outside {header.path.name}: columns 0 to "
-            f"{form.columns - 1}, rows 0 to {form.rows - 1}"
-        )
-    if header.damage:
-        raise FileDamagedError(f"{header.path}: {header.damage}")
-    if header.plane is None or header.rescale is None or form.samples > 1:
-        raise SeriesRefusedError(
-            f"{header.path.name} is no CT image with position, orientation, spacing and "
-            "rescale; choose a file that is"
-        )
-    affine = stack.plane_affine(header.plane, stack.normal(header.plane))
-    value = _single(header)[row, column]
-    return affine[:3, :3] @ (column, row, 0.0) + affine[:3, 3], float(value)
-
-
-def _instance(listing: Listing, sop_uid: str, frame: int) -> SliceHeader:
-    if not listing.series:
-        raise FolderError(_nothing(listing))
-    for series in listing.series:
-        for header in series.slices:
-            if header.identity.sop_uid == sop_uid and header.frame == frame:
-                return header
-    which = f" and frame {frame}" if frame else ""
-    raise SeriesUnknownError(f"no file with SOPInstanceUID {sop_uid}{which} in {listing.path}")
-
-
-def _single(header: SliceHeader) -> NDArray[Any]:
-    if integral(header):
-        with contextlib.suppress(NotExactError):  # then a wider type is needed
-            return filled((header,), np.dtype(np.int16))[0]
-    return filled((header,), np.dtype(np.float32))[0]

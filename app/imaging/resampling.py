@@ -83,7 +83,13 @@ def _halved(
     if wanted is None and factors == (1, 1, 1):
         _, pixel, between = np.linalg.norm(grid.affine_mm[:3, :3], axis=0)
         factors = (2, 2, 2 if between < 1.5 * pixel else 1)
-    hu = read_pixels(series, progress, factors)
+    try:
+        hu = read_pixels(series, progress, factors)
+    except TooLargeError:  # its values need twice the memory that its headers promised
+        if wanted is not None:
+            raise
+        factors = memory.need_of(series.size, 4).factors
+        hu = read_pixels(series, progress, factors)
     i, j, k = factors
     made = f"reduced: {i} × {j} × {k} voxels averaged to one"
     affine = reduced_affine(grid.affine_mm, factors)
@@ -114,14 +120,16 @@ def _straight(
     grid = grid_of(series)
     target = _target(series, grid, spacing_mm)
     both = series.size[0] * series.size[1] * series.size[2] + int(np.prod(target.size))
-    if memory.need_of((both, 1, 1), 2).reason:
+    width = memory.voxel_bytes(series.slices)
+    if memory.need_of((both, 1, 1), width).reason:
         raise TooLargeError(
             f"series {series.key} and what would be made of it need "
-            f"{both * 2 / 1e9:.1f} GB of memory; close other programs or read a shorter series"
+            f"{both * width / 1e9:.1f} GB of memory; close other programs or read a shorter series"
         )
     stored = read_pixels(series, progress.part(0.0, 0.5))
     empty = EMPTY_HU if series.unit else 0.0
     hu = fresh_array(target.size[::-1], stored.dtype)
+    memory.hold(hu)
     gaps = stack.holes(grid.gaps_mm)
     sampled = _sampler(series, stored, target)
     heights = (grid.positions_mm - grid.positions_mm[0]) @ grid.normal

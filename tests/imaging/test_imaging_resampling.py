@@ -141,6 +141,7 @@ def test_what_does_not_fit_the_memory_is_refused_and_halving_offered(tmp_path, m
     field.write(tmp_path)
     fitting = scan_folder(tmp_path).series[0]
     monkeypatch.setattr(memory, "available", lambda: 1500)
+    monkeypatch.setattr(memory, "open_bytes", lambda: 0)
     (series,) = scan_folder(tmp_path).series
     assert not series.usable
     assert series.remedy is Remedy.HALVE
