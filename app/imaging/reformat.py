@@ -80,7 +80,19 @@ class Frame:
 
     def moved(self, offset_mm: float) -> Frame:
         """Go along the normal by so much."""
-        return Frame(self.origin_mm + offset_mm * self.normal, self.right, self.down)
+        return self.at(self.origin_mm + offset_mm * self.normal)
+
+    def at(self, origin_mm: ArrayLike) -> Frame:
+        """Lay the same directions through another point [mm]: they need not be checked again.
+
+        Raises:
+            NumericalError: if the point is not finite.
+        """
+        made = object.__new__(Frame)
+        object.__setattr__(made, "origin_mm", frozen(origin_mm, (3,), "origin_mm"))
+        for name in ("right", "down", "normal"):
+            object.__setattr__(made, name, getattr(self, name))
+        return made
 
     def turned(self, axis: ArrayLike, angle: float, about_mm: ArrayLike) -> Frame:
         """Turn about an axis through a patient point [mm], whose (x, y) stay what they are.

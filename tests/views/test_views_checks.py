@@ -252,6 +252,7 @@ def test_the_ellipse_round_the_target_is_drawn_where_it_was_checked(application,
     canvas = pane.canvas
     assert not canvas.layers.errors.target.isVisible()
     viewing.set_target_error(ErrorOverlay(middle, np.diag([4.0, 1.0, 1.0])))
+    canvas.flush()
     item = canvas.layers.errors.target
     assert item.isVisible()
     reach = 2.0 * np.sqrt(chi_square_quantile(0.95, 3))
@@ -259,6 +260,7 @@ def test_the_ellipse_round_the_target_is_drawn_where_it_was_checked(application,
     assert canvas.layers.plan.target._label.startswith("Target, TRE 95 %")
     assert not pane.grab().isNull()
     viewing.set_shows_errors(False)
+    canvas.flush()
     assert not item.isVisible()
     assert canvas.layers.plan.target._label == "Target"
 

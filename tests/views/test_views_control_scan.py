@@ -165,19 +165,22 @@ def test_the_pedal_takes_the_slices_that_are_set(guided, settle) -> None:
     assert panel.scan.order.centre_mm == pytest.approx(120.0)
 
 
-def test_the_range_of_the_next_scan_stands_on_the_planning_ct(guided) -> None:
+def test_the_range_of_the_next_scan_stands_on_the_planning_ct(guided, settle) -> None:
     window, _ = guided
     panel = window.workspace.exercise_panel.scan
     axial, sagittal, coronal = window.conductor.scans.ranges
+    settle()
     assert axial.lines == ()
     before = [line[0].y() for line in sagittal.lines]
     panel.head.click()
+    settle()
     after = [line[0].y() for line in sagittal.lines]
     np.testing.assert_allclose(np.array(before) - after, 5.0)  # the head is up
     assert abs(after[0] - after[1]) == pytest.approx(15.0)
     assert len(coronal.lines) == 2
     window.conductor._detach()
     window.conductor.controller.detach()
+    settle()
     assert sagittal.lines == ()
 
 

@@ -114,12 +114,15 @@ def test_a_measurement_is_drawn_in_its_slice_only(shown) -> None:
     pane = shown.workspace.panes[0]
     layer = next(one for one in pane.canvas.layers._added if hasattr(one, "drawn"))
     editor.add(Distance(A, B))
+    pane.canvas.flush()
     assert [one.text for one in layer.drawn] == ["15.0 mm"]
     viewing.set_cursor((5.0, 0.0, 144.0))
+    pane.canvas.flush()
     assert layer.drawn == ()
     viewing.set_cursor((5.0, 0.0, 140.0))
     editor.add(Distance(A, (0.0, -5.0, 160.0)))  # lies in no axial slice, but in a sagittal one
     editor.add(Distance(A, (6.0, 3.0, 160.0)))  # in none of the three
+    pane.canvas.flush()
     assert [one.whole for one in layer.drawn] == [True, False]
     assert pane.grab().toImage().width() > 0
 

@@ -118,7 +118,7 @@ def test_unseen_panes_cost_nothing(viewing, planes, monkeypatch):
 
 def test_the_picture_comes_at_the_panes_own_pixels(viewing, planes, pane, settle):
     viewing.set_needle(needle_at(viewing, (0.3, 0.2, 0.1), (0.1, 1.0, 0.2)))
-    assert settle(lambda: not pane.canvas.feed.is_waiting, 20.0)
+    assert settle(lambda: pane.canvas.is_settled, 20.0)
     feed, canvas = pane.canvas.feed, pane.canvas
     left, top, width, height = feed.bounds_mm
     rows, columns = feed.hu.shape
@@ -133,7 +133,7 @@ def test_the_picture_comes_at_the_panes_own_pixels(viewing, planes, pane, settle
 def test_of_many_wishes_only_the_newest_is_drawn(viewing, planes, pane, settle):
     for n in range(50):
         viewing.set_needle(needle_at(viewing, (0.5 * n - 10.0, 0.0, 0.0)))
-    assert settle(lambda: not pane.canvas.feed.is_waiting, 20.0)
+    assert settle(lambda: pane.canvas.is_settled, 20.0)
     assert pane.canvas.feed._wish.plane is pane.canvas.plane
 
 
@@ -149,6 +149,7 @@ def test_the_tip_stays_in_the_middle_of_a_pane_that_follows(viewing, planes, pan
 
 def test_ticks_stand_every_ten_millimetres_ahead_of_the_tip(viewing, planes, pane):
     viewing.set_needle(needle_at(viewing))
+    pane.canvas.flush()
     ticks = pane.canvas.layers.ticks.item.ticks
     assert len(ticks) >= 5
     tip = pane.canvas.plane.point(viewing.needle.tip_mm, 0.0)
@@ -159,6 +160,7 @@ def test_ticks_stand_every_ten_millimetres_ahead_of_the_tip(viewing, planes, pan
 def test_the_target_has_its_tolerance_in_true_size(viewing, planes, pane):
     viewing.set_tolerances((6.0, 12.0))
     viewing.set_draft(plan(viewing))
+    pane.canvas.flush()
     inner, outer = pane.canvas.layers.disc.rings
     assert inner.isVisible()
     assert outer.isVisible()

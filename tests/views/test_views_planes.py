@@ -114,6 +114,7 @@ def test_the_crosshair_turns_with_the_other_plane(viewing, make_pane):
     rects = sorted((line.boundingRect() for line in lines), key=lambda rect: rect.width())
     assert rects[0].width() < 2.0 < rects[0].height()
     viewing.set_frame(PaneId.CORONAL, tilted(viewing))
+    pane.canvas.flush()
     frame = viewing.frame(PaneId.CORONAL)
     line = pane.canvas.layers.crosshair._lines[PaneId.CORONAL]
     start, end = line._ends[0]
@@ -153,13 +154,18 @@ class RecordingLayer:
 def test_an_added_layer_is_placed_with_every_slice_and_zoom(viewing, make_pane):
     pane, layer = make_pane(PaneId.AXIAL), RecordingLayer()
     pane.canvas.add_layer(layer)
+    pane.canvas.flush()
     assert len(layer.placed) == 1
     viewing.show_slice(PaneId.AXIAL, 1)
+    pane.canvas.flush()
     assert layer.placed[-1][:2] == (PaneId.AXIAL, 1.0)
     pane.canvas.set_camera(pane.canvas.camera.zoomed(2.0, 0.0, 0.0))
+    pane.canvas.flush()
     assert layer.placed[-1][2] == pane.canvas.camera.scale
     count = len(layer.placed)
     pane.canvas.refresh()
+    pane.canvas.refresh()
+    pane.canvas.flush()
     assert len(layer.placed) == count + 1
 
 
@@ -297,6 +303,6 @@ def test_the_crosshair_stays_at_its_pixel_while_its_pane_turns(viewing, make_pan
     turn_planes(viewing, start, viewing.frame(PaneId.AXIAL).normal, TILT)
     after = pixel()
     assert (after.x(), after.y()) == pytest.approx((before.x(), before.y()), abs=1e-6)
-    assert "20° oblique" in pane.readouts.slice.text
-    assert settle(lambda: not pane.canvas.feed.is_waiting, 20.0)
+    assert settle(lambda: pane.canvas.is_settled, 20.0)
+    assert "20° oblique" in pane.readouts.slice.text()
     viewing.reformatter.close()

@@ -84,7 +84,7 @@ def test_projector_mode_is_light_large_and_without_names_and_ends(window, patien
     assert window.workspace.side.width() > small
     assert "CT-TEST" not in window.windowTitle()
     assert HIDDEN in window.windowTitle()
-    titles = [pane.readouts.title.text for pane in window.workspace.panes]
+    titles = [pane.readouts.title.text() for pane in window.workspace.panes]
     assert not any("CT-TEST" in title for title in titles)
     assert window.workspace.exercise_panel.student.echoMode() is QLineEdit.EchoMode.Password
     window.projector.set_all(False)

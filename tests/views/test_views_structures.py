@@ -99,6 +99,7 @@ def test_an_outline_is_drawn_where_the_structure_is(book, volume, pane):
     view.canvas.add_layer(layer)
     viewing.set_volume(volume)
     viewing.set_cursor(centre_of(book))
+    view.canvas.flush()
     plane = view.canvas.plane
     item = layer._items["vessel"]
     at = plane.point(centre_of(book), view.canvas.index)
@@ -107,10 +108,12 @@ def test_an_outline_is_drawn_where_the_structure_is(book, volume, pane):
     rect = item._path.boundingRect()
     assert rect.width() == pytest.approx(16.0, abs=3.5)
     viewing.show_slice(pane, 0)
+    view.canvas.flush()
     assert not item.isVisible()
     viewing.set_cursor(centre_of(book))
     book.set_visible("vessel", False)
     view.canvas.refresh()
+    view.canvas.flush()
     assert layer._items == {}
 
 

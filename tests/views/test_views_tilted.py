@@ -84,4 +84,4 @@ def test_the_corner_says_what_is_not_as_in_the_files(viewing, volume, destroy, s
     ):
         viewing.set_volume(shown)
         settle()
-        assert words in pane.readouts.title.text
+        assert words in pane.readouts.title.text()

@@ -1,35 +1,35 @@
-"""One slice on the screen: the pyqtgraph view, its layers, and pan and zoom."""
+"""One slice on the screen: the pyqtgraph view and its layers, drawn once however much changes."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
 from typing import Any
 
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRectF, Qt, Signal
-from PySide6.QtGui import (
-    QHideEvent,
-    QResizeEvent,
-    QShowEvent,
-    QTransform,
-)
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGraphicsView, QWidget
 
-from app.core.arrays import FloatArray
-from app.views.slices.camera import Camera
-from app.views.slices.items import ImageItem, MarkItem
-from app.views.slices.layer_stack import Layer, LayerStack
+from app.views.slices.items import MarkItem
+from app.views.slices.layer_stack import ALL_LAYERS, Due, Layer, LayerStack
 from app.views.slices.looks import Turn
-from app.views.slices.mouse_view import MouseView
-from app.views.slices.panes import PaneId, others
+from app.views.slices.panes import PaneId
 from app.views.slices.picture_feed import PictureFeed
+from app.views.slices.picture_item import PictureItem
 from app.views.slices.plane import Rect, SlicePlane
+from app.views.slices.plane_view import PlaneView
 from app.views.slices.reformat_plane import ReformatPlane
 from app.views.slices.viewing import Viewing
 
 
-class SliceCanvas(MouseView):
+class SliceCanvas(PlaneView):
     """Draws the slice of one pane.
+
+    Changes are gathered until the event loop comes round, and drawn together: a needle that moves
+    changes planes, crosshair and itself, and every layer is placed once. An interpolated picture
+    comes later, and what lies over it waits for it. A canvas that nobody sees draws nothing until
+    it is shown.
 
     Signals:
         changed(): slice, window, zoom or pan is another: the read-outs are out of date.
@@ -40,30 +40,25 @@ class SliceCanvas(MouseView):
     changed = Signal()
     plane_taken = Signal()
     seen = Signal()
+    _wanted = Signal()
 
     def __init__(self, viewing: Viewing, pane: PaneId, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.viewing, self.pane = viewing, PaneId(pane)
-        self.plane: SlicePlane | None = None
-        self.camera = Camera(0.0, 0.0, 1.0)
-        self._fitted, self._turn = True, Turn()
-        self._shown: tuple[object, ...] = ()
+        super().__init__(viewing, pane, parent)
+        self._turn = Turn()
+        self._due: set[Due] = set()
+        self._slice: tuple[SlicePlane, float] | None = None
+        self._asked = False
+        self._wanted.connect(self._draw_together, Qt.ConnectionType.QueuedConnection)
         self.feed = PictureFeed(viewing.reformatter, self)
-        self.feed.arrived.connect(self._show_picture)
+        self.feed.arrived.connect(self.flush)
         self.setCentralItem(None)  # layers stand in the scene itself; its end would crash Qt
         scene = self.scene()
         scene.setItemIndexMethod(scene.ItemIndexMethod.NoIndex)  # a dozen items, moved often
-        self._image = ImageItem()
+        self._image = PictureItem()
         scene.addItem(self._image)
         self.layers = LayerStack(scene, viewing, self.pane)
         self._set_up_view()
-        viewing.volume_changed.connect(self.show_volume)
-        viewing.cursor_changed.connect(self._show_cursor)
-        viewing.plane_changed.connect(self._show_plane)
-        viewing.look_changed.connect(self._show_look)
-        viewing.window_changed.connect(self._show_cursor)
-        viewing.plan_changed.connect(self._show_plan)
-        viewing.needle_changed.connect(self._show_needle)
+        self._connect(viewing)
 
     def _set_up_view(self) -> None:
         self.setFrameShape(QFrame.Shape.NoFrame)
@@ -71,14 +66,19 @@ class SliceCanvas(MouseView):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setCacheMode(QGraphicsView.CacheModeFlag.CacheNone)
         self.setViewportUpdateMode(QGraphicsView.ViewportUpdateMode.MinimalViewportUpdate)
+        self.viewport().setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)  # nothing shows below
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
 
-    # --- what is shown ------------------------------------------------------------------------
-    @property
-    def index(self) -> float:
-        """Slice that is shown; whole where the volume's own slices are."""
-        return self.viewing.index(self.pane)
+    def _connect(self, viewing: Viewing) -> None:
+        viewing.volume_changed.connect(self.show_volume)
+        viewing.cursor_changed.connect(lambda: self._want(Due.CROSSHAIR))
+        viewing.plane_changed.connect(self._show_plane)
+        viewing.look_changed.connect(self._show_look)
+        viewing.window_changed.connect(lambda: self._want(Due.GREYS))
+        viewing.plan_changed.connect(lambda: self._want(Due.PLAN))
+        viewing.needle_changed.connect(lambda: self._want(Due.NEEDLE))
 
+    # --- what is shown ------------------------------------------------------------------------
     @property
     def values(self) -> NDArray[Any]:
         """Hounsfield units of the picture, on `values_mm`, shape (rows, columns)."""
@@ -88,6 +88,11 @@ class SliceCanvas(MouseView):
     def values_mm(self) -> Rect:
         """Left, top, width and height [mm] of the picture in the plane."""
         return self.feed.bounds_mm
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether all that there is has been drawn, and no picture is still to come."""
+        return not self._due and not self.feed.is_waiting
 
     def add_layer(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
         """Draw something more over the slice.
@@ -100,28 +105,24 @@ class SliceCanvas(MouseView):
         self.layers.add(layer, marks)
         self.refresh()
 
-    @property
-    def _is_asleep(self) -> bool:
-        """Whether nothing needs to be drawn: a needle's pane that nobody sees."""
-        return self.plane is None or (self.pane.is_needle and not self.isVisible())
-
     def refresh(self) -> None:
         """Place the added layers anew, because what they show has changed."""
-        if self.plane is not None and not self._is_asleep:
-            self.layers.place_added(self.plane, self.index, self.camera.scale)
-            self._arrange_labels()
+        self._want(Due.ADDED)
+
+    def rewrite(self) -> None:
+        """Write the read-outs anew, because what they say has changed."""
+        self._want(Due.WORDS)
 
     def show_volume(self) -> None:
         """Take the viewing's volume and fit it."""
         self._take_plane()
         self.fit()
-        self._show_cursor()
 
     def _show_plane(self, pane: PaneId) -> None:
         """Take another plane, or show another's trace; zoom and pan stay."""
         if pane is not self.pane:
-            if pane in others(self.pane):
-                self._place_crosshair()
+            if pane in self.layers.traced:
+                self._want(Due.CROSSHAIR)
             return
         before = self.plane
         self._take_plane()
@@ -129,17 +130,7 @@ class SliceCanvas(MouseView):
             self.fit()
         elif self.plane is not None and not self.pane.is_needle:
             self._keep_crosshair(before, self.plane)
-        self._show_cursor()
-
-    def _keep_crosshair(self, before: SlicePlane, plane: SlicePlane) -> None:
-        """Let the crosshair stay at its pixel, wherever the new plane counts from."""
-        cursor = self.viewing.cursor_mm
-        old, new = before.point(cursor, 0.0), plane.point(cursor, 0.0)
-        right, down = new.x - old.x, new.y - old.y
-        if max(abs(right), abs(down)) > 1e-6:
-            camera, fitted = self.camera, self._fitted
-            self.set_camera(Camera(camera.x + right, camera.y + down, camera.scale))
-            self._fitted = fitted
+        self._want(Due.CROSSHAIR)
 
     def _show_look(self, pane: PaneId) -> None:
         """Fit what has been turned; a slab leaves zoom and pan."""
@@ -152,128 +143,91 @@ class SliceCanvas(MouseView):
     def _take_plane(self) -> None:
         plane = self.viewing.plane(self.pane)
         if plane is not self.plane:
-            self.plane, self._shown = plane, ()
+            self.plane = plane
             self.plane_taken.emit()
+            self._want(Due.WORDS)
         if plane is None:
-            self.feed.drop()
-            self._image.clear()
-            self.layers.hide()
+            self._clear()
 
-    def _show_cursor(self) -> None:
-        if self.plane is None or self._is_asleep:
-            return
-        index, greys = self.index, self.viewing.greys
-        moved = self._shown[:1] != (index,)
-        state = (index, greys.of(self.pane), greys.is_inverted, greys.is_locked)
-        if self._shown != state:
-            self._shown = state
-            if moved:
-                self._fetch()
-            self._show_picture()
+    def _clear(self) -> None:
+        """Draw nothing: what was there is no longer true."""
+        self.feed.drop()
+        self._slice = None
+        self._image.clear()
+        self.layers.hide()
+
+    # --- drawing ------------------------------------------------------------------------------
+    def _want(self, *due: Due) -> None:
+        self._due.update(due)
+        if not self._asked and self.isVisible():
+            self._asked = True
+            self._wanted.emit()
+
+    def _camera_moved(self) -> None:
+        self._want(Due.CAMERA)
+
+    def _draw_together(self) -> None:
+        """Draw what has changed, or wait with it for the picture that belongs to it."""
+        if not self._asked:
+            return  # it has been drawn meanwhile
+        self._asked = False
+        moved = self._slice != (self.plane, self.index)
+        if moved and isinstance(self.plane, ReformatPlane) and Due.CAMERA not in self._due:
+            self._fetch()
+            if self.feed.is_waiting:
+                return
+        self.flush()
+
+    def flush(self) -> None:
+        """Draw at once what has changed, each layer once."""
+        self._asked = False
+        due, self._due = self._due, set()
+        plane, index = self.plane, self.index
+        if plane is None:
             self.changed.emit()
-        self._place_crosshair()
-        if moved:
-            self.layers.place_plan(self.plane, index, self.camera.scale)
-            self.layers.place_needle(self.plane, index, self.camera.scale)
-            self.refresh()
-
-    def _fetch(self) -> None:
-        """Want the picture of what the pane shows."""
-        if self.plane is not None and not self._is_asleep:
-            visible = self.camera.visible((self.viewport().width(), self.viewport().height()))
-            pixel = 1.0 / (self.camera.scale * self.devicePixelRatioF())
-            self.feed.want(self.plane, self.index, visible, pixel)
+            return
+        moved, zoomed = self._slice != (plane, index), Due.CAMERA in due
+        if zoomed:
+            self._apply_camera()
+        if moved or (zoomed and isinstance(plane, ReformatPlane)):  # the pixels are other ones
+            self._fetch()
+        self._slice = plane, index
+        self._show_picture()
+        self._place(ALL_LAYERS if moved or zoomed else due & ALL_LAYERS, plane, index)
+        if moved or zoomed or due & {Due.WORDS, Due.GREYS}:
+            self.changed.emit()
 
     def _show_picture(self) -> None:
         greys = self.viewing.greys
         window, bounds = greys.of(self.pane), self.feed.bounds_mm
         self._image.set_slice(self.feed.hu, window, bounds, greys.is_inverted)
 
-    def _place_crosshair(self) -> None:
-        if self.plane is not None and not self._is_asleep:
-            self.layers.place_crosshair(self.plane, self.index, self.camera.scale)
+    def _place(self, due: AbstractSet[Due], plane: SlicePlane, index: float) -> None:
+        if due:
+            self.layers.place(due, plane, index, self.camera.scale)
+        if due - {Due.CROSSHAIR}:
+            width, height = self._size
+            self.layers.arrange_labels(plane, index, (width, height), self.pixel_at)
 
-    def _show_plan(self) -> None:
-        if self.plane is not None and not self._is_asleep:
-            self.layers.place_plan(self.plane, self.index, self.camera.scale)
-            self._arrange_labels()
-
-    def _show_needle(self) -> None:
-        if self.plane is not None and not self._is_asleep:
-            self.layers.place_needle(self.plane, self.index, self.camera.scale)
-            self._arrange_labels()
-
-    def _arrange_labels(self) -> None:
+    def _fetch(self) -> None:
+        """Want the picture of what the pane shows."""
         if self.plane is not None:
-            size = (float(self.viewport().width()), float(self.viewport().height()))
-            self.layers.arrange_labels(self.plane, self.index, size, self.pixel_at)
-
-    # --- pan and zoom -------------------------------------------------------------------------
-    def fit(self) -> None:
-        """Show the whole image, and keep doing so when the pane is resized."""
-        if self.plane is not None:
-            size = (self.viewport().width(), self.viewport().height())
-            self.set_camera(Camera.fit(self.plane.home_mm, size))
-            self._fitted = True
-
-    def set_camera(self, camera: Camera) -> None:
-        """Pan and zoom to `camera`."""
-        self.camera, self._fitted = camera, False
-        self._apply_camera()
-
-    def _apply_camera(self) -> None:
-        size = (self.viewport().width(), self.viewport().height())
-        self.setSceneRect(QRectF(*self.camera.visible(size)))
-        self.setTransform(QTransform.fromScale(self.camera.scale, self.camera.scale))
-        if isinstance(self.plane, ReformatPlane):
-            self._fetch()  # the pixels are other ones
-        self._show_cursor()
-        if self.plane is not None and not self._is_asleep:
-            self.layers.place_plan(self.plane, self.index, self.camera.scale)
-            self.layers.place_needle(self.plane, self.index, self.camera.scale)
-        self.refresh()
-        self.changed.emit()
-
-    def resizeEvent(self, event: QResizeEvent | None) -> None:
-        """Keep the image fitted, or its middle in the middle."""
-        if event is None:  # pyqtgraph calls it so while it constructs
-            return
-        QGraphicsView.resizeEvent(self, event)
-        if self._fitted:
-            self.fit()
-        elif self.plane is not None:
-            self._apply_camera()
-
-    # --- places -------------------------------------------------------------------------------
-    def plane_at(self, position: QPointF) -> tuple[float, float]:
-        """Plane point [mm] under a pixel of the pane."""
-        x, y, _, _ = self.camera.visible((self.viewport().width(), self.viewport().height()))
-        return x + position.x() / self.camera.scale, y + position.y() / self.camera.scale
-
-    def lps_at(self, position: QPointF) -> FloatArray:
-        """LPS point [mm] under a pixel of the pane; the crosshair's point without a volume."""
-        if self.plane is None:
-            return self.viewing.cursor_mm
-        return self.plane.lps_mm(*self.plane_at(position), self.index)
-
-    def pixel_at(self, x: float, y: float) -> QPointF:
-        """Pixel of the pane at a plane point [mm]."""
-        left, top, _, _ = self.camera.visible((self.viewport().width(), self.viewport().height()))
-        return QPointF((x - left) * self.camera.scale, (y - top) * self.camera.scale)
+            pixel = 1.0 / (self.camera.scale * self.devicePixelRatioF())
+            self.feed.want(self.plane, self.index, self.visible_mm, pixel)
 
     # --- seen and unseen ----------------------------------------------------------------------
     def showEvent(self, event: QShowEvent) -> None:
         """Catch up with what happened unseen."""
         super().showEvent(event)
-        if self.pane.is_needle:
-            self._shown = ()
-            self._take_plane()
-            self._apply_camera()
+        self._take_plane()
+        if self.plane is not None:
+            self._look()
         self.seen.emit()
 
     def hideEvent(self, event: QHideEvent) -> None:
         """Stop drawing."""
         super().hideEvent(event)
-        if self.pane.is_needle:
-            self.feed.drop()
+        self._asked = False
+        if isinstance(self.plane, ReformatPlane):
+            self._clear()  # what it shows next may be another needle's
         self.seen.emit()

@@ -29,8 +29,6 @@ class Cine(QObject):
         self._timer = QTimer(self)
         self._timer.timeout.connect(self.advance)
         self.set_rate(RATES[1])
-        canvas.installEventFilter(self)
-        canvas.viewport().installEventFilter(self)
         canvas.viewing.volume_changed.connect(self.stop)
 
     @property
@@ -52,14 +50,21 @@ class Cine(QObject):
         if self.is_running:
             self.stop()
         elif self._canvas.plane is not None:
+            self._watch(True)
             self._timer.start()
             self.changed.emit()
 
     def stop(self) -> None:
         """End; idempotent."""
         if self.is_running:
+            self._watch(False)
             self._timer.stop()
             self.changed.emit()
+
+    def _watch(self, on: bool) -> None:
+        """See what is pressed while it runs; else every event would come by here for nothing."""
+        for widget in (self._canvas, self._canvas.viewport()):
+            (widget.installEventFilter if on else widget.removeEventFilter)(self)
 
     def advance(self) -> None:
         """Go one slice on; turn round at the ends of the volume."""

@@ -24,17 +24,22 @@ class OutlineItem(QGraphicsItem):
         super().__init__()
         self._mark, self._line, self._rect = mark, QPolygonF(), QRectF()
         self._near = True
+        self._state: tuple[object, ...] = ()
         self.setZValue(z)
         self.setVisible(False)
 
     def place(self, x: float, y: float, outline: FloatArray, near: bool, scale: float) -> None:
         """Stand round (x, y) [mm]; `outline` [mm] from there, shape (n, 2)."""
+        self.setVisible(True)
+        state = (x, y, outline.tobytes(), near, scale)
+        if state == self._state:
+            return
         self.prepareGeometryChange()
+        self._state = state
         self._line = QPolygonF([QPointF(x + dx, y + dy) for dx, dy in outline.tolist()])
         self._near = near
         margin = 4.0 / scale
         self._rect = self._line.boundingRect().adjusted(-margin, -margin, margin, margin)
-        self.setVisible(True)
         self.update()
 
     def boundingRect(self) -> QRectF:

@@ -1,89 +1,25 @@
-"""What is drawn in a slice, in plane millimetres: image, crosshair lines, marks and segments."""
+"""What is drawn over a slice, in plane millimetres: marks and segments."""
 
 from __future__ import annotations
 
-from typing import Any
+from functools import lru_cache
 
-import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import (
     QBrush,
     QColor,
     QFont,
     QFontMetrics,
-    QImage,
     QLinearGradient,
     QPainter,
     QPen,
 )
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
-from app.imaging.window import WindowLevel, to_grey
 from app.views import theme
 from app.views.slices.labels import Placed, Wanted
+from app.views.slices.rimmed_text import draw_rimmed
 from app.views.theme import Mark, Symbol
-
-
-class ImageItem(QGraphicsItem):
-    """A grey slice, scaled smoothly.
-
-    Grey values are made when the slice is painted: of the many windows of a fast drag only those
-    that reach the screen cost anything.
-    """
-
-    def __init__(self) -> None:
-        super().__init__()
-        self._rect = QRectF()
-        self._image = QImage()
-        self._stale: tuple[NDArray[Any], WindowLevel] | None = None
-        self._inverted = False
-
-    def set_slice(
-        self,
-        hu: NDArray[Any],
-        window: WindowLevel,
-        bounds_mm: tuple[float, float, float, float],
-        inverted: bool = False,
-    ) -> None:
-        """Show Hounsfield units, shape (rows, columns), on this left, top, width, height [mm]."""
-        rect = QRectF(*bounds_mm)
-        if rect != self._rect:
-            self.prepareGeometryChange()
-            self._rect = rect
-        self._stale, self._inverted = (hu, window), inverted
-        self.update()
-
-    def clear(self) -> None:
-        """Show nothing."""
-        self.prepareGeometryChange()
-        self._rect, self._stale = QRectF(), None
-
-    def image(self) -> QImage:
-        """Return the slice in grey."""
-        if self._stale is not None:
-            grey = np.ascontiguousarray(to_grey(*self._stale))
-            if self._inverted:
-                np.subtract(255, grey, out=grey)
-            self._stale = None
-            rows, columns = grey.shape
-            borrowed = QImage(grey.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
-            # The conversion copies, so the image owns its pixels; 32 bits scale twice as fast.
-            self._image = borrowed.convertToFormat(QImage.Format.Format_RGB32)
-        return self._image
-
-    def boundingRect(self) -> QRectF:
-        """Return the image's place in the plane."""
-        return self._rect
-
-    def paint(
-        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
-    ) -> None:
-        """Draw the image."""
-        if self._rect.isEmpty():
-            return
-        painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
-        painter.drawImage(self._rect, self.image())
 
 
 class SegmentItem(QGraphicsItem):
@@ -92,8 +28,10 @@ class SegmentItem(QGraphicsItem):
     def __init__(self, z: float) -> None:
         super().__init__()
         self._start, self._end = QPointF(), QPointF()
-        self._pen, self._rim, self._margin = QPen(), QPen(), 1.0
+        self._pen, self._rim, self._bounds = QPen(), QPen(), QRectF()
+        self._state: tuple[object, ...] = ()
         self.setZValue(z)
+        self.setVisible(False)
 
     def place(
         self,
@@ -112,20 +50,24 @@ class SegmentItem(QGraphicsItem):
             scale: zoom [px/mm].
             alphas: opacity at either end; it changes evenly between them.
         """
+        state = (start, end, pen, scale, alphas)
+        if state == self._state:
+            return
         self.prepareGeometryChange()
+        self._state = state
         self._start, self._end = QPointF(*start), QPointF(*end)
         rim = QPen(Qt.GlobalColor.black, pen.widthF() + 2.0)
         rim.setCosmetic(True)
         rim.setCapStyle(pen.capStyle())
         self._pen = self._faded(pen, alphas)
         self._rim = self._faded(rim, (0.55 * alphas[0], 0.55 * alphas[1]))
-        self._margin = (pen.widthF() + 4.0) / scale
+        m = (pen.widthF() + 4.0) / scale
+        self._bounds = QRectF(self._start, self._end).normalized().adjusted(-m, -m, m, m)
         self.update()
 
     def boundingRect(self) -> QRectF:
         """Return the line's surroundings."""
-        m = self._margin
-        return QRectF(self._start, self._end).normalized().adjusted(-m, -m, m, m)
+        return self._bounds
 
     def paint(
         self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
@@ -164,6 +106,8 @@ class MarkItem(QGraphicsItem):
         self._mark, self._optional = mark, optional
         self._label, self._near, self._text_px = "", True, theme.SMALL_PX
         self._size = QSizeF()
+        reach = self.RADIUS + mark.width + 2.0
+        self._symbol = self._bounds = QRectF(-reach, -reach, 2 * reach, 2 * reach)
         self._rect: QRectF | None = None
         self._last = 0
         self.setFlag(QGraphicsItem.GraphicsItemFlag.ItemIgnoresTransformations)
@@ -176,8 +120,7 @@ class MarkItem(QGraphicsItem):
         self.setPos(x, y)
         state = (label, near, theme.SMALL_PX)
         if state != (self._label, self._near, self._text_px):
-            metrics = QFontMetrics(label_font())
-            self._size = QSizeF(metrics.horizontalAdvance(label) + 2, metrics.height())
+            self._size = _text_size(label, theme.SMALL_PX)
             self._label, self._near, self._text_px = state
             self.update()
 
@@ -196,7 +139,9 @@ class MarkItem(QGraphicsItem):
             rect = QRectF(*placed.rect).translated(-at)
         if not _alike(rect, self._rect):
             self.prepareGeometryChange()
-            self._rect = rect
+            self._rect, self._bounds = rect, self._symbol
+            if rect is not None:
+                self._bounds = self._symbol.united(rect.adjusted(-1, -1, 2, 2))
             self.update()
 
     @property
@@ -206,9 +151,7 @@ class MarkItem(QGraphicsItem):
 
     def boundingRect(self) -> QRectF:
         """Return symbol and label [px]."""
-        reach = self.RADIUS + self._mark.width + 2.0
-        symbol = QRectF(-reach, -reach, 2 * reach, 2 * reach)
-        return symbol if self._rect is None else symbol.united(self._rect.adjusted(-1, -1, 2, 2))
+        return self._bounds
 
     def paint(
         self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
@@ -245,12 +188,15 @@ class MarkItem(QGraphicsItem):
         if self._rect is None:
             return
         painter.setFont(label_font())
-        flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextDontClip
-        painter.setPen(Qt.GlobalColor.black)
-        for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-            painter.drawText(self._rect.translated(dx, dy), flags, self._label)
-        painter.setPen(self._mark.qcolor(min(1.0, alpha + 0.2)))
-        painter.drawText(self._rect, flags, self._label)
+        colour = self._mark.qcolor(min(1.0, alpha + 0.2))
+        draw_rimmed(painter, self._rect, self._label, colour, Qt.AlignmentFlag.AlignCenter)
+
+
+@lru_cache(maxsize=512)
+def _text_size(text: str, pixels: int) -> QSizeF:
+    """Room of a name in letters of so many pixels, which `label_font` has."""
+    metrics = QFontMetrics(label_font())
+    return QSizeF(metrics.horizontalAdvance(text) + 2, metrics.height())
 
 
 def label_font() -> QFont:

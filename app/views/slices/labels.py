@@ -5,6 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from app.core.arrays import FloatArray
+
 Rect = tuple[float, float, float, float]
 """Left, top, width and height [px]."""
 
@@ -49,77 +54,91 @@ class Placed:
 def arrange(
     wanted: Sequence[Wanted],
     pane: tuple[float, float],
-    lines: Sequence[tuple[float, float]] = (),
+    lines: ArrayLike = (),
 ) -> list[Placed | None]:
     """Give each label its best place, the first ones first.
 
     Args:
         wanted: labels, the most important first.
         pane: width and height [px].
-        lines: points of lines that should stay free [px].
+        lines: points of lines that should stay free [px], shape (n, 2).
 
     Returns:
         A place for each; None where the mark lies outside the pane, or no good place is left.
     """
+    if not wanted:
+        return []
+    labels = np.array([(w.x, w.y, w.width, w.height, w.radius) for w in wanted]).T
+    rects = _candidates(labels)
+    costs = _costs(wanted, labels, rects, pane, np.asarray(lines, np.float64).reshape(-1, 2))
     placed: list[Placed | None] = []
-    for label in wanted:
+    for number, label in enumerate(wanted):
         if not (0.0 <= label.x <= pane[0] and 0.0 <= label.y <= pane[1]):
             placed.append(None)
             continue
-        others = [(mark.x, mark.y, mark.radius) for mark in wanted if mark is not label]
-        taken = [other.rect for other in placed if other is not None]
-        costs = [
-            _cost(rect, number, label, pane, taken, others, lines)
-            for number, rect in enumerate(_candidates(label))
-        ]
-        best = min(range(len(costs)), key=costs.__getitem__)
-        rect = _inside(_candidates(label)[best], pane)
-        placed.append(None if label.optional and costs[best] >= BAD else Placed(rect, best))
+        choices, own = rects[:, number], costs[number]
+        for other in placed:
+            if other is not None:
+                own += COVERED_LABEL * _overlap(choices, other.rect)
+        best = int(np.argmin(own))
+        x, y, w, h = choices[:, best].tolist()
+        rect = max(0.0, min(x, pane[0] - w)), max(0.0, min(y, pane[1] - h)), w, h
+        placed.append(None if label.optional and own[best] >= BAD else Placed(rect, best))
     return placed
 
 
-def _candidates(label: Wanted) -> list[Rect]:
-    """Right, left, above and below, each near the mark; the first is the one liked best."""
-    w, h, r = label.width, label.height, label.radius + GAP_PX
-    right, left, middle = label.x + r, label.x - r - w, label.x - w / 2
-    up, down, level = label.y - h - GAP_PX, label.y + GAP_PX, label.y - h / 2
-    return [
-        (right, up, w, h), (right, down, w, h), (left, up, w, h), (left, down, w, h),
-        (right, level, w, h), (left, level, w, h),
-        (middle, label.y - r - h, w, h), (middle, label.y + r, w, h),
-        (right, up - h, w, h), (right, down + h, w, h),
-        (left, up - h, w, h), (left, down + h, w, h),
-    ]  # fmt: skip
+_SIDE = np.array([1, 1, -1, -1, 1, -1, 0, 0, 1, 1, -1, -1])
+"""Right of the mark, left of it, or in its middle: the first candidate is the one liked best."""
+
+_BACK = np.where(_SIDE > 0, 0.0, np.where(_SIDE < 0, -1.0, -0.5))
+"""Widths by which a rectangle begins before its side."""
+
+_RISE = np.array([-1.0, 0.0, -1.0, 0.0, -0.5, -0.5, -1.0, 0.0, -2.0, 1.0, -2.0, 1.0])
+"""Heights by which a rectangle begins below the mark."""
+
+_GAPS = np.array([-1, 1, -1, 1, 0, 0, 0, 0, -1, 1, -1, 1])
+_RADII = np.array([0, 0, 0, 0, 0, 0, -1, 1, 0, 0, 0, 0])
+_LIKED = 0.5 * np.arange(len(_SIDE))
 
 
-def _cost(
-    rect: Rect,
-    number: int,
-    label: Wanted,
+def _candidates(labels: FloatArray) -> FloatArray:
+    """Left, top, width and height of each label's candidates, shape (4, labels, candidates)."""
+    x, y, w, h, radius = labels[:, :, None]
+    r = radius + GAP_PX
+    left = x + r * _SIDE + w * _BACK
+    top = y + h * _RISE + GAP_PX * _GAPS + r * _RADII
+    return np.stack([left, top, np.broadcast_to(w, left.shape), np.broadcast_to(h, left.shape)])
+
+
+def _costs(
+    wanted: Sequence[Wanted],
+    labels: FloatArray,
+    rects: FloatArray,
     pane: tuple[float, float],
-    taken: Sequence[Rect],
-    marks: Sequence[tuple[float, float, float]],
-    lines: Sequence[tuple[float, float]],
-) -> float:
-    cost = 0.5 * number + (SAME_PLACE if number == label.last else 0.0)
-    if _inside(rect, pane) != rect:
-        cost += OUTSIDE
-    cost += COVERED_LABEL * sum(_overlap(rect, other) for other in taken)
-    cost += COVERED_MARK * sum(_near(rect, x, y, radius) for x, y, radius in marks)
-    return cost + COVERED_LINE * sum(_near(rect, x, y, CLEAR_PX) for x, y in lines)
+    lines: FloatArray,
+) -> FloatArray:
+    """Cost of each candidate, shape (labels, candidates), whatever the other labels choose."""
+    left, top, w, h = rects
+    cut = (left < 0.0) | (top < 0.0) | (left + w > pane[0]) | (top + h > pane[1])
+    costs: FloatArray = _LIKED + OUTSIDE * cut
+    costs += COVERED_LINE * _covered(rects, lines.T, CLEAR_PX).sum(axis=2)
+    marks = _covered(rects, labels[:2], labels[4])
+    for number, label in enumerate(wanted):
+        costs[number, label.last] += SAME_PLACE
+        marks[number, :, number] = False  # its own
+    return costs + COVERED_MARK * marks.sum(axis=2)
 
 
-def _inside(rect: Rect, pane: tuple[float, float]) -> Rect:
-    x, y, w, h = rect
-    return max(0.0, min(x, pane[0] - w)), max(0.0, min(y, pane[1] - h)), w, h
+def _covered(rects: FloatArray, points: FloatArray, reach: FloatArray | float) -> NDArray[np.bool_]:
+    """Which points, shape (2, n), each candidate covers, or nearly so."""
+    left, top, w, h = rects[..., None]
+    x, y = points
+    across = (left - reach <= x) & (x <= left + w + reach)
+    return across & (top - reach <= y) & (y <= top + h + reach)
 
 
-def _overlap(one: Rect, other: Rect) -> bool:
-    x, y, w, h = one
+def _overlap(rects: FloatArray, other: Rect) -> NDArray[np.bool_]:
+    """Whether each rectangle covers part of another one."""
+    x, y, w, h = rects
     u, v, a, b = other
-    return x < u + a and u < x + w and y < v + b and v < y + h
-
-
-def _near(rect: Rect, x: float, y: float, distance: float) -> bool:
-    left, top, w, h = rect
-    return left - distance <= x <= left + w + distance and top - distance <= y <= top + h + distance
+    return (x < u + a) & (u < x + w) & (y < v + b) & (v < y + h)

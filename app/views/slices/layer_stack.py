@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from collections.abc import Set as AbstractSet
+from enum import Enum, auto
 from typing import Protocol
 
 import numpy as np
@@ -17,6 +19,22 @@ from app.views.slices.plane import SlicePlane
 from app.views.slices.target_disc import TargetDisc
 from app.views.slices.ticks import TickLayer
 from app.views.slices.viewing import Viewing
+
+
+class Due(Enum):
+    """What of a slice is to be drawn anew."""
+
+    CAMERA = auto()
+    GREYS = auto()
+    WORDS = auto()
+    CROSSHAIR = auto()
+    PLAN = auto()
+    NEEDLE = auto()
+    ADDED = auto()
+
+
+ALL_LAYERS = frozenset({Due.CROSSHAIR, Due.PLAN, Due.NEEDLE, Due.ADDED})
+"""What is to be placed where slice, plane or zoom are others."""
 
 
 class Layer(Protocol):
@@ -70,35 +88,44 @@ class LayerStack:
         for layer in self._added:
             layer.hide()
 
-    def place_crosshair(self, plane: SlicePlane, index: float, scale: float) -> None:
-        """Show the traces of the other panes."""
-        self.crosshair.place(plane, index, scale)
+    @property
+    def traced(self) -> frozenset[PaneId]:
+        """Panes whose traces are shown."""
+        return self.crosshair.traced
 
-    def place_plan(self, plane: SlicePlane, index: float, scale: float) -> None:
-        """Show entry, target and path."""
+    def place(self, due: AbstractSet[Due], plane: SlicePlane, index: float, scale: float) -> None:
+        """Put what has changed where it belongs.
+
+        Args:
+            due: what has changed.
+            plane: of the pane.
+            index: of the slice.
+            scale: zoom [px/mm].
+        """
+        if Due.CROSSHAIR in due:
+            self.crosshair.place(plane, index, scale)
+        if Due.PLAN in due:
+            self._place_plan(plane, index, scale)
+        if Due.NEEDLE in due:
+            self._place_needle(plane, index, scale)
+        if self.ticks is not None and (Due.PLAN in due or Due.NEEDLE in due):
+            self.ticks.place(plane, index, scale)
+        if Due.ADDED in due:
+            for layer in self._added:
+                layer.place(plane, index, scale)
+
+    def _place_plan(self, plane: SlicePlane, index: float, scale: float) -> None:
         viewing = self._viewing
         error = viewing.target_error if viewing.shows_errors else None
         self.plan.place(viewing.draft, plane, index, scale, error is not None)
         self.errors.place_target(error, plane, index, scale)
         self.disc.place(plane, index, scale)
-        self._place_ticks(plane, index, scale)
 
-    def place_needle(self, plane: SlicePlane, index: float, scale: float) -> None:
-        """Show the live needle."""
+    def _place_needle(self, plane: SlicePlane, index: float, scale: float) -> None:
         needle = self._viewing.needle
         self.needle.place(needle, plane, index, scale)
         error = needle.error if needle is not None and self._viewing.shows_errors else None
         self.errors.place_tip(error, plane, index, scale)
-        self._place_ticks(plane, index, scale)
-
-    def _place_ticks(self, plane: SlicePlane, index: float, scale: float) -> None:
-        if self.ticks is not None:
-            self.ticks.place(plane, index, scale)
-
-    def place_added(self, plane: SlicePlane, index: float, scale: float) -> None:
-        """Show what others have added."""
-        for layer in self._added:
-            layer.place(plane, index, scale)
 
     def arrange_labels(
         self,

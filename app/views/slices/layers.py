@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from PySide6.QtCore import QPointF
-from PySide6.QtGui import QPen
 from PySide6.QtWidgets import QGraphicsScene
 
 from app.imaging.reformat import Frame, trace
@@ -27,7 +26,8 @@ FADED, FAINTEST = 0.75, 0.25
 FAINTEST_MM = 50.0
 """A segment is faintest so far off the slice [mm]."""
 
-LINE_POINTS = 24
+_SHARES = np.linspace(0.0, 1.0, 24)[:, None]
+"""Points on a line, near enough to each other that no label slips between them."""
 
 
 class CrosshairLayer:
@@ -44,6 +44,11 @@ class CrosshairLayer:
         for line in self._lines.values():
             line.setVisible(False)
             scene.addItem(line)
+
+    @property
+    def traced(self) -> frozenset[PaneId]:
+        """Panes whose traces it shows."""
+        return frozenset(self._lines)
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Cross where the three planes meet."""
@@ -79,10 +84,10 @@ class SegmentLayer:
     """A segment in space: solid in the slab, outside dashed and the fainter the farther off."""
 
     def __init__(self, scene: QGraphicsScene, mark: Mark, z: float) -> None:
-        self._mark = mark
+        self._solid, self._broken = mark.pen(), mark.pen()
+        self._broken.setDashPattern([4.0, 3.0])
         self._items = [SegmentItem(z) for _ in range(3)]
         for item in self._items:
-            item.setVisible(False)
             scene.addItem(item)
 
     def place(self, start: PlanePoint, end: PlanePoint, half_mm: float, scale: float) -> None:
@@ -91,7 +96,8 @@ class SegmentLayer:
         for item, part in zip(self._items, parts, strict=False):
             near, far = (fading(distance, half_mm) for distance in part.distances)
             alphas = (1.0, 1.0) if part.inside else (near, far)
-            item.place(part.start, part.end, self._pen(part.inside), scale, alphas)
+            pen = self._solid if part.inside else self._broken
+            item.place(part.start, part.end, pen, scale, alphas)
         for number, item in enumerate(self._items):
             item.setVisible(number < len(parts))
 
@@ -99,12 +105,6 @@ class SegmentLayer:
         """Show nothing."""
         for item in self._items:
             item.setVisible(False)
-
-    def _pen(self, inside: bool) -> QPen:
-        pen = self._mark.pen()
-        if not inside:
-            pen.setDashPattern([4.0, 3.0])
-        return pen
 
 
 class PlanLayer:
@@ -166,13 +166,14 @@ class NeedleLayer:
         self, needle: NeedleOverlay | None, plane: SlicePlane, index: float, scale: float
     ) -> None:
         """Show the needle, grey where its pose is not valid."""
-        self._shaft.hide()
-        self._doubtful.hide()
-        self.tip.setVisible(needle is not None)
         if needle is None:
+            self.hide()
             return
         start, tip = plane.point(needle.start_mm, index), plane.point(needle.tip_mm, index)
-        shaft = self._shaft if needle.valid else self._doubtful
+        shaft, other = self._shaft, self._doubtful
+        if not needle.valid:
+            shaft, other = other, shaft
+        other.hide()
         shaft.place(start, tip, plane.half_slab_mm, scale)
         place_mark(self.tip, tip, "" if needle.valid else tr("not tracked"), plane)
 
@@ -219,18 +220,11 @@ class Labels:
         if state == self._arranged:
             return
         self._arranged = state
-        points = [point for line in lines for point in _along(*line)]
-        places = arrange([want for _, _, want in shown], size_px, points)
+        points = np.array([(end.x(), end.y()) for line in lines for end in line]).reshape(-1, 2, 2)
+        along = points[:, :1] + _SHARES * (points[:, 1:] - points[:, :1])
+        places = arrange([want for _, _, want in shown], size_px, along)
         for (mark, at, _), place in zip(shown, places, strict=True):
             mark.place_label(at, place)
-
-
-def _along(start: QPointF, end: QPointF) -> list[tuple[float, float]]:
-    """Points on a line, near enough to each other that no label slips between them."""
-    shares = np.linspace(0.0, 1.0, LINE_POINTS)
-    across = start.x() + shares * (end.x() - start.x())
-    down = start.y() + shares * (end.y() - start.y())
-    return list(zip(across.tolist(), down.tolist(), strict=True))
 
 
 def place_mark(item: MarkItem, at: PlanePoint | None, name: str, plane: SlicePlane) -> None:

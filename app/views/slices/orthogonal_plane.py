@@ -30,6 +30,12 @@ class OrthogonalPlane(SlicePlane):
         self.step_mm = slicer.slice_spacing_mm(view)
         self.half_slab_mm = max(HALF_SLAB_MM, self.step_mm / 2)
         self.ahead = frozen((ahead - origin) / np.linalg.norm(ahead - origin))
+        corner, right, down = (
+            self.lps_mm(x, y, 0.0) for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
+        )
+        self._directions = Frame.of(corner, right - corner, down - corner)
+        self._corner = self._place(np.zeros(3))
+        self._places = np.column_stack([self._place(axis) - self._corner for axis in np.eye(3)])
         self._is_sheared = slicer.volume.is_sheared
         if self._is_sheared:  # the way to the next slice is not the way out of this one
             normal = self.frame(0.0).normal
@@ -49,9 +55,13 @@ class OrthogonalPlane(SlicePlane):
             place = self.frame(index)
             x, y, distance = place.point(lps_mm)
             return PlanePoint(x, y, distance * float(np.sign(place.normal @ self.ahead)))
-        at, column, row = self._slicer.from_lps_mm(self._view, np.asarray(lps_mm, np.float64))
-        x, y = (np.array([column, row]) + 0.5) * self._pixel
-        return PlanePoint(float(x), float(y), float(at - index) * self.step_mm)
+        x, y, at = (self._places @ np.asarray(lps_mm, np.float64) + self._corner).tolist()
+        return PlanePoint(x, y, (at - index) * self.step_mm)
+
+    def _place(self, lps_mm: FloatArray) -> FloatArray:
+        """Place x, y [mm] and slice of a point by the slicer, which maps evenly."""
+        at, column, row = self._slicer.from_lps_mm(self._view, lps_mm)
+        return np.array([*((np.array([column, row]) + 0.5) * self._pixel), at])
 
     def lps_mm(self, x: float, y: float, index: float) -> FloatArray:
         """LPS point [mm] of a place in slice `index`, shape (3,)."""
@@ -68,10 +78,7 @@ class OrthogonalPlane(SlicePlane):
 
     def frame(self, index: float) -> Frame:
         """Place and screen directions; exact where the volume's axes are perpendicular."""
-        origin, right, down = (
-            self.lps_mm(x, y, index) for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
-        )
-        return Frame.of(origin, right - origin, down - origin)
+        return self._directions.at(self.lps_mm(0.0, 0.0, index))
 
     def letters(self) -> tuple[str, str, str, str]:
         """Patient letters at the left, right, top and bottom edge."""

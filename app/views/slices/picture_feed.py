@@ -26,7 +26,7 @@ class PictureFeed(QObject):
         bounds_mm: where they lie in the plane.
 
     Signals:
-        arrived(): an interpolated picture has come.
+        arrived(): an interpolated picture has come, or is given up: there is none to wait for.
     """
 
     arrived = Signal()
@@ -35,10 +35,13 @@ class PictureFeed(QObject):
         super().__init__(parent)
         self._reformatter = reformatter
         self._wish: Wish | None = None
-        self.hu: NDArray[Any] = np.zeros((1, 1), np.int16)
-        self.bounds_mm: Rect = (0.0, 0.0, 0.0, 0.0)
+        self._show_nothing()
         self._timer = QTimer(self, interval=LOOK_MS)
         self._timer.timeout.connect(self._look)
+
+    def _show_nothing(self) -> None:
+        self.hu: NDArray[Any] = np.zeros((1, 1), np.int16)
+        self.bounds_mm: Rect = (0.0, 0.0, 0.0, 0.0)
 
     @property
     def is_waiting(self) -> bool:
@@ -60,7 +63,11 @@ class PictureFeed(QObject):
             self.hu, self.bounds_mm = np.ascontiguousarray(plane.image(index)), plane.bounds_mm
             return
         wish = _wish(plane, index, visible, pixel_mm)
-        if wish is None or wish.same(self._wish):
+        if wish is None:
+            self.drop()
+            self._show_nothing()
+            return
+        if wish.same(self._wish):
             return
         self._wish = wish
         self._reformatter.request(id(self), wish)
@@ -78,9 +85,11 @@ class PictureFeed(QObject):
         if made is not None:
             wish, self.hu = made
             self.bounds_mm = wish.bounds_mm
-            self.arrived.emit()
-        elif not self._reformatter.waits(id(self)):
+        done = not self._reformatter.waits(id(self))
+        if done:
             self._timer.stop()
+        if made is not None or done:
+            self.arrived.emit()
 
 
 def _wish(plane: ReformatPlane, index: float, visible: Rect, pixel_mm: float) -> Wish | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import QObject, Qt
 
 from app.core.arrays import FloatArray
 from app.imaging.volume import Volume
@@ -62,13 +62,18 @@ class Readouts(QObject):
             Overlay(port, edge, theme.IMAGE_WARNING, bold=True, larger=3) for edge in edges
         )
         self.ruler = Ruler(port)
-        port.installEventFilter(self)
+        self._is_new = True
         canvas.changed.connect(self.refresh)
         canvas.left.connect(self.clear_cursor)
         canvas.plane_taken.connect(self.show_plane)
         NAMES.changed.connect(self.show_plane)
 
     def show_plane(self) -> None:
+        """Write everything anew with the next drawing, as the plane is another one."""
+        self._is_new = True
+        self._canvas.rewrite()
+
+    def _write_plane(self) -> None:
         """Write what stays the same for a plane; nothing where there is none."""
         plane, volume = self._canvas.plane, self._canvas.viewing.volume
         pane = self._canvas.pane
@@ -86,7 +91,6 @@ class Readouts(QObject):
         self.title.set_lines(*lines, first=colour)
         for overlay, letter in zip(self.letters, plane.letters(), strict=True):
             overlay.set_lines(letter)
-        self.refresh()
 
     def _look(self, plane: SlicePlane) -> list[str]:
         """Say what a reader must not overlook: that it is a slab, that it is turned."""
@@ -105,13 +109,18 @@ class Readouts(QObject):
 
     def set_note(self, note: str) -> None:
         """Say something else below the title than how thick the slices are."""
-        self._note = note
-        self.show_plane()
+        if note != self._note:
+            self._note = note
+            self.show_plane()
 
     def refresh(self) -> None:
-        """Write slice, window and zoom."""
+        """Write slice, window and zoom, and what has to do with a new plane."""
+        if self._is_new:
+            self._is_new = False
+            self._write_plane()
         plane = self._canvas.plane
         if plane is None:
+            self._place()
             return
         greys, index = self._canvas.viewing.greys, self._canvas.index
         window = greys.of(self._canvas.pane)
@@ -150,12 +159,6 @@ class Readouts(QObject):
         """Forget the mouse."""
         self._hovered = None
         self.cursor.set_lines()
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Keep everything at its corner when the pane is resized."""
-        if event.type() is QEvent.Type.Resize:
-            self._place()
-        return False
 
     def _slice_words(self, plane: SlicePlane, index: float) -> tuple[str, ...]:
         if plane.pane.is_needle:

@@ -55,7 +55,8 @@ class ReformatPlane(SlicePlane):
         self.step_mm = float(np.linalg.norm(along * volume.spacing_mm))
         self.half_slab_mm = HALF_SLAB_MM
         self._pixel = float(volume.spacing_mm.min())
-        places = np.array([frame.point(corner) for corner in _corners(volume)])
+        axes = np.column_stack([frame.right, frame.down, normal])
+        places = (_corners(volume) - frame.origin_mm) @ axes
         low, high = places[:, :2].min(axis=0), places[:, :2].max(axis=0)
         width, height = (high - low).tolist()
         self.bounds_mm = (float(low[0]), float(low[1]), width, height)

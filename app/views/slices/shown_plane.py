@@ -41,6 +41,10 @@ class ShownPlane(SlicePlane):
         self._size = (width, height)
         across = turn.quarters % 2
         self.bounds_mm = (0.0, 0.0, *((height, width) if across else (width, height)))
+        corner, right, down = (
+            self.lps_mm(x, y, 0.0) for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
+        )
+        self._directions = Frame.of(corner, right - corner, down - corner)
 
     def image(self, index: float) -> NDArray[Any]:
         """Hounsfield units, in screen orientation; without a slab no copy."""
@@ -91,7 +95,4 @@ class ShownPlane(SlicePlane):
 
     def frame(self, index: float) -> Frame:
         """Place and screen directions of slice `index`, in the coordinates of `point`."""
-        origin, right, down = (
-            self.lps_mm(x, y, index) for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
-        )
-        return Frame.of(origin, right - origin, down - origin)
+        return self._directions.at(self.lps_mm(0.0, 0.0, index))

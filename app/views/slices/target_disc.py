@@ -33,14 +33,17 @@ class TargetDisc:
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Show the rings; faded where the target is not in the slice."""
         target = self._viewing.draft.target_mm
-        self.hide()
         if target is None:
+            self.hide()
             return
         at = plane.point(target, index)
         near = abs(at.distance) <= plane.half_slab_mm
-        for ring, radius in zip(self.rings, self._viewing.tolerances_mm, strict=False):
+        radii = (*self._viewing.tolerances_mm, 0.0, 0.0)
+        for ring, radius in zip(self.rings, radii, strict=False):
             if radius * scale >= SMALLEST_PX:
                 ring.place(at.x, at.y, radius * _CIRCLE, near, scale)
+            else:
+                ring.setVisible(False)
 
     def hide(self) -> None:
         """Show nothing."""

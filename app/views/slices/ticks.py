@@ -5,14 +5,14 @@ from __future__ import annotations
 from math import hypot
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QLineF, QPointF, QRectF
 from PySide6.QtGui import QPainter, QPen
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.core.arrays import FloatArray
 from app.views import theme
-from app.views.slices.items import label_font
 from app.views.slices.plane import SlicePlane
+from app.views.slices.rimmed_text import rimmed
 from app.views.slices.viewing import Viewing
 from app.views.theme import Mark
 
@@ -27,6 +27,10 @@ BEYOND_MM, SHORTEST_MM, LONGEST_MM = 20.0, 50.0, 200.0
 LINE = Mark(theme.NEEDLE_TIP.colour, dash=(1.5, 3.0), width=1.5)
 
 
+_LINE_PEN, _TICK_PEN = LINE.pen(), QPen(LINE.qcolor(), 1.5)
+_TICK_PEN.setCosmetic(True)
+
+
 class TicksItem(QGraphicsItem):
     """A dotted line with ticks and their distances from its start."""
 
@@ -37,6 +41,7 @@ class TicksItem(QGraphicsItem):
         self._label_mm = STEP_MM
         self._rect = QRectF()
         self._faded = False
+        self._state: tuple[object, ...] = ()
         self.setZValue(2.5)
         self.setVisible(False)
 
@@ -57,12 +62,17 @@ class TicksItem(QGraphicsItem):
             scale: zoom [px/mm].
             faded: whether it is off the slice.
         """
-        self.prepareGeometryChange()
         run, fall = end[0] - start[0], end[1] - start[1]
         seen = hypot(run, fall)
         if seen < 1e-6:
             self.setVisible(False)
             return
+        self.setVisible(True)
+        state = (start, end, length_mm, scale, faded)
+        if state == self._state:
+            return
+        self.prepareGeometryChange()
+        self._state = state
         self._start, self._along = QPointF(*start), QPointF(run / seen, fall / seen)
         self._length, self._step = seen, STEP_MM * seen / length_mm
         self._scale, self._faded = scale, faded
@@ -72,7 +82,6 @@ class TicksItem(QGraphicsItem):
         margin = 45.0 / scale
         line = QRectF(QPointF(*start), QPointF(*end)).normalized()
         self._rect = line.adjusted(-margin, -margin, margin, margin)
-        self.setVisible(True)
         self.update()
 
     @property
@@ -91,33 +100,32 @@ class TicksItem(QGraphicsItem):
         """Draw line, ticks and labels with a dark rim."""
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setOpacity(0.5 if self._faded else 0.95)
-        painter.setPen(LINE.pen())
+        painter.setPen(_LINE_PEN)
         painter.drawLine(self._start, self._start + self._along * self._length)
         across = QPointF(-self._along.y(), self._along.x()) / self._scale
-        pen = QPen(LINE.qcolor(), 1.5)
-        pen.setCosmetic(True)
-        painter.setPen(pen)
+        painter.setPen(_TICK_PEN)
+        lines: list[QLineF] = []
         labels: list[tuple[QPointF, str]] = []
+        to_pixels = painter.worldTransform()
         for number, tick in enumerate(self.ticks, start=1):
             reach = across * (LONG_TICK_PX if number % 5 == 0 else TICK_PX)
-            painter.drawLine(tick - reach, tick + reach)
+            lines.append(QLineF(tick - reach, tick + reach))
             depth = number * STEP_MM
             if round(depth % self._label_mm, 6) == 0:
-                at = painter.worldTransform().map(tick + across * (2.2 * LONG_TICK_PX))
+                at = to_pixels.map(tick + across * (2.2 * LONG_TICK_PX))
                 labels.append((QPointF(at), f"{depth:.0f}"))
+        painter.drawLines(lines)
         self._draw_labels(painter, labels)
 
     @staticmethod
     def _draw_labels(painter: QPainter, labels: list[tuple[QPointF, str]]) -> None:
+        """Copy the labels to these pixels of the device."""
+        ratio = painter.device().devicePixelRatioF()
         painter.resetTransform()
-        painter.setFont(label_font())
         for at, text in labels:
-            box = QRectF(at.x() - 20, at.y() - 10, 40, 20)
-            painter.setPen(Qt.GlobalColor.black)
-            for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-                painter.drawText(box.translated(dx, dy), Qt.AlignmentFlag.AlignCenter, text)
-            painter.setPen(LINE.qcolor())
-            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+            picture = rimmed(text, theme.SMALL_PX, theme.NEEDLE_TIP.colour, ratio)
+            size = picture.deviceIndependentSize()
+            painter.drawPixmap(at - QPointF(size.width() / 2, size.height() / 2), picture)
 
 
 class TickLayer:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from PySide6.QtCore import QObject, Signal
 
 from app.core.arrays import FloatArray, frozen
-from app.imaging.orthogonal import OrthogonalSlicer, View
+from app.imaging.orthogonal import OrthogonalSlicer
 from app.imaging.reformat import Frame
 from app.imaging.volume import Volume
 from app.imaging.window import PRESETS, WindowLevel, presets
@@ -19,12 +19,10 @@ from app.views.needle_overlay import NeedleOverlay
 from app.views.slices.bindings import OHIF, Scheme
 from app.views.slices.greys import Greys
 from app.views.slices.looks import Look
-from app.views.slices.orthogonal_plane import own_plane
-from app.views.slices.panes import MPR_PANES, PaneId
+from app.views.slices.panes import PaneId
 from app.views.slices.plane import SlicePlane
-from app.views.slices.reformat_plane import ReformatPlane
+from app.views.slices.planes import Planes
 from app.views.slices.reformatter import Reformatter
-from app.views.slices.shown_plane import shown
 
 FOLLOW_DEAD_BAND_MM = 0.3
 """Slices that follow the tip stay while it moves less than this, so that they do not tremble."""
@@ -71,16 +69,11 @@ class Viewing(QObject):
         super().__init__(parent)
         self.volume: Volume | None = None
         self.slicer: OrthogonalSlicer | None = None
-        self._planes: dict[PaneId, SlicePlane] = {}
-        self._own_index: dict[PaneId, float] = {}
-        self._oblique: set[PaneId] = set()
+        self._planes = Planes()
         self.reformatter = Reformatter()
-        self.cursor_mm: FloatArray = frozen(np.zeros(3))
         self.greys = Greys(window, self)
         self.greys.changed.connect(self.window_changed)
         self.scheme, self.left_zooms, self.level_reversed = OHIF, False, False
-        self._looks: dict[PaneId, Look] = {}
-        self._shown: dict[PaneId, SlicePlane] = {}
         self.tool = Tool.NAVIGATE
         self.draft = DraftPlan()
         self.tolerances_mm: tuple[float, ...] = ()
@@ -105,11 +98,7 @@ class Viewing(QObject):
         """Show another volume; the crosshair goes to its middle."""
         before = "HU" if self.volume is None else self.volume.unit
         self.volume, self.slicer = volume, OrthogonalSlicer(volume)
-        self._planes = {pane: own_plane(self.slicer, View(pane)) for pane in MPR_PANES}
-        self._own_index, self._shown = {}, {}
-        self._oblique = set()
-        middle = [(count - 1) / 2 for count in volume.size]
-        self.cursor_mm = frozen(volume.lps_mm(middle))
+        self._planes.begin(volume, self.slicer)
         self.volume_changed.emit()
         if volume.unit != before or volume.unit != "HU":
             choices = PRESETS if volume.unit == "HU" else presets(volume)
@@ -121,38 +110,37 @@ class Viewing(QObject):
             return
         last = np.asarray(self.volume.size) - 1.0
         voxel = np.clip(self.volume.voxel(lps_mm), 0.0, last)
-        self.cursor_mm = frozen(self.volume.lps_mm(voxel))
+        self._planes.cursor_mm = frozen(self.volume.lps_mm(voxel))
         self.cursor_changed.emit()
 
     # --- planes -------------------------------------------------------------------------------
+    @property
+    def cursor_mm(self) -> FloatArray:
+        """The crosshair's point, LPS [mm], shape (3,), read-only."""
+        return self._planes.cursor_mm
+
     def plane(self, pane: PaneId) -> SlicePlane | None:
         """Plane of a pane as it is looked at, turned and thick; None without a volume, or while a
         needle pane has no needle.
         """
-        plane = self._planes.get(pane)
-        if plane is None:
-            return None
-        if pane not in self._shown:
-            self._shown[pane] = shown(plane, self.look(pane))
-        return self._shown[pane]
+        return self._planes.shown(pane)
 
     def is_oblique(self, pane: PaneId) -> bool:
         """Whether a pane lies along a frame of its own, not along the volume."""
-        return pane in self._oblique
+        return pane in self._planes.oblique
 
     def own(self, pane: PaneId) -> SlicePlane | None:
         """Plane of a pane as it lies in the patient, neither turned on the screen nor thick."""
-        return self._planes.get(pane)
+        return self._planes.own(pane)
 
     def look(self, pane: PaneId) -> Look:
         """How a pane looks at its plane: slab and turn."""
-        return self._looks.get(pane, Look())
+        return self._planes.look(pane)
 
     def set_look(self, pane: PaneId, look: Look) -> None:
         """Give a pane another slab, or turn it."""
         if look != self.look(pane):
-            self._looks[pane] = look
-            self._shown.pop(pane, None)
+            self._planes.set_look(pane, look)
             self.look_changed.emit(pane)
             self.plane_changed.emit(pane)
 
@@ -165,48 +153,27 @@ class Viewing(QObject):
             ahead: side of the frame towards which slices count up; for None into the screen with a
                 needle's pane, and where the pane's slices went so far with the others.
         """
-        if self.volume is None or self.slicer is None:
-            return
-        before = self._planes.pop(pane, None)
-        self._shown.pop(pane, None)
-        (self._oblique.discard if frame is None else self._oblique.add)(pane)
-        if frame is not None:
-            if ahead is None and before is not None and not pane.is_needle:
-                ahead = before.ahead
-            self._planes[pane] = ReformatPlane(self.volume, frame, pane, ahead, pane.is_needle)
-        elif not pane.is_needle:
-            self._planes[pane] = own_plane(self.slicer, View(pane))
-        self.plane_changed.emit(pane)
+        if self.volume is not None:
+            self._planes.lay(pane, frame, ahead)
+            self.plane_changed.emit(pane)
 
     def index(self, pane: PaneId) -> float:
         """Slice shown in a pane: the one at the crosshair, or so many away from the needle."""
-        plane = self._planes.get(pane)
-        if plane is None or pane.is_needle:
-            return self._own_index.get(pane, 0.0)
-        return plane.index_at(self.cursor_mm)
+        return self._planes.index(pane)
 
     def frame(self, pane: PaneId) -> Frame | None:
         """Plane of a pane as it cuts the others: through the crosshair, or at its own slice."""
-        plane = self._planes.get(pane)
-        if plane is None:
-            return None
-        frame = plane.frame(self.index(pane))
-        if pane.is_needle:
-            return frame
-        return frame.moved(frame.point(self.cursor_mm)[2])
+        return self._planes.frame(pane)
 
     def show_slice(self, pane: PaneId, index: float) -> None:
         """Go to a slice of a pane, kept in the volume; the crosshair goes along if it is linked."""
-        plane = self._planes.get(pane)
-        if plane is None:
+        if self.own(pane) is None:
             return
+        self._planes.go_to(pane, index)
         if pane.is_needle:
-            self._own_index[pane] = plane.kept(index, plane.frame(0.0).origin_mm)
             self.plane_changed.emit(pane)
-            return
-        at = plane.point(self.cursor_mm, 0.0)
-        self.cursor_mm = frozen(plane.lps_mm(at.x, at.y, plane.kept(index, self.cursor_mm)))
-        self.cursor_changed.emit()
+        else:
+            self.cursor_changed.emit()
 
     def set_window(self, window: WindowLevel, pane: PaneId | None = None) -> None:
         """Change width and level of all panes, or of one if each has its own."""
