@@ -82,12 +82,12 @@ def distance(
             {"name": one.structure.name, "kind": one.structure.kind.value,
              "distance_mm": round(one.distance_mm, 3), "depth_mm": round(one.depth_mm, 3),
              "through_mm": round(one.through_mm, 3), "at_mm": one.at_mm.tolist(),
-             "accuracy_mm": round(field.accuracy_mm, 3), "nearness": one.nearness.value}
-            for one, (_, field) in zip(found, fields, strict=True)], indent=2))  # fmt: skip
+             "accuracy_mm": round(one.accuracy_mm, 3), "nearness": one.nearness.value}
+            for one in found], indent=2))  # fmt: skip
         return
-    for one, (_, field) in zip(found, fields, strict=True):
+    for one in found:
         through = f", {one.through_mm:.1f} mm inside" if one.through_mm else ""
-        typer.echo(f"{one.structure.name}  {one.distance_mm:+.1f} ± {field.accuracy_mm:.1f} mm  "
+        typer.echo(f"{one.structure.name}  {one.distance_mm:+.1f} ± {one.accuracy_mm:.1f} mm  "
                    f"at depth {one.depth_mm:.1f} mm{through}  {one.nearness}")  # fmt: skip
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
@@ -34,6 +35,7 @@ class Clearance:
         at_mm: where on the line, LPS [mm], shape (3,).
         depth_mm: how far along the line.
         through_mm: length of the line inside.
+        accuracy_mm: bound of the error of `distance_mm` by the CT's grid.
     """
 
     structure: Structure
@@ -41,6 +43,7 @@ class Clearance:
     at_mm: FloatArray
     depth_mm: float
     through_mm: float
+    accuracy_mm: float = 0.0
 
     @property
     def nearness(self) -> Nearness:
@@ -59,7 +62,10 @@ Field = tuple[Structure, "SignedDistance"]
 
 
 def clearances(
-    start_mm: ArrayLike, end_mm: ArrayLike, fields: Iterable[Field]
+    start_mm: ArrayLike,
+    end_mm: ArrayLike,
+    fields: Iterable[Field],
+    beyond_mm: float | None = None,
 ) -> tuple[Clearance, ...]:
     """Distances of a line from all structures, in their order.
 
@@ -67,15 +73,15 @@ def clearances(
         start_mm: of the line, LPS, shape (3,).
         end_mm: of the line.
         fields: structures with their distance fields.
+        beyond_mm: what is further off than this beyond a structure's warning distance need not be
+            told exactly; None wants everything exact.
     """
     found = []
     for structure, field in fields:
-        nearest = field.along(start_mm, end_mm)
-        found.append(
-            Clearance(
-                structure, nearest.distance_mm, nearest.at_mm, nearest.depth_mm, nearest.through_mm
-            )
-        )
+        within = np.inf if beyond_mm is None else structure.warn_mm + beyond_mm
+        nearest = field.along(start_mm, end_mm, within)
+        where = (nearest.distance_mm, nearest.at_mm, nearest.depth_mm, nearest.through_mm)
+        found.append(Clearance(structure, *where, field.boundary.accuracy_mm))
     return tuple(found)
 
 

@@ -1,8 +1,9 @@
 """How far points are from a structure: positive outside, negative inside.
 
-The structure is resampled to a cubic grid (its edge where its share of the voxels passes one half)
-and the exact distances of its cells are computed (Maurer et al. 2003, in scipy). Beyond the grid
-the nearest of its surface cells counts.
+Of many points at once: the structure is resampled to a cubic grid (its edge where its share of the
+voxels passes one half) and the exact distances of its cells are computed (Maurer et al. 2003, in
+scipy); beyond the grid the nearest of its surface cells counts. Of a line: exactly to the
+structure's boundary, at whatever size.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from scipy.spatial import cKDTree
 
 from app.core.arrays import FloatArray, read_only
 from app.core.progress import Progress
+from app.imaging.structures.boundary import Boundary
 from app.imaging.structures.structure import Structure
 
 MARGIN_MM = 16.0
@@ -47,6 +49,10 @@ class Nearest:
     through_mm: float
 
 
+REFINED = 20
+"""Parts of a step in which the nearest place of a line is looked for."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class SignedDistance:
     """Distance field of one structure.
@@ -57,13 +63,15 @@ class SignedDistance:
         values: shape (S, P, L) [mm], float32, read-only.
         accuracy_mm: bound of the error against the structure's voxels with their corners rounded
             off: half a diagonal of a cell, and half an edge of the CT's largest voxel edge where
-            that rounding differs from the stairs.
+            that rounding differs from the stairs. Of `at` alone.
+        boundary: of the structure; its `accuracy_mm` is that of `along`.
     """
 
     start_mm: FloatArray
     step_mm: float
     values: NDArray[np.float32]
     accuracy_mm: float
+    boundary: Boundary
     _surface: Any
 
     @classmethod
@@ -89,7 +97,8 @@ class SignedDistance:
         progress.report(0.9)
         edge = np.argwhere(inside & ~ndimage.binary_erosion(inside))[:, ::-1] * step + low
         accuracy = 0.5 * (np.sqrt(3.0) * step + float(spacing.max()))
-        return cls(low, step, read_only(values), accuracy, cKDTree(edge))
+        boundary = Boundary.of(structure)
+        return cls(low, step, read_only(values), accuracy, boundary, cKDTree(edge))
 
     def at(self, points_mm: ArrayLike) -> FloatArray:
         """Distances [mm] of patient points [mm], shape (n, 3) -> (n,)."""
@@ -103,17 +112,34 @@ class SignedDistance:
             result[beyond] = self._surface.query(points[beyond])[0] - 0.5 * self.step_mm
         return result
 
-    def along(self, start_mm: ArrayLike, end_mm: ArrayLike) -> Nearest:
-        """Where a straight line [mm] comes nearest to the structure, or deepest into it."""
+    def along(self, start_mm: ArrayLike, end_mm: ArrayLike, within_mm: float = np.inf) -> Nearest:
+        """Where a straight line comes nearest to the structure, or deepest into it.
+
+        Args:
+            start_mm: of the line, LPS [mm], shape (3,).
+            end_mm: of the line.
+            within_mm: a line that is surely further off is told the distance of the grid, which is
+                quicker.
+        """
         start, end = np.asarray(start_mm, np.float64), np.asarray(end_mm, np.float64)
         length = float(np.linalg.norm(end - start))
         shares = np.linspace(0.0, 1.0, max(2, int(np.ceil(length / SAMPLE_MM)) + 1))
         points = start + shares[:, None] * (end - start)
-        distances = self.at(points)
+        through = float(self.boundary.inside(points).mean()) * length
+        least, most = self.boundary.bounds_mm(points)
+        if least.min() > within_mm:
+            best = int(np.argmin(most))
+            return Nearest(float(self.at(points[best])[0]), points[best],
+                           float(shares[best]) * length, through)  # fmt: skip
+        candidates = np.flatnonzero(least <= most.min())
+        rough = shares[candidates[np.argmin(self.boundary.at(points[candidates]))]]
+        step = shares[1] - shares[0]
+        fine = np.clip(rough + step * np.linspace(-1.0, 1.0, 2 * REFINED + 1), 0.0, 1.0)
+        distances = self.boundary.at(start + fine[:, None] * (end - start))
         nearest = int(np.argmin(distances))
-        through = float((distances < 0.0).mean()) * length
+        share = float(fine[nearest])
         return Nearest(
-            float(distances[nearest]), points[nearest], float(shares[nearest]) * length, through
+            float(distances[nearest]), start + share * (end - start), share * length, through
         )
 
 

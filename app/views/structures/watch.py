@@ -69,7 +69,9 @@ class StructureWatch(QObject):
         if now - self._measured_at < PERIOD_S:
             return
         self._measured_at = now
-        found = clearances(_near_end(needle), needle.tip_mm, self._book.fields)
+        found = clearances(
+            _near_end(needle), needle.tip_mm, self._book.fields, beyond_mm=2.0 * HYSTERESIS_MM
+        )
         self._tell(found, now)
         self._show(worst(found))
 
