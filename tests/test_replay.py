@@ -247,6 +247,15 @@ def test_what_the_table_cannot_be_built_from_is_named(
         replay_recording(change(virtual))
 
 
+def test_a_record_whose_ct_was_in_a_folder_can_be_replayed(virtual: Recording) -> None:
+    exercise = json.loads(virtual.attachments["exercise.json"])
+    exercise["ct"] = {"phantom": None, "folder": None, "series": None}
+    exercise["plan"] = {"entry_mm": [0, -90, 300], "target_mm": [5, -20, 300]}
+    files = dict(virtual.attachments) | {"exercise.json": json.dumps(exercise).encode()}
+    own = replace(virtual, attachments=MappingProxyType(files))
+    assert replay_recording(own).first_difference is None
+
+
 def test_the_record_says_what_can_be_replayed(virtual: Recording) -> None:
     held = contents(virtual)
     assert held.why_not == ""

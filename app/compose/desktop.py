@@ -140,7 +140,9 @@ class Desktop:
         """Build and start a trainer; called beside the window, may take seconds."""
         with turn(progress):  # kernels and OpenCV: behind the window, not before it
             from app.compose.pen import pen_settings
+            from app.compose.risks import load_risks
             from app.compose.trainer import TrainerSetup, build_rig
+        risks = load_risks(setup.exercise, setup.volume, progress.part(0.0, 0.1))
         progress.report(0.1, "compiling the loop")
         seed = setup.exercise.seed if self._seed is None else self._seed
         trainer = TrainerSetup(
@@ -154,6 +156,7 @@ class Desktop:
             port=setup.robot.port or None,
             cameras=setup.cameras,
             pen=pen_settings(setup.robot.pen) if setup.robot.pen else None,
+            risks=risks,
         )
         rig = build_rig(trainer)
         try:

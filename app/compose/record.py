@@ -44,9 +44,13 @@ def run_context(
 
 
 def _anonymous(exercise: Exercise) -> Exercise:
-    """Without folder and series of its CT, which may name a patient; the record has a pseudonym."""
+    """Without folders, files and series, which may name a patient; the record has a pseudonym."""
     ct = exercise.ct.model_copy(update={"folder": None, "series": None})
-    return exercise.model_copy(update={"ct": ct})
+    structures = tuple(
+        part.model_copy(update={"file": Path(f"structures-{number}")})
+        for number, part in enumerate(exercise.structures, 1)
+    )
+    return exercise.model_copy(update={"ct": ct, "structures": structures})
 
 
 def _attachment(name: str, document: Any) -> Attachment:

@@ -32,7 +32,7 @@ def replay_table(recording: Recording) -> Table:
         ReplayError: if an attachment is missing; names it.
         AcusError: if one cannot be used by this version.
     """
-    exercise = parse(_attached(recording, "exercise.json"), Exercise, "the record's exercise")
+    exercise = parse(_exercise(recording), Exercise, "the record's exercise")
     profile = parse(_attached(recording, "device.json"), DeviceProfile, "the record's device")
     setup = TrainerSetup(
         exercise,
@@ -47,6 +47,15 @@ def replay_table(recording: Recording) -> Table:
             exercise, setup.placed, profile, [], setup.skill, setup.seed, simulated=simulated
         )
     return loop_table(setup, profile, simulated=is_simulated(recording))
+
+
+def _exercise(recording: Recording) -> Any:
+    """Return the recorded exercise; a CT whose folder was left out is no part of the loop."""
+    document = _attached(recording, "exercise.json")
+    ct = document.get("ct") if isinstance(document, dict) else None
+    if isinstance(ct, dict) and ct.get("phantom") is None and ct.get("folder") is None:
+        return document | {"ct": ct | {"folder": "left-out"}}
+    return document
 
 
 def _attached(recording: Recording, name: str) -> Any:

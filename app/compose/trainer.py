@@ -23,6 +23,7 @@ from app.planning.placement import PlacedPlan
 from app.session.context import RunContext
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.hands import TRAINEE
+from app.session.risks import Risk
 from app.session.trainer import Trainer
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.trainee import trainee_stage
@@ -55,6 +56,7 @@ class TrainerSetup:
         port: serial port of a real robot; None simulates one.
         cameras: real ones; None simulates those of the exercise's rig.
         pen: a pen with printed markers and a webcam in place of robot and cameras; no force then.
+        risks: structures that the needle has to keep away from; see `compose.risks`.
     """
 
     exercise: Exercise
@@ -68,6 +70,7 @@ class TrainerSetup:
     port: str | None = None
     cameras: CameraSettings | None = None
     pen: PenSettings | None = None
+    risks: tuple[Risk, ...] = ()
 
 
 def build_trainer(setup: TrainerSetup) -> Trainer:
@@ -188,6 +191,7 @@ def _build_rig(
         setup.clock,
         clearance=robot.clearance if robot is not None else None,
         held_arming=setup.held_arming or robot is not None,
+        risks=setup.risks,
     )
     trainer.assistance(setup.exercise.assistance)
     return Rig(setup, profile, loop, tracker, trainer, robot)
@@ -202,7 +206,9 @@ def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
     metadata = {**pen.metadata(setup.skill), "ct": setup.ct.metadata()}
     documents = {"device": pen.profile, "pen": pen.settings.profile()}
     context = run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents)
-    trainer = Trainer(loop, tracker, setup.placed, setup.exercise, context, setup.clock)
+    trainer = Trainer(
+        loop, tracker, setup.placed, setup.exercise, context, setup.clock, risks=setup.risks
+    )
     tracker.listen(trainer.on_fix)
     trainer.assistance(0.0)
     return Rig(setup, pen.profile, loop, tracker, trainer, pen=pen)

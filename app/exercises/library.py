@@ -108,7 +108,17 @@ def read_exercise(path: Path) -> Exercise:
     ct = exercise.ct
     if ct.folder is not None:
         ct = ct.model_copy(update={"folder": path.parent.resolve() / ct.folder})
-    return exercise.model_copy(update={**found, "ct": ct})
+    structures = tuple(
+        part.model_copy(update={"file": _structure_file(path, part.file)})
+        for part in exercise.structures
+    )
+    return exercise.model_copy(update={**found, "ct": ct, "structures": structures})
+
+
+def _structure_file(path: Path, name: Path) -> Path:
+    """Place a file of structures: beside the exercise, else in the user's folder of structures."""
+    beside, kept = path.parent.resolve() / name, paths.data() / "structures" / name
+    return kept if kept.is_file() and not beside.exists() else beside
 
 
 def _is_path(profile: str) -> bool:

@@ -5,7 +5,7 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag, field_validator, model_validator
 
 from app.core.configuration import Strict
 from app.core.units import MILLIMETRE
@@ -79,6 +79,26 @@ class Ct(Strict):
         if self.remedy is not Remedy.NONE and self.folder is None and self.phantom is not None:
             raise ValueError("remedy goes with folder; the phantom is read as it is")
         return self
+
+
+class StructurePart(Strict):
+    """A file of structures that belongs to the exercise's CT.
+
+    Attributes:
+        file: DICOM SEG, RTSTRUCT, `.seg.nrrd` or NIfTI labels; beside the exercise file, or in the
+            folder `structures` of the per-user data.
+        risks: name of a structure in the file -> how far the needle has to stay off [mm].
+    """
+
+    file: Path
+    risks: Mapping[str, Annotated[float, Field(ge=0.0, le=50.0)]] = Field(default_factory=dict)
+
+    @field_validator("file")
+    @classmethod
+    def _is_a_path(cls, file: Path) -> Path:
+        if "\0" in str(file) or file.name in ("", "."):
+            raise ValueError("file names a file of structures")
+        return file
 
 
 class PlanPoints(Strict):

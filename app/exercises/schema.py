@@ -20,6 +20,7 @@ from app.exercises.parts import (
     PlacementPart,
     PlanChoice,
     PlanPoints,
+    StructurePart,
     View,
 )
 from app.exercises.reading import ReadingPart
@@ -42,6 +43,7 @@ class Exercise(Strict):
         description: what the student is to do.
         ct: which patient.
         plan: two points; `phantom_default`; or `{own: true}`, the student chooses the entry.
+        structures: files of structures of the CT, and which of them the needle has to avoid.
         placement: how the patient lies.
         device: name or path of a device profile.
         joint: ball joint mounted on the device; empty for the profile's own.
@@ -69,6 +71,7 @@ class Exercise(Strict):
     description: str = ""
     ct: Ct = Ct(phantom=PhantomCt())
     plan: PlanChoice = "phantom_default"
+    structures: tuple[StructurePart, ...] = ()
     placement: PlacementPart = PlacementPart()
     device: str = "icube"
     joint: str = ""
@@ -110,6 +113,14 @@ class Exercise(Strict):
         if not any(limits.weight > 0.0 for limits in tolerances.values()):
             raise ValueError("at least one metric needs a weight above 0")
         return tolerances
+
+    @model_validator(mode="after")
+    def _risks_are_one_each(self) -> Exercise:
+        names = [name for part in self.structures for name in part.risks]
+        twice = {name for name in names if names.count(name) > 1}
+        if twice:
+            raise ValueError(f"structures: {min(twice)!r} is a risk twice")
+        return self
 
     @model_validator(mode="after")
     def _plan_fits_ct(self) -> Exercise:

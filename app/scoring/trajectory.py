@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from app.core.arrays import FloatArray, read_only
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import MetricUnavailableError, TrajectoryError
+from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
 
 LAST_SEEN = 1.0
@@ -58,6 +59,7 @@ class Trajectory:
             it does not move.
         aborted: why the attempt was aborted; empty if it was not.
         scans: control scans, in order.
+        risks: structures that the needle had to keep away from, and how near it came.
 
     Raises:
         TrajectoryError: naming the array and the first bad sample.
@@ -76,6 +78,7 @@ class Trajectory:
     target_shift: FloatArray | None = None
     aborted: str = ""
     scans: tuple[ScanMark, ...] = ()
+    risks: tuple[RiskMark, ...] = ()
 
     def __post_init__(self) -> None:
         time = _samples(self.time, "time", None, ())

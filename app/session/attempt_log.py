@@ -17,6 +17,7 @@ from app.session.header import Attachment
 from app.session.machine import Attempt
 from app.session.recorder import Recorder
 from app.session.result import AttemptResult
+from app.session.risks import Risk, event_of, risk_marks_of
 from app.session.sample import Sample
 from app.session.samples import History
 from app.session.scored import renders_force, score_document, trajectory
@@ -37,6 +38,7 @@ class AttemptLog:
         history: samples.
         events: events in order.
         scans: control scans taken.
+        risks: structures that the needle has to keep away from.
     """
 
     recorder: Recorder
@@ -45,6 +47,7 @@ class AttemptLog:
     history: History = field(default_factory=History)
     events: list[Event] = field(default_factory=list)
     scans: int = 0
+    risks: tuple[Risk, ...] = ()
 
     def open(self, threaded: bool) -> str:
         """Start recording; returns why it cannot be recorded, or nothing."""
@@ -73,7 +76,10 @@ class AttemptLog:
         try:
             renders = renders_force(self.recorder.header.metadata)
             scans = scan_marks(self.events)
-            path = trajectory(samples, self.placed, attempt.reason, renders, scans)
+            near = risk_marks_of(samples, self.placed, self.risks)
+            for mark in near:
+                self.event(event_of(mark))
+            path = trajectory(samples, self.placed, attempt.reason, renders, scans, near)
             score = self.scorer(path)
         except AcusError as error:
             unscored = str(error)

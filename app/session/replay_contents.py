@@ -7,11 +7,13 @@ from typing import Any
 import numpy as np
 
 from app.core.build import BUILD
+from app.scoring.risks import RiskMark
 from app.session.blocks import INPUTS
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.recording import Recording
 from app.session.replay import is_simulated, why_not
+from app.session.risks import event_of, risk_marks, sentence
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +35,7 @@ class ReplayContents:
         scans: control scans with an order.
         origin: monotonic time of the beginning, which their times are told from [s].
         ct: the CT, and how it was read.
+        risks: structures of risk, and how near the needle came.
     """
 
     session: str
@@ -49,6 +52,7 @@ class ReplayContents:
     scans: tuple[ControlScan, ...] = ()
     origin: float = 0.0
     ct: CtFacts = UNKNOWN_CT
+    risks: tuple[RiskMark, ...] = ()
 
     def sentences(self) -> list[str]:
         """Say it, one line each."""
@@ -66,6 +70,7 @@ class ReplayContents:
         if self.ct.recipe is not None:
             lines.append(f"CT {self.ct.pseudonym}: {self.ct.words()}")
         lines += [scan.sentence(self.origin) for scan in self.scans]
+        lines += [sentence(mark) for mark in self.risks]
         build = ", ".join(f"{name} {value}" for name, value in self.build.items())
         return [*lines, f"build: {build or 'not recorded'}"]
 
@@ -85,6 +90,7 @@ class ReplayContents:
             "gaps": [{"first_tick": first, "ticks": count} for first, count in self.gaps],
             "build": dict(self.build),
             "ct": self.ct.document(),
+            "risks": [dict(event_of(mark).data) for mark in self.risks],
             "scans": [scan.document(self.origin) for scan in self.scans],
         }
 
@@ -112,6 +118,7 @@ def contents(recording: Recording) -> ReplayContents:
         scans=recording.control_scans(),
         origin=recording.origin,
         ct=recording.ct,
+        risks=risk_marks(recording.events),
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
+from app.scoring.risks import RiskMark
 from app.scoring.scans import ScanMark
 from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
@@ -24,7 +25,7 @@ def renders_force(metadata: Mapping[str, Mapping[str, str]]) -> bool:
 
 def trajectory(
     samples: Samples, placed: PlacedPlan, aborted: str = "", renders: bool = True,
-    scans: tuple[ScanMark, ...] = (),
+    scans: tuple[ScanMark, ...] = (), risks: tuple[RiskMark, ...] = (),
 ) -> Trajectory:  # fmt: skip
     """Turn samples into what scoring wants: those without a valid pose are left out.
 
@@ -37,6 +38,7 @@ def trajectory(
         aborted: why it was aborted; empty if it was not.
         renders: whether something could push the hand; see `renders_force`.
         scans: control scans, in order.
+        risks: structures of risk, and how near the needle came.
 
     Raises:
         SessionError: if no sample has a valid pose.
@@ -60,6 +62,7 @@ def trajectory(
         target_shift=target - placed.p_target if np.isfinite(target).all() else None,
         aborted=aborted,
         scans=scans,
+        risks=risks,
     )
 
 

@@ -15,6 +15,7 @@ from app.session.inputs import LoopInputs
 from app.session.machine import Event
 from app.session.ports import ExercisePort, FixPort, LoopPort, TrackerPort
 from app.session.result import AttemptResult
+from app.session.risks import Risk
 from app.session.running import Running
 from app.session.scored import scorer
 from app.session.sight import Sight
@@ -52,12 +53,14 @@ class Trainer:
         advance: Advance | None = None,
         clearance: ClearanceOf | None = None,
         held_arming: bool = False,
+        risks: tuple[Risk, ...] = (),
     ) -> None:
         """Keep the parts.
 
         `advance` is for virtual time only. `clearance` is asked in every tick how much force the
         device is cleared for; without it, whoever built the loop has written it. With
         `held_arming`, forces are on only between `arm` and `disarm` during an attempt.
+        `risks` are measured and recorded when an attempt ends.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -68,6 +71,7 @@ class Trainer:
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
         self._advance = advance
+        self._risks = risks
         self._inputs = LoopInputs(loop.inbox)
         self._arming = Arming(self._inputs, held_arming, clearance)
         self._watch = Watch(loop, tracker, self._inputs)
@@ -140,7 +144,7 @@ class Trainer:
             now = self._clock.now()
             header = self._context.header(self._exercise, self._placed, student, now, hand)
             recorder = self._context.recorder(header, self._loop, self._placed, self._clock)
-            log = AttemptLog(recorder, self._placed, self._scorer)
+            log = AttemptLog(recorder, self._placed, self._scorer, risks=self._risks)
             self._running.begin(log, now, threaded=self._ticker is not None)
             self.heartbeat()
             self._arming.begin()

@@ -187,7 +187,9 @@ class Conductor(QObject):
         if self.exercise is None or self.patient is None:
             return
         ct = CtFacts.of_volume(self.patient.volume)
-        self._runs.want(RunSetup(self.exercise, placed, ct, self._robot, self._cameras))
+        self._runs.want(
+            RunSetup(self.exercise, placed, ct, self._robot, self._cameras, self.patient.volume)
+        )
 
     def _click_in_scene(self, point: FloatArray, direction: FloatArray) -> None:
         """Take a click on the skin in 3D as the entry, if one is being placed."""

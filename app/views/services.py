@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
+from app.imaging.volume import Volume
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
@@ -61,6 +62,7 @@ class RunSetup:
         ct: the CT, for the record.
         robot: which robot.
         cameras: real ones; None for simulated ones.
+        volume: the CT itself, for the exercise's structures.
     """
 
     exercise: Exercise
@@ -68,6 +70,7 @@ class RunSetup:
     ct: CtFacts = UNKNOWN_CT
     robot: RobotChoice = RobotChoice()
     cameras: CameraSettings | None = None
+    volume: Volume | None = None
 
     def same_run(self, other: RunSetup) -> bool:
         """Whether a run of the other setup only has to take this plan."""

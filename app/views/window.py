@@ -71,7 +71,7 @@ class MainWindow(QMainWindow):
                                          self)  # fmt: skip
         self.paths = PathsHelper(self.conductor, self.editor, self.workspace,
                                  self.structures.book, self.progress, self)  # fmt: skip
-        self.undo = UndoOrder((self.editor, self.workspace.measure), self)
+        self.undo = UndoOrder((self.editor, self.workspace.measure, self.structures.book), self)
         self.measuring = MeasureDesk(self)
         self.plan_files = PlanFiles(self.editor, self.recent_plans, self)
         self.open_ct = OpenCt(self.recent_cts, self.progress, self)

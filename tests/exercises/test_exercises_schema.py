@@ -38,6 +38,36 @@ def test_a_remedy_can_be_asked_for_of_a_folder(tmp_path: Path) -> None:
         read(tmp_path, plan + "ct: {folder: chest, remedy: paint}\n")
 
 
+def test_structures_lie_beside_the_exercise_or_among_the_users(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = "structures: [{file: a.seg.nrrd, risks: {portal vein: 3}}, {file: b.nii.gz}]\n"
+    monkeypatch.setenv("ACUS_DATA", str(tmp_path / "data"))
+    (tmp_path / "data" / "structures").mkdir(parents=True)
+    (tmp_path / "data" / "structures" / "b.nii.gz").touch()
+    first, second = read(tmp_path, text).structures
+    assert first.file == tmp_path / "a.seg.nrrd"
+    assert dict(first.risks) == {"portal vein": 3.0}
+    assert second.file == tmp_path / "data" / "structures" / "b.nii.gz"
+    (tmp_path / "b.nii.gz").touch()
+    assert read(tmp_path, text).structures[1].file == tmp_path / "b.nii.gz"
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("structures: [{file: a.nrrd, risks: {x: 3}}, {file: b.nrrd, risks: {x: 1}}]", "twice"),
+        ("structures: [{file: a.nrrd, risks: {x: -1}}]", "greater than or equal to 0"),
+        ("structures: [{file: a.nrrd, risks: {x: 51}}]", "less than or equal to 50"),
+        ("structures: [{file: ''}]", "names a file"),
+        ("structures: [{risks: {x: 1}}]", "file"),
+    ],
+)
+def test_structures_that_cannot_be_meant_are_refused(tmp_path: Path, text: str, why: str) -> None:
+    with pytest.raises(ConfigurationError, match=why):
+        read(tmp_path, text + "\n")
+
+
 def test_everything_can_be_given(tmp_path: Path) -> None:
     exercise = read(
         tmp_path,

@@ -10,6 +10,7 @@ from app.planning.placement import PatientOrientation, Placement
 from app.scoring import metrics
 from app.scoring.errors import MetricError, MetricUnavailableError, UnknownMetricError
 from app.scoring.paths import raw_length, smooth_length
+from app.scoring.risks import RiskMark
 from app.scoring.trajectory import Phase, Trajectory
 
 DEGREE = np.pi / 180.0
@@ -49,7 +50,8 @@ def test_a_file_that_is_no_metric_is_refused_by_name(
 @pytest.mark.parametrize("name", NAMES)
 def test_every_metric_is_finite_on_a_plain_attempt(name: str) -> None:
     base = Attempt(noise=1e-4, force=1.0).trajectory()
-    trajectory = Attempt(noise=1e-4, force=1.0).trajectory(guide=base.felt)
+    risks = (RiskMark("vessel", 3.0, 2.0),)
+    trajectory = Attempt(noise=1e-4, force=1.0).trajectory(guide=base.felt, risks=risks)
     assert np.isfinite(value(name, trajectory))
 
 

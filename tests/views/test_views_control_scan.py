@@ -16,6 +16,8 @@ from window_rig import plan
 from app.core.events import Event
 from app.exercises.guidance import GuidanceMode, GuidancePart
 from app.imaging.scan_order import ScanNeedle, ScanOrder
+from app.imaging.structures.distance import SignedDistance
+from app.imaging.structures.edit import brushed
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import CtFacts
 from app.session.machine import State
@@ -78,12 +80,14 @@ def shown_with(window, trainer, snapshot) -> dict[str, object]:
     return telling(window)
 
 
-@pytest.mark.parametrize("tab", range(4))
+@pytest.mark.parametrize("tab", range(6))
 def test_no_widget_tells_where_the_needle_is(guided, tab, settle) -> None:
     window, trainer = guided
     controller, placed = window.conductor.controller, trainer.placed
     controller._timer.stop()
+    assert window.workspace.side.count() == 6
     window.workspace.side.setCurrentIndex(tab)
+    add_structure(window, placed.plan)
     window.menus.follow.setChecked(True)
     settle(timeout=0.3)
     near = snapshot_of(placed, state=State.INSERTING, pose=pose_of(placed, 0.01, 0.02))
@@ -102,6 +106,34 @@ def test_no_widget_tells_where_the_needle_is(guided, tab, settle) -> None:
     assert different == [], [(first[key], second.get(key)) for key in different
                              if "picture" not in key]  # fmt: skip
     assert window.workspace.viewing.needle is None
+    assert window.structures.panel.live.text() == ""
+
+
+def test_structures_are_said_nothing_of_while_scans_guide(guided, settle) -> None:
+    window, trainer = guided
+    add_structure(window, trainer.placed.plan)
+    breaches = []
+    window.structures.watch.breached.connect(breaches.append)
+    for depth in (0.0, 0.01, 0.02):
+        trainer.now = snapshot_of(trainer.placed, pose=pose_of(trainer.placed, 0.0, depth))
+        window.conductor.controller.look()
+        settle(timeout=0.08)
+    assert breaches == []
+    assert window.structures.watch.needle is None
+    assert window.structures.watch.items(trainer.now) == ()
+    window.conductor._attach(replace(window.conductor.controller.run, shown=Shown(), inspect=None))
+    settle(lambda: bool(breaches), 2.0)
+    assert breaches  # the same needle, shown live
+
+
+def add_structure(window, path) -> None:
+    """Mark a ball of risk in the middle of the path."""
+    book = window.structures.book
+    volume = window.conductor.patient.volume
+    middle = 0.5 * (np.asarray(path.entry_mm) + np.asarray(path.target_mm))
+    book.put("vessel", *brushed(None, volume, middle, 6.0, True))
+    for one in book.unmeasured:
+        book.set_field(one, SignedDistance.of(one))
 
 
 def test_the_same_walk_notices_a_needle_that_is_shown(guided, settle) -> None:

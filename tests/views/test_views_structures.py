@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
+from window_rig import plan
 
+from app.exercises.parts import StructurePart
 from app.imaging.structures.distance import SignedDistance
-from app.imaging.structures.structure import Kind, StructureSet
+from app.imaging.structures.structure import Kind, Structure, StructureSet
 from app.imaging.volume import Volume
 from app.planning.clearance import Nearness
 from app.planning.draft import DraftPlan
@@ -14,11 +16,12 @@ from app.views.needle_overlay import NeedleOverlay
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
 from app.views.slices.presets import default_window
-from app.views.slices.viewing import Viewing
+from app.views.slices.viewing import Tool, Viewing
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip, Mode
 from app.views.structures.layer import StructureLayer
-from app.views.structures.panel import NAME, PATH, StructurePanel
+from app.views.structures.panel import StructurePanel
+from app.views.structures.table import NAME, PATH
 from app.views.structures.watch import StructureWatch, words
 
 
@@ -218,3 +221,89 @@ def test_a_warning_has_words(book, volume):
     watch = StructureWatch(book)
     watch.set_needle(overlay(volume, centre_of(book) - [0.0, 10.0, 0.0]))
     assert words(watch.needle).endswith("mm from vessel")
+
+
+# --- in the window -------------------------------------------------------------------------------
+def test_one_undo_takes_back_plan_and_structures_in_order(window, patient, settle) -> None:
+    window.show_patient(patient)
+    plan(window)
+    book, edit = window.structures.book, window.editor
+    entry = edit.edit.draft.entry_mm
+    book.put("a", *ball(patient.volume, (5.0, 0.0, 140.0), 5.0))
+    window.editor.place(Tool.ENTRY, (8.0, -18.0, 140.0), True)
+    book.put("b", *ball(patient.volume, (5.0, 0.0, 150.0), 5.0))
+    book.put("b", *ball(patient.volume, (5.0, 0.0, 150.0), 6.0), starts_step=False)  # the stroke
+    window.undo.undo()
+    assert [one.name for one in book.structures] == ["a"]
+    window.undo.undo()
+    assert edit.edit.draft.entry_mm == entry
+    window.undo.undo()
+    assert len(book.structures) == 0
+    for _ in range(3):
+        window.undo.redo()
+    assert [one.name for one in book.structures] == ["a", "b"]
+    assert edit.edit.draft.entry_mm != entry
+    book.set_locked(True)
+    window.undo.undo()  # the attempt keeps the structures; the plan's step goes back
+    assert [one.name for one in book.structures] == ["a", "b"]
+
+
+@pytest.fixture
+def with_structures(window, patient, tmp_path):
+    """An exercise whose file of structures was drawn on the CT that is shown."""
+    pytest.importorskip("nrrd")
+    from app.imaging.structures.files import write_structures
+
+    parts = (("vessel", (5.0, 0.0, 140.0)), ("liver", (10.0, 5.0, 140.0)))
+    made = [Structure.of(name, filled(patient.volume, centre), patient.volume)
+            for name, centre in parts]  # fmt: skip
+    path = tmp_path / "a.seg.nrrd"
+    write_structures(path, StructureSet(tuple(made)), patient.volume)
+    first = next(iter(window.exercises.values()))
+
+    def exercise(name="vessel", file=path):
+        part = StructurePart(file=file, risks={name: 4.0})
+        return first.model_copy(update={"structures": (part,)})
+
+    return exercise
+
+
+def filled(volume: Volume, centre):
+    mask = np.zeros(volume.hu.shape, bool)
+    box, (i, j, k) = ball(volume, centre, 5.0)
+    mask[k : k + box.shape[0], j : j + box.shape[1], i : i + box.shape[2]] = box
+    return mask
+
+
+def test_structures_of_an_exercise_come_with_its_ct(
+    window, patient, with_structures, settle, monkeypatch
+) -> None:
+    monkeypatch.setattr(window.conductor, "fits", lambda _: True)
+    window.conductor.set_exercise(with_structures())
+    window.show_patient(patient)
+    book = window.structures.book
+    assert settle(lambda: len(book.structures) == 2, 20.0)
+    vessel, liver = book.structures.find("vessel"), book.structures.find("liver")
+    assert (vessel.kind, vessel.warn_mm) == (Kind.RISK, 4.0)
+    assert liver.kind is not Kind.RISK
+    assert not window.undo.can_undo
+    plan(window)
+    assert settle(lambda: "vessel" in window.structures.watch.path, 20.0)
+    other = next(e for e in window.exercises.values() if not e.structures)
+    window.conductor.set_exercise(other)
+    assert settle(lambda: len(book.structures) == 0, 5.0)
+
+
+def test_structures_that_an_exercise_lacks_are_said(
+    window, patient, with_structures, settle, monkeypatch, tmp_path
+) -> None:
+    monkeypatch.setattr(window.conductor, "fits", lambda _: True)
+    said = []
+    window.structures.failed.connect(said.append)
+    window.conductor.set_exercise(with_structures("spleen"))
+    window.show_patient(patient)
+    assert settle(lambda: bool(said), 20.0)
+    assert "there is no structure 'spleen'; there are: vessel, liver" in str(said[0])
+    window.conductor.set_exercise(with_structures(file=tmp_path / "gone.nrrd"))
+    assert settle(lambda: len(said) > 1, 20.0)
+    assert "gone.nrrd" in str(said[1])

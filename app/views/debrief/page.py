@@ -9,6 +9,7 @@ from app.views import theme
 from app.views.debrief.curves import CurvesView
 from app.views.debrief.path_view import PathView
 from app.views.debrief.review import Review
+from app.views.debrief.risk_words import risk_lines
 from app.views.debrief.scan_list import ScanList
 from app.views.debrief.score_table import ScoreTable
 from app.views.debrief.score_words import total_text, verdict
@@ -39,7 +40,7 @@ class DebriefPage(QWidget):
         self._review: Review | None = None
         self._title, self._facts = QLabel(self), QLabel(self)
         self._verdict, self._total, self._reason = QLabel(self), QLabel(self), QLabel(self)
-        self._problems = QLabel(self)
+        self._problems, self.risks = QLabel(self), QLabel(self)
         self.table = ScoreTable(self)
         self.scans = ScanList(self)
         self.path = PathView(self)
@@ -65,6 +66,9 @@ class DebriefPage(QWidget):
         self._reason.setVisible(bool(reason))
         self._problems.setText("\n".join(f"▲ {problem}" for problem in review.problems))
         self._problems.setVisible(bool(review.problems))
+        lines = risk_lines(review)
+        self.risks.setText("\n".join((tr("Closest to structures of risk"), *lines)))
+        self.risks.setVisible(bool(lines))
         self.table.show_score(review.score)
         self.scans.show_review(review)
         self.path.show_review(review)
@@ -81,7 +85,7 @@ class DebriefPage(QWidget):
         self._total.setStyleSheet(f"font-size: {theme.TITLE_PX}px; font-weight: 600;")
         self._problems.setStyleSheet(f"color: {theme.WARNING}; font-size: {theme.SMALL_PX}px;")
         self.retry.setProperty("role", "primary")
-        for label in (self._title, self._facts, self._reason, self._problems):
+        for label in (self._title, self._facts, self._reason, self._problems, self.risks):
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setWordWrap(True)
 
@@ -98,6 +102,7 @@ class DebriefPage(QWidget):
         for widget in (self._reason, self._problems):
             column.addWidget(widget)
         column.addWidget(self.table, 3)
+        column.addWidget(self.risks)
         column.addWidget(self.scans, 2)
         column.addWidget(self.path, 4)
         self._splitter = splitter = QSplitter(Qt.Orientation.Horizontal, self)

@@ -18,6 +18,7 @@ from app.views.debrief.print_path import paint_path
 from app.views.debrief.print_plot import paint_plot
 from app.views.debrief.print_style import BAND_INKS, DIM, INK, RULE, font
 from app.views.debrief.review import Review
+from app.views.debrief.risk_words import risk_lines
 from app.views.debrief.score_words import counting, row_texts, shown_only, total_text, verdict
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.state_words import state_word
@@ -82,6 +83,9 @@ def _first_page(painter: QPainter, review: Review) -> None:
         y = _table(painter, review.score, y)
     painter.setFont(font(8.5))
     painter.setPen(QColor(DIM))
+    for line in risk_lines(review):
+        _paragraph(painter, line, y, 13.0)
+        y += 13.0
     for problem in review.problems:
         _paragraph(painter, f"▲ {problem}", y, 24.0)
         y += 24.0

@@ -12,6 +12,7 @@ from app.core.arrays import FloatArray
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import ScoreFormatError
 from app.scoring.result import Score
+from app.scoring.risks import RiskMark
 from app.scoring.trajectory import Phase
 from app.session.calibration_flag import CalibrationFlags
 from app.session.control_scan import ControlScan, scans_of
@@ -21,6 +22,7 @@ from app.session.errors import SessionError
 from app.session.needle import FROM_CAMERAS
 from app.session.recording import Recording, read_recording
 from app.session.result import AttemptResult
+from app.session.risks import risk_marks
 from app.session.scored import renders_force
 from app.session.summary import SCORE_FILE, derive
 from app.views.debrief.timeline import Mark, Span, marks, spans
@@ -76,6 +78,7 @@ class Review:
         control_scans: those with slices, in order.
         origin: moment that their times are told from [s].
         ct: the CT, and how it was read.
+        risks: structures of risk, and how near the needle came.
         tip_radius: round the tip that holds the true one with 95 %, median [m]; None if not known.
     """
 
@@ -102,6 +105,7 @@ class Review:
     control_scans: tuple[ControlScan, ...] = ()
     origin: float = 0.0
     ct: CtFacts = UNKNOWN_CT
+    risks: tuple[RiskMark, ...] = ()
 
     @property
     def rings(self) -> tuple[float, float]:
@@ -172,6 +176,7 @@ def review(recording: Recording) -> Review:
         control_scans=recording.control_scans(),
         origin=origin,
         ct=recording.ct,
+        risks=risk_marks(recording.events),
     )
 
 
@@ -222,6 +227,7 @@ def review_of_result(result: AttemptResult) -> Review:
         force_limit=FORCE_LIMIT,
         renders=path.felt is not None,
         control_scans=scans_of(result.events),
+        risks=risk_marks(result.events),
         origin=float(path.time[0]),
     )
 

@@ -31,8 +31,10 @@ class StructureBook(QObject):
         changed(): the set, what is visible, or which one is chosen is another.
         measured(): distances of more structures are known.
         refused(object): why something was not done.
+        stepped(object): this editor has made a step that can be undone.
     """
 
+    stepped = Signal(object)
     changed = Signal()
     measured = Signal()
     refused = Signal(object)
@@ -102,6 +104,11 @@ class StructureBook(QObject):
         self.volume = volume
         self._history, self._hidden, self._fields = History(StructureSet()), set(), {}
         self.chosen = ""
+        self.changed.emit()
+
+    def begin(self, structures: StructureSet) -> None:
+        """Begin anew with these structures on the same CT; nothing to undo."""
+        self._history, self._hidden, self.chosen = History(structures), set(), ""
         self.changed.emit()
 
     def add(self, more: StructureSet) -> None:
@@ -178,6 +185,8 @@ class StructureBook(QObject):
         if self.locked:
             self.refused.emit("structures cannot change while an attempt runs: end it first")
             return
-        history = self._history
-        self._history = history.do(structures) if starts_step else history.amend(structures)
+        before = self._history
+        self._history = before.do(structures) if starts_step else before.amend(structures)
+        if starts_step and self._history is not before:
+            self.stepped.emit(self)
         self.changed.emit()

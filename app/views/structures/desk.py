@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtWidgets import QFileDialog
 
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
-from app.imaging.structures.structure import Index, Mask, Structure, StructureSet, free_name
+from app.imaging.structures.structure import Index, Mask, Structure, free_name
 from app.planning.clearance import Clearance
 from app.views.background import Indicator, Task, run_in_background
 from app.views.conductor import Conductor
 from app.views.plan.editor import PlanEditor
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip
+from app.views.structures.files import StructureFiles
 from app.views.structures.layer import draw_in
 from app.views.structures.looks import named
 from app.views.structures.panel import StructurePanel
@@ -33,8 +32,6 @@ TRIANGLES = 20_000
 
 SETTLE_MS = 400
 """Distances are computed anew this long after the last stroke."""
-
-FILES = "Structures (*.seg.nrrd *.nrrd *.nii *.nii.gz *.dcm *);;All files (*)"
 
 
 class StructuresDesk(QObject):
@@ -61,7 +58,9 @@ class StructuresDesk(QObject):
         self.brush = Brush(self)
         self.watch = StructureWatch(self.book, self)
         self.panel = StructurePanel(self.book, self.watch, self.brush)
+        self.files = StructureFiles(self.book, self.panel, workspace, indicator, self)
         self._meshes: dict[int, Mesh] = {}
+        self._belongs: tuple[object, ...] = ()
         self._task: Task | None = None
         self._settle = QTimer(self, interval=SETTLE_MS, singleShot=True)
         self._settle.timeout.connect(self._measure)
@@ -75,6 +74,7 @@ class StructuresDesk(QObject):
     def _connect(self) -> None:
         viewing, conductor = self._workspace.viewing, self._conductor
         conductor.patient_changed.connect(self._take_patient)
+        conductor.exercise_taken.connect(lambda _: self._take_patient())
         self._editor.changed.connect(self._take_plan)
         viewing.needle_changed.connect(lambda: self.watch.set_needle(viewing.needle))
         conductor.controller.add_items(self.watch.items)
@@ -82,8 +82,9 @@ class StructuresDesk(QObject):
         self.watch.breached.connect(self._workspace.messages.add_event)
         self.book.changed.connect(self._show)
         self.book.refused.connect(self._refused)
-        self.panel.import_wanted.connect(self.ask_open)
-        self.panel.export_wanted.connect(self.ask_save)
+        self.files.failed.connect(self._refused)
+        self.panel.import_wanted.connect(self.files.ask_open)
+        self.panel.export_wanted.connect(self.files.ask_save)
         self.panel.threshold_wanted.connect(self.threshold)
 
     # --- what is shown ------------------------------------------------------------------------
@@ -93,6 +94,21 @@ class StructuresDesk(QObject):
             self._stop()
             self._meshes = {}
             self.book.set_volume(patient.volume)
+        self._take_exercise()
+
+    def _take_exercise(self) -> None:
+        """Load the structures that belong to the exercise, once for each exercise and CT."""
+        conductor = self._conductor
+        patient, exercise = conductor.patient, conductor.exercise
+        if patient is None or exercise is None:
+            return
+        parts = exercise.structures if conductor.fits(patient) else ()
+        belongs = (id(patient.volume), parts)
+        if belongs == self._belongs:
+            return
+        had, self._belongs = bool(self._belongs and self._belongs[1]), belongs
+        if parts or had:
+            self.files.begin(parts)
 
     def _take_plan(self) -> None:
         self.watch.set_draft(self._editor.edit.draft)
@@ -162,58 +178,6 @@ class StructuresDesk(QObject):
     def is_settled(self) -> bool:
         """Whether all distances and surfaces are there."""
         return self._task is None and not self.book.unmeasured
-
-    # --- files --------------------------------------------------------------------------------
-    def ask_open(self) -> None:
-        """Ask for a file of structures and read it."""
-        name, _ = QFileDialog.getOpenFileName(self._workspace, tr("Open structures"), "", FILES)
-        if name:
-            self.open(Path(name))
-
-    def open(self, path: Path) -> None:
-        """Read structures onto the CT that is shown, beside the window."""
-        volume = self.book.volume
-        if volume is None:
-            self._refused(tr("Open the CT that the structures belong to first."))
-            return
-
-        def read(progress: Progress) -> StructureSet:
-            with ONE_AT_A_TIME:
-                from app.imaging.structures.files import read_structures
-            return read_structures(path, volume, progress)
-
-        def take(found: StructureSet) -> None:
-            if self.book.volume is volume:
-                self.book.add(StructureSet(found.structures))
-                said = tr("{name}: {count} structures", name=path.name, count=len(found))
-                self.panel.set_note("\n".join((said, *found.notes)))
-
-        run_in_background(self, read, take, self._refused,
-                          title=tr("Reading structures"), indicator=self._indicator)  # fmt: skip
-
-    def ask_save(self) -> None:
-        """Ask where to write the structures, and write them."""
-        kinds = tr("3D Slicer segmentation (*.seg.nrrd);;DICOM SEG (*.dcm)")
-        name, kind = QFileDialog.getSaveFileName(self._workspace, tr("Save structures"), "", kinds)
-        if name:
-            ending = ".dcm" if ".dcm" in kind else ".seg.nrrd"
-            self.save(Path(name if name.endswith((".dcm", ".seg.nrrd")) else name + ending))
-
-    def save(self, path: Path) -> None:
-        """Write all structures, beside the window."""
-        volume, structures = self.book.volume, self.book.structures
-        if volume is None:
-            return
-
-        def write(progress: Progress) -> None:
-            with ONE_AT_A_TIME:
-                from app.imaging.structures.files import write_structures
-            write_structures(path, structures, volume)
-
-        run_in_background(
-            self, write, lambda _: self.panel.set_note(tr("Written: {name}", name=path.name)),
-            self._refused, title=tr("Writing structures"), indicator=self._indicator,
-        )  # fmt: skip
 
     # --- marking ------------------------------------------------------------------------------
     def threshold(self) -> None:

@@ -8,6 +8,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPen
 
 from app.imaging.structures.structure import Kind, Structure
+from app.planning.clearance import Nearness
+from app.views import theme
 from app.views.text import tr
 
 HATCHES = {
@@ -19,6 +21,13 @@ HATCHES = {
 }
 DASHES: dict[Kind, tuple[float, ...]] = {Kind.OTHER: (2.0, 2.0), Kind.TARGET: (6.0, 3.0)}
 SIGNS = {Kind.RISK: "▩", Kind.VESSEL: "▨", Kind.BONE: "▒", Kind.TARGET: "◎", Kind.OTHER: "□"}
+
+LOOKS = {
+    Nearness.FREE: (theme.TEXT, "✔"),
+    Nearness.NEAR: (theme.WARNING, "▲"),
+    Nearness.HIT: (theme.BAD, "✖"),
+}
+"""Colour and sign of a distance."""
 
 
 def kind_names() -> dict[Kind, str]:

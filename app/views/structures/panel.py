@@ -2,40 +2,26 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtGui import QColor, QIcon, QPixmap
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
-    QAbstractItemView,
     QCheckBox,
-    QComboBox,
-    QDoubleSpinBox,
     QGridLayout,
     QHBoxLayout,
-    QHeaderView,
     QLabel,
     QPushButton,
-    QTableWidget,
-    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
 
-from app.imaging.structures.structure import Kind, Structure
 from app.planning.clearance import Clearance, Nearness
 from app.views import theme
 from app.views.names import NAMES
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, Mode
-from app.views.structures.looks import SIGNS, kind_names
+from app.views.structures.looks import LOOKS
+from app.views.structures.table import StructureTable, spin_box
 from app.views.structures.watch import StructureWatch
 from app.views.text import tr
-
-NAME, KIND, WARN, PATH = range(4)
-_LOOKS = {
-    Nearness.FREE: (theme.TEXT, "✔"),
-    Nearness.NEAR: (theme.WARNING, "▲"),
-    Nearness.HIT: (theme.BAD, "✖"),
-}
 
 
 class StructurePanel(QWidget):
@@ -57,11 +43,10 @@ class StructurePanel(QWidget):
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self._book, self._watch, self._brush = book, watch, brush
+        self._book, self._brush = book, brush
         self.open, self.save = QPushButton(tr("Open…")), QPushButton(tr("Save…"))
         self.remove = QPushButton(tr("Delete"))
-        self.undo, self.redo = QPushButton(tr("Undo")), QPushButton(tr("Redo"))
-        self.table = _table()
+        self.table = StructureTable(book, watch, self)
         self.note = QLabel(self)
         self.note.setWordWrap(True)
         self.note.setProperty("role", "dim")
@@ -70,9 +55,9 @@ class StructurePanel(QWidget):
         self.live.setWordWrap(True)
         self.live.setTextFormat(Qt.TextFormat.PlainText)
         self.modes = {mode: QPushButton(text) for mode, text in _mode_names().items()}
-        self.radius = _spin(1.0, 40.0, 6.0, tr(" mm"), 0.5)
-        self.low = _spin(-1024.0, 3071.0, -50.0, tr(" HU"), 10.0)
-        self.high = _spin(-1024.0, 3071.0, 250.0, tr(" HU"), 10.0)
+        self.radius = spin_box(1.0, 40.0, 6.0, tr(" mm"), 0.5)
+        self.low = spin_box(-1024.0, 3071.0, -50.0, tr(" HU"), 10.0)
+        self.high = spin_box(-1024.0, 3071.0, 250.0, tr(" HU"), 10.0)
         self.limited = QCheckBox(tr("Paint only these values"))
         self.threshold = QPushButton(tr("All of these values in the body"))
         self._lay_out()
@@ -83,15 +68,7 @@ class StructurePanel(QWidget):
     def refresh(self) -> None:
         """Show the book's present state."""
         book, structures = self._book, self._book.structures
-        with QSignalBlocker(self.table):
-            self.table.setRowCount(len(structures))
-            for row, structure in enumerate(structures):
-                self._show_row(row, structure)
-            selected = next((n for n, s in enumerate(structures) if s.name == book.chosen), -1)
-            self.table.setCurrentCell(selected, NAME)
-        self.refresh_path()
-        self.undo.setEnabled(book.can_undo)
-        self.redo.setEnabled(book.can_redo)
+        self.table.refresh()
         self.save.setEnabled(len(structures) > 0)
         self.remove.setEnabled(book.selected is not None and not book.locked)
         for widget in (self.open, self.threshold, *self.modes.values()):
@@ -107,82 +84,13 @@ class StructurePanel(QWidget):
         """Say what happened to what was read or written last."""
         self.note.setText(NAMES.veiled(text))
 
-    def refresh_path(self) -> None:
-        """Show the distances of the planned path."""
-        for row, structure in enumerate(self._book.structures):
-            self._show_path(row, self._watch.path.get(structure.name))
-
     def show_needle(self, clearance: Clearance | None, text: str) -> None:
         """Show what the live needle is too near to."""
-        look, sign = _LOOKS[clearance.nearness if clearance is not None else Nearness.FREE]
+        look, sign = LOOKS[clearance.nearness if clearance is not None else Nearness.FREE]
         self.live.setText(f"{sign}  {text}" if text else "")
         self.live.setStyleSheet(f"color: {look}; font-weight: 600;")
 
-    def _show_row(self, row: int, structure: Structure) -> None:
-        item = QTableWidgetItem(structure.name)
-        visible = self._book.is_visible(structure.name)
-        item.setCheckState(Qt.CheckState.Checked if visible else Qt.CheckState.Unchecked)
-        item.setIcon(_swatch(structure))
-        item.setToolTip(tr("{ml:.2f} ml. Tick: drawn. Double click: rename.",
-                           ml=structure.millilitres))  # fmt: skip
-        self.table.setItem(row, NAME, item)
-        box = self.table.cellWidget(row, KIND)
-        spin = self.table.cellWidget(row, WARN)
-        if not isinstance(box, QComboBox) or not isinstance(spin, QDoubleSpinBox):
-            box, spin = self._row_widgets(row)
-        with QSignalBlocker(box), QSignalBlocker(spin):
-            box.setCurrentIndex(box.findData(structure.kind.value))
-            box.setAccessibleName(tr("Kind of {name}", name=structure.name))
-            spin.setValue(structure.warn_mm)
-            spin.setAccessibleName(tr("Warning distance of {name}", name=structure.name))
-
-    def _row_widgets(self, row: int) -> tuple[QComboBox, QDoubleSpinBox]:
-        box = QComboBox()
-        for kind, name in kind_names().items():
-            box.addItem(f"{SIGNS[kind]} {name}", kind.value)
-        box.activated.connect(lambda _: self._set_kind(row, Kind(box.currentData())))
-        spin = _spin(0.0, 50.0, 0.0, "", 0.5)
-        spin.setToolTip(tr("Warn within so many mm; 0 never"))
-        spin.valueChanged.connect(lambda value: self._set_warn(row, value))
-        self.table.setCellWidget(row, KIND, box)
-        self.table.setCellWidget(row, WARN, spin)
-        return box, spin
-
-    def _show_path(self, row: int, clearance: Clearance | None) -> None:
-        item = QTableWidgetItem("–")
-        if clearance is not None:
-            look, sign = _LOOKS[clearance.nearness]
-            item.setText(f"{sign} {clearance.distance_mm:.1f}")
-            item.setForeground(QColor(theme.now(look)))
-            item.setToolTip(tr("The path comes nearest {depth:.0f} mm behind its entry",
-                               depth=clearance.depth_mm))  # fmt: skip
-        item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
-        with QSignalBlocker(self.table):
-            self.table.setItem(row, PATH, item)
-
-    def _set_kind(self, row: int, kind: Kind) -> None:
-        name = self._book.structures.structures[row].name
-        self._book.change(name, kind=kind, warn_mm=kind.warn_mm)
-
-    def _set_warn(self, row: int, warn_mm: float) -> None:
-        self._book.change(self._book.structures.structures[row].name, warn_mm=warn_mm)
-
     # --- wanted -------------------------------------------------------------------------------
-    def _edited(self, item: QTableWidgetItem) -> None:
-        if item.column() != NAME or item.row() >= len(self._book.structures):
-            return
-        structure = self._book.structures.structures[item.row()]
-        visible = item.checkState() is Qt.CheckState.Checked
-        if item.text() != structure.name:
-            self._book.change(structure.name, name=item.text())
-        elif visible != self._book.is_visible(structure.name):
-            self._book.set_visible(structure.name, visible)
-
-    def _chosen(self) -> None:
-        row = self.table.currentRow()
-        if 0 <= row < len(self._book.structures):
-            self._book.choose(self._book.structures.structures[row].name)
-
     def _mode_wanted(self, mode: Mode, on: bool) -> None:
         self._brush.set(mode=mode if on else Mode.OFF)
 
@@ -193,16 +101,11 @@ class StructurePanel(QWidget):
     def _connect(self) -> None:
         book, brush = self._book, self._brush
         book.changed.connect(self.refresh)
-        self._watch.path_changed.connect(self.refresh_path)
         brush.changed.connect(self._show_mode)
         self.open.clicked.connect(self.import_wanted)
         self.save.clicked.connect(self.export_wanted)
         self.remove.clicked.connect(lambda: book.remove(book.chosen))
-        self.undo.clicked.connect(book.undo)
-        self.redo.clicked.connect(book.redo)
         self.threshold.clicked.connect(self.threshold_wanted)
-        self.table.itemChanged.connect(self._edited)
-        self.table.itemSelectionChanged.connect(self._chosen)
         for mode, button in self.modes.items():
             button.clicked.connect(lambda on, m=mode: self._mode_wanted(m, on))
         self.radius.valueChanged.connect(lambda value: brush.set(radius_mm=value))
@@ -216,7 +119,7 @@ class StructurePanel(QWidget):
         column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
         column.setSpacing(theme.SPACING)
         column.addWidget(_heading(tr("Structures")))
-        column.addLayout(_row(self.open, self.save, self.remove, self.undo, self.redo))
+        column.addLayout(_row(self.open, self.save, self.remove))
         column.addWidget(self.table, 1)
         column.addWidget(self.live)
         column.addWidget(self.note)
@@ -253,37 +156,3 @@ def _heading(text: str) -> QLabel:
     label = QLabel(text)
     label.setProperty("role", "heading")
     return label
-
-
-def _spin(low: float, high: float, value: float, suffix: str, step: float) -> QDoubleSpinBox:
-    box = QDoubleSpinBox()
-    box.setRange(low, high)
-    box.setDecimals(0 if step >= 1.0 else 1)
-    box.setSingleStep(step)
-    box.setValue(value)
-    box.setSuffix(suffix)
-    box.setKeyboardTracking(False)
-    return box
-
-
-def _swatch(structure: Structure) -> QIcon:
-    pixmap = QPixmap(14, 14)
-    pixmap.fill(QColor(*structure.colour))
-    return QIcon(pixmap)
-
-
-def _table() -> QTableWidget:
-    table = QTableWidget(0, 4)
-    table.setHorizontalHeaderLabels([tr("Name"), tr("Kind"), tr("Warn\n[mm]"), tr("Path\n[mm]")])
-    table.verticalHeader().setVisible(False)
-    table.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT + 2)
-    table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
-    table.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-    table.setMinimumHeight(180)
-    header = table.horizontalHeader()
-    header.setSectionResizeMode(NAME, QHeaderView.ResizeMode.Stretch)
-    for column, width in ((KIND, 92), (WARN, 68), (PATH, 66)):
-        header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
-        table.setColumnWidth(column, width)
-    table.setAccessibleName(tr("Structures"))
-    return table

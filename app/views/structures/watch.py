@@ -44,6 +44,7 @@ class StructureWatch(QObject):
         self.needle: Clearance | None = None
         self._measured_at = -PERIOD_S
         self._told: dict[str, Nearness] = {}
+        self._judges = False
         book.measured.connect(self._measure_path)
         book.changed.connect(self._measure_path)
 
@@ -62,6 +63,7 @@ class StructureWatch(QObject):
 
     def set_needle(self, needle: NeedleOverlay | None) -> None:
         """Measure the live needle; one that is hidden, or not tracked, is not judged."""
+        self._judges = needle is not None and needle.valid
         if needle is None or not needle.valid or not len(self._book.structures):
             self._show(None)
             return
@@ -92,8 +94,8 @@ class StructureWatch(QObject):
                 self.breached.emit(Event(now, "breach", words(one), data))
 
     def items(self, _: Snapshot) -> tuple[StatusItem, ...]:
-        """Say it in the status strip; nothing without structures."""
-        if not len(self._book.structures):
+        """Say it in the status strip; nothing without structures, or of a needle not shown."""
+        if not len(self._book.structures) or not self._judges:
             return ()
         help_text = tr(
             "Smallest distance of the needle from a structure that warns. Distances and kinds "

@@ -1,0 +1,41 @@
+"""A structure that the needle had to keep away from, as scoring sees it."""
+
+from dataclasses import dataclass
+from math import isfinite
+
+from app.scoring.errors import TrajectoryError
+
+
+@dataclass(frozen=True, slots=True)
+class RiskMark:
+    """How near the needle came to one structure.
+
+    Attributes:
+        name: of the structure.
+        limit_mm: it should have stayed at least this far off.
+        closest_mm: smallest distance of the needle's part in the body; negative inside.
+        time: monotonic time of that moment [s].
+        depth_mm: of the tip then.
+
+    Raises:
+        TrajectoryError: if a number is not finite, or the limit is negative.
+    """
+
+    name: str
+    limit_mm: float
+    closest_mm: float
+    time: float = 0.0
+    depth_mm: float = 0.0
+
+    def __post_init__(self) -> None:
+        numbers = (self.limit_mm, self.closest_mm, self.time, self.depth_mm)
+        if not (all(map(isfinite, numbers)) and self.limit_mm >= 0.0):
+            raise TrajectoryError(
+                f"{self.closest_mm} mm from {self.name}, limit {self.limit_mm} mm, at {self.time} "
+                "s: all must be finite numbers, the limit not negative"
+            )
+
+    @property
+    def breach_mm(self) -> float:
+        """By how much it came nearer than allowed; 0 if it did not."""
+        return max(0.0, self.limit_mm - self.closest_mm)

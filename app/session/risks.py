@@ -1,0 +1,150 @@
+"""Structures that the needle has to keep away from: how near it came, in the record and the score.
+
+Measured when the attempt ends, of its samples: nothing of it can be told while control scans guide.
+Structures move with the target, as the whole picture of a control scan does. The distance is told
+of the needle's part in the body, from the entry to the tip, where the cameras vouched for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.events import Event
+from app.core.units import MILLIMETRE
+from app.planning.placement import PlacedPlan
+from app.scoring.errors import TrajectoryError
+from app.scoring.risks import RiskMark
+from app.session.machine import State
+from app.session.needle import FROM_CAMERAS
+from app.session.samples import Samples
+
+if TYPE_CHECKING:
+    from app.imaging.structures.distance import SignedDistance
+
+KIND: Final = "risk"
+"""Kind of the event."""
+
+VERSION: Final = 1
+"""Of the event's data."""
+
+STEP_MM: Final = 1.0
+"""The shaft is looked at in steps of this."""
+
+SAME_MM: Final = 0.1
+"""Needles whose ends are all this near are looked at once."""
+
+CLOSEST: Final = 24
+"""So many needles, the nearest by the grid of distances, are measured exactly."""
+
+IN_BODY: Final = (State.INSERTING.value, State.HOLDING.value, State.PAUSED.value)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Risk:
+    """One structure.
+
+    Attributes:
+        name: of the structure.
+        limit_mm: the needle should stay at least this far off.
+        field: its distances.
+    """
+
+    name: str
+    limit_mm: float
+    field: SignedDistance
+
+
+def risk_marks_of(
+    samples: Samples, placed: PlacedPlan, risks: Iterable[Risk]
+) -> tuple[RiskMark, ...]:
+    """How near the needle came to each structure; none if it was never seen in the body."""
+    rows, entries, tips = _needles(samples, placed)
+    if not len(rows):
+        return ()
+    found = []
+    for risk in risks:
+        rough = _roughly(entries, tips, risk.field)
+        best = min(
+            (risk.field.along(entries[n], tips[n]).distance_mm, n)
+            for n in np.argsort(rough, kind="stable")[:CLOSEST].tolist()
+        )
+        closest, row = best[0], rows[best[1]]
+        depth = float(samples.depth[row]) / MILLIMETRE
+        found.append(RiskMark(risk.name, risk.limit_mm, closest, float(samples.time[row]), depth))
+    return tuple(found)
+
+
+def event_of(mark: RiskMark) -> Event:
+    """Return the event that keeps it in the record; `risk_marks` reads it back."""
+    data: dict[str, object] = {
+        "version": VERSION,
+        "structure": mark.name,
+        "limit_mm": mark.limit_mm,
+        "closest_mm": mark.closest_mm,
+        "breach_mm": mark.breach_mm,
+        "depth_mm": mark.depth_mm,
+    }
+    return Event(mark.time, KIND, sentence(mark), data)
+
+
+def risk_marks(events: Iterable[Event]) -> tuple[RiskMark, ...]:
+    """Read the structures back from events; those of a damaged one are left out."""
+    found = []
+    for event in events:
+        if event.kind == KIND:
+            data: dict[str, Any] = dict(event.data)
+            try:
+                numbers = (float(data[key]) for key in ("limit_mm", "closest_mm"))
+                limit, closest = numbers
+                mark = RiskMark(
+                    str(data["structure"]), limit, closest, event.time, float(data["depth_mm"])
+                )
+            except (LookupError, TypeError, ValueError, TrajectoryError):
+                continue
+            found.append(mark)
+    return tuple(found)
+
+
+def sentence(mark: RiskMark) -> str:
+    """Say it in one line."""
+    place = (
+        f"{-mark.closest_mm:.1f} mm deep in {mark.name}"
+        if mark.closest_mm <= 0.0
+        else f"{mark.closest_mm:.1f} mm from {mark.name}"
+    )
+    kept = "too near" if mark.breach_mm > 0.0 else "kept"
+    return f"needle {place} at the closest; limit {mark.limit_mm:g} mm: {kept}"
+
+
+def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, FloatArray]:
+    """Find the needles that differ: number of their sample, entry and tip in LPS [mm]."""
+    seen = samples.valid & np.isin(samples.depth_source, FROM_CAMERAS)
+    seen &= np.isin(samples.state, IN_BODY) & (samples.depth > 0.0)
+    seen &= np.isfinite(samples.tip).all(axis=1) & np.isfinite(samples.axis).all(axis=1)
+    rows = np.flatnonzero(seen)
+    if not len(rows):
+        return rows, np.empty((0, 3)), np.empty((0, 3))
+    shift = samples.target[rows] - placed.p_target
+    shift = np.where(np.isfinite(shift), shift, 0.0)
+    tips = samples.tip[rows] - shift
+    entries = tips - samples.depth[rows, None] * samples.axis[rows]
+    to_patient = placed.T_world_patient.inverse()
+    ends = np.concatenate([to_patient @ entries, to_patient @ tips], axis=1) / MILLIMETRE
+    _, kept = np.unique(np.rint(ends / SAME_MM), axis=0, return_index=True)
+    kept.sort()
+    return rows[kept], ends[kept, :3], ends[kept, 3:]
+
+
+def _roughly(entries: FloatArray, tips: FloatArray, field: SignedDistance) -> FloatArray:
+    """Distance of each needle by the grid of distances [mm], shape (n,)."""
+    lengths = np.linalg.norm(tips - entries, axis=1)
+    shares = np.linspace(0.0, 1.0, int(np.ceil(lengths.max() / STEP_MM)) + 2)
+    points = entries[:, None] + shares[:, None] * (tips - entries)[:, None]
+    distances = field.at(points.reshape(-1, 3)).reshape(len(entries), -1)
+    result: FloatArray = distances.min(axis=1)
+    return result
