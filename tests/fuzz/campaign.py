@@ -1,25 +1,28 @@
-"""Mutated files through the reader: a named error or a right volume, and never anything else."""
+"""Mutated files through the readers: a named error or something right, and never anything else."""
 
 import random
 import resource
+import shutil
+import tempfile
 import time
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import numpy as np
-
 from app.core.errors import AcusError
-from app.core.progress import Progress
-from app.imaging.reading import choose, read_series
-from app.imaging.scanning import scan_folder
-from app.imaging.worker import process
+from app.imaging.worker.pool import shared_worker
+from tests.fuzz.kinds import Kind, kinds
 from tests.fuzz.mutations import mutate
-from tests.fuzz.seeds import MIDDLE, OFFSETS, Seed, bomb, seeds
+from tests.fuzz.seeds import bomb
+from tests.fuzz.watch import Watch
 
 MOST_SECONDS = 2.0
-_LOST = "the process that read it "
+"""Processor time that no file may cost, of the program and its children together [s]."""
+
 MOST_CHILD_BYTES = 3 << 30
+_LOST = "the process that read it "
+_SLOWEST = 5
 
 
 @dataclass
@@ -28,115 +31,110 @@ class Tally:
 
     Attributes:
         outcomes: how often which.
-        slowest_s: longest time that one took, with the processor's time of all that read it.
-        lost: children that a file crashed or hung.
+        lost: what happened to each child that was lost, and at which file.
+        slow: processor time, time on the clock and name of the files that cost most.
+        waited_s: longest time on the clock.
         child_bytes: most memory that a child ever had.
+        own_bytes: most memory that the program ever had.
         wrong: description of each that broke the rule.
     """
 
     outcomes: Counter[str] = field(default_factory=Counter)
-    slowest_s: float = 0.0
-    lost: int = 0
+    lost: list[str] = field(default_factory=list)
+    slow: list[tuple[float, float, str]] = field(default_factory=list)
+    waited_s: float = 0.0
     child_bytes: int = 0
+    own_bytes: int = 0
     wrong: list[str] = field(default_factory=list)
 
+    def timed(self, processor_s: float, waited_s: float, name: str) -> None:
+        """Take up what a file cost."""
+        self.waited_s = max(self.waited_s, waited_s)
+        self.slow = sorted([*self.slow, (processor_s, waited_s, name)], reverse=True)[:_SLOWEST]
+        if processor_s > MOST_SECONDS:
+            self.wrong.append(f"{name}: {processor_s:.2f} s of processor time")
 
-def campaign(folder: Path, count: int, seed: int, progress: Progress | None = None) -> Tally:
-    """Read `count` series of three files, the middle one mutated.
+    def add(self, other: "Tally") -> None:
+        """Take up what came of other files."""
+        self.outcomes += other.outcomes
+        self.lost += other.lost
+        self.slow = sorted([*self.slow, *other.slow], reverse=True)[:_SLOWEST]
+        self.waited_s = max(self.waited_s, other.waited_s)
+        self.child_bytes = max(self.child_bytes, other.child_bytes)
+        self.own_bytes = max(self.own_bytes, other.own_bytes)
+        self.wrong += other.wrong
+
+
+def campaign(
+    folder: Path,
+    count: int,
+    seed: int,
+    numbers: range | None = None,
+    tell: Callable[[int], None] | None = None,
+) -> Tally:
+    """Read mutated files of every kind in turn.
 
     Args:
         folder: empty, for the files.
-        count: series.
-        seed: of everything random.
-        progress: told how far it is.
+        count: how many.
+        seed: of everything random; with its number it makes a file again.
+        numbers: which of them; all if left out.
+        tell: told how many are done.
     """
-    progress = progress or Progress()
-    (folder / "made").mkdir()
-    known = list(seeds(folder / "made"))
-    dice, tally = random.Random(seed), Tally()
-    watch = _Watch(tally)
-    _one(folder / "warm", known[0], known[0].files[MIDDLE], "unspoilt", Tally())
+    (folder / "made").mkdir(parents=True)
+    (folder / "temporary").mkdir()
+    before, tempfile.tempdir = tempfile.tempdir, str(folder / "temporary")
     try:
-        for number in range(count):
-            chosen = known[number % len(known)]
-            data, how = mutate(chosen.files[MIDDLE], dice)
-            if chosen.name == "deflated" and number % 450 == 3:
-                data, how = bomb(chosen.files[MIDDLE]), "bomb"
-            _one(folder / "case", chosen, data, f"{number} ({chosen.name}: {how})", tally)
-            progress.report((number + 1) / count, f"{number + 1} of {count}")
+        known = list(kinds(folder / "made"))
+        _warm(folder / "case", known)
+        with Watch() as watch:
+            tally = Tally()
+            for done, number in enumerate(numbers or range(count), 1):
+                _one(folder / "case", known[number % len(known)], number, seed, tally, watch)
+                if tell is not None:
+                    tell(done)
+            shared_worker().close()
+            tally.child_bytes = watch.most_bytes
+        tally.own_bytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10
+        return tally
     finally:
-        watch.close()
-    return tally
+        tempfile.tempdir = before
 
 
-def _one(folder: Path, seed: Seed, data: bytes, name: str, tally: Tally) -> None:
-    folder.mkdir(exist_ok=True)
-    for k, content in enumerate(seed.files):
-        (folder / f"s{k}").write_bytes(data if k == MIDDLE else content)
+def _warm(folder: Path, known: list[Kind]) -> None:
+    """Read every kind unspoilt: it must be right, and its packages are loaded then."""
+    for kind in known:
+        _lay(folder, kind, kind.content)
+        if wrong := kind.read(folder):
+            raise AssertionError(f"{kind.name}, unspoilt: {wrong}")
+
+
+def _lay(folder: Path, kind: Kind, data: bytes) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    kind.lay(folder, data)
+
+
+def _one(folder: Path, kind: Kind, number: int, seed: int, tally: Tally, watch: Watch) -> None:
+    dice = random.Random(f"{seed} {number}")
+    data, how = mutate(kind.content, dice)
+    if kind.name == "deflated" and number % 50 == 3:
+        data, how = bomb(kind.content), "bomb"
+    name = f"{number} ({kind.name}: {how})"
+    _lay(folder, kind, data)
+    watch.begin()
     begin = time.monotonic()
     try:
-        listing = scan_folder(folder)
-        for ignored in listing.ignored:
-            if _LOST in ignored.reason:
-                tally.outcomes[f"lost at {name}: {ignored.reason.split(_LOST)[1]}"] += 1
-        volume = read_series(choose(listing))
+        wrong = kind.read(folder)
     except AcusError as error:
-        tally.outcomes[type(error).__name__] += 1
-        if not str(error):
-            tally.wrong.append(f"{name}: an error without words")
+        outcome, wrong = type(error).__name__, "" if str(error) else "an error without words"
+        if _LOST in str(error):
+            tally.lost.append(f"{name}: {str(error).split(_LOST)[1]}")
     except Exception as error:
-        tally.wrong.append(f"{name}: {type(error).__name__}: {error}")
+        outcome, wrong = "wrong", f"{type(error).__name__}: {error}"
     else:
-        tally.outcomes["volume"] += 1
-        if wrong := _wrong(volume, seed):
-            tally.wrong.append(f"{name}: {wrong}")
-    tally.slowest_s = max(tally.slowest_s, time.monotonic() - begin)
-
-
-def _wrong(volume, seed: Seed) -> str:
-    """What is wrong with a volume: the whole files keep their values and their places in it."""
-    if not (np.isfinite(volume.affine_mm).all() and np.isfinite(volume.hu).all()):
-        return "not finite"
-    if volume.size[:2] != seed.hu.shape[:0:-1]:
-        return f"size {volume.size}"
-    for k in (0, len(OFFSETS) - 1):
-        ends = {0: 0, len(OFFSETS) - 1: volume.size[2] - 1}
-        if not np.array_equal(volume.hu[ends[k]], seed.hu[k]):
-            return f"slice {k} has other values"
-        place = volume.lps_mm((0, 0, ends[k]))
-        if abs(place[2] - (-100.0 + OFFSETS[k])) > 0.01:
-            return f"slice {k} lies at {place}"
-    return ""
-
-
-class _Watch:
-    """Looks at every child before it ends."""
-
-    def __init__(self, tally: Tally) -> None:
-        self._tally, self._close = tally, process.Child.close
-        watch = self
-
-        def close(child: process.Child) -> None:
-            watch.look(child)
-            tally.lost += bool(child.open)
-            watch._close(child)
-
-        process.Child.close = close
-
-    def look(self, child: process.Child) -> None:
-        try:
-            status = Path(f"/proc/{child._process.pid}/status").read_text()
-        except OSError:
-            return
-        for line in status.splitlines():
-            if line.startswith("VmHWM"):
-                most = int(line.split()[1]) << 10
-                self._tally.child_bytes = max(self._tally.child_bytes, most)
-
-    def close(self) -> None:
-        from app.imaging.worker.pool import shared_worker
-
-        shared_worker().close()
-        process.Child.close = self._close
-        used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss << 10
-        self._tally.outcomes["(peak of the program, MB)"] = used >> 20
+        outcome = "right"
+    tally.timed(watch.end(), time.monotonic() - begin, name)
+    tally.outcomes["wrong" if wrong else outcome] += 1
+    if wrong:
+        tally.wrong.append(f"{name}: {wrong}")

@@ -1,13 +1,14 @@
 """A few hundred mutated files with a fixed seed; ten thousand are `make fuzz`."""
 
 import io
+import random
 from pathlib import Path
 
 import numpy as np
 import pydicom
 import pytest
 
-from app.imaging.errors import FileDamagedError
+from app.imaging.errors import FileDamagedError, WorkerLostError
 from app.imaging.examining import examine
 from app.imaging.filling import filled
 from app.imaging.reading import load_ct
@@ -21,11 +22,32 @@ def known(tmp_path_factory):
 
 
 @pytest.mark.filterwarnings("ignore")  # what pydicom says of a value while it writes the seeds
-def test_mutated_files_end_in_a_named_error_or_a_right_volume(tmp_path):
+def test_mutated_files_of_every_kind_end_in_a_named_error_or_something_right(tmp_path):
     tally = campaign(tmp_path, 300, seed=2024)
     assert tally.wrong == []
-    assert tally.outcomes["volume"] > 20
+    assert tally.lost == []
+    assert tally.outcomes["right"] > 60
     assert tally.child_bytes < MOST_CHILD_BYTES
+
+
+def test_rle_that_makes_its_decoder_panic_is_refused_by_name(tmp_path, known):
+    path, seed = tmp_path / "panic", known["RLE"]
+    whole = seed.files[MIDDLE]
+    start = whole.index(b"\xfe\xff\x00\xe0", whole.index(b"\xe0\x7f\x10\x00")) + 8
+    start = whole.index(b"\xfe\xff\x00\xe0", start) + 8
+    dice, panicked = random.Random(3), 0
+    for _ in range(60):
+        data = bytearray(whole)
+        data[start + 64 : start + 400] = dice.randbytes(336)
+        path.write_bytes(data)
+        (header,) = examine(path)
+        try:
+            filled([header], np.dtype(np.int16))
+        except WorkerLostError:
+            raise
+        except FileDamagedError as error:
+            panicked += "PanicException in pylibjpeg-rle" in str(error)
+    assert panicked
 
 
 NAMES = (

@@ -8,7 +8,6 @@ import nibabel
 import nrrd
 import numpy as np
 import pytest
-from dicom_factory import Slices, oblique
 from pydicom import dcmread
 from pydicom.data import get_testdata_file
 from pydicom.dataset import Dataset, FileDataset, FileMetaDataset
@@ -26,6 +25,7 @@ from app.imaging.structures.files import read_structures, write_structures
 from app.imaging.structures.seg_nrrd import read_nrrd
 from app.imaging.structures.structure import Kind, Structure, StructureSet
 from app.imaging.volume import Volume
+from tests.imaging.dicom_factory import Slices, oblique
 
 RTSTRUCT = "1.2.840.10008.5.1.4.1.1.481.3"
 
