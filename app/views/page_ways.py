@@ -47,5 +47,6 @@ def suit_room(window: MainWindow) -> None:
     window.debrief_page.suit_room()
     window.structures.panel.refresh()
     window.paths.panel.suit_text()
+    workspace.messages.suit_room()
     workspace.plan_panel.refresh()
     window.refresh()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
+from functools import lru_cache
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +70,7 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}\b")
 _SIZE = re.compile(r"(font-size:\s*)(\d+)px")
 
 
+@lru_cache(maxsize=1024)  # asked for every cell and mark
 def translated(colour: str, wanted: Theme) -> str:
     """Colour of `wanted` that stands for this one of any theme; others stay as they are."""
     for known in THEMES.values():

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtWidgets import QLabel
+from views_exercise_attempts import review
 
 from app.core.errors import AcusError
 from app.core.events import Event
@@ -141,3 +142,17 @@ def test_the_pacs_browser_shows_nobodys_name_before_a_room(application, destroy,
     assert "4711" not in words
     assert "20260101" in words
     assert "CHEST" in words
+
+
+def test_the_debrief_and_the_list_of_sessions_name_nobody(window):
+    page = window.debrief_page
+    page.show_review(review(problems=("cannot read /records/smith/a.mcap: truncated",)))
+    window.projector.hide_names(True)
+    words = " ".join(label.text() for label in page.findChildren(QLabel))
+    assert "student-07" not in words
+    assert "smith" not in words
+    assert "truncated" in words
+    window.projector.hide_names(False)
+    words = " ".join(label.text() for label in page.findChildren(QLabel))
+    assert "student-07" in words
+    assert "smith" in words

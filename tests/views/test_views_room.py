@@ -7,6 +7,7 @@ import pytest
 from PySide6.QtWidgets import QApplication, QLabel, QLineEdit
 from views_exercise_attempts import review
 
+from app.core.events import Event
 from app.exercises.reading import ReadingPart
 from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.window import PRESETS, WindowLevel
@@ -184,7 +185,10 @@ def test_the_debrief_and_the_map_stay_readable_when_the_light_goes_on(window, pa
     window.show_patient(patient)
     page = window.debrief_page
     page.show_review(review())
+    window.workspace.messages.add_event(Event(1.0, "state", "holding"))
     window.projector.set_light(True)
+    line = window.workspace.messages.item(0).foreground().color().name()
+    assert contrast(line, LIGHT.field) >= 4.5
     words = [page.table.item(0, column).foreground().color().name() for column in range(4)]
     assert all(contrast(word, LIGHT.field) >= 4.5 for word in words), words
     key = window.paths.panel._key.findChildren(QLabel)

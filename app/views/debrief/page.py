@@ -58,14 +58,8 @@ class DebriefPage(QWidget):
         self._review = review
         self._title.setText(review.exercise)
         self._facts.setText(facts(review))
-        colour, word, reason = verdict(review)
-        self._verdict.setText(word)
-        self._verdict.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX + 6}px;")
         self._total.setText(total_text(review.score))
-        self._reason.setText(reason)
-        self._reason.setVisible(bool(reason))
-        self._problems.setText("\n".join(f"▲ {problem}" for problem in review.problems))
-        self._problems.setVisible(bool(review.problems))
+        self._show_words(review)
         lines = risk_lines(review)
         self.risks.setText("\n".join((tr("Closest to structures of risk"), *lines)))
         self.risks.setVisible(bool(lines))
@@ -73,6 +67,17 @@ class DebriefPage(QWidget):
         self.scans.show_review(review)
         self.path.show_review(review)
         self.curves.show_review(review)
+
+    def _show_words(self, review: Review) -> None:
+        """Write the verdict and what belongs to it, without names while they are hidden."""
+        colour, word, reason = verdict(review)
+        self._verdict.setText(word)
+        self._verdict.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX + 6}px;")
+        self._reason.setText(NAMES.veiled(reason))
+        self._reason.setVisible(bool(reason))
+        problems = "\n".join(f"▲ {problem}" for problem in review.problems)
+        self._problems.setText(NAMES.veiled(problems, files=True))
+        self._problems.setVisible(bool(review.problems))
 
     @property
     def review(self) -> Review | None:
@@ -132,6 +137,7 @@ class DebriefPage(QWidget):
         self._share_width()
         if self._review is not None:
             self._facts.setText(facts(self._review))
+            self._show_words(self._review)
             self.table.show_score(self._review.score)
 
     def _share_width(self) -> None:

@@ -72,7 +72,8 @@ class SessionsModel(QAbstractTableModel):
         if role == SUMMARY_ROLE:
             return summary
         if role == Qt.ItemDataRole.ToolTipRole:
-            return "\n".join(filter(None, (summary.id, summary.reason, *summary.problems)))
+            lines = filter(None, (summary.id, summary.reason, *summary.problems))
+            return NAMES.veiled("\n".join(lines), files=True)
         if role == Qt.ItemDataRole.TextAlignmentRole and column in _RIGHT:
             return _RIGHTWARDS
         if role == Qt.ItemDataRole.ForegroundRole and column == STATE:
@@ -95,7 +96,8 @@ def cell_text(summary: Summary, column: int) -> str:
         return f"{symbol} {state_word(summary.state)}"
     if column == DURATION:
         return "" if summary.state == BROKEN else clock_text(summary.duration)
-    return "; ".join(filter(None, (summary.reason, *summary.problems)))
+    remark = "; ".join(filter(None, (summary.reason, *summary.problems)))
+    return NAMES.veiled(remark, files=True)
 
 
 def score_text(summary: Summary) -> str:

@@ -16,7 +16,8 @@ LONGEST: Final = 200
 """Lines kept; older ones are in the record."""
 
 _LINE: Final = Qt.ItemDataRole.UserRole
-"""The line as it came, names and all."""
+_COLOUR: Final = Qt.ItemDataRole.UserRole + 1
+"""The line as it came, names and all, and its colour in any theme."""
 
 _LOOKS: Final = {
     "state": (theme.TEXT, "•"),
@@ -37,7 +38,7 @@ class MessageList(QListWidget):
         self._origin: float | None = None
         self.setWordWrap(True)
         self.setAccessibleName(tr("Messages"))
-        NAMES.changed.connect(self._write)
+        NAMES.changed.connect(self.suit_room)
 
     def start_clock(self, origin: float) -> None:
         """Count times from `origin` [s]; before that they are left out."""
@@ -51,13 +52,15 @@ class MessageList(QListWidget):
         line = f"{symbol} {when}{event.message}"
         item = QListWidgetItem(NAMES.veiled(line))
         item.setData(_LINE, line)
+        item.setData(_COLOUR, colour)
         item.setForeground(QColor(theme.now(colour)))
         self.addItem(item)
         while self.count() > LONGEST:
             self.takeItem(0)
         self.scrollToBottom()
 
-    def _write(self) -> None:
-        """Write all lines anew, without names while they are hidden."""
-        for row in range(self.count()):
-            self.item(row).setText(NAMES.veiled(str(self.item(row).data(_LINE))))
+    def suit_room(self) -> None:
+        """Write all lines anew in the present colours, without names while they are hidden."""
+        for item in (self.item(row) for row in range(self.count())):
+            item.setText(NAMES.veiled(str(item.data(_LINE))))
+            item.setForeground(QColor(theme.now(str(item.data(_COLOUR)))))
