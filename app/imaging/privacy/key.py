@@ -9,7 +9,6 @@ import contextlib
 import hashlib
 import hmac
 import os
-import secrets
 from functools import lru_cache
 from pathlib import Path
 
@@ -57,6 +56,8 @@ def _read(path: Path, changed_ns: int, number: int) -> bytes:
 
 def _make(path: Path) -> None:
     """Write beside and link: of two processes at once the second takes the first one's key."""
+    import secrets
+
     path.parent.mkdir(parents=True, exist_ok=True)
     beside = path.with_name(f".{path.name}.{secrets.token_hex(16)}")
     try:

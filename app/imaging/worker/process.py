@@ -145,6 +145,7 @@ class Child:
             Lost: if it has worked or waited too long on one file.
         """
         waited = time.monotonic() - self._since
+        computed = self._computed()
         if waited < _GRACE:
             return
         if not self.ready:
@@ -153,7 +154,7 @@ class Child:
             self._mark(self._since)
         elif self.open:
             allowed = self._tasks[0].allowed
-            if self._computed() > allowed.seconds:
+            if computed > allowed.seconds:
                 raise Lost(f"took longer than {allowed.seconds:.1f} s of computing")
             if waited > allowed.clock_seconds:
                 raise Lost(f"waited longer than {allowed.clock_seconds:.0f} s for it")
@@ -166,11 +167,15 @@ class Child:
         self._process.wait()
 
     def _computed(self) -> float:
-        return processor_seconds(self._process.pid) - self._used
+        """Processor time since the first look after the last sign of it."""
+        now = processor_seconds(self._process.pid)
+        if self._used is None:
+            self._used = now
+        return now - self._used
 
     def _mark(self, since: float | None = None) -> None:
         self._since = time.monotonic() if since is None else since
-        self._used = processor_seconds(self._process.pid)
+        self._used: float | None = None  # asking the system at every answer takes its time
 
     def _end_of_it(self) -> str:
         with contextlib.suppress(subprocess.TimeoutExpired):
