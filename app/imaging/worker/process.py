@@ -57,6 +57,7 @@ class Child:
         with theirs:
             self._process = _started(module, theirs.fileno(), self._channel)
         self.ready, self.progress = False, (0.0, "")
+        self._used: float | None = None
         self._mark()
 
     @property
@@ -175,7 +176,7 @@ class Child:
 
     def _mark(self, since: float | None = None) -> None:
         self._since = time.monotonic() if since is None else since
-        self._used: float | None = None  # asking the system at every answer takes its time
+        self._used = None  # asking the system at every answer takes its time
 
     def _end_of_it(self) -> str:
         with contextlib.suppress(subprocess.TimeoutExpired):
