@@ -1,6 +1,7 @@
 """A child of the worker that misbehaves at files of certain names, as hostile ones make it."""
 
 import os
+import signal
 import sys
 import time
 from pathlib import Path
@@ -27,6 +28,8 @@ def busy(seconds, progress):
 def headers_in(path: Path, settings: Path, progress: Progress):
     if path.name == "crash":
         os.abort()
+    if path.name == "kill":
+        os.kill(os.getpid(), signal.SIGKILL)
     if path.name == "exit":
         os._exit(3)
     while path.name == "hang":

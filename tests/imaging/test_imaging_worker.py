@@ -44,7 +44,8 @@ def reasons(worker, *names):
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("crash", "was ended by SIGABRT"),
+        ("crash", "was ended by SIGABRT: it gave itself up"),
+        ("kill", "was ended by SIGKILL: by the system when memory ran out"),
         ("exit", "ended with code 3"),
         ("nonsense", "talked nonsense"),
         ("huge", "talked nonsense"),
@@ -160,6 +161,14 @@ def test_the_child_ends_when_the_program_is_gone():
         time.sleep(0.1)
     else:
         assert not Path(f"/proc/{pid}").exists()
+
+
+def test_the_child_goes_first_where_the_machine_runs_out_of_memory():
+    worker = ImagingWorker(1)
+    examine_files([Path("/nowhere/file")], Progress(), worker)
+    pid = worker._idle[0]._process.pid
+    assert Path(f"/proc/{pid}/oom_score_adj").read_text().strip() == "800"
+    worker.close()
 
 
 def test_the_child_loads_no_kernels_and_no_window():

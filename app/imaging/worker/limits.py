@@ -1,5 +1,6 @@
 """What the child may take: memory, processor time, no core dumps."""
 
+import contextlib
 import os
 import resource
 from dataclasses import dataclass
@@ -75,13 +76,19 @@ def size_of(path: Path) -> int:
 
 
 class MemoryLimit:
-    """How far this process may grow beyond what it is now; it never writes a core dump."""
+    """How far this process may grow beyond what it is now.
+
+    It never writes a core dump, and where the machine runs out of memory it is the first to go,
+    not the program.
+    """
 
     def __init__(self) -> None:
         pages = int(Path("/proc/self/statm").read_text().split()[0])
         self._own = pages * resource.getpagesize()
         self._hard = resource.getrlimit(resource.RLIMIT_AS)[1]
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        with contextlib.suppress(OSError):  # where the machine runs out, it goes first
+            Path("/proc/self/oom_score_adj").write_text("800")
 
     def set(self, allowed: int) -> None:
         """Let the process grow by so many bytes and no further."""

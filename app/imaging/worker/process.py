@@ -27,6 +27,17 @@ READY_SECONDS = 60.0
 _GRACE = 0.2
 """Nobody is looked at more closely before that [s]."""
 
+_WHY = {
+    "SIGABRT": ": it gave itself up, out of memory or in a state that cannot be",
+    "SIGSEGV": ": it crashed",
+    "SIGBUS": ": it crashed",
+    "SIGFPE": ": it crashed",
+    "SIGILL": ": it crashed",
+    "SIGKILL": ": by the system when memory ran out, or by somebody",
+    "SIGXCPU": ": it computed for longer than any file may",
+}
+"""What a signal says of whoever it ended."""
+
 _ROOT = Path(__file__).resolve().parents[3]
 
 
@@ -186,9 +197,12 @@ class Child:
             return "closed its connection"
         if code >= 0:
             return f"ended with code {code}"
-        with contextlib.suppress(ValueError):
-            return f"was ended by {signal.Signals(-code).name}"
-        return f"was ended by signal {-code}"
+        try:
+            name = signal.Signals(-code).name
+        except ValueError:
+            name = f"signal {-code}"
+        why = _WHY.get(name, "")
+        return f"was ended by {name}{why}"
 
 
 def _is_progress(message: Any) -> bool:
