@@ -15,7 +15,8 @@ from pydicom.dataset import Dataset
 from app.imaging import element_walk, elements, odd_elements
 from app.imaging.element_walk import OddError, Walk
 from app.imaging.errors import FileDamagedError
-from app.imaging.header_reading import _TAG_LIST, read_headers
+from app.imaging.header_reading import read_headers
+from app.imaging.header_tags import TAG_LIST
 from tests.imaging.dicom_factory import Slices
 
 FILES = [
@@ -30,19 +31,19 @@ def both(data):
     """What the quick reader says, None where it does not vouch for it, and what pydicom says."""
     stream, other = io.BytesIO(data), io.BytesIO(data)
     try:
-        quick = said(elements._sound(stream, frozenset(_TAG_LIST)), stream)
+        quick = said(elements._sound(stream, frozenset(TAG_LIST)), stream)
     except OddError:
         return None, None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return quick, said(odd_elements.read_odd(other, _TAG_LIST, False), other)
+        return quick, said(odd_elements.read_odd(other, TAG_LIST, False), other)
 
 
 def said(found, stream):
     values = {
         int(tag): (element.VR, element.value or b"")
         for tag, element in found.values.items()
-        if tag in _TAG_LIST
+        if tag in TAG_LIST
     }
     return values, found.syntax, found.start, (found.inflated or stream).tell()
 
@@ -105,7 +106,7 @@ def test_what_is_nested_in_sequences_is_passed_over_whatever_marks_its_end(tmp_p
 def test_a_header_that_ends_too_early_is_not_vouched_for(tmp_path, cut):
     (path,) = Slices(offsets=(0.0,)).write(tmp_path)
     with pytest.raises(OddError):
-        elements._sound(io.BytesIO(path.read_bytes()[:cut]), frozenset(_TAG_LIST))
+        elements._sound(io.BytesIO(path.read_bytes()[:cut]), frozenset(TAG_LIST))
 
 
 def test_values_across_the_borders_of_what_is_read_at_once_are_whole(tmp_path, monkeypatch):
