@@ -65,22 +65,6 @@ def test_nothing_that_the_profile_removes_is_kept_but_for_the_two_declared_optio
             assert action in ("K", "U"), kept.keyword
 
 
-def test_the_table_agrees_with_another_reading_of_the_standard():
-    module = pytest.importorskip(
-        "dicomanonymizer.dicom_anonymization_databases.dicomfields_2026c",
-        reason="dicom-anonymizer, the independent table, is not installed",
-    )
-    tables = profile()
-    groups = {"X_TAGS": "X", "Z_TAGS": "Z", "D_TAGS": "D", "U_TAGS": "U", "X_Z_TAGS": "X/Z"}
-    groups |= {"X_D_TAGS": "X/D", "Z_D_TAGS": "Z/D", "X_Z_D_TAGS": "X/Z/D"}
-    for group, action in groups.items():
-        for field in getattr(module, group):
-            tag = (field[0] << 16) + field[1]
-            if len(field) == 2:  # rows of newer editions are covered by not being kept
-                assert tables.actions.get(tag, action) == action, f"{tag:08X}"
-                assert tag in tables.actions or tag not in tables.kept, f"{tag:08X}"
-
-
 def test_a_series_comes_back_with_the_same_voxels_in_the_same_places(tmp_path):
     series = series_of(tmp_path / "in")
     before = read_series(series)
@@ -313,6 +297,51 @@ def test_a_head_scan_is_warned_for_its_face_and_a_chest_is_not(tmp_path):
                   SeriesInstanceUID="2.25.77")
     )  # fmt: skip
     assert chest.report.warnings == ()
+
+
+@pytest.mark.parametrize(
+    "tags",
+    [
+        {"StudyDescription": "CT Schädel nativ"},
+        {"ProtocolName": "HeadRoutine"},
+        {"RecognizableVisualFeatures": "YES"},
+    ],
+)
+def test_a_head_is_warned_for_where_only_the_files_texts_tell_and_they_are_not_quoted(
+    tmp_path, tags
+):
+    tags = tags | {"BodyPartExamined": "CHEST", "SpecificCharacterSet": "ISO_IR 192"}
+    (warning,) = CtLibrary().import_series(series_of(tmp_path / "in", **tags)).report.warnings
+    assert "speak of a head" in warning
+    assert not any(str(value) in warning for value in tags.values())
+
+
+@pytest.mark.parametrize(
+    "tags",
+    [
+        {"ImageType": ["DERIVED", "SECONDARY", "SCREEN SAVE"]},
+        {"ImageType": ["DERIVED", "SECONDARY", "OTHER", "CT_SOM5 PROT"]},
+        {"ImageType": ["DERIVED", "SECONDARY", "DOSE_INFO"]},
+        {"ImageType": ["DERIVED", "SECONDARY", "OTHER", "CSA REPORT"]},
+        {"ConversionType": "DI"},
+        {"SeriesDescription": "Dose Report"},
+        {"SeriesDescription": "SCREEN_SAVE 4"},
+        {"SeriesDescription": "Patient Protocol"},
+    ],
+)
+def test_makers_pictures_of_screens_and_reports_are_refused_boxes_or_not(tmp_path, tags):
+    series = series_of(tmp_path / "in", **tags)
+    for boxes in ((), (Box(0, 0, 2, 2),)):
+        with pytest.raises(BurnedInError) as refused:
+            CtLibrary().import_series(series, boxes)
+        assert "4" not in str(refused.value).removeprefix("file 1 of 5")
+    assert CtLibrary().entries() == ()
+
+
+def test_a_workstations_reformatted_series_is_no_picture_of_a_screen(tmp_path):
+    tags = {"ImageType": ["DERIVED", "SECONDARY", "REFORMATTED"], "ConversionType": "WSD"}
+    tags["SeriesDescription"] = "Thorax 5.0 protocol"
+    assert CtLibrary().import_series(series_of(tmp_path / "in", **tags)).entry.files == 5
 
 
 def test_the_second_pass_finds_what_the_first_let_through(tmp_path):

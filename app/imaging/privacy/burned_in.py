@@ -1,5 +1,6 @@
 """Writing in the picture itself: refused, or blackened where an instructor has drawn."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -9,9 +10,22 @@ from numpy.typing import NDArray
 from pydicom.dataset import Dataset
 
 from app.imaging.privacy.errors import AnnotatedError, BurnedInError
+from app.imaging.privacy.forms import values
 
 _SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
-_SCREENS = ("SCREEN SAVE", "SCREEN", "SCREENSHOT", "DOSE_INFO", "DOSE", "PROT", "POSDISP")
+_SCREENS = {
+    "SCREEN", "SCREENSHOT", "SCREENSAVE", "SNAPSHOT", "CAPTURE",  # GE and others: SCREEN SAVE
+    "DOSE", "DOSEREPORT", "REPORT",  # DOSE_INFO, CSA REPORT
+    "PROT", "POSDISP",  # Siemens: CT_SOM5 PROT, the patient protocol
+}  # fmt: skip
+"""Words of ImageType, taken apart at blanks and underscores."""
+
+_CONVERTED = {"DV", "DI", "DF", "SD", "SI", "SV", "DRW"}
+"""ConversionType (PS3.3 C.8.6.1): from video, films, paper and drawings; not workstations' MPRs."""
+
+_DESCRIBED = re.compile(
+    r"screen\s*(save|shot|capture)|snap\s*shot|dose\s*(report|info|record|sheet)|patient\s*protocol"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,9 +81,14 @@ def check(dataset: Dataset, boxes: Sequence[Box]) -> None:
     """
     if str(dataset.get("SOPClassUID", "")).startswith(_SECONDARY_CAPTURE):
         raise BurnedInError("it is a secondary capture: such pictures often carry a name")
-    words = {str(word).strip().upper() for word in dataset.get("ImageType", None) or ()}
-    if found := words.intersection(_SCREENS):
+    kinds = " ".join(map(str, values(dataset.get("ImageType", None)))).upper()
+    if found := _SCREENS.intersection(re.split(r"[\s_]+", kinds)):
         raise BurnedInError(f"it is a picture of a screen (ImageType {sorted(found)[0]})")
+    if str(dataset.get("ConversionType", "") or "").strip().upper() in _CONVERTED:
+        raise BurnedInError("it was converted from a film, a video or paper (ConversionType)")
+    described = str(dataset.get("SeriesDescription", "") or "").lower()
+    if _DESCRIBED.search(described.replace("_", " ")):
+        raise BurnedInError("its series is described as pictures of a screen or a dose report")
     annotated = str(dataset.get("BurnedInAnnotation", "") or "").strip().upper()
     if annotated == "YES" and not boxes:
         raise AnnotatedError(
