@@ -85,6 +85,13 @@ def test_a_path_that_does_not_exist_is_one_line_and_exit_code_2(tmp_path):
     assert "Traceback" not in result.stderr
 
 
+def test_a_demonstration_of_an_exercise_that_there_is_not_names_those_that_there_are(tmp_path):
+    done = acus("demo", "--headless", "--exercise", "nothing", "--out", tmp_path)
+    assert done.returncode == 2
+    assert one_line(done.stderr)
+    assert "plan-it-yourself" in done.stderr
+
+
 def test_a_demonstration_on_a_folder_without_ct_is_refused_at_once(tmp_path):
     (tmp_path / "note.txt").write_text("no CT here")
     result = acus("demo", "--headless", "--ct", tmp_path, "--out", tmp_path / "out")

@@ -10,7 +10,7 @@ import typer
 
 if TYPE_CHECKING:
     from app.session.result import AttemptResult
-    from app.views.demonstration import Script
+    from app.views.demonstration_script import Script
 
 
 class SkillName(StrEnum):
@@ -29,6 +29,9 @@ def demo(
     ct: Annotated[
         Path | None, typer.Option("--ct", help="Folder of a CT; default: the built-in patient.")
     ] = None,
+    exercise: Annotated[
+        str, typer.Option(help="Name of the exercise, on its own patient or on --ct.")
+    ] = "first-insertion",
     headless: Annotated[
         bool, typer.Option("--headless", help="Draw into memory; needs no display.")
     ] = False,
@@ -54,11 +57,12 @@ def demo(
 
     hidden = headless or not has_display()
     folder = out or (Path("out") / "demo" if hidden else None)
-    _show(ct, hidden, folder, seed, skill, cameras, pen)
+    _show(ct, exercise, hidden, folder, seed, skill, cameras, pen)
 
 
 def _show(
     ct: Path | None,
+    exercise: str,
     hidden: bool,
     out: Path | None,
     seed: int,
@@ -68,14 +72,20 @@ def _show(
 ) -> None:
     from app.compose import Desktop
     from app.core.errors import AcusError
+    from app.exercises.errors import UnknownExerciseError
+    from app.exercises.library import library
     from app.imaging.reading import choose
     from app.imaging.scanning import scan_folder
     from app.tracking.cameras.settings import parse_cameras
     from app.views.application import start
     from app.views.collector import collect_for
-    from app.views.demonstration import Demonstration, Script
+    from app.views.demonstration import Demonstration
+    from app.views.demonstration_script import Script
     from app.views.window import MainWindow
 
+    known = library().ids()
+    if exercise not in known:
+        raise UnknownExerciseError(f"no exercise {exercise!r}; there are {', '.join(known)}")
     if ct is not None:
         choose(scan_folder(ct))  # says here what a dialog would have to ask
     chosen = parse_cameras(cameras)
@@ -87,7 +97,7 @@ def _show(
     else:
         window.robot.take("")  # nobody stands beside the robot that is remembered
     window.cameras.take(chosen)
-    script = Script(ct=ct, pictures=out)
+    script = Script(exercise, ct, pictures=out)
     collector = collect_for(window)
     show = Demonstration(window, script)
     failures: list[str] = []

@@ -18,7 +18,8 @@ from app.exchange.errors import ExportError
 from app.exchange.markups import SCHEMA
 from app.exchange.tables import table_text
 from app.imaging.volume import Volume
-from app.planning.measurements import KINDS, Angle, Distance, Measurement, Probe, Region, measured
+from app.planning.measurements import KINDS, Angle, Distance, Measurement, Probe, Region
+from app.planning.measuring import measured
 
 COLUMNS: Final = (
     "name", "kind", "quantity", "value", "unit", "x_mm", "y_mm", "z_mm", "note",

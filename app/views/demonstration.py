@@ -6,13 +6,10 @@ It presses what a user would press. With a folder for pictures it leaves one of 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
+import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal
-from PySide6.QtGui import QPixmap
-from PySide6.QtWidgets import QWidget
 
 from app.core import state_vector as sv
 from app.core.errors import AcusError
@@ -22,8 +19,11 @@ from app.session.machine import State
 from app.session.needle import DepthSource
 from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
-from app.views.debrief.report import write_report
-from app.views.debrief.review import review_of_result
+from app.views.demonstration_pictures import StillPictures
+from app.views.demonstration_script import DemonstrationError, Script
+from app.views.patient import Patient
+from app.views.slices.slab import as_point
+from app.views.slices.viewing import Tool
 from app.views.window import MainWindow
 
 PERIOD_MS: Final = 50
@@ -37,27 +37,6 @@ FRESH_S: Final = 0.1
 """Pictures on the way wait until the cameras' last fix is no older [s]: drawing disturbs them."""
 
 TRAINEE_DONE: Final = 9.0
-
-
-class PictureError(AcusError, OSError):
-    """A picture cannot be written."""
-
-
-@dataclass(frozen=True, slots=True)
-class Script:
-    """What is demonstrated.
-
-    Attributes:
-        exercise: identifier of the exercise.
-        ct: folder of another CT; None for the exercise's own patient.
-        student: pseudonym.
-        pictures: folder for pictures and report; None for none.
-    """
-
-    exercise: str = "first-insertion"
-    ct: Path | None = None
-    student: str = "demo"
-    pictures: Path | None = None
 
 
 class Demonstration(QObject):
@@ -80,7 +59,7 @@ class Demonstration(QObject):
         self._timer.timeout.connect(self._look)
         self._step: Callable[[], bool] = self._patient_is_open
         self._waited = self._settled_at = 0.0
-        self._taken: dict[str, QPixmap] = {}
+        self._pictures = StillPictures(window, script.pictures)
         self._result: AttemptResult | None = None
         self._drawn = False
         window.debrief_page.curves.drawn.connect(self._note_drawn)
@@ -99,6 +78,7 @@ class Demonstration(QObject):
         if self._script.ct is None:
             self._window.begin_exercise(self._script.exercise)
         else:
+            self._window.conductor.set_exercise(self._window.exercises[self._script.exercise])
             self._window.open_ct.open_folder(self._script.ct)
         self._timer.start()
 
@@ -112,7 +92,25 @@ class Demonstration(QObject):
             plan = demonstration_plan(patient.volume, patient.body)
             self._window.editor.start(plan, Placement())
             self._window.workspace.viewing.set_cursor(plan.target_mm)
+        elif not self._window.editor.edit.draft.complete:
+            self._place_entry(patient)
         return self._then("waiting for robot, cameras and surfaces", self._everything_runs)
+
+    def _place_entry(self, patient: Patient) -> None:
+        """Choose the entry that an exercise leaves to the student, as a student would.
+
+        Raises:
+            DemonstrationError: if none is proposed for this target.
+        """
+        proposed, target = patient.proposed, self._window.editor.edit.draft.target_mm
+        if proposed is None or target is None or not np.allclose(proposed.target_mm, target):
+            raise DemonstrationError(
+                f"exercise {self._script.exercise} leaves the entry to the student, and none is "
+                "proposed for its target: show an exercise with a plan, or place the entry in the "
+                "window (acus run)"
+            )
+        self.told.emit("the exercise leaves the entry to the student: taking the proposed one")
+        self._window.editor.place(Tool.ENTRY, as_point(proposed.entry_mm), True)
 
     def _everything_runs(self) -> bool:
         snapshot = self._snapshot()
@@ -122,7 +120,7 @@ class Demonstration(QObject):
             self._settled_at = self._waited
         if self._waited < self._settled_at + SETTLE_S:
             return False
-        self._picture("1-plan")
+        self._pictures.take("1-plan")
         panel = self._window.workspace.exercise_panel
         panel.set_student(self._script.student)
         panel.start_requested.emit(self._script.student)
@@ -138,53 +136,69 @@ class Demonstration(QObject):
         self._picture_on_the_way(snapshot)
         if snapshot.device.row[sv.TRAINEE_PHASE] != TRAINEE_DONE:
             return False
+        run = self._window.conductor.controller.run
+        if run is not None and not run.shown.live:
+            self._window.workspace.show_exercise()
+            self._window.workspace.exercise_panel.scan.here.click()
+            self._window.conductor.controller.scan()
+            return self._then("control scan", self._scan_is_shown)
         self._pictures_missed()
+        return self._at_the_target()
+
+    def _scan_is_shown(self) -> bool:
+        scans, view = self._window.conductor.scans, self._window.workspace.scan_view
+        return view.scan is not None and not scans.is_busy and self._at_the_target()
+
+    def _at_the_target(self) -> bool:
         self._window.workspace.show_exercise()
-        self._picture("4-at-the-target")
+        self._pictures.take("4-at-the-target")
         self._window.conductor.controller.end()
         return self._then("scoring", self._debrief_is_shown)
 
     def _debrief_is_shown(self) -> bool:
         if self._result is None or not self._drawn:
             return False
-        self._picture("5-debrief")
+        self._pictures.take("5-debrief")
         self._window.show_sessions()
         return self._then("listing the sessions", self._sessions_are_listed)
 
     def _sessions_are_listed(self) -> bool:
         if self._result is None or not self._window.sessions_page.model.rowCount():
             return False
-        self._picture("6-sessions")
+        self._pictures.take("6-sessions")
         self._window.show_debrief()
         self._timer.stop()
-        self._write_pictures()
+        self._pictures.write(self._result)
         self.finished.emit(self._result)
         return True
 
     def _picture_on_the_way(self, snapshot: Snapshot) -> None:
         workspace = self._window.workspace
         if snapshot.state is State.ALIGNING and snapshot.elapsed > 3.0:
-            self._picture("2-aligning")
+            self._pictures.take("2-aligning")
+        run = self._window.conductor.controller.run
+        if run is not None and not run.shown.live:
+            return  # there is nothing of the needle to picture on the way
         if not snapshot.pose.measured or snapshot.tracker.age > FRESH_S:
             return
         length = snapshot.pose.depth + snapshot.offset.remaining
-        if snapshot.pose.depth > 0.7 * length and "3-inserting" in self._taken:
-            self._picture("3-cameras")
+        if snapshot.pose.depth > 0.7 * length and "3-inserting" in self._pictures:
+            self._pictures.take("3-cameras")
             workspace.show_exercise()
         elif snapshot.pose.depth > 0.4 * length and self._script.pictures is not None:
-            self._picture("3-inserting")
-            self._picture("3-bullseye", workspace.bullseye)
+            self._pictures.take("3-inserting")
+            self._pictures.take("3-bullseye", workspace.bullseye)
             workspace.show_cameras()
 
     def _pictures_missed(self) -> None:
         """Take at the target what no moment on the way was good for; each picture exists."""
-        if "3-cameras" in self._taken:
+        if "3-cameras" in self._pictures:
             return
         workspace = self._window.workspace
-        self._picture("3-inserting")
-        self._picture("3-bullseye", workspace.bullseye)
+        self._pictures.take("3-inserting")
+        self._pictures.take("3-bullseye", workspace.bullseye)
         workspace.show_cameras()
-        self._picture("3-cameras")
+        self._pictures.take("3-cameras")
 
     # --- around the steps -----------------------------------------------------------------------
     def _look(self) -> None:
@@ -203,7 +217,7 @@ class Demonstration(QObject):
     def _stop(self, reason: object) -> None:
         if self._timer.isActive():
             self._timer.stop()
-            self._write_pictures()
+            self._pictures.write(self._result)
             self.failed.emit(str(reason))
 
     def _take_result(self, result: AttemptResult) -> None:
@@ -215,20 +229,3 @@ class Demonstration(QObject):
     def _snapshot(self) -> Snapshot | None:
         run = self._window.conductor.controller.run
         return None if run is None else run.trainer.snapshot()
-
-    def _picture(self, name: str, widget: QWidget | None = None) -> None:
-        if self._script.pictures is None or name in self._taken:
-            return
-        self._taken[name] = (widget or self._window).grab()
-
-    def _write_pictures(self) -> None:
-        """Write at the end: compressing takes long enough to disturb the cameras."""
-        folder = self._script.pictures
-        if folder is None:
-            return
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, picture in self._taken.items():
-            if not picture.save(str(folder / f"{name}.png")):
-                raise PictureError(f"cannot write {folder / name}.png; is there room on the disk?")
-        if self._result is not None:
-            write_report(review_of_result(self._result), folder / "report.pdf")

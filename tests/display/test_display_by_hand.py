@@ -27,7 +27,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 pytestmark = [
     pytest.mark.display,
-    pytest.mark.timeout(240),
+    pytest.mark.timeout(600),
     pytest.mark.skipif(not os.environ.get("ACUS_BY_HAND"), reason="takes the mouse: make by-hand"),
     pytest.mark.skipif(not os.environ.get("DISPLAY"), reason="no X server (DISPLAY is not set)"),
     pytest.mark.skipif(shutil.which("xdotool") is None, reason="xdotool is not installed"),
@@ -170,7 +170,9 @@ def test_an_assessment_by_control_scans_alone_by_hand(user: User, sessions: Path
     user.click(user.see()["begin"])
     user.wait(lambda seen: seen["page"] == "Workspace", "patient", 120)
     user.click(user.see()["exercise_tab"])
-    seen = user.wait(lambda seen: seen if seen["start"] else None, "robot and cameras", 180)
+    seen = user.wait(
+        lambda seen: seen if seen["start"] and seen["settled"] else None, "robot and cameras", 400
+    )
     user.keep_picture("2-ready")
 
     user.click(seen["start"])

@@ -46,6 +46,7 @@ def look(window: MainWindow) -> dict[str, Any]:
     snapshot = None if run is None else run.trainer.snapshot()
     panel = workspace.exercise_panel
     return {
+        "settled": window.conductor.settled,
         "page": type(window.pages.currentWidget()).__name__,
         "message": window.message_bar.text if not window.message_bar.isHidden() else "",
         "begin": middle(window.start_page.begin),

@@ -19,7 +19,8 @@ from app.exchange.measurements import (
 from app.imaging.series import Series
 from app.imaging.volume import Volume
 from app.planning.errors import MeasurementError
-from app.planning.measurements import Angle, Distance, Probe, Region, checked, measured
+from app.planning.measurements import Angle, Distance, Probe, Region, checked
+from app.planning.measuring import measured
 
 
 def volume(turn: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Volume:

@@ -10,7 +10,8 @@ from PySide6.QtCore import QObject, Signal
 from app.core.errors import AcusError
 from app.imaging.volume import Volume
 from app.planning.history import History
-from app.planning.measurements import Measured, Measurement, checked, measured
+from app.planning.measurements import Measurement, checked
+from app.planning.measuring import Measured, measured
 
 Items = tuple[Measurement, ...]
 

@@ -1,0 +1,79 @@
+"""The demonstration and exercises that leave the entry to the student, or show nothing live."""
+
+import numpy as np
+import pytest
+from window_rig import plan
+
+from app.exercises.parts import OwnPlan
+from app.views.demonstration import Demonstration
+from app.views.demonstration_script import DemonstrationError, Script
+from app.views.exercise.shown import Shown
+
+
+@pytest.fixture
+def own(window, monkeypatch):
+    """A window with an exercise that gives the target alone."""
+    monkeypatch.setattr(window.conductor, "fits", lambda _: True)
+    first = next(iter(window.exercises.values()))
+
+    def shown(patient, target):
+        exercise = first.model_copy(update={"plan": OwnPlan(own=True, target_mm=target)})
+        window.exercises[exercise.id] = exercise
+        window.conductor.set_exercise(exercise)
+        window.show_patient(patient)
+        return Demonstration(window, Script(exercise.id))
+
+    return shown
+
+
+def test_the_proposed_entry_is_taken_and_said(window, own, patient, settle) -> None:
+    from dataclasses import replace
+
+    from app.planning.plan import Plan
+
+    proposed = Plan(np.array([5.0, -18.0, 140.0]), np.array([5.0, 5.0, 140.0]), "proposed")
+    show, said = own(replace(patient, proposed=proposed), (5.0, 5.0, 140.0)), []
+    show.told.connect(said.append)
+    assert window.editor.edit.draft.entry_mm is None
+    assert show._patient_is_open()
+    draft = window.editor.edit.draft
+    np.testing.assert_allclose(draft.entry_mm, proposed.entry_mm, atol=2.0)  # on the skin
+    np.testing.assert_allclose(draft.target_mm, (5.0, 5.0, 140.0))
+    assert "taking the proposed one" in said[0]
+    window.undo.undo()  # as if the student had placed it
+    assert window.editor.edit.draft.entry_mm is None
+
+
+def test_without_a_proposed_entry_it_says_what_to_do(window, own, patient) -> None:
+    show, failed = own(patient, (5.0, 5.0, 140.0)), []
+    assert patient.proposed is None
+    with pytest.raises(DemonstrationError, match="leaves the entry to the student"):
+        show._patient_is_open()
+    show.failed.connect(failed.append)
+    show._timer.start()
+    show._look()
+    assert "acus run" in failed[0]
+
+
+def test_where_scans_guide_one_is_taken_at_the_target(window, patient, settle) -> None:
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None and window.conductor.settled, 20.0)
+    run = window.conductor.controller.run
+    object.__setattr__(run, "shown", Shown(live=False))
+    scans = []
+    run.trainer.scan = lambda order=None: scans.append(order)
+    show = Demonstration(window, Script())
+    snapshot = run.trainer.snapshot()
+    snapshot.device.row[show_slot()] = 9.0
+    run.trainer.snapshot = lambda: snapshot
+    assert show._needle_is_in()
+    assert show._step == show._scan_is_shown
+    assert scans[0].centre_mm == pytest.approx(window.workspace.viewing.cursor_mm[2], abs=0.1)
+    assert not show._scan_is_shown()  # its slices are not there yet
+
+
+def show_slot() -> int:
+    from app.core import state_vector as sv
+
+    return sv.TRAINEE_PHASE
