@@ -348,3 +348,19 @@ def test_the_planes_of_a_family_differ_in_their_dashes():
 def test_verdicts_have_each_its_own_symbol_whatever_their_colour(blindness):
     symbols = [symbol for _, symbol in theme.VERDICTS.values()]
     assert len(set(symbols)) == len(symbols)
+
+
+@pytest.mark.parametrize("side", Side)
+def test_a_turned_slice_is_shown_whole_and_in_the_middle(window, patient, settle, side):
+    window.show_patient(patient)
+    settle(timeout=0.2)
+    viewing = window.workspace.viewing
+    viewing.set_cursor(patient.volume.lps_mm((3.0, 3.0, 3.0)))  # far from the middle
+    settle(timeout=0.1)
+    window.menus.view.operator[side].trigger()
+    settle(timeout=0.1)
+    for pane in window.workspace.panes:
+        canvas = pane.canvas
+        left, top, width, height = canvas.plane.bounds_mm
+        assert canvas.camera.x == pytest.approx(left + width / 2, abs=0.5), pane.pane
+        assert canvas.camera.y == pytest.approx(top + height / 2, abs=0.5), pane.pane
