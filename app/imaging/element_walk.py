@@ -16,6 +16,9 @@ _SHORT: Final = frozenset(b"AE AS AT CS DA DS DT FD FL IS LO LT PN SH SL SS ST T
 _LONG: Final = frozenset(b"OB OD OF OL OV OW SQ SV UC UN UR UT UV".split())
 """Value representations with a length of two and of four bytes."""
 
+_NAMES: Final = {name: name.decode("ascii") or None for name in (b"", *_SHORT, *_LONG)}
+_NEVER: Final = 1 << 32
+
 _EXPLICIT: Final = struct.Struct("<HH2sH").unpack_from
 _IMPLICIT: Final = struct.Struct("<HHL").unpack_from
 _LENGTH: Final = struct.Struct("<L").unpack_from
@@ -77,30 +80,34 @@ class Walk:
         """
         found: dict[int, Raw] = {}
         before = first - 1
+        element = self._implicit if implicit else self._explicit
         for _ in range(_MOST_ELEMENTS):
-            tag, name, length, head = self._element(implicit, stop)
+            if self._at + 12 > len(self._data):
+                self._have(12)
+            tag, name, length, head = element(stop)
             if tag <= before:  # they ascend (PS3.5 7.1)
                 raise OddError
             if tag >= stop:
                 return found
             before = tag
             self._at += head
-            if length == _UNDEFINED:
-                if tag in wanted:
+            if tag in wanted:
+                if length > _LONGEST_VALUE:  # or of undefined length
                     raise OddError
+                found[tag] = Raw(_NAMES[name], self._value(length))
+            elif length == _UNDEFINED:
                 self._pass(implicit)
-            elif tag in wanted:
-                found[tag] = Raw(name.decode("ascii") if name else None, self._value(length))
             else:
                 self._at += length
         raise OddError
 
-    def _element(self, implicit: bool, stop: int = 1 << 32) -> tuple[int, bytes, int, int]:
+    def _implicit(self, stop: int) -> tuple[int, bytes, int, int]:
         """Tag, value representation, length of the value and of what stands before it."""
-        self._have(12)
-        if implicit:
-            group, number, length = _IMPLICIT(self._data, self._at)
-            return group << 16 | number, b"", length, 8
+        group, number, length = _IMPLICIT(self._data, self._at)
+        return group << 16 | number, b"", length, 8
+
+    def _explicit(self, stop: int) -> tuple[int, bytes, int, int]:
+        """Tag, value representation, length of the value and of what stands before it."""
         group, number, name, length = _EXPLICIT(self._data, self._at)
         tag = group << 16 | number
         if name in _SHORT:
@@ -112,8 +119,6 @@ class Walk:
         raise OddError
 
     def _value(self, length: int) -> bytes:
-        if length > _LONGEST_VALUE:
-            raise OddError
         self._have(length)
         self._at += length
         return self._data[self._at - length : self._at]
@@ -121,12 +126,14 @@ class Walk:
     def _pass(self, implicit: bool) -> None:
         """Go behind a value of items whose end is marked, whatever is nested in it."""
         inside = ["sequence"]
+        element = self._implicit if implicit else self._explicit
         for _ in range(_MOST_ELEMENTS):
             self._have(8)
             group, number, length = _IMPLICIT(self._data, self._at)
             tag = group << 16 | number
             if inside[-1] == "item" and group != 0xFFFE:
-                _, name, length, head = self._element(implicit)
+                self._have(12)
+                _, name, length, head = element(_NEVER)
                 self._at += head + (0 if length == _UNDEFINED else length)
                 if length == _UNDEFINED:
                     if name == b"UN":  # holds implicit elements, whatever stands around it
