@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
+from itertools import pairwise
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -41,7 +42,8 @@ def main() -> None:
 
 def _shares(count: int) -> list[range]:
     processes = max(1, min(MOST_PROCESSES, os.cpu_count() or 1, count // 100))
-    return [range(place, count, processes) for place in range(processes)]
+    ends = [count * place // processes for place in range(processes + 1)]
+    return [range(*pair) for pair in pairwise(ends)]
 
 
 def _print(tally: Tally, took: float) -> None:

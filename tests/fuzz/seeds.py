@@ -4,6 +4,7 @@ import io
 import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +61,7 @@ def seeds(folder: Path) -> Iterator[Seed]:
         yield Seed(name, tuple(make(data) for data in plain), hu)
 
 
+@cache
 def bomb(data: bytes, megabytes: int = 300) -> bytes:
     """Turn a deflated file into one that inflates to far more than its header says."""
     start = data.index(b"UI", 132)  # the meta group's own end follows from its length element

@@ -372,6 +372,18 @@ def test_the_second_pass_finds_what_the_first_let_through(tmp_path):
         assert "Secret" not in str(raised.value)
 
 
+def test_a_name_that_lies_in_the_pixels_is_found(tmp_path):
+    paths = Slices(tags={"PatientName": "Mustermann^Erika"}).write(tmp_path / "in")
+    dataset = pydicom.dcmread(paths[2])
+    name = b"Mustermann^Erika"
+    dataset.PixelData = dataset.PixelData[:100] + name + dataset.PixelData[100 + len(name) :]
+    dataset.save_as(paths[2])
+    with pytest.raises(NotCleanError, match="stands in its pixels") as raised:
+        CtLibrary().import_series(scan_folder(tmp_path / "in").series[0])
+    assert "Mustermann" not in str(raised.value)
+    assert nothing_left()
+
+
 def test_pseudonyms_need_the_key_and_a_lost_key_gives_new_ones(tmp_path):
     first = pseudonym("SECRET-ID", "2.25.1")
     assert first == pseudonym("SECRET-ID", "2.25.1")

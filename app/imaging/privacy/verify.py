@@ -18,6 +18,7 @@ from app.imaging.privacy.report import Tally
 
 _SHORTEST = 4
 _SHORTEST_NUMBER = 6
+_SHORTEST_IN_PIXELS = 8  # a shorter one may stand there by chance
 _TEXT = ("AE", "LO", "LT", "PN", "SH", "ST", "UC", "UR", "UT", "CS", "AS", "IS", "DS", "UN")
 _ADDED = (
     "PatientName", "PatientID", "StudyID", "PatientIdentityRemoved", "DeidentificationMethod",
@@ -27,6 +28,7 @@ _ADDED = (
 )  # fmt: skip
 
 
+_NUMBERS = ("PatientID", "OtherPatientIDs", "AccessionNumber", "IssuerOfPatientID")
 _GEOMETRY = (
     "ImagePositionPatient", "ImageOrientationPatient", "PixelSpacing", "RescaleSlope",
     "RescaleIntercept", "NumberOfFrames",
@@ -40,21 +42,27 @@ class Secrets:
     Attributes:
         profile: the tables.
         texts: words and numbers of attributes that are not kept.
+        names: those of them that are a person's name or number: not even the pixels may hold one,
+            where a damaged or prepared file can have it.
     """
 
     profile: Profile
     texts: set[str] = field(default_factory=set)
+    names: set[str] = field(default_factory=set)
 
     def gather(self, original: Dataset) -> None:
         """Collect what stands in attributes that are not kept, at any depth."""
         for element in _elements(original, 0):
             listed = int(element.tag) in self.profile.kept
             if not listed and (element.VR in _TEXT or element.tag.is_private):
-                self.texts.update(
+                found = {
                     text
                     for text in _words(element)
                     if text not in self.profile.vocabulary and text not in DECLARED
-                )
+                }
+                self.texts |= found
+                if element.VR == "PN" or element.keyword in _NUMBERS:
+                    self.names |= found
 
     def scrub(self, result: Dataset, tally: Tally) -> None:
         """Take out kept numbers that repeat an identifier, and texts that repeat anything."""
@@ -98,10 +106,13 @@ def verify(path: Path, secrets: Secrets, old_uids: frozenset[str], pixels: str) 
     if pixel_digest(written) != pixels:
         raise NotCleanError(f"{path.name}: its pixels are not those that were read")
     end = written["PixelData"].file_tell or path.stat().st_size
-    head = path.read_bytes()[:end]
+    whole = path.read_bytes()
+    head = whole[:end]
     for secret in secrets.texts:
         if len(secret) >= _SHORTEST_NUMBER and not _numeric(secret) and _in(secret, head):
             raise NotCleanError(f"{path.name}: a text of the original header stands in it")
+    if any(len(name) >= _SHORTEST_IN_PIXELS and _in(name, whole) for name in secrets.names):
+        raise NotCleanError(f"{path.name}: a name or number of the patient stands in its pixels")
 
 
 def _check(path: Path, element: DataElement, secrets: Secrets, old: frozenset[str]) -> None:

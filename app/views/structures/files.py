@@ -105,7 +105,7 @@ class StructureFiles(QObject):
         def write(progress: Progress) -> None:
             with ONE_AT_A_TIME:
                 from app.imaging.structures.files import write_structures
-            write_structures(path, structures, volume)
+            write_structures(path, structures, volume, progress)
 
         run_in_background(
             self, write, lambda _: self._panel.set_note(tr("Written: {name}", name=path.name)),
