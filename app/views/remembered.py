@@ -92,7 +92,7 @@ class Remembered:
         window, viewing = self._window, self._window.workspace.viewing
         return {
             "scheme": viewing.scheme.name, "reversed": viewing.level_reversed,
-            "left_handed": window.workspace.is_left_handed,
+            "left_handed": window.workspace.is_left_handed, "traces": viewing.shows_traces,
             "light": window.projector.is_light, "large": window.projector.is_large,
             "kept": {name: [w.width, w.level] for name, w in viewing.greys.kept.items()},
         }  # fmt: skip
@@ -101,6 +101,7 @@ class Remembered:
         workspace, viewing = self._window.workspace, self._window.workspace.viewing
         viewing.level_reversed = bool(state["reversed"])
         viewing.set_scheme(SCHEMES[state["scheme"]])
+        viewing.set_shows_traces(bool(state.get("traces", True)))
         workspace.set_left_handed(bool(state["left_handed"]))
         for name, (width, level) in state["kept"].items():
             viewing.greys.keep(str(name), WindowLevel(float(width), float(level)))

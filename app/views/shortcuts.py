@@ -16,7 +16,8 @@ from PySide6.QtWidgets import (
 )
 
 from app.views import theme
-from app.views.slices.bindings import Scheme, key_rows, mouse_rows
+from app.views.slices.binding_words import key_rows, mouse_rows
+from app.views.slices.bindings import Scheme
 from app.views.text import disclaimer, tr
 
 _AROUND_PX = 40

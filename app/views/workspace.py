@@ -117,8 +117,9 @@ class Workspace(QWidget):
         self._show_needle_words()
 
     def _show_needle_words(self) -> None:
+        planes = self.needle_planes
         for pane in self.needle_panes:
-            pane.readouts.set_note(self.needle_planes.words())
+            pane.readouts.set_note(planes.words(), planes.laid_along)
 
     def _show_two_points(self) -> None:
         """Make room for a plane that was asked for while nobody sees the needle's panes."""
@@ -127,7 +128,9 @@ class Workspace(QWidget):
             self.show_layout("6-up")
 
     def _watch_needle_panes(self) -> None:
-        self.needle_planes.set_watched(any(pane.isVisible() for pane in self.needle_panes))
+        seen = [pane.pane for pane in self.needle_panes if pane.isVisible()]
+        self.needle_planes.set_watched(bool(seen))
+        self.viewing.set_seen(seen)
 
     # --- layouts ------------------------------------------------------------------------------
     @property

@@ -215,3 +215,18 @@ def test_a_needle_shown_again_never_brings_back_the_picture_of_the_last_one(room
     pane.show()
     settle()
     assert pane.canvas._image.boundingRect().isEmpty()
+
+
+def test_a_picture_that_is_late_is_not_waited_for(room, settle, monkeypatch):
+    one = room()
+    one.viewing.set_needle(NeedleOverlay([0.0, -80.0, 0.0], [0.0, 0.0, 0.0]))
+    one.arrive(settle)
+    pane = one.panes[SHOWN.index(PaneId.IN_PLANE)]
+    ticks = pane.canvas.layers.ticks.item
+    monkeypatch.setattr(one.viewing.reformatter, "take", lambda _: None)
+    monkeypatch.setattr(one.viewing.reformatter, "waits", lambda _: True)
+    before = ticks._state
+    one.viewing.set_needle(NeedleOverlay([30.0, -80.0, 9.0], [4.0, 5.0, 3.0]))
+    assert settle(lambda: ticks._state != before, 5.0)
+    assert pane.canvas.feed.is_waiting
+    one.viewing.set_needle(None)

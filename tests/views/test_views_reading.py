@@ -14,16 +14,8 @@ from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.reformat import Frame
 from app.imaging.window import PRESETS, WindowLevel
 from app.views.shortcuts import ShortcutSheet, groups
-from app.views.slices.bindings import (
-    OHIF,
-    RESERVED,
-    SCHEMES,
-    SLICER,
-    Action,
-    action_words,
-    key_name,
-    key_rows,
-)
+from app.views.slices.binding_words import action_words, key_rows
+from app.views.slices.bindings import OHIF, RESERVED, SCHEMES, SLICER, Action, key_name
 from app.views.slices.looks import KINDS, Look, Slab, Turn
 from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.pane import SlicePane

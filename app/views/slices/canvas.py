@@ -72,6 +72,7 @@ class SliceCanvas(PlaneView):
     def _connect(self, viewing: Viewing) -> None:
         viewing.volume_changed.connect(self.show_volume)
         viewing.cursor_changed.connect(lambda: self._want(Due.CROSSHAIR))
+        viewing.traces_changed.connect(lambda: self._want(Due.CROSSHAIR))
         viewing.plane_changed.connect(self._show_plane)
         viewing.look_changed.connect(self._show_look)
         viewing.window_changed.connect(lambda: self._want(Due.GREYS))
@@ -174,7 +175,7 @@ class SliceCanvas(PlaneView):
         moved = self._slice != (self.plane, self.index)
         if moved and isinstance(self.plane, ReformatPlane) and Due.CAMERA not in self._due:
             self._fetch()
-            if self.feed.is_waiting:
+            if self.feed.is_near:
                 return
         self.flush()
 

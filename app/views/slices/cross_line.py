@@ -20,9 +20,9 @@ END_SHARE = 0.06
 class CrossLine(QGraphicsItem):
     """One line of the crosshair through the whole plane, with a gap around the point."""
 
-    def __init__(self, mark: Mark) -> None:
+    def __init__(self, mark: Mark, alpha: float = 0.9) -> None:
         super().__init__()
-        self._pen = mark.pen(alpha=0.9)
+        self._pen = mark.pen(alpha=alpha)
         self._state: tuple[float, ...] = ()
         self._ends: tuple[tuple[QPointF, QPointF], ...] = ()
         self._rect = QRectF()

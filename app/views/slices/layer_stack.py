@@ -14,7 +14,8 @@ from PySide6.QtWidgets import QGraphicsScene
 from app.views.slices.error_layer import ErrorLayer
 from app.views.slices.items import MarkItem
 from app.views.slices.layers import CrosshairLayer, Labels, NeedleLayer, PlanLayer
-from app.views.slices.panes import PaneId
+from app.views.slices.needle_traces import NeedleTraces
+from app.views.slices.panes import NEEDLE_PANES, PaneId
 from app.views.slices.plane import SlicePlane
 from app.views.slices.target_disc import TargetDisc
 from app.views.slices.ticks import TickLayer
@@ -59,6 +60,7 @@ class LayerStack:
     Attributes:
         crosshair, plan, needle, errors, disc: its own layers.
         ticks: the line ahead of the tip; None in panes that are not the needle's.
+        traces: the needle's planes; None in the needle's own panes.
     """
 
     def __init__(self, scene: QGraphicsScene, viewing: Viewing, pane: PaneId) -> None:
@@ -68,6 +70,7 @@ class LayerStack:
         self.errors = ErrorLayer(scene)
         self.disc = TargetDisc(scene, viewing)
         self.ticks = TickLayer(scene, viewing) if pane.is_needle else None
+        self.traces = None if pane.is_needle else NeedleTraces(scene, viewing)
         self._labels = Labels((self.plan.target, self.plan.entry, self.needle.tip))
         self._added: list[Layer] = []
 
@@ -83,15 +86,17 @@ class LayerStack:
         self.needle.hide()
         self.errors.hide()
         self.disc.hide()
-        if self.ticks is not None:
-            self.ticks.hide()
+        for more in (self.ticks, self.traces):
+            if more is not None:
+                more.hide()
         for layer in self._added:
             layer.hide()
 
     @property
     def traced(self) -> frozenset[PaneId]:
         """Panes whose traces are shown."""
-        return self.crosshair.traced
+        own = self.crosshair.traced
+        return own if self.traces is None else own.union(NEEDLE_PANES)
 
     def place(self, due: AbstractSet[Due], plane: SlicePlane, index: float, scale: float) -> None:
         """Put what has changed where it belongs.
@@ -104,6 +109,8 @@ class LayerStack:
         """
         if Due.CROSSHAIR in due:
             self.crosshair.place(plane, index, scale)
+            if self.traces is not None:
+                self.traces.place(plane, index, scale)
         if Due.PLAN in due:
             self._place_plan(plane, index, scale)
         if Due.NEEDLE in due:

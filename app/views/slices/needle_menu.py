@@ -27,3 +27,8 @@ def fill_needle_menu(menu: QMenu, planes: NeedlePlanes, viewing: Viewing) -> Non
         action.setChecked(planes.along is along)
         action.setEnabled(enabled)
         action.triggered.connect(lambda _=False, command=command: command())
+    menu.addSeparator()
+    traces = menu.addAction(tr("Lines in the patient views"))
+    traces.setCheckable(True)
+    traces.setChecked(viewing.shows_traces)
+    traces.triggered.connect(viewing.set_shows_traces)

@@ -43,7 +43,7 @@ class NeedlePlanes(QObject):
     Attributes:
         along: what they go by.
         frame: needle, path or points as the panes show them; None while there is nothing.
-        shows_path: whether that is the planned path.
+        laid_along: what that is: needle, path or points.
 
     Signals:
         changed(): another source, or the panes are laid anew.
@@ -58,7 +58,7 @@ class NeedlePlanes(QObject):
         self._viewing = viewing
         self.along = Along.NEEDLE
         self.frame: NeedleFrame | None = None
-        self.shows_path = False
+        self.laid_along = Along.NEEDLE
         self._watched = False
         viewing.needle_changed.connect(self._follow)
         viewing.plan_changed.connect(self._follow)
@@ -90,9 +90,14 @@ class NeedlePlanes(QObject):
         except AcusError as error:
             self.refused.emit(str(error))
             return
-        self.along, self.shows_path = Along.POINTS, False
+        self.along = self.laid_along = Along.POINTS
         self._lay(frame)
         self.changed.emit()
+
+    @property
+    def shows_path(self) -> bool:
+        """Whether the panes lie along the planned path."""
+        return self.laid_along is Along.PATH
 
     def words(self) -> str:
         """Say what the panes show."""
@@ -112,7 +117,7 @@ class NeedlePlanes(QObject):
         self.changed.emit()
 
     def _start(self) -> None:
-        self.along, self.frame, self.shows_path = Along.NEEDLE, None, False
+        self.along, self.frame, self.laid_along = Along.NEEDLE, None, Along.NEEDLE
         self._follow()
 
     def _follow(self) -> None:
@@ -124,14 +129,14 @@ class NeedlePlanes(QObject):
         if self.along is Along.NEEDLE and needle is not None:
             if needle.valid:  # else the last good pose stays
                 last = None if self.shows_path else self.frame
-                self.shows_path = False
+                self.laid_along = Along.NEEDLE
                 self._take(last, needle.tip_mm, needle.tip_mm - needle.start_mm)
             return
         self._show_path()
 
     def _show_path(self) -> None:
         ends = self.path_mm
-        self.shows_path = ends is not None
+        self.laid_along = Along.NEEDLE if ends is None else Along.PATH
         if ends is None:
             self._lay(None)
             return

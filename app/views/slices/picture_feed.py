@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import ceil, floor
+from time import monotonic
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,9 @@ from app.views.slices.reformat_plane import ReformatPlane
 from app.views.slices.reformatter import Reformatter, Wish
 
 LOOK_MS = 4
+PATIENCE_S = 0.1
+"""A picture later than this is not waited for: its code is being compiled, or the slab is thick."""
+
 FINEST = 4.0
 """Pixels per finest voxel beyond which a picture only grows and gains nothing."""
 
@@ -26,7 +30,8 @@ class PictureFeed(QObject):
         bounds_mm: where they lie in the plane.
 
     Signals:
-        arrived(): an interpolated picture has come, or is given up: there is none to wait for.
+        arrived(): an interpolated picture has come; or there is none to wait for any longer, as it
+            is given up or late.
     """
 
     arrived = Signal()
@@ -36,6 +41,7 @@ class PictureFeed(QObject):
         self._reformatter = reformatter
         self._wish: Wish | None = None
         self._show_nothing()
+        self._since, self._is_late = 0.0, False
         self._timer = QTimer(self, interval=LOOK_MS)
         self._timer.timeout.connect(self._look)
 
@@ -47,6 +53,11 @@ class PictureFeed(QObject):
     def is_waiting(self) -> bool:
         """Whether an interpolated picture is still to come."""
         return self._timer.isActive()
+
+    @property
+    def is_near(self) -> bool:
+        """Whether a picture is still to come and what belongs over it may wait for it."""
+        return self.is_waiting and not self._is_late
 
     def want(self, plane: SlicePlane, index: float, visible: Rect, pixel_mm: float) -> None:
         """Take a slice: the volume's own at once, an interpolated one when it comes.
@@ -71,7 +82,9 @@ class PictureFeed(QObject):
             return
         self._wish = wish
         self._reformatter.request(id(self), wish)
-        self._timer.start()
+        if not self._timer.isActive():
+            self._since, self._is_late = monotonic(), False
+            self._timer.start()
 
     def drop(self) -> None:
         """Want nothing any more."""
@@ -85,10 +98,13 @@ class PictureFeed(QObject):
         if made is not None:
             wish, self.hu = made
             self.bounds_mm = wish.bounds_mm
+            self._since, self._is_late = monotonic(), False
+        late = not self._is_late and monotonic() - self._since > PATIENCE_S
+        self._is_late = self._is_late or late
         done = not self._reformatter.waits(id(self))
         if done:
             self._timer.stop()
-        if made is not None or done:
+        if made is not None or done or late:
             self.arrived.emit()
 
 

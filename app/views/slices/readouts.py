@@ -13,6 +13,7 @@ from app.views.coordinates import lps_words
 from app.views.names import NAMES
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.corners import PADDING, Overlay, Ruler
+from app.views.slices.needle_source import Along
 from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
 from app.views.slices.plane import SlicePlane
 from app.views.slices.shown_plane import ShownPlane
@@ -28,19 +29,23 @@ SHOWN_TILT_DEG = 0.5
 """From this angle to the patient's axes a plane is called oblique."""
 
 
-def needle_slice_words(plane: SlicePlane, index: float) -> str:
-    """Say where a slice of a needle's pane stands."""
+def needle_slice_words(plane: SlicePlane, index: float, along: Along = Along.NEEDLE) -> str:
+    """Say where a slice of a needle's pane stands, of what the pane is laid along."""
     offset = index * plane.step_mm
+    at = {Along.PATH: tr("the target"), Along.POINTS: tr("the 2nd point")}.get(along, tr("the tip"))
+    line = {Along.PATH: tr("the path"), Along.POINTS: tr("both points")}.get(
+        along, tr("the needle")
+    )
     if plane.pane is PaneId.PROBE:
         if abs(offset) < 0.05:
-            return tr("at the tip")
+            return tr("at {place}", place=at)
         if offset > 0.0:
-            return tr("{distance:.0f} mm ahead of the tip", distance=offset)
-        return tr("{distance:.0f} mm behind the tip", distance=-offset)
+            return tr("{distance:.0f} mm ahead of {place}", distance=offset, place=at)
+        return tr("{distance:.0f} mm behind {place}", distance=-offset, place=at)
     if abs(offset) < 0.05:
-        return tr("through the needle")
+        return tr("through {line}", line=line)
     side = plane.towards(offset)
-    return tr("{distance:.0f} mm {side} of the needle", distance=abs(offset), side=side)
+    return tr("{distance:.0f} mm {side} of {line}", distance=abs(offset), side=side, line=line)
 
 
 class Readouts(QObject):
@@ -50,7 +55,7 @@ class Readouts(QObject):
         super().__init__(canvas)
         self._canvas = canvas
         self._hovered: FloatArray | None = None
-        self._note = ""
+        self._note, self._along = "", Along.NEEDLE
         port = canvas.viewport()
         self.title = Overlay(port, _A.AlignLeft | _A.AlignTop)
         self.window = Overlay(port, _A.AlignRight | _A.AlignTop)
@@ -107,10 +112,15 @@ class Readouts(QObject):
             return []
         return [tr("Zoom {zoom:.1f} px/mm", zoom=self._canvas.camera.scale)]
 
-    def set_note(self, note: str) -> None:
-        """Say something else below the title than how thick the slices are."""
-        if note != self._note:
-            self._note = note
+    def set_note(self, note: str, along: Along = Along.NEEDLE) -> None:
+        """Say something else below the title than how thick the slices are.
+
+        Args:
+            note: what is said.
+            along: what a needle's pane is laid along.
+        """
+        if (note, along) != (self._note, self._along):
+            self._note, self._along = note, along
             self.show_plane()
 
     def refresh(self) -> None:
@@ -162,7 +172,7 @@ class Readouts(QObject):
 
     def _slice_words(self, plane: SlicePlane, index: float) -> tuple[str, ...]:
         if plane.pane.is_needle:
-            return (needle_slice_words(plane, index),)
+            return (needle_slice_words(plane, index, self._along),)
         tilt = plane.tilt_deg
         return (
             tr("{angle:.0f}° oblique", angle=tilt) if tilt > SHOWN_TILT_DEG else "",

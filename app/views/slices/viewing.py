@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from enum import StrEnum
 
 import numpy as np
@@ -49,6 +50,7 @@ class Viewing(QObject):
         plane_changed(PaneId): a pane's plane is another one, or is scrolled away from its needle.
         look_changed(PaneId): a pane is turned or has another slab; zoom and pan start anew.
         scheme_changed(): mouse and keys mean something else.
+        traces_changed(): other planes of the needle show their traces in the patient views.
         point_placed(Tool, tuple, bool): with any tool but `NAVIGATE`, a point was clicked or
             dragged to in LPS [mm]; the flag is True for the first event of a gesture, a new step
             to undo. Who listens takes the tools that are his and leaves the others.
@@ -64,6 +66,7 @@ class Viewing(QObject):
     point_placed = Signal(object, object, bool)
     look_changed = Signal(object)
     scheme_changed = Signal()
+    traces_changed = Signal()
 
     def __init__(self, window: WindowLevel, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -79,7 +82,8 @@ class Viewing(QObject):
         self.tolerances_mm: tuple[float, ...] = ()
         self.needle: NeedleOverlay | None = None
         self.target_error: ErrorOverlay | None = None
-        self.shows_errors = True
+        self.shows_errors, self.shows_traces = True, True
+        self.seen_panes: frozenset[PaneId] = frozenset()
         self.follows_tip = False
         self.point_refused = False
         self.clicked_pane: PaneId | None = None
@@ -218,6 +222,16 @@ class Viewing(QObject):
         self.shows_errors = shown
         self.plan_changed.emit()
         self.needle_changed.emit()
+
+    def set_shows_traces(self, shown: bool) -> None:
+        """Draw where the needle's planes cut the patient views, or not."""
+        self.shows_traces = shown
+        self.traces_changed.emit()
+
+    def set_seen(self, panes: Iterable[PaneId]) -> None:
+        """Tell which panes of the needle somebody sees: only theirs show traces."""
+        self.seen_panes = frozenset(panes)
+        self.traces_changed.emit()
 
     def set_follows_tip(self, follows: bool) -> None:
         """Let the slices pass through the needle's tip from now on, or stay."""
