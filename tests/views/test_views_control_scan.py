@@ -311,7 +311,7 @@ def test_the_debrief_lists_every_scan_with_what_it_showed(window) -> None:
     ]
     assert rows[0] == ["1", "0:02", "3 × 4 mm, S 134.0 to S 146.0", "● tip",
                        "11.6"]  # fmt: skip
-    assert "teaching estimate" in page.scans.horizontalHeaderItem(4).text()
+    assert "teaching estimate" in " ".join(page.scans.horizontalHeaderItem(4).text().split())
     assert rows[1][3] == "✖ no needle"
     assert not page.scans.isHidden()
     page.show_review(replace(reviewed(), control_scans=()))

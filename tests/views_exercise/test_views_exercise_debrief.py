@@ -11,6 +11,7 @@ from views_exercise_attempts import placed_plan, review, score
 
 from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
+from app.scoring.risks import RiskMark
 from app.session.curves import Curves
 from app.session.facts import plan_record
 from app.session.recording import Inputs, Recording
@@ -52,6 +53,25 @@ def test_the_table_shows_value_band_points_and_weight_of_every_metric(page):
     points = [float(text.split(" / ")[0]) for text in column(page, 3) if "/" in text]
     assert sum(points) == pytest.approx(shown.score.total, abs=0.2)
     assert "held" in page.table.item(page.table.rowCount() - 1, 0).toolTip()
+
+
+def test_structures_of_risk_are_told_worst_first_with_a_sign_and_words(page):
+    risks = (
+        RiskMark("lung", 5.0, 18.4, 31.0, 70.0),
+        RiskMark("portal vein", 5.0, 3.2, 24.0, 61.0),
+        RiskMark("gallbladder", 3.0, -1.4, 31.0, 70.0),
+    )
+    page.show_review(review(risks=risks, origin=1.0))
+    assert page.risks.text().splitlines()[1:] == [
+        "✖ gallbladder: needle inside, 1.4 mm deep, at 0:30 (limit 3 mm)",
+        "▲ portal vein: 3.2 mm, at 0:23: nearer than 5 mm",
+        "✔ lung: 18.4 mm, at 0:30 (limit 5 mm)",
+    ]
+    assert not page.risks.isHidden()
+    plain = len(report_bytes(review()))
+    assert len(report_bytes(review(risks=risks))) > plain
+    page.show_review(review())
+    assert page.risks.isHidden()
 
 
 def test_passed_not_passed_void_and_unscored_are_told_apart_in_words():

@@ -83,12 +83,23 @@ def _first_page(painter: QPainter, review: Review) -> None:
         y = _table(painter, review.score, y)
     painter.setFont(font(8.5))
     painter.setPen(QColor(DIM))
-    for line in risk_lines(review):
-        _paragraph(painter, line, y, 13.0)
-        y += 13.0
+    y = _risks(painter, review, y)
     for problem in review.problems:
         _paragraph(painter, f"▲ {problem}", y, 24.0)
         y += 24.0
+
+
+def _risks(painter: QPainter, review: Review, y: float) -> float:
+    """How near the needle came to structures of risk; returns where the page goes on."""
+    lines = risk_lines(review)
+    if not lines:
+        return y
+    _text(painter, MARGIN, y + 6.0, tr("Closest to structures of risk"), font(9.0, bold=True), DIM)
+    for number, line in enumerate(lines, 1):
+        _text(painter, MARGIN, y + 6.0 + 14.0 * number, line, font(9.5))
+    painter.setFont(font(8.5))
+    painter.setPen(QColor(DIM))
+    return y + 20.0 + 14.0 * len(lines)
 
 
 def _heading(painter: QPainter, review: Review) -> float:

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
 
 from app.imaging.scan_order import Seen
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
+from app.views import theme
 from app.views.coordinates import axis_words
 from app.views.debrief.review import Review
 from app.views.exercise.readouts import clock_text
@@ -34,8 +35,9 @@ class ScanList(QTableWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(0, _COLUMNS, parent)
         self._scans: tuple[ControlScan, ...] = ()
-        titles = (tr("Scan"), tr("Time"), tr("Slices"), tr("Shows"),
-                  tr("Dose, mGy·cm\n({estimate})", estimate=tr(TEACHING_ESTIMATE)))  # fmt: skip
+        estimate = tr(TEACHING_ESTIMATE).replace(" ", "\n")
+        dosed = tr("mGy·cm\n{estimate}", estimate=estimate)
+        titles = (tr("Scan"), tr("Time"), tr("Slices"), tr("Shows"), dosed)
         for column, title in enumerate(titles):
             self.setHorizontalHeaderItem(column, QTableWidgetItem(title))
         dose = self.horizontalHeaderItem(_COLUMNS - 1)
@@ -49,7 +51,10 @@ class ScanList(QTableWidget):
         self.setToolTip(tr("Enter or a double click shows its slices, if the CT is open"))
         self.verticalHeader().hide()
         self.verticalHeader().setDefaultSectionSize(_ROW_HEIGHT)
+        small = f"font-size: {theme.SMALL_PX}px;"  # all five columns fit beside the curves
+        self.setStyleSheet(f"{small} QHeaderView::section {{ {small} padding: 3px 4px; }}")
         header = self.horizontalHeader()
+        header.setMinimumSectionSize(24)
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setSectionResizeMode(3, QHeaderView.ResizeMode.Stretch)
         header.setHighlightSections(False)
@@ -65,7 +70,9 @@ class ScanList(QTableWidget):
             for column, text in enumerate(cells(scan, review.origin)):
                 item = QTableWidgetItem(text)
                 if column == _COLUMNS - 1:
-                    item.setTextAlignment(Qt.AlignmentFlag.AlignRight)
+                    item.setTextAlignment(
+                        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+                    )
                     item.setToolTip(tr(TEACHING_ESTIMATE))
                 self.setItem(row, column, item)
 
