@@ -26,6 +26,13 @@ def free_port() -> int:
         return probe.getsockname()[1]
 
 
+def _another(file: Dataset) -> Dataset:
+    """Return a picture of the same series that nobody listed."""
+    copy = pydicom.dcmread(file.filename)
+    copy.SOPInstanceUID = copy.file_meta.MediaStorageSOPInstanceUID = f"{file.SOPInstanceUID}.9"
+    return copy
+
+
 class FakePacs:
     """Serves the files of a folder; `ill` names what it does wrong."""
 
@@ -119,7 +126,9 @@ class FakePacs:
             yield 1
             yield 0xA702, None
             return
-        yield len(wanted)
+        yield len(wanted) * (2 if self.ill == "too much" else 1)
+        if self.ill == "too much":
+            wanted = [*wanted, *map(_another, wanted)]
         for index, file in enumerate(wanted):
             if self.ill == "cut" and index == 2:
                 event.assoc.abort()
@@ -132,11 +141,19 @@ class FakePacs:
             yield PENDING, self._spoilt(file, index)
 
     def _spoilt(self, file, index):
-        if index != 2:
+        if index != 2 or self.ill == "too much":
             return file
         copy = pydicom.dcmread(file.filename)
         if self.ill == "other series":
             copy.SeriesInstanceUID = "2.25.999"
+        if self.ill == "other patient":
+            copy.PatientID = "SOMEBODY-ELSE"
+        if self.ill == "other study":
+            copy.StudyInstanceUID = "2.25.998"
+        if self.ill == "garbage":
+            copy = Dataset()
+            copy.SOPClassUID, copy.SOPInstanceUID = file.SOPClassUID, file.SOPInstanceUID
+            copy.file_meta = file.file_meta
         if self.ill == "damaged":
             copy.PixelData = copy.PixelData[:10]
         return copy

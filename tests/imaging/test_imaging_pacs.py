@@ -188,6 +188,25 @@ def test_a_picture_of_another_series_is_refused_and_nothing_is_kept(stored, way)
         assert not incoming(settings).folder.exists()
 
 
+@pytest.mark.parametrize("way", ["get", "move"])
+@pytest.mark.parametrize(
+    ("ill", "words"),
+    [
+        ("other patient", "several patients"),
+        ("other study", "another study"),
+        ("garbage", "another series"),
+        ("too much", "had not listed"),
+    ],
+)
+def test_what_was_not_asked_for_is_refused_and_nothing_is_kept(stored, way, ill, words):
+    with FakePacs(stored, ill) as pacs:
+        settings = pacs.settings(retrieve=way)
+        with pytest.raises(PacsDataError, match=words):
+            fetch(settings)
+        assert empty()
+        assert not incoming(settings).folder.exists()
+
+
 def test_a_picture_that_is_left_out_is_counted(stored):
     with FakePacs(stored, "forgets") as pacs:
         with pytest.raises(PacsDataError, match="did not send 1 of 5"):

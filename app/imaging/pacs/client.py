@@ -112,6 +112,7 @@ class Pacs:
             Cancelled: if `progress` was cancelled; likewise.
         """
         listed = self.instances(study_uid, series_uid, progress.part(0.0, 0.05))
+        incoming.expect(listed)
         missing = tuple(uid for uid in listed if not incoming.has(uid))
         if listed and not missing:
             return

@@ -8,6 +8,7 @@ import os
 import shutil
 import threading
 import time
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, WorkerError
 from app.imaging.pacs.settings import PacsSettings
 from app.imaging.privacy.key import derived, installation_key
-from app.imaging.worker.jobs import IDENTIFY
+from app.imaging.worker.jobs import IDENTIFY, Identity
 from app.imaging.worker.limits import PACKAGE_SECONDS, for_file, size_of
 from app.imaging.worker.pool import shared_worker
 
@@ -41,6 +42,8 @@ COMPRESSED = (
 _KEPT_S = 24 * 3600.0
 _LARGEST = 2 * 1024**3
 _SPARE_BYTES = 256 * 1024**2
+_MOST = 20_000
+"""Pictures of one series that the PACS has not listed; no scanner makes more."""
 
 
 class Incoming:
@@ -49,12 +52,15 @@ class Incoming:
     Args:
         settings: of the PACS they come from.
         series_uid: SeriesInstanceUID that was asked for.
+        study_uid: StudyInstanceUID that was asked for; any where empty.
     """
 
-    def __init__(self, settings: PacsSettings, series_uid: str) -> None:
+    def __init__(self, settings: PacsSettings, series_uid: str, study_uid: str = "") -> None:
         key = installation_key()
         name = derived(key, "incoming", settings.title, settings.host, series_uid).hex()[:16]
-        self.series_uid = series_uid
+        self.series_uid, self.study_uid = series_uid, study_uid
+        self._listed: frozenset[str] = frozenset()
+        self._patient: str | None = None  # of the first picture; the others must be of the same
         self.folder = _root() / name
         self._key, self._lock = key, threading.Lock()
         self.problems: list[str] = []
@@ -64,7 +70,13 @@ class Incoming:
         sweep()
         self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         os.utime(self.folder)
+        for path in sorted(self.folder.glob("*.dcm"))[:1]:
+            self._patient = self._said(path)[4]
         return self
+
+    def expect(self, listed: Collection[str]) -> None:
+        """Refuse instances that the PACS has not listed; where it lists none, all are taken."""
+        self._listed = frozenset(listed)
 
     def has(self, sop_uid: str) -> bool:
         """Whether an instance has come, now or at an earlier try."""
@@ -121,18 +133,35 @@ class Incoming:
             beside.unlink(missing_ok=True)
 
     def _judged(self, path: Path, sop_class: str, sop_uid: str) -> tuple[int, str]:
-        allowed = for_file(size_of(path), least=PACKAGE_SECONDS)
         try:
-            said = shared_worker().call(IDENTIFY, (path.absolute(),), allowed, Progress())
+            said = self._said(path)
         except FileDamagedError:  # whatever bytes came, they are no DICOM data set
             return NOT_UNDERSTOOD, "it sent something that is no DICOM data set"
         except WorkerError as error:
             return NO_ROOM, str(error)
+        problem = self._mistaken(sop_class, sop_uid, said)
+        return (WRONG_CLASS, problem) if problem else (ACCEPTED, "")
+
+    def _said(self, path: Path) -> Identity:
+        allowed = for_file(size_of(path), least=PACKAGE_SECONDS)
+        return shared_worker().call(IDENTIFY, (path.absolute(),), allowed, Progress())
+
+    def _mistaken(self, sop_class: str, sop_uid: str, said: Identity) -> str:
+        """Say what of a picture's identity is not what was asked for; empty where all is."""
         if said[:2] != (sop_class, sop_uid):
-            return WRONG_CLASS, "it sent a picture under another one's name"
+            return "it sent a picture under another one's name"
         if said[2] != self.series_uid:
-            return WRONG_CLASS, "it sent a picture of another series"
-        return ACCEPTED, ""
+            return "it sent a picture of another series"
+        if self.study_uid and said[3] != self.study_uid:
+            return "it sent a picture of another study"
+        if self._patient not in (None, said[4]):
+            return "it sent pictures of several patients"
+        if self._listed and sop_uid not in self._listed:
+            return "it sent a picture that it had not listed"
+        if not self._listed and self.count() >= _MOST:
+            return f"it sent more than {_MOST} pictures"
+        self._patient = said[4]
+        return ""
 
     def _path(self, sop_uid: str) -> Path:
         return self.folder / f"{derived(self._key, 'instance', sop_uid).hex()[:24]}.dcm"

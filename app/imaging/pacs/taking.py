@@ -43,7 +43,7 @@ def fetch(pacs: Pacs, study_uid: str, series_uid: str, progress: Progress) -> Fe
         SeriesRefusedError: it can, but not be used.
         Cancelled: if `progress` was cancelled.
     """
-    incoming = Incoming(pacs.settings, series_uid).open()
+    incoming = Incoming(pacs.settings, series_uid, study_uid).open()
     try:
         pacs.retrieve(study_uid, series_uid, incoming, progress.part(0.0, 0.9))
         series = scan_folder(incoming.folder, progress.part(0.9, 1.0)).series

@@ -48,7 +48,8 @@ STRUCTURES: Job[Placed] = Job("app.imaging.structures.parsing:parse_structures",
 DEIDENTIFY: Job[Deidentified] = Job(
     "app.imaging.privacy.deidentifying:deidentify_series", Deidentified
 )
-IDENTIFY: Job[tuple[str, str, str]] = Job("app.imaging.pacs.looking:identity", tuple[str, str, str])
+Identity = tuple[str, str, str, str, str]
+IDENTIFY: Job[Identity] = Job("app.imaging.pacs.looking:identity", Identity)
 WRITE_SEG: Job[None] = Job("app.imaging.structures.seg_file:write_seg_file", None)
 UNPACK: Job[tuple[tuple[str, str], ...]] = Job(
     "app.imaging.archive_file:unpack_into", tuple[tuple[str, str], ...]
