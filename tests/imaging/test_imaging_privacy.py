@@ -2,6 +2,7 @@
 
 import csv
 import os
+import resource
 import shutil
 import subprocess
 import sys
@@ -453,6 +454,18 @@ def test_a_disk_that_fills_in_the_middle_leaves_nothing(tmp_path, monkeypatch):
     with pytest.raises(ImportFailedError, match="full"):
         CtLibrary().import_series(series)
     worker.close()
+    assert nothing_left()
+
+
+def test_a_file_that_the_system_cuts_short_is_told_in_its_words_and_nothing_is_left(tmp_path):
+    Slices(shape=(200, 200)).write(tmp_path / "in")
+    done = subprocess.run(
+        [sys.executable, "-m", "app", "ct", "import", str(tmp_path / "in")],
+        env=os.environ, cwd=paths.resources().parent, capture_output=True, text=True, check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000)),
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "File too large; nothing was kept" in done.stderr
     assert nothing_left()
 
 

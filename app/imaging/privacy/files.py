@@ -116,8 +116,20 @@ def _write(result: Dataset, to: Path, syntax: UID) -> None:
     )  # fmt: skip
     try:
         file.save_as(to, enforce_file_format=True)
-    except (OSError, MemoryError):
+    except OSError as error:
+        raise _of_the_system(error) from None
+    except MemoryError:
         raise
     except Exception as error:  # a value that pydicom will not write; its message would quote it
         raise PrivacyError(f"it cannot be written anew ({type(error).__name__})") from None
     sync(to)
+
+
+def _of_the_system(error: OSError) -> OSError:
+    """Return the system's own error: pydicom raises another of its type, without the number."""
+    cause: BaseException | None = error
+    while cause is not None:
+        if isinstance(cause, OSError) and cause.errno:
+            return cause
+        cause = cause.__cause__ or cause.__context__
+    return error
