@@ -9,7 +9,9 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import nibabel
 import numpy as np
+import pydicom
 import pytest
 from numpy.typing import NDArray
 
@@ -181,17 +183,57 @@ def test_the_child_loads_no_kernels_and_no_window():
     assert done.stdout.strip() == "[]"
 
 
-def test_the_program_parses_no_dicom_itself(tmp_path):
-    Slices().write(tmp_path)
-    program = (
-        "import sys; from app.imaging.scanning import scan_folder;"
-        "found = scan_folder(sys.argv[1]); print(len(found.usable), 'pydicom' in sys.modules)"
-    )
+PARSERS = """
+import sys, zipfile
+from pathlib import Path
+from app.imaging.reading import load_ct
+from app.imaging.scanning import scan_folder
+folder = Path(sys.argv[1])
+with zipfile.ZipFile(folder / "a.zip", "w") as archive:
+    for path in (folder / "dicom").iterdir():
+        archive.write(path, path.name)
+print([load_ct(folder / name).size[2] for name in ("dicom", "a.zip", "nifti", "medium/DICOMDIR")])
+print([name for name in ("pydicom", "nibabel", "gdcm") if name in sys.modules])
+import pydicom
+from app.imaging.library import CtLibrary
+pydicom.dcmread = pydicom.dcmwrite = None
+print(CtLibrary().import_series(scan_folder(folder / "dicom").series[0]).report.files)
+"""
+
+
+def test_the_program_parses_nothing_itself(tmp_path):
+    paths = Slices().write(tmp_path / "dicom")
+    (tmp_path / "nifti").mkdir()
+    nibabel.save(nibabel.Nifti1Image(np.zeros((4, 4, 5)), np.eye(4)), tmp_path / "nifti" / "a.nii")
+    directory = pydicom.Dataset()
+    directory.DirectoryRecordSequence = [pydicom.Dataset() for _ in paths]
+    for record, path in zip(directory.DirectoryRecordSequence, paths, strict=True):
+        record.ReferencedFileID = path.name.upper()
+    meta = pydicom.dataset.FileMetaDataset()
+    meta.MediaStorageSOPClassUID, meta.MediaStorageSOPInstanceUID = "1.2.840.10008.1.3.10", "2.25.1"
+    meta.TransferSyntaxUID = "1.2.840.10008.1.2.1"
+    directory.file_meta = meta
+    Slices().write(tmp_path / "medium")
+    pydicom.dcmwrite(tmp_path / "medium" / "DICOMDIR", directory, enforce_file_format=True)
     root = Path(__file__).resolve().parents[2]
     done = subprocess.run(
-        [sys.executable, "-c", program, str(tmp_path)], capture_output=True, cwd=root, text=True
-    )
-    assert done.stdout.strip() == "1 False"
+        [sys.executable, "-W", "ignore", "-c", PARSERS, str(tmp_path)],
+        capture_output=True, cwd=root, text=True,
+    )  # fmt: skip
+    assert done.stdout.splitlines() == ["[5, 5, 5, 5]", "[]", "5"], done.stderr
+
+
+def test_whoever_waits_for_a_child_is_told_and_may_cancel(hostile):
+    told = []
+    first = threading.Thread(target=lambda: reasons(hostile, "slow"))
+    first.start()
+    while not hostile._leased:
+        time.sleep(0.01)
+    progress = Progress(lambda _, text: (told.append(text), progress.cancel()))
+    with pytest.raises(Cancelled):
+        examine_files([Path("/nowhere/a")], progress, hostile)
+    first.join()
+    assert told[0].startswith("waiting until other files are read")
 
 
 def test_headers_come_through_the_process_as_they_are(tmp_path):

@@ -77,8 +77,8 @@ class Crew:
             self._take(self._is_long or self._seconds_left(waiting) > _WORTH_STARTING)
         while not self._children:
             if not self._take(True):
-                self._progress.check()
                 self._lender.wait()
+                self._tell_quiet("waiting until other files are read: {:.0f} s")
 
     def tell(self) -> None:
         """Tell how far the only task is, or that one takes long."""
@@ -87,10 +87,15 @@ class Crew:
         if told and told != self._told:
             self._told = told
             self._progress.report((self._answered + told[0]) / count, told[1])
-        elif not told and (quiet := time.monotonic() - self._heard) > _TELL_AFTER:
+        elif not told:
             number = min(self._answered + 1, count)
-            text = f"{number} of {count}: {quiet:.0f} s so far"
-            self._progress.report(self._answered / count, text)
+            self._tell_quiet(f"{number} of {count}: {{:.0f}} s so far")
+
+    def _tell_quiet(self, text: str) -> None:
+        """Tell somebody who has heard nothing for a second how long that has been."""
+        self._progress.check()
+        if (quiet := time.monotonic() - self._heard) > _TELL_AFTER:
+            self._progress.report(self._answered / len(self._tasks), text.format(quiet))
 
     def _take(self, start: bool) -> bool:
         child = self._lender.lease(start)

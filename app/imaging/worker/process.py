@@ -4,6 +4,7 @@ import contextlib
 import os
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import time
@@ -23,6 +24,9 @@ ENTRY = "app.imaging.worker"
 
 READY_SECONDS = 60.0
 """A child that is not ready by then is given up [s]; a machine may be slow."""
+
+_PATIENCE = struct.pack("@ll", 20, 0)
+"""Seconds and microseconds in which it must take in what it is sent (`struct timeval`)."""
 
 _GRACE = 0.2
 """Nobody is looked at more closely before that [s]."""
@@ -64,6 +68,7 @@ class Child:
         self.open: deque[int] = deque()
         self._tasks: deque[Task] = deque()
         ours, theirs = socket.socketpair()
+        ours.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, _PATIENCE)
         self._channel = Channel(ours)
         with theirs:
             self._process = _started(module, theirs.fileno(), self._channel)
@@ -176,7 +181,8 @@ class Child:
         self._channel.close()
         if self._process.poll() is None:
             self._process.kill()
-        self._process.wait()
+        with contextlib.suppress(subprocess.TimeoutExpired):  # a disk that stalls keeps it
+            self._process.wait(1.0)
 
     def _computed(self) -> float:
         """Processor time since the first look after the last sign of it."""
