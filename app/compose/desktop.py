@@ -91,7 +91,7 @@ class Desktop:
         from app.imaging.worker.service import load_decoders
 
         with contextlib.suppress(WorkerError, WorkerLostError):
-            load_decoders(progress)
+            load_decoders(Progress())  # a moment, of which nobody need be told
 
     def robots(self) -> tuple[RobotPort, ...]:
         """Ports at which a robot may be plugged in now."""

@@ -1,7 +1,9 @@
 """Compressed CT to ready volume, against SimpleITK's GDCM reader on the same folder.
 
 A hundred slices of the phantom in JPEG-LS, JPEG 2000 and RLE; the folders
-are kept in the cache. Figure to reach: not slower than SimpleITK.
+are kept in the cache. SimpleITK decodes on one thread, Acus in two processes, as the decoders hold
+the lock of Python; it needs two free cores to be what it is. Their memory is shared: the rise of
+the peak does not show the volume. Figure to reach: not slower than SimpleITK.
 """
 
 import sys

@@ -1,7 +1,9 @@
 """Folder of CT to ready volume, against SimpleITK's GDCM reader on the same folder.
 
 Each load runs in a fresh process of its own, sides in turn, so that time and peak memory are those
-of one load; this process stays small, because a child's peak starts at its parent's. "Warm" is
+of one load; this process stays small, because a child's peak starts at its parent's. SimpleITK
+reads on one thread; Acus reads headers in its worker process and copies pixels on two threads, so
+it needs two free cores to be what it is. "Warm" is
 Acus as the window has it, whose worker process was started behind it; "cold" counts the start of
 the worker into the load, as a command does.
 Figures to reach: time ≤ 0.5 × SimpleITK's; rise of the peak ≤ 1.5 × the volume.
