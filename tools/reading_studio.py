@@ -24,7 +24,7 @@ DEPTH_SHARE = 0.6
 """How far the needle is in, of the way to the target."""
 
 LIVER = PlanPoints(
-    entry_mm=(-91.1, 69.5, -628.8), target_mm=(-75.0, 128.0, -630.0), name="liver-biopsy"
+    entry_mm=(-102.8, 79.0, -628.8), target_mm=(-75.0, 128.0, -630.0), name="liver-biopsy"
 )
 """Between two ribs into the liver of the chest CT."""
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication, QLabel, QLineEdit
 from views_exercise_attempts import review
+from window_rig import plan
 
 from app.core.events import Event
 from app.exercises.reading import ReadingPart
@@ -14,6 +15,7 @@ from app.imaging.window import PRESETS, WindowLevel
 from app.planning.placement import PatientOrientation
 from app.views import theme
 from app.views.names import HIDDEN, NAMES
+from app.views.robot.health_panel import _Line
 from app.views.slices.looks import Look, Slab, Turn
 from app.views.slices.operator_side import Side, side_name, turns
 from app.views.slices.orthogonal_plane import OrthogonalPlane
@@ -92,6 +94,24 @@ def test_projector_mode_is_light_large_and_without_names_and_ends(window, patien
     assert QApplication.instance().styleSheet() == dark
     assert {w: w.styleSheet() for w in sheets} == sheets
     assert "CT-TEST" in window.windowTitle()
+
+
+def test_titles_of_the_robots_health_are_whole_in_large_text(window, patient, desk_again, settle):
+    window.show_patient(patient)
+    plan(window)
+    panel = window.workspace.health_panel
+    window.workspace.show_health()
+    assert settle(lambda: len(titles_of(panel)) > 0, 20.0)
+    for large in (False, True, False):
+        window.projector.set_large(large)
+        settle(timeout=0.1)
+        for label in titles_of(panel):
+            needed = label.fontMetrics().horizontalAdvance(label.text())
+            assert label.width() >= needed, (label.text(), large)
+
+
+def titles_of(panel):
+    return [line._title for line in panel.findChildren(_Line) if line.isVisible()]
 
 
 def test_pictures_stay_on_black_and_keep_their_colours(window, patient, desk_again):

@@ -192,7 +192,7 @@ class _Line(QWidget):
         super().__init__(parent)
         self._item: StatusItem | None = None
         self._title, self._text, self._help = QLabel(self), QLabel(self), QLabel(self)
-        self._title.setFixedWidth(TITLE_WIDTH)
+        self._title.setFixedWidth(theme.px(TITLE_WIDTH))
         self._title.setAlignment(Qt.AlignmentFlag.AlignTop)
         for label in (self._text, self._help):
             label.setWordWrap(True)
@@ -208,6 +208,12 @@ class _Line(QWidget):
         column.setSpacing(0)
         column.addLayout(row)
         column.addWidget(self._help)
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Follow another size of the text."""
+        super().changeEvent(event)
+        if event.type() is QEvent.Type.StyleChange:
+            self._title.setFixedWidth(theme.px(TITLE_WIDTH))
 
     def show_item(self, item: StatusItem) -> None:
         """Show an item; does nothing when it is the one shown."""

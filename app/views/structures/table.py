@@ -88,7 +88,7 @@ class StructureTable(QTableWidget):
         item = QTableWidgetItem("–")
         if clearance is not None:
             look, sign = LOOKS[clearance.nearness]
-            item.setText(f"{sign} {clearance.distance_mm:.1f}")
+            item.setText(f"{sign} {clearance.distance_mm:z.1f}")
             item.setForeground(QColor(theme.now(look)))
             item.setToolTip(tr("The path comes nearest {depth:.0f} mm behind its entry",
                                depth=clearance.depth_mm))  # fmt: skip
