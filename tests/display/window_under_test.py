@@ -20,9 +20,9 @@ from app.core.files import write_atomically
 from app.views.application import start
 from app.views.collector import collect_for
 from app.views.window import MainWindow
+from tests.display.scan_reading import remaining_mm
 
 PERIOD_MS = 100
-METAL_HU, NEAR_MM = 1000, 6.0
 
 
 def main() -> None:
@@ -105,17 +105,12 @@ def scan(window: MainWindow) -> dict[str, Any] | None:
     volume = view.viewing.volume
     if view.scan is None or volume is None or not (draft.entry_mm and draft.target_mm):
         return None
-    entry = np.asarray(draft.entry_mm)
-    path = np.asarray(draft.target_mm) - entry
-    length = float(np.linalg.norm(path))
-    k, j, i = np.nonzero(volume.hu >= METAL_HU)
-    offsets = volume.lps_mm(np.column_stack([i, j, k])) - entry
-    along = offsets @ path / length
-    near = np.linalg.norm(offsets - np.outer(along, path / length), axis=1) < NEAR_MM
-    seen: dict[str, Any] = {"number": view.scan.number, "slices": volume.size[2]}
-    if near.any():
-        seen["remaining_mm"] = length - float(along[near].max())
-    return seen
+    remaining = remaining_mm(volume, draft.entry_mm, draft.target_mm)
+    return {
+        "number": view.scan.number,
+        "slices": volume.size[2],
+        "remaining_mm": remaining,
+    }
 
 
 def tab(window: MainWindow, number: int) -> list[int]:
