@@ -37,7 +37,7 @@ check: setup  ## style, types, structure
 bench: setup  ## every figure against its peer, in one run
 	./tools/with-display $(BIN)/python -m tests.bench $(BENCH)
 
-fuzz: setup  ## ten thousand mutated files through the reader
+fuzz: setup  ## ten thousand mutated files of every kind through their readers
 	$(BIN)/python -W ignore -m tests.fuzz $(FUZZ)
 
 docs-pictures: setup  ## the pictures of README and docs
