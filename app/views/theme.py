@@ -127,9 +127,11 @@ def on_image(colour: str) -> str:
 
 def style_sheet() -> str:
     """Return the style sheet: `resources/theme/window.qss` with the colours filled in."""
-    template = (paths.resources() / "theme" / "window.qss").read_text(encoding="utf-8")
+    folder = paths.resources() / "theme"
+    template = (folder / "window.qss").read_text(encoding="utf-8")
     return Template(template).substitute(
         _present.colours(), font=FONT_PX, small=SMALL_PX, title=TITLE_PX, inner=CONTROL_HEIGHT - 12,
+        round=SMALL_PX // 2 + 1, check=(folder / f"check-{_present.name}.svg").as_posix(),
     )  # fmt: skip
 
 
