@@ -3,7 +3,7 @@ from math import radians
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QPoint, QPointF, QSizeF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
 from views_exercise_fakes import FakeTrainer, run, snapshot
@@ -13,7 +13,7 @@ from app.core.arrays import angle_between
 from app.device.state import DeviceState
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.hand import HandPose
-from app.views.exercise.pad_painter import PadArea, spring
+from app.views.exercise.pad_painter import PadArea, free_corner, spring
 from app.views.exercise.readings import hand_pose, pad_view
 
 
@@ -207,3 +207,32 @@ def test_a_spring_without_length_is_a_point_and_others_end_where_they_should():
 def test_a_blind_bullseye_tells_neither_offset_nor_angles(pad):
     pad.set_blind(True)
     assert not any(label.isVisibleTo(pad) for label in pad._words)
+
+
+@pytest.mark.parametrize("size", [(60.0, 17.0), (44.0, 24.0)])
+@pytest.mark.parametrize("pixels", [180.0, 260.0, 420.0])
+def test_the_sizes_of_the_rings_stand_beside_each_other(pixels, size):
+    area, taken = PadArea.inside(pixels, pixels, 30.0), []
+    for radius in (0.21, 0.14, 0.44, 0.68):
+        box = free_corner(area, radius, QSizeF(*size), taken)
+        if box is not None:
+            assert not any(box.intersects(other) for other in taken)
+            taken.append(box)
+    assert len(taken) >= 3
+
+
+def words_are_whole(label):
+    """Whether a label's words, wrapped, fit the room that it has."""
+    flags = Qt.TextFlag.TextWordWrap
+    room = label.contentsRect()
+    needed = label.fontMetrics().boundingRect(room, flags, label.text())
+    return needed.height() <= room.height() + 1 and needed.width() <= room.width() + 1
+
+
+@pytest.mark.parametrize(("width", "height"), [(495, 390), (440, 380), (700, 480)])
+def test_in_a_small_cell_no_word_is_cut(pad, qt, width, height):
+    pad.resize(width, height)
+    qt.processEvents()
+    assert (pad.width(), pad.height()) == (width, height)
+    assert all(words_are_whole(label) for label in pad._words if label.isVisible())
+    assert pad.pad.height() >= 180

@@ -3,6 +3,7 @@
 from typing import Final
 
 from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from app.views import theme
@@ -18,6 +19,10 @@ from app.views.text import tr
 INTENT_MS: Final = 10
 """Shortest time between two hand intents: 100 Hz."""
 
+
+WIDE: Final = 42
+TALL: Final = 29
+"""Width and height, in heights of the small letters, from which every word has its place."""
 
 BLIND_WIDTH: Final = 250
 """Widest that an empty pad needs to be [px]."""
@@ -53,9 +58,25 @@ class Bullseye(QWidget):
         self.source = HandChooser(self.pad, self)
         self._intent = QTimer(self, interval=INTENT_MS, singleShot=True)
         self._intent.timeout.connect(self._emit_hand)
-        self._remaining.setMinimumWidth(230)  # the pad keeps its size whatever is said
         self._lay_out()
         self._connect_source()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Say no more than there is room for: the pad keeps its size, and nothing is cut."""
+        super().resizeEvent(event)
+        self._fit_words()
+
+    def _fit_words(self) -> None:
+        """Reserve the lines that the longest words take; leave out what can be done without."""
+        across = self.width() // 2 - 2 * theme.SPACING
+        for label, longest in ((self._in_plane, 46), (self._out_of_plane, 46),
+                               (self._remaining, 16), (self._lateral, 40)):  # fmt: skip
+            metrics = label.fontMetrics()
+            lines = -(-longest * metrics.averageCharWidth() // max(across, 1))
+            label.setMinimumHeight(min(lines, 2) * metrics.lineSpacing())
+        self._angles.setVisible(not self._blind and self.height() >= TALL * theme.SMALL_PX)
+        if not self._blind:
+            self.source.set_brief(self.width() < WIDE * theme.SMALL_PX)
 
     # --- what the controller calls ----------------------------------------------------------------
     def set_scene(
@@ -87,6 +108,7 @@ class Bullseye(QWidget):
         self.depth_bar.setVisible(not blind)
         for label in self._words:
             label.setVisible(not blind)
+        self._fit_words()
 
     def show_view(self, view: PadView) -> None:
         """Draw a new moment. Without a hand so far, the first measured one gives it the needle."""
@@ -167,10 +189,12 @@ class Bullseye(QWidget):
         grid.addWidget(self.source, 2, 0, 1, 2)
         grid.setRowStretch(0, 1)
         grid.setColumnStretch(0, 1)
+        grid.setColumnStretch(1, 1)
 
 
 def _label(pixels: int, colour: str = "") -> QLabel:
     label, colour = QLabel(), colour or theme.TEXT
     label.setStyleSheet(f"font-size: {pixels}px; color: {colour};")
     label.setTextFormat(Qt.TextFormat.PlainText)
+    label.setWordWrap(True)  # in a small cell with large text nothing is cut
     return label

@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPen, QPolygonF
 
 from app.views import theme
@@ -16,6 +16,9 @@ from app.views.text import tr
 
 _ANGLES_DEG: Final = (10, 30)
 HAND_COLOUR: Final = "#ffffff"
+_CORNERS: Final = ((1, -1), (1, 1), (-1, 1), (-1, -1))
+"""Where a ring's size may stand, to the right and downwards from the middle."""
+
 _LEAD: Final = radians(0.15)
 """Below this angle between hand and needle no spring is drawn [rad]."""
 
@@ -57,13 +60,16 @@ def paint_background(painter: QPainter, area: PadArea, scene: PadScene) -> None:
     painter.setBrush(QColor("#0e1114"))
     painter.drawEllipse(area.centre, area.radius, area.radius)
     _cross(painter, area)
+    taken: list[QRectF] = []
+    for i, ring in reversed(list(enumerate(scene.rings))):
+        radius = scene.scale.radius(atan2(ring, scene.scale.length))
+        _ring(painter, area, radius, theme.TARGET.colour, 2.5 if i == 0 else 1.6)
+        name = tr("{mm:g} mm", mm=1e3 * ring)
+        _ring_name(painter, area, radius, theme.TARGET.colour, name, taken)
     for angle_deg in _ANGLES_DEG:
         radius = scene.scale.radius(radians(angle_deg))
-        _ring(painter, area, radius, theme.IMAGE_LINE, 1.0, f"{angle_deg}°")
-    for i, ring in enumerate(scene.rings):
-        radius = scene.scale.radius(atan2(ring, scene.scale.length))
-        width = 2.5 if i == 0 else 1.6
-        _ring(painter, area, radius, theme.TARGET.colour, width, tr("{mm:g} mm", mm=1e3 * ring))
+        _ring(painter, area, radius, theme.IMAGE_LINE, 1.0)
+        _ring_name(painter, area, radius, theme.IMAGE_DIM, f"{angle_deg}°", taken)
     _letters(painter, area, scene.frame.letters)
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(theme.TARGET.qcolor())
@@ -130,20 +136,49 @@ def _cross(painter: QPainter, area: PadArea) -> None:
         painter.drawLine(area.point((-x, -y)), area.point((x, y)))
 
 
-def _ring(
-    painter: QPainter, area: PadArea, radius: float, colour: str, width: float, label: str
-) -> None:
+def _ring(painter: QPainter, area: PadArea, radius: float, colour: str, width: float) -> None:
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.setPen(QPen(QColor(colour), width))
     size = radius * area.radius
     painter.drawEllipse(area.centre, size, size)
-    corner = area.centre + QPointF(0.7071 * size, -0.7071 * size)
+
+
+def _ring_name(
+    painter: QPainter, area: PadArea, radius: float, colour: str, name: str, taken: list[QRectF]
+) -> None:
+    """Write a ring's size beside it, where no other one's stands."""
     painter.setFont(_font(painter, theme.SMALL_PX))
     metrics = painter.fontMetrics()
-    box = QRectF(corner.x() + 3, corner.y() - 15, metrics.horizontalAdvance(label) + 4, 16)
+    size = QSizeF(metrics.horizontalAdvance(name) + 4.0, float(metrics.height()))
+    box = free_corner(area, radius, size, taken)
+    if box is None:
+        return
+    taken.append(box)
     painter.fillRect(box, QColor(theme.IMAGE_GROUND))
-    painter.setPen(QColor(colour if colour != theme.IMAGE_LINE else theme.IMAGE_DIM))
-    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, label)
+    painter.setPen(QColor(colour))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, name)
+
+
+def free_corner(
+    area: PadArea, radius: float, size: QSizeF, taken: Sequence[QRectF]
+) -> QRectF | None:
+    """Return the first corner of a ring in which a text covers none that is taken.
+
+    Args:
+        area: of the pad.
+        radius: of the ring, in radii of the pad.
+        size: of the text [px].
+        taken: places of other texts.
+    """
+    reach = 0.7071 * radius * area.radius
+    for x, y in _CORNERS:
+        corner = area.centre + QPointF(x * reach, y * reach)
+        left = corner.x() + 3.0 if x > 0 else corner.x() - 3.0 - size.width()
+        top = corner.y() if y > 0 else corner.y() - size.height()
+        box = QRectF(QPointF(left, top), size)
+        if not any(box.intersects(other) for other in taken):
+            return box
+    return None
 
 
 def _letters(painter: QPainter, area: PadArea, letters: Sequence[str]) -> None:

@@ -84,6 +84,10 @@ class HandChooser(QWidget):
         for label in (self._title, self._help):
             label.setVisible(not compact)
 
+    def set_brief(self, brief: bool) -> None:
+        """Leave out how the hand moves: the choices' own help says it too."""
+        self._help.setVisible(not brief)
+
     def set_locked(self, locked: bool) -> None:
         """Keep the source while an attempt runs: it is recorded with it."""
         self.box.setEnabled(self._interactive and not self._depth_only and not locked)
