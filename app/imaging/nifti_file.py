@@ -88,6 +88,8 @@ def nifti_values(path: Path, progress: Progress) -> NiftiValues:
 
 
 def _opened(path: Path) -> Any:
+    if not path.is_file():  # opening a pipe would wait for ever
+        raise FileDamagedError("it is not a regular file")
     nibabel = extra("nibabel", "NIfTI files")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

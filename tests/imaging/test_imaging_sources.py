@@ -248,6 +248,12 @@ def test_a_broken_nifti_file_is_named_and_does_no_harm(tmp_path):
     assert len(listing.usable) == 1
 
 
+def test_a_pipe_called_like_a_volume_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe.nii")
+    (ignored,) = scan_folder(tmp_path).ignored
+    assert "not a regular file" in ignored.reason
+
+
 def test_a_nifti_of_positive_values_has_no_unit(tmp_path):
     nifti(tmp_path / "name_of_a_patient.nii", (VALUES + 1000).astype(np.float32) / 2, np.eye(4))
     series = choose(scan_folder(tmp_path / "name_of_a_patient.nii"))

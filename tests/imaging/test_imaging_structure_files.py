@@ -1,5 +1,6 @@
 """Structures in and out of files: SEG, RTSTRUCT, .seg.nrrd and NIfTI."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -307,6 +308,9 @@ def test_a_big_endian_segmentation_is_refused_by_name(volume):
 def test_what_is_no_file_of_structures_is_refused_by_name(volume, tmp_path):
     (tmp_path / "a.txt").write_text("not a structure")
     (tmp_path / "empty").write_bytes(b"")
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(StructureFileError, match="not a regular file"):
+        read_structures(tmp_path / "pipe", volume)
     for name in ("a.txt", "empty"):
         with pytest.raises(StructureFileError, match="SEG, RTSTRUCT"):
             read_structures(tmp_path / name, volume)

@@ -65,6 +65,8 @@ def _grid(size: tuple[int, int, int], affine_mm: tuple[float, ...], frame: str) 
 
 
 def _read(path: Path, volume: Volume) -> Found:
+    if path.exists() and not path.is_file():  # opening a pipe would wait for ever
+        raise StructureFileError(f"{path.name} is not a regular file")
     try:
         with path.open("rb") as file:
             head = file.read(352)
