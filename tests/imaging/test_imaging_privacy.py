@@ -469,6 +469,16 @@ def test_a_file_that_the_system_cuts_short_is_told_in_its_words_and_nothing_is_l
     assert nothing_left()
 
 
+def test_a_file_that_crashes_its_reader_ends_the_import_and_leaves_nothing(tmp_path, monkeypatch):
+    series = series_of(tmp_path / "in")
+    worker = ImagingWorker(1, "tests.imaging.crashing_child")
+    monkeypatch.setattr(library_module, "shared_worker", lambda: worker)
+    with pytest.raises(ImportFailedError, match=r"SIGABRT.*nothing was kept"):
+        CtLibrary().import_series(series)
+    worker.close()
+    assert nothing_left()
+
+
 def test_a_folder_removed_in_the_middle_is_told_by_the_files_number_and_no_path(tmp_path):
     folder, staging = tmp_path / "Secret^Name", tmp_path / "staging"
     series = series_of(folder)
