@@ -37,7 +37,15 @@ class SeriesRefusedError(ImagingError, ValueError):
 
 
 class TooLargeError(SeriesRefusedError):
-    """The volume does not fit the memory; the message says what would."""
+    """The volume does not fit the memory; the message says what would.
+
+    Attributes:
+        offer: the series as one that can be read at half size; None where that does not help.
+    """
+
+    def __init__(self, message: str, offer: "Series | None" = None) -> None:
+        super().__init__(message)
+        self.offer = offer
 
 
 class SeriesUnknownError(ImagingError, LookupError):

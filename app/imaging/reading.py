@@ -1,5 +1,6 @@
 """Series to volume: each slice is read into its place, then scaled there to Hounsfield units."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -131,7 +132,9 @@ def read_series(series: Series, progress: Progress | None = None) -> Volume:
 
         return read_nifti(series, progress)
     if too_large := memory.need(series.slices).reason:  # less is free than at the scan
-        raise TooLargeError(f"series {series.key} {too_large}; ask to halve it")
+        raise TooLargeError(
+            f"series {series.key} {too_large}; ask to halve it", _halvable(series, too_large)
+        )
     hu = read_pixels(series, progress)
     return Volume(read_only(hu), grid_of(series).affine_mm, series, unit=series.unit)
 
@@ -177,9 +180,13 @@ def _check_room(series: Series, factors: tuple[int, int, int]) -> None:
     """See that there is room for twice the memory that was counted on."""
     i, j, k = (max(1, n // f) for n, f in zip(series.size, factors, strict=True))
     if too_large := memory.need_of((i, j, k), 4).reason:
-        raise TooLargeError(
-            f"series {series.key} has values beyond 16 bits and {too_large}; ask to halve it"
-        )
+        why = f"has values beyond 16 bits and {too_large}"
+        raise TooLargeError(f"series {series.key} {why}; ask to halve it", _halvable(series, why))
+
+
+def _halvable(series: Series, reason: str) -> Series:
+    """Return the series as the scan would have found it, had it known."""
+    return replace(series, usable=False, reason=reason, remedy=Remedy.HALVE)
 
 
 def _filled(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -11,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
-from app.imaging.errors import ImagingError
+from app.imaging.errors import ImagingError, TooLargeError
 from app.imaging.series import Listing, Remedy, Series
 from app.views.background import Indicator, Task, run_in_background
 from app.views.names import NAMES
@@ -146,7 +147,12 @@ class OpenCt(QObject):
 
     def _fail(self, error: Exception) -> None:
         self._task = None
-        self.failed.emit(error)
+        offer = error.offer if isinstance(error, TooLargeError) else None
+        if offer is None or self._listing is None:
+            self.failed.emit(error)
+            return
+        series = tuple(offer if s.key == offer.key else s for s in self._listing.series)
+        self._browse(replace(self._listing, series=series))
 
 
 def _scan(folder: Path, progress: Progress) -> Listing:

@@ -20,7 +20,6 @@ from app.views.shortcuts import ShortcutSheet
 from app.views.slices.panes import PaneId
 from app.views.slices.viewing import Tool
 from app.views.window import MainWindow
-from tests.imaging.dicom_factory import Slices
 
 
 def test_the_start_page_carries_the_disclaimer_and_the_exercises(window):
@@ -244,19 +243,3 @@ def test_an_overlay_comes_from_world_to_patient():
 def test_the_slices_are_axial_sagittal_and_coronal_in_this_order(window):
     order = [pane.pane for pane in window.workspace.panes]
     assert order == [PaneId.AXIAL, PaneId.SAGITTAL, PaneId.CORONAL]
-
-
-def test_a_folder_of_which_nothing_can_be_used_says_why_and_offers_what_helps(
-    window, tmp_path, settle
-):
-    Slices(offsets=(0.0, 2.0, 4.0, 6.3, 8.0)).write(tmp_path)
-    opened = []
-    window.open_ct.opened.connect(opened.append)
-    window.open_ct.open_folder(tmp_path)
-    assert settle(lambda: bool(window.findChildren(SeriesBrowser)), 20.0)
-    (browser,) = window.findChildren(SeriesBrowser)
-    (card,) = browser.cards
-    assert "uneven spacing" in card.verdict.text()
-    card.buttons[0][0].click()
-    assert settle(lambda: bool(opened), 60.0)
-    assert "resampled from slices 1.7 to 2.3 mm apart" in opened[0].label
