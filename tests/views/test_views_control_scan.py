@@ -15,7 +15,9 @@ from window_rig import plan
 
 from app.core.events import Event
 from app.exercises.guidance import GuidanceMode, GuidancePart
+from app.imaging.recipe import Recipe
 from app.imaging.scan_order import ScanNeedle, ScanOrder
+from app.imaging.series import Remedy
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.edit import brushed
 from app.session.control_scan import ControlScan
@@ -327,6 +329,28 @@ def test_the_debrief_shows_a_scan_again_beside_the_truth(guided, settle) -> None
     assert view.viewing.needle is not None
     assert view.viewing.draft.complete
     window.scan_pictures.dialog.close()
+
+
+def test_the_debrief_reads_the_ct_again_as_it_was_in_the_attempt(
+    guided, settle, monkeypatch
+) -> None:
+    window, _ = guided
+    volume = window.conductor.patient.volume
+    asked = []
+
+    def read_again(series, recipe, progress):
+        asked.append((series, recipe))
+        return volume
+
+    monkeypatch.setattr("app.imaging.resampling.read_again", read_again)
+    pseudonym = volume.series.pseudonym
+    for recipe in (volume.recipe, None, Recipe(Remedy.HALVE, (2, 2, 1))):
+        window.scan_pictures.dialog = None
+        window.debrief_page.show_review(reviewed(ct=CtFacts(pseudonym, (), recipe)))
+        window.debrief_page.scans.cellActivated.emit(0, 0)
+        assert settle(lambda: window.scan_pictures.dialog is not None, 60.0)
+        window.scan_pictures.dialog.close()
+    assert asked == [(volume.series, Recipe(Remedy.HALVE, (2, 2, 1)))]
 
 
 def test_a_scan_of_another_ct_is_not_made_of_this_one(guided, settle) -> None:
