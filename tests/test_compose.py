@@ -12,6 +12,7 @@ from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
+from app.session.ct_facts import CtFacts
 from app.session.machine import State
 from app.session.recording import read_recording
 from app.session.trainer import Trainer
@@ -125,7 +126,11 @@ def test_no_record_names_the_folder_or_the_series_of_a_ct(tmp_path):
     placed = placed_plan_of(load_exercise("first-insertion"), profile, PLAN)
     trainer = build_trainer(
         TrainerSetup(
-            exercise, placed, ct="ct-1", sessions=tmp_path / "kept", clock=VirtualClock(100.0)
+            exercise,
+            placed,
+            ct=CtFacts("ct-1"),
+            sessions=tmp_path / "kept",
+            clock=VirtualClock(100.0),
         )
     )
     trainer.begin("tester")
