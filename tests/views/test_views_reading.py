@@ -16,6 +16,7 @@ from app.imaging.window import PRESETS, WindowLevel
 from app.views.shortcuts import ShortcutSheet, groups
 from app.views.slices.binding_words import action_words, key_rows
 from app.views.slices.bindings import OHIF, RESERVED, SCHEMES, SLICER, Action, key_name
+from app.views.slices.camera import Camera
 from app.views.slices.looks import KINDS, Look, Slab, Turn
 from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.pane import SlicePane
@@ -367,3 +368,22 @@ def test_slab_and_turn_work_along_oblique_planes_too(viewing):
     assert turned.image(0.0).max() >= plane.image(0.0).max() - 1e-3
     viewing.set_frame(PaneId.IN_PLANE, frame)  # the needle moved: it is looked at as before
     assert viewing.plane(PaneId.IN_PLANE).half_slab_mm == 3.0
+
+
+def test_the_words_in_the_corners_stay_where_they_are_while_the_view_is_panned(
+    window, patient, settle
+):
+    window.show_patient(patient)
+    settle(timeout=0.3)
+    pane = window.workspace.panes[0]
+    words = (pane.readouts.title, pane.readouts.slice, pane.readouts.window, *pane.readouts.letters)
+    camera = pane.canvas.camera.zoomed(2.0, pane.canvas.camera.x, pane.canvas.camera.y)
+    pane.canvas.set_camera(camera)
+    settle(timeout=0.1)
+    before = [overlay.pos() for overlay in words]
+    for right, down in ((30.0, -20.0), (-55.0, 40.0), (3.0, 0.0)):
+        pane.canvas.set_camera(Camera(camera.x - right, camera.y - down, 1.3 * camera.scale))
+        settle(timeout=0.1)
+        pane.canvas.set_camera(Camera(camera.x + right, camera.y + down, camera.scale))
+        settle(timeout=0.1)
+        assert [overlay.pos() for overlay in words] == before

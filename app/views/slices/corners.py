@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPointF, QRect, QSize, Qt
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QLabel, QWidget
 
@@ -38,6 +38,7 @@ class Overlay(QLabel):
         self._flags = alignment & _A.AlignHorizontal_Mask
         self._colour = QColor(colour)
         self._room: tuple[QSize, QSize] | None = None
+        self._at = QPoint()
         self._larger, self._bold = larger, bold
         self._font = self._sized_font()
         self._lines: tuple[str, ...] = ()
@@ -78,7 +79,7 @@ class Overlay(QLabel):
             self._draw()
             return
         size, room = self.size(), (self.size(), self._outer.size())
-        if room == self._room:
+        if room == self._room and self.pos() == self._at:  # a view that scrolls takes it along
             return
         self._room = room
         outer = self._outer.rect().adjusted(PADDING, PADDING, -PADDING, -PADDING)
@@ -93,6 +94,7 @@ class Overlay(QLabel):
         elif bottom:
             y = outer.bottom() - size.height() + 1
         self.move(x, y)
+        self._at = self.pos()
 
     def _draw(self) -> None:
         """Every line several times: a dark rim, then the text."""
