@@ -1,9 +1,11 @@
 """Forty invented identifiers in a CT's header: none of them reaches anything that Acus writes.
 
-The series is imported, opened, planned, practised on, scored and exported by the real commands;
-then every file they left and every line they printed is searched.
+The series is imported, opened, planned, practised on, scored and exported by the real commands,
+and opened, practised on and imported in the real window; then every file they left, every line they
+printed and the window's log are searched. Its folder and files are named like the patient.
 """
 
+import io
 import json
 import os
 import re
@@ -14,6 +16,7 @@ from pathlib import Path
 
 import pydicom
 import pytest
+from mcap.reader import make_reader
 from pydicom.dataset import Dataset
 
 from app.imaging.phantom import phantom_series
@@ -126,6 +129,35 @@ def pdf_text(path: Path) -> bytes:
     return raw + found
 
 
+def mcap_text(path: Path) -> bytes:
+    """Everything in a record, inflated."""
+    raw = path.read_bytes()
+    messages = (message.data for *_, message in make_reader(io.BytesIO(raw)).iter_messages())
+    metadata = (repr(one).encode() for one in make_reader(io.BytesIO(raw)).iter_metadata())
+    files = (one.data for one in make_reader(io.BytesIO(raw)).iter_attachments())
+    return b"".join((raw, *messages, *metadata, *files))
+
+
+def readable(path: Path) -> bytes:
+    """What a file says, compressed parts inflated, the pixels of a CT left out."""
+    if path.suffix == ".pdf":
+        return pdf_text(path)
+    if path.suffix == ".mcap":
+        return mcap_text(path)
+    content = path.read_bytes()
+    return content[: content.index(b"\xe0\x7f\x10\x00")] if path.suffix == ".dcm" else content
+
+
+def spoilt(source: Path, target: Path) -> Path:
+    """Folders that cannot be opened: files cut off, and one that is no DICOM at all."""
+    (target / "Zqmustermann_cut").mkdir(parents=True)
+    for path in sorted(source.iterdir())[:5]:
+        (target / "Zqmustermann_cut" / path.name).write_bytes(path.read_bytes()[:-1000])
+    (target / "Zqmustermann_none").mkdir()
+    (target / "Zqmustermann_none" / "Zqmustermann.dcm").write_bytes(b"Zqmustermann" * 1000)
+    return target
+
+
 @pytest.mark.timeout(900)
 def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path):
     source = marked(tmp_path / "outside")
@@ -144,7 +176,8 @@ def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path):
     acus("ct", "list", imported["folder"], "--json")
     acus("ct", "point", imported["folder"], "--voxel", "3,4,5", "--json")
     out = tmp_path / "inside" / "out"
-    assert "score" in acus(imported["folder"], out, module="tests.virtual_attempt")
+    # On the original where it lies, which says more than the copy would.
+    assert "score" in acus(source, out, module="tests.virtual_attempt")
     sessions = ("--folder", out / "sessions")
     (attempt,) = json.loads(acus("session", "list", *sessions, "--json"))["sessions"]
     acus("session", "show", attempt["id"], *sessions, "--json")
@@ -155,10 +188,24 @@ def test_no_identifier_of_a_ct_reaches_anything_that_is_written(tmp_path):
     kinds = {path.suffix for path in written}
     assert kinds >= {".dcm", ".json", ".mcap", ".csv", ".pdf", ".tfm"}, kinds
     for path in written:
-        content = pdf_text(path) if path.suffix == ".pdf" else path.read_bytes()
-        if path.suffix == ".dcm":
-            content = content[: content.index(b"\xe0\x7f\x10\x00")]
-        assert leaks(str(path).encode() + content, words) == [], path
+        assert leaks(str(path).encode() + readable(path), words) == [], path
+    assert leaks(acus.said.encode(), words) == []
+
+
+@pytest.mark.timeout(900)
+def test_no_identifier_reaches_the_log_of_the_window_or_what_it_writes(tmp_path):
+    source = marked(tmp_path / "outside")
+    words = needles(pydicom.dcmread(next(source.iterdir())))
+    acus = Acus(tmp_path / "inside")
+    broken = spoilt(source, tmp_path / "outside" / "broken")
+    out = tmp_path / "inside" / "out"
+    assert int(acus(source, broken, out, module="tests.window_attempt").split()[0]) >= 4
+    written = [path for path in (tmp_path / "inside").rglob("*") if path.is_file()]
+    assert {path.suffix for path in written} >= {".dcm", ".mcap", ".log"}
+    assert b"the log is open" in (out / "window.log").read_bytes()
+    for path in written:
+        if path.name != "window.ini":  # recent folders that the user opened: docs/privacy.md
+            assert leaks(str(path).encode() + readable(path), words) == [], path
     assert leaks(acus.said.encode(), words) == []
 
 

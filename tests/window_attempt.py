@@ -1,0 +1,109 @@
+"""The real window with a CT in real time, everything it logs or warns kept: for leak tests.
+
+`python -m tests.window_attempt CT_FOLDER BROKEN_FOLDER OUT`: opens the CT in place, runs and ends a
+demonstration, imports it, and lets every way in fail once with a folder of broken files. The log of
+all packages at its most talkative goes to `OUT/window.log`; what is shown to the user does not.
+"""
+
+import logging
+import sys
+import time
+from pathlib import Path
+
+from PySide6.QtWidgets import QApplication, QDialog
+
+from app.compose.desktop import Desktop
+from app.planning.proposal import demonstration_plan
+from app.views.application import start
+from app.views.window import MainWindow
+
+PATIENCE_S = 550.0
+"""A first start compiles every kernel [s]."""
+ATTEMPT_S = 3.0
+
+
+def wait(until, seconds: float = PATIENCE_S) -> None:
+    """Let the window live until something is so."""
+    end = time.monotonic() + seconds
+    while not until():
+        if time.monotonic() > end:
+            raise TimeoutError("the window did not get there")
+        QApplication.processEvents()
+        time.sleep(0.005)
+
+
+def pause(seconds: float) -> None:
+    """Let the window live for a while."""
+    end = time.monotonic() + seconds
+    wait(lambda: time.monotonic() > end)
+
+
+def attempt(window: MainWindow, ct: Path) -> None:
+    """Open the CT where it lies, plan, begin a demonstration and end it early."""
+    window.open_ct.open_folder(ct)
+    wait(lambda: window.conductor.patient is not None)
+    patient = window.conductor.patient
+    window.editor.start(demonstration_plan(patient.volume, patient.body))
+    wait(lambda: window.conductor.controller.run is not None)
+    controller, heard = window.conductor.controller, []
+    controller.began.connect(lambda *_: heard.append("began"))
+    controller.finished.connect(lambda *_: heard.append("finished"))
+    window.workspace.exercise_panel.start_requested.emit("tester")
+    wait(lambda: "began" in heard)
+    pause(ATTEMPT_S)
+    controller.abort()
+    wait(lambda: "finished" in heard)
+
+
+def take_in(window: MainWindow, ct: Path) -> None:
+    """Import the CT through the dialogs."""
+    intake = window.menus.library.intake
+    window.menus.library.import_from(ct)
+    wait(lambda: intake.mask is not None)
+    intake.mask.take.click()
+    wait(lambda: intake.report is not None)
+    intake.report.reject()
+
+
+def fail(window: MainWindow, broken: Path) -> int:
+    """Open and import what cannot be; return how often that was said, in the bar or a browser."""
+    told: list[object] = []
+    window.open_ct.failed.connect(told.append)
+    window.menus.library.failed.connect(told.append)
+    for begin in (window.open_ct.open_folder, window.menus.library.import_from):
+        for path in sorted(broken.iterdir()):
+            count = len(told)
+            begin(path)
+            wait(lambda count=count: len(told) > count or browser() is not None)
+            if (dialog := browser()) is not None:
+                told.append(dialog)
+                dialog.reject()
+    return len(told)
+
+
+def browser() -> QDialog | None:
+    """Return the browser of series, if one is open."""
+    found = QApplication.activeModalWidget()
+    return found if isinstance(found, QDialog) else None
+
+
+def main(ct: Path, broken: Path, out: Path) -> None:
+    """Leave sessions and `window.log` in `out`."""
+    out.mkdir(parents=True, exist_ok=True)
+    logging.basicConfig(filename=out / "window.log", level=logging.DEBUG)
+    logging.getLogger("numba").setLevel(logging.WARNING)  # it would write every step of compiling
+    logging.captureWarnings(True)
+    logging.getLogger(__name__).info("the log is open")
+    application = start(offscreen=True)
+    window = MainWindow(Desktop(sessions=out / "sessions"))
+    window.show()
+    attempt(window, ct)
+    take_in(window, ct)
+    print(f"{fail(window, broken)} failures")
+    window.editor.saved(Path("kept"))
+    window.close()
+    application.quit()
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), Path(sys.argv[2]), Path(sys.argv[3]))
