@@ -15,6 +15,10 @@ class MetricUnavailableError(ScoringError):
     """A metric that this attempt does not allow to compute; the message says why."""
 
 
+class MetricNotAskedError(MetricUnavailableError):
+    """A metric of something that the exercise does not have: no row, unless it has a tolerance."""
+
+
 class MetricError(ScoringError, TypeError):
     """A file in `scoring/metrics` that is not a metric."""
 

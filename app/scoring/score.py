@@ -4,7 +4,12 @@ from collections.abc import Mapping
 from math import isfinite
 
 from app.scoring.defaults import DEFAULT_TOLERANCES
-from app.scoring.errors import MetricUnavailableError, ToleranceError, UnknownMetricError
+from app.scoring.errors import (
+    MetricNotAskedError,
+    MetricUnavailableError,
+    ToleranceError,
+    UnknownMetricError,
+)
 from app.scoring.metrics import Metric, available
 from app.scoring.result import Score, judge
 from app.scoring.rows import Row, Rules
@@ -27,7 +32,9 @@ def score(
     metrics = available()
     check_names(tolerances, metrics)
     names = [*tolerances, *(name for name in metrics if name not in tolerances)]
-    rows = tuple(_row(metrics[name], trajectory, tolerances.get(name)) for name in names)
+    rows = tuple(
+        row for name in names if (row := _row(metrics[name], trajectory, tolerances.get(name)))
+    )
     rules = rules or Rules()
     return judge(rows, rules, _attempt_void(trajectory, rules))
 
@@ -53,10 +60,15 @@ def check_names(
             )
 
 
-def _row(metric: Metric, trajectory: Trajectory, limits: Tolerance | None) -> Row:
+def _row(metric: Metric, trajectory: Trajectory, limits: Tolerance | None) -> Row | None:
+    """Row of one metric; None where the exercise has nothing that it could measure."""
     note = ""
     try:
         value: float | None = float(metric.compute(trajectory))
+    except MetricNotAskedError as error:
+        if limits is None:
+            return None
+        value, note = None, str(error)
     except MetricUnavailableError as error:
         value, note = None, str(error)
     if value is not None and not isfinite(value):

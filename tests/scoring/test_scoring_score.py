@@ -79,9 +79,19 @@ def test_a_total_below_the_pass_mark_fails() -> None:
     assert not score(trajectory, rules=Rules(pass_mark=99.0)).passed
 
 
+RISKS = {"risk_breach", "risk_distance"}
+"""Metrics of structures that only some exercises have."""
+
+
+def test_what_the_exercise_does_not_have_is_a_row_only_where_it_has_a_tolerance() -> None:
+    asked = score(PERFECT.trajectory(), {"risk_breach": bands(0, 1, 2)})
+    assert "no structure of risk" in asked.row("risk_breach").note
+    assert {row.name for row in asked.rows} & RISKS == {"risk_breach"}
+
+
 def test_metrics_without_a_tolerance_are_shown_and_not_counted() -> None:
     result = score(PERFECT.trajectory(), {"angle_error": bands(1, 2, 3)})
-    assert {row.name for row in result.rows} == set(available())
+    assert {row.name for row in result.rows} == set(available()) - RISKS
     assert result.rows[0].name == "angle_error"
     assert result.row("peak_force").utility is None
     assert result.total == pytest.approx(100.0)

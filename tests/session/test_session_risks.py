@@ -97,8 +97,7 @@ def test_structures_move_with_the_target(bench: Bench) -> None:
 
 def test_without_risks_or_outside_the_body_there_is_nothing_to_score(bench: Bench) -> None:
     result = attempt(bench)
-    reasons = {row.name: row.note for row in result.score.rows if row.value is None}
-    assert "no structure of risk" in reasons["risk_breach"]
+    assert not [row.name for row in result.score.rows if "risk" in row.name]
     bench.trainer._risks = (Risk("vessel", 5.0, box(*BESIDE)),)
     bench.run(1.0, -0.02)
     bench.trainer.begin("s")

@@ -1,6 +1,6 @@
 """By how much the needle came nearer to a risk structure than allowed, at the worst of them."""
 
-from app.scoring.errors import MetricUnavailableError
+from app.scoring.errors import MetricNotAskedError
 from app.scoring.trajectory import Trajectory
 
 NAME = "risk_breach"
@@ -12,5 +12,5 @@ HIGHER_IS_BETTER = False
 def compute(trajectory: Trajectory) -> float:
     """Largest breach [mm]: the limit minus the smallest distance; 0 if all limits were kept."""
     if not trajectory.risks:
-        raise MetricUnavailableError("no structure of risk was measured")
+        raise MetricNotAskedError("no structure of risk was measured")
     return max(risk.breach_mm for risk in trajectory.risks)

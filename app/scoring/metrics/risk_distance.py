@@ -1,6 +1,6 @@
 """Smallest distance of the needle from a structure marked as risk; 0 where it was inside one."""
 
-from app.scoring.errors import MetricUnavailableError
+from app.scoring.errors import MetricNotAskedError
 from app.scoring.trajectory import Trajectory
 
 NAME = "risk_distance"
@@ -12,5 +12,5 @@ HIGHER_IS_BETTER = True
 def compute(trajectory: Trajectory) -> float:
     """Distance [mm] of the needle's part in the body from the nearest risk."""
     if not trajectory.risks:
-        raise MetricUnavailableError("no structure of risk was measured")
+        raise MetricNotAskedError("no structure of risk was measured")
     return max(0.0, min(risk.closest_mm for risk in trajectory.risks))
