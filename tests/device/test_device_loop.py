@@ -252,7 +252,7 @@ def test_every_kernel_of_a_second_start_comes_from_the_disk():
         "import numba.core.dispatcher as d\n"
         "made = []; start = d.Dispatcher.__init__\n"
         "d.Dispatcher.__init__ = lambda s, *a, **k: (start(s, *a, **k), made.append(s))[0]\n"
-        "import app.device.control, app.device.links\n"
+        "from app.device.control import Loop\n"
         "ours = [k for k in made if k.py_func.__module__.startswith('app.')]\n"
         "misses = [k.py_func.__name__ for k in ours if k.stats.cache_misses]\n"
         "assert not misses, misses\n"

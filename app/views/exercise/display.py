@@ -24,6 +24,9 @@ from app.views.exercise.tracker_panel import TrackerPanel
 STATUS_PERIOD: Final = 0.25
 """The status strip is refreshed this often [s]: words that flicker cannot be read."""
 
+FIGURES_PERIOD: Final = 0.1
+"""The panel's numbers are refreshed this often [s], and at once when the attempt goes on."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ExerciseViews:
@@ -46,14 +49,15 @@ class ExerciseDisplay:
 
     def __init__(self, views: ExerciseViews) -> None:
         self._views = views
-        self._status_time = -1.0
+        self._status_time = self._figures_time = -1.0
+        self._figured: tuple[object, ...] = ()
         self.rates = (0.0, 0.0)
         self.extra_items: list[Callable[[Snapshot], tuple[StatusItem, ...]]] = []
         self._rates = LoopRates()
 
     def begin(self) -> None:
         """Begin with another trainer."""
-        self._rates = LoopRates()
+        self._rates, self._figured = LoopRates(), ()
 
     def show_run(self, run: ExerciseRun) -> None:
         """Draw what stays the same during an attempt; nothing of the needle where scans guide."""
@@ -80,7 +84,7 @@ class ExerciseDisplay:
             late: since the look before [s].
         """
         limit = force_limit(snapshot, run.profile.limits.hand_force)
-        self._show_panel(snapshot, limit, not run.shown.live)
+        self._show_panel(snapshot, limit, not run.shown.live, now)
         self._show_pad(run, snapshot, limit)
         rate, missing = self.rates = self._rates.read(snapshot, now)
         self._show_tracker(run, snapshot, now)
@@ -90,12 +94,16 @@ class ExerciseDisplay:
             extra = (item for more in self.extra_items for item in more(snapshot))
             self._views.status.show_items((*extra, *items))
 
-    def _show_panel(self, snapshot: Snapshot, limit: float, hidden: bool) -> None:
+    def _show_panel(self, snapshot: Snapshot, limit: float, hidden: bool, now: float) -> None:
         views = self._views
-        views.panel.show_figures(figures(snapshot, limit, hidden))
         views.bullseye.source.set_locked(snapshot.state in RUNNING)
-        views.panel.energy.show_energy(energy_figures(snapshot))
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
+        figured = snapshot.state, hidden
+        if figured == self._figured and 0.0 <= now - self._figures_time < FIGURES_PERIOD:
+            return
+        self._figured, self._figures_time = figured, now
+        views.panel.show_figures(figures(snapshot, limit, hidden))
+        views.panel.energy.show_energy(energy_figures(snapshot))
 
     def _show_pad(self, run: ExerciseRun, snapshot: Snapshot, limit: float) -> None:
         bullseye = self._views.bullseye

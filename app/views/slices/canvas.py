@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from collections.abc import Set as AbstractSet
 from typing import Any
 
 from numpy.typing import NDArray
@@ -12,7 +11,7 @@ from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGraphicsView, QWidget
 
 from app.views.slices.items import MarkItem
-from app.views.slices.layer_stack import ALL_LAYERS, Due, Layer, LayerStack
+from app.views.slices.layer_stack import ALL_LAYERS, WAITED_FOR, Due, Layer, LayerStack
 from app.views.slices.looks import Turn
 from app.views.slices.panes import PaneId
 from app.views.slices.picture_feed import PictureFeed
@@ -20,6 +19,7 @@ from app.views.slices.picture_item import PictureItem
 from app.views.slices.plane import Rect, SlicePlane
 from app.views.slices.plane_view import PlaneView
 from app.views.slices.reformat_plane import ReformatPlane
+from app.views.slices.unhurried import Unhurried
 from app.views.slices.viewing import Viewing
 
 
@@ -28,8 +28,9 @@ class SliceCanvas(PlaneView):
 
     Changes are gathered until the event loop comes round, and drawn together: a needle that moves
     changes planes, crosshair and itself, and every layer is placed once. An interpolated picture
-    comes later, and what lies over it waits for it. A canvas that nobody sees draws nothing until
-    it is shown.
+    comes later, and what lies over it waits for it. Under a needle that moves words are written
+    anew only as often as they can be read. A canvas that nobody sees draws nothing until it is
+    shown.
 
     Signals:
         changed(): slice, window, zoom or pan is another: the read-outs are out of date.
@@ -49,8 +50,9 @@ class SliceCanvas(PlaneView):
         self._slice: tuple[SlicePlane, float] | None = None
         self._asked = False
         self._wanted.connect(self._draw_together, Qt.ConnectionType.QueuedConnection)
+        self._words = Unhurried(self._write, self)
         self.feed = PictureFeed(viewing.reformatter, self)
-        self.feed.arrived.connect(self.flush)
+        self.feed.arrived.connect(self._draw)
         self.setCentralItem(None)  # layers stand in the scene itself; its end would crash Qt
         scene = self.scene()
         scene.setItemIndexMethod(scene.ItemIndexMethod.NoIndex)  # a dozen items, moved often
@@ -93,7 +95,7 @@ class SliceCanvas(PlaneView):
     @property
     def is_settled(self) -> bool:
         """Whether all that there is has been drawn, and no picture is still to come."""
-        return not self._due and not self.feed.is_waiting
+        return not (self._due or self.feed.is_waiting or self._words.is_waiting)
 
     def add_layer(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
         """Draw something more over the slice.
@@ -177,10 +179,15 @@ class SliceCanvas(PlaneView):
             self._fetch()
             if self.feed.is_near:
                 return
-        self.flush()
+        self._draw()
 
     def flush(self) -> None:
-        """Draw at once what has changed, each layer once."""
+        """Draw at once what has changed, each layer once, and write every word."""
+        self._draw()
+        if self._words.is_waiting:
+            self._words.do()
+
+    def _draw(self) -> None:
         self._asked = False
         due, self._due = self._due, set()
         plane, index = self.plane, self.index
@@ -194,21 +201,24 @@ class SliceCanvas(PlaneView):
             self._fetch()
         self._slice = plane, index
         self._show_picture()
-        self._place(ALL_LAYERS if moved or zoomed else due & ALL_LAYERS, plane, index)
-        if moved or zoomed or due & {Due.WORDS, Due.GREYS}:
-            self.changed.emit()
+        layers = ALL_LAYERS if moved or zoomed else due & ALL_LAYERS
+        if layers:
+            self.layers.place(layers, plane, index, self.camera.scale)
+        if moved or zoomed or due - {Due.CROSSHAIR}:
+            hurried = Due.NEEDLE in due and not due & WAITED_FOR
+            (self._words.ask if hurried else self._words.do)()
+
+    def _write(self) -> None:
+        """Write the read-outs, and find the names of marks their places."""
+        plane, (width, height) = self.plane, self._size
+        if plane is not None:
+            self.layers.arrange_labels(plane, self.index, (width, height), self.pixel_at)
+        self.changed.emit()
 
     def _show_picture(self) -> None:
         greys = self.viewing.greys
         window, bounds = greys.of(self.pane), self.feed.bounds_mm
         self._image.set_slice(self.feed.hu, window, bounds, greys.is_inverted)
-
-    def _place(self, due: AbstractSet[Due], plane: SlicePlane, index: float) -> None:
-        if due:
-            self.layers.place(due, plane, index, self.camera.scale)
-        if due - {Due.CROSSHAIR}:
-            width, height = self._size
-            self.layers.arrange_labels(plane, index, (width, height), self.pixel_at)
 
     def _fetch(self) -> None:
         """Want the picture of what the pane shows."""

@@ -18,7 +18,7 @@ from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
 from app.views import theme
 from app.views.slices.labels import Placed, Wanted
-from app.views.slices.rimmed_text import draw_rimmed
+from app.views.slices.rimmed_text import rimmed
 from app.views.theme import Mark, Symbol
 
 
@@ -187,9 +187,12 @@ class MarkItem(QGraphicsItem):
     def _draw_label(self, painter: QPainter, alpha: float) -> None:
         if self._rect is None:
             return
-        painter.setFont(label_font())
-        colour = self._mark.qcolor(min(1.0, alpha + 0.2))
-        draw_rimmed(painter, self._rect, self._label, colour, Qt.AlignmentFlag.AlignCenter)
+        colour = self._mark.qcolor(min(1.0, alpha + 0.2)).name(QColor.NameFormat.HexArgb)
+        ratio = painter.device().devicePixelRatioF()
+        picture = rimmed(self._label, theme.SMALL_PX, colour, ratio)
+        middle, size = self._rect.center(), picture.deviceIndependentSize()
+        corner = QPointF(middle.x() - size.width() / 2, middle.y() - size.height() / 2)
+        painter.drawPixmap(corner, picture)
 
 
 @lru_cache(maxsize=512)

@@ -37,6 +37,9 @@ class Due(Enum):
 ALL_LAYERS = frozenset({Due.CROSSHAIR, Due.PLAN, Due.NEEDLE, Due.ADDED})
 """What is to be placed where slice, plane or zoom are others."""
 
+WAITED_FOR = frozenset({Due.CAMERA, Due.GREYS, Due.PLAN, Due.ADDED})
+"""What somebody does and looks at: its words are written at once."""
+
 
 class Layer(Protocol):
     """Something drawn over a slice: owns graphics items in plane millimetres."""
