@@ -2,7 +2,8 @@
 
 `make test` runs a process of tests on each core. With a cold cache every one of them would compile
 the same kernels, a few minutes of processor time each. A kernel's module is compiled by importing
-it; the cache (`app.core.compiled`) keeps the result for whoever imports it next.
+it, what is built for its arguments by the first call; the cache (`app.core.compiled`) keeps the
+result for whoever needs it next.
 
     python -m tools.compile_kernels
 """
@@ -16,6 +17,7 @@ from importlib import import_module
 from multiprocessing import get_context
 
 import grimp
+import numpy as np
 
 
 def kernel_modules() -> Mapping[str, Set[str]]:
@@ -49,12 +51,31 @@ def import_module_of(name: str) -> None:
     import_module(name)
 
 
+def find_first(name: str) -> None:
+    """Render a needle and find its marker this way: compiles what is built for its arguments."""
+    from app.tracking.markers.choice import ExtractorName, extractors
+    from app.tracking.optics.rig import load_rig
+    from app.tracking.rehearsal import rehearse
+    from app.tracking.simulated.cameras import NeedleRenderer
+    from app.tracking.simulated.scene import MarkerScene
+    from app.tracking.solver import FixSolver
+
+    rig = load_rig("wide")
+    fulcrum, axis = np.array([0.0, 0.16, 0.09]), np.array([0.0, 0.0, -1.0])
+    scene = MarkerScene.from_tip(fulcrum + 0.05 * axis, axis, rig.needle.marker_offset)
+    pair = extractors(rig, ExtractorName(name))
+    picture = NeedleRenderer(rig.models[0], rig.needle, rig.blur_px, 0).render(scene)
+    pair[0].search(picture)
+    rehearse(rig, fulcrum, pair, FixSolver(rig, fulcrum))
+
+
 def main() -> None:
     """Compile, and say how many modules in how much time."""
     begin = time.perf_counter()
     modules = kernel_modules()
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as processes:
         compile_all(modules, processes)
+        list(processes.map(find_first, ("model_fit", "outline_centroid")))
     print(f"kernels of {len(modules)} modules ready after {time.perf_counter() - begin:.0f} s")
 
 

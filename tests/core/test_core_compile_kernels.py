@@ -38,3 +38,7 @@ def test_the_kernels_of_the_program_are_found_with_what_they_are_compiled_from()
     modules = compile_kernels.kernel_modules()
     assert "app.device.control.fences" in modules["app.device.control.kernel"]
     assert modules.keys() >= set().union(*modules.values())
+
+
+def test_a_marker_is_found_so_that_what_is_built_for_its_arguments_is_there_too() -> None:
+    compile_kernels.find_first("outline_centroid")
