@@ -50,11 +50,7 @@ def import_ct(
         return CtLibrary().import_series(chosen, boxes, progress.part(0.2, 1.0))
 
     imported = with_progress(work, as_json)
-    if as_json:
-        typer.echo(json.dumps(document(imported), indent=2))
-        return
-    for line in lines(imported):
-        typer.echo(line)
+    show_imported(imported, as_json)
 
 
 def library(
@@ -77,8 +73,16 @@ def library(
         typer.echo("the library is empty; `acus ct import DIR` takes a CT in")
 
 
-def document(imported: "Imported") -> dict[str, Any]:
-    """Return what `acus ct import --json` and `acus pacs get --json` print."""
+def show_imported(imported: "Imported", as_json: bool) -> None:
+    """Print what `acus ct import`, `acus pacs get` and `acus pacs move` have taken in."""
+    if as_json:
+        typer.echo(json.dumps(_document(imported), indent=2))
+        return
+    for line in _lines(imported):
+        typer.echo(line)
+
+
+def _document(imported: "Imported") -> dict[str, Any]:
     return {
         **_entry(imported.entry),
         "again": imported.again,
@@ -86,8 +90,7 @@ def document(imported: "Imported") -> dict[str, Any]:
     }
 
 
-def lines(imported: "Imported") -> list[str]:
-    """Return the same as text."""
+def _lines(imported: "Imported") -> list[str]:
     entry = imported.entry
     what = "was in the library already" if imported.again else "taken into the library"
     head = f"{entry.name}: {entry.label}, {entry.files} files {what}"

@@ -166,7 +166,7 @@ def _take(
     study: str, series: str, name: str | None, way: str, mask: list[str] | None, as_json: bool
 ) -> None:
     from app.commands.calibrate import with_progress
-    from app.commands.library import boxes_of, document, lines
+    from app.commands.library import boxes_of, show_imported
     from app.imaging.library import CtLibrary
     from app.imaging.pacs.client import Pacs
     from app.imaging.pacs.settings import chosen
@@ -179,11 +179,7 @@ def _take(
         return take(Pacs(settings), study, series, CtLibrary(), progress, boxes)
 
     imported = with_progress(work, as_json)
-    if as_json:
-        typer.echo(json.dumps(document(imported), indent=2))
-        return
-    for line in lines(imported):
-        typer.echo(line)
+    show_imported(imported, as_json)
 
 
 def _whole(file: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtGui import QPixmap
 from PySide6.QtWidgets import QWidget
 
@@ -11,6 +12,7 @@ from app.core.errors import AcusError
 from app.session.result import AttemptResult
 from app.views.debrief.report import write_report
 from app.views.debrief.review import review_of_result
+from app.views.slices.canvas import SliceCanvas
 
 
 class PictureError(AcusError, OSError):
@@ -36,7 +38,9 @@ class StillPictures:
     def take(self, name: str, widget: QWidget | None = None) -> None:
         """Picture the window or a part of it, unless that moment has its picture."""
         if self._folder is not None and name not in self._taken:
-            self._taken[name] = (widget or self._window).grab()
+            widget = widget or self._window
+            _draw_what_is_due(widget)
+            self._taken[name] = widget.grab()
 
     def write(self, result: AttemptResult | None) -> None:
         """Write all, and the report; at the end: compressing them would disturb the cameras.
@@ -53,3 +57,11 @@ class StillPictures:
                 raise PictureError(f"cannot write {file}; is there room on the disk?")
         if result is not None:
             write_report(review_of_result(result), self._folder / "report.pdf")
+
+
+def _draw_what_is_due(widget: QWidget) -> None:
+    """Let slices and words catch up with the numbers: a picture is taken between two drawings."""
+    for canvas in widget.findChildren(SliceCanvas):
+        if canvas.isVisible():
+            canvas.flush()
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest)

@@ -236,3 +236,12 @@ def test_in_a_small_cell_no_word_is_cut(pad, qt, width, height):
     assert (pad.width(), pad.height()) == (width, height)
     assert all(words_are_whole(label) for label in pad._words if label.isVisible())
     assert pad.pad.height() >= 180
+
+
+@pytest.mark.parametrize(("width", "height"), [(495, 390), (440, 380), (681, 446), (700, 480)])
+def test_no_word_is_cut_where_the_depth_is_not_measured(pad, qt, width, height):
+    pad.resize(width, height)
+    pad.show_view(replace(pad_view(snapshot(), 0.2, 5.0), measured=False))
+    qt.processEvents()
+    assert "not measured" in pad._source.text()
+    assert all(words_are_whole(label) for label in pad._words if label.isVisible())
