@@ -220,3 +220,19 @@ def test_the_menu_offers_what_is_possible(viewing, planes, pane):
     entries = {action.text(): action for action in pane.build_menu().actions()}
     entries["Along the planned path"].trigger()
     assert planes.along is Along.PATH
+
+
+def test_in_a_narrow_pane_the_lower_letter_gives_way_to_the_words(viewing, planes, pane, settle):
+    viewing.set_needle(needle_at(viewing))
+    letter, words = pane.readouts.letters[3], pane.readouts.slice
+    settle(lambda: pane.canvas.is_settled, 5.0)
+    middle = pane.canvas.viewport().width() / 2
+    assert abs(letter.geometry().center().x() - middle) <= 1  # where there is room
+    pane.resize(230, 300)
+    settle(lambda: pane.canvas.is_settled, 5.0)
+    assert "through the needle" in words.text()
+    assert not letter.geometry().intersects(words.geometry())
+    assert pane.canvas.viewport().rect().contains(letter.geometry())
+    pane.resize(400, 300)
+    settle(lambda: pane.canvas.is_settled, 5.0)
+    assert abs(letter.geometry().center().x() - pane.canvas.viewport().width() / 2) <= 1

@@ -192,6 +192,9 @@ class Readouts(QObject):
     def _place(self) -> None:
         for overlay in (self.title, self.window, self.cursor, self.slice, *self.letters):
             overlay.place()
+        below, words = self.letters[3], self.slice
+        if below.geometry().intersects(words.geometry()):  # a narrow pane: the letter gives way
+            below.move(max(PADDING, words.x() - below.width() - PADDING), below.y())
         port = self._canvas.viewport()
         above = self.slice.y() - self.ruler.height() - 2
         self.ruler.move(port.width() - PADDING - self.ruler.width(), above)
