@@ -225,6 +225,7 @@ def test_the_menu_offers_what_is_possible(viewing, planes, pane):
 def test_in_a_narrow_pane_the_lower_letter_gives_way_to_the_words(viewing, planes, pane, settle):
     viewing.set_needle(needle_at(viewing))
     letter, words = pane.readouts.letters[3], pane.readouts.slice
+    pane.resize(600, 300)
     settle(lambda: pane.canvas.is_settled, 5.0)
     middle = pane.canvas.viewport().width() / 2
     assert abs(letter.geometry().center().x() - middle) <= 1  # where there is room
@@ -233,6 +234,6 @@ def test_in_a_narrow_pane_the_lower_letter_gives_way_to_the_words(viewing, plane
     assert "through the needle" in words.text()
     assert not letter.geometry().intersects(words.geometry())
     assert pane.canvas.viewport().rect().contains(letter.geometry())
-    pane.resize(400, 300)
+    pane.resize(600, 300)
     settle(lambda: pane.canvas.is_settled, 5.0)
     assert abs(letter.geometry().center().x() - pane.canvas.viewport().width() / 2) <= 1
