@@ -228,7 +228,7 @@ def test_in_a_narrow_pane_the_lower_letter_gives_way_to_the_words(viewing, plane
     pane.resize(600, 300)
     settle(lambda: pane.canvas.is_settled, 5.0)
     middle = pane.canvas.viewport().width() / 2
-    assert abs(letter.geometry().center().x() - middle) <= 1  # where there is room
+    assert abs(letter.geometry().center().x() - middle) <= 3  # where there is room
     pane.resize(230, 300)
     settle(lambda: pane.canvas.is_settled, 5.0)
     assert "through the needle" in words.text()
@@ -236,4 +236,4 @@ def test_in_a_narrow_pane_the_lower_letter_gives_way_to_the_words(viewing, plane
     assert pane.canvas.viewport().rect().contains(letter.geometry())
     pane.resize(600, 300)
     settle(lambda: pane.canvas.is_settled, 5.0)
-    assert abs(letter.geometry().center().x() - pane.canvas.viewport().width() / 2) <= 1
+    assert abs(letter.geometry().center().x() - pane.canvas.viewport().width() / 2) <= 3
