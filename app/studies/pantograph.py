@@ -2,7 +2,7 @@
 
 Forward and inverse kinematics close on each other everywhere but at one place; so does the complete
 system. Beside each: the error of the formulas as the thesis prints them and as the laboratory's
-public code has them.
+public code has them. At the end: what joint torque the largest force at the hand needs by depth.
 """
 
 from collections.abc import Callable
@@ -25,6 +25,7 @@ def _measure(progress: Progress | None) -> Findings:
         ("singular place", lambda: numbers.singular_places(geometry)),
         ("printed formulas", lambda: numbers.printed_errors(geometry)),
         ("forces", lambda: numbers.forces(profile)),
+        ("torques", lambda: numbers.torques(profile)),
     )
     sheets: list[Sheet] = []
     for number, (name, step) in enumerate(steps):
@@ -38,13 +39,21 @@ def _measure(progress: Progress | None) -> Findings:
             Figure("workspace", partial(pictures.workspace, geometry=geometry), (12.0, 7.5)),
             Figure("system", partial(pictures.system, geometry=geometry), (12.0, 4.0)),
             Figure("vectors", partial(pictures.vectors, geometry=geometry), (11.0, 5.2)),
+            Figure(
+                "torque",
+                partial(pictures.torque, profile=profile, sheet=sheets[-1]),
+                (10.0, 4.2),
+            ),
         ),
         _lines(*sheets),
     )
 
 
-def _lines(closure: Sheet, singular: Sheet, printed: Sheet, forces: Sheet) -> tuple[str, ...]:
+def _lines(
+    closure: Sheet, singular: Sheet, printed: Sheet, forces: Sheet, torques: Sheet
+) -> tuple[str, ...]:
     tool = next(row for row in closure.rows if str(row[0]).startswith("all poses: P3"))
+    skin = next(row for row in torques.rows if row[0] == 0.0)
     place = next(row for row in singular.rows if str(row[2]).startswith("above"))
     worst = max(printed.rows, key=lambda row: float(row[5]) if row[2] == "rad" else 0.0)
     return (
@@ -54,6 +63,8 @@ def _lines(closure: Sheet, singular: Sheet, printed: Sheet, forces: Sheet) -> tu
         f"q2 = {place[1]:.3f}° (and at its mirror image); neither lies in the 45° cone.",
         f"The largest error of a printed or coded formula: {worst[0]}, {worst[5]:.3g} rad.",
         f"2 N wanted at 45°: the printed law 4.12 gives {forces.rows[-1][3]:.3f} N.",
+        f"5 N at the skin need {skin[1]:.3f} N·m upright, {skin[3]:.3f} N·m over the cone; the "
+        f"profile's torque gives {skin[4]:.2f} N there in the worst direction.",
     )
 
 

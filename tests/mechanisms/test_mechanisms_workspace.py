@@ -2,13 +2,24 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
 
 from app.mechanisms.errors import MechanismError
-from app.mechanisms.pantograph import Geometry, Region, locate, survey
+from app.mechanisms.pantograph import (
+    Geometry,
+    Region,
+    inverse,
+    jacobian,
+    locate,
+    needle_at,
+    survey,
+    torque_per_newton,
+)
 from app.mechanisms.profile import load_profile
 
 PROFILE = load_profile("icube")
 GEOMETRY = PROFILE.pantograph
+_EXACT = {"xatol": 1e-12, "fatol": 1e-15, "maxiter": 4000}
 
 
 @pytest.mark.parametrize(
@@ -31,8 +42,54 @@ def test_the_workspace_is_that_of_the_independent_table(
     assert np.degrees(found.q_right) == pytest.approx(right, abs=0.55)
     assert found.worst_condition == pytest.approx(condition, rel=0.01)
     assert found.lever == pytest.approx(lever, abs=1e-3)
-    assert found.torque_printed == pytest.approx(0.599, abs=2e-3)
-    assert 0.593 < found.torque < 0.597
+    assert found.torque_printed == pytest.approx(0.60041, abs=1e-5)
+    assert found.torque == pytest.approx(0.596545, abs=1e-6)
+
+
+def test_the_largest_torque_is_found_between_the_rings_of_the_grid():
+    """An optimiser of its own, with angles and Jacobian by the public functions, agrees."""
+
+    def torque(offset):
+        needle = needle_at(GEOMETRY, GEOMETRY.fulcrum[:2] + offset)
+        across = np.eye(3) - np.outer(needle.axis, needle.axis)
+        columns = jacobian(GEOMETRY, inverse(GEOMETRY, needle.p3))
+        lever = (GEOMETRY.needle_length - needle.l_in) / needle.l_in
+        return 5.0 * lever * max(np.linalg.norm(across[:, :2] @ c) for c in columns.T)
+
+    grid = np.linspace(-0.012, 0.012, 49)
+    start = max(((x, y) for x in grid for y in grid), key=torque)
+    best = minimize(lambda at: -torque(at), start, method="Nelder-Mead", options=_EXACT)
+    assert np.abs(best.x) == pytest.approx([1.3e-3, 5.0e-3], abs=1e-4)
+    for tilt_deg in (5.0, 30.0, 39.0, 45.0, 60.0):
+        assert survey(GEOMETRY, np.radians(tilt_deg)).torque == pytest.approx(-best.fun, abs=1e-9)
+
+
+def test_a_wider_cone_never_needs_less_torque():
+    tilts = np.radians([0.01, 1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 30.0, 39.0, 45.0, 60.0])
+    found = [survey(GEOMETRY, tilt) for tilt in tilts]
+    for value in ("torque", "torque_printed"):
+        assert np.diff([getattr(f, value) for f in found]).min() >= -1e-9
+
+
+@pytest.mark.parametrize(
+    ("depth_mm", "upright", "cone", "force"),
+    [(-30.0, 1.241, 1.250, 2.40), (0.0, 1.079, 1.087, 2.76), (90.0, 0.593, 0.598, 5.02)],
+)
+def test_five_newtons_need_more_torque_the_higher_the_tip_stands(depth_mm, upright, cone, force):
+    l_out = GEOMETRY.needle_length - 1e-3 * depth_mm
+    assert 5.0 * torque_per_newton(GEOMETRY, l_out) == pytest.approx(upright, abs=6e-4)
+    needed = torque_per_newton(GEOMETRY, l_out, PROFILE.tilt_limit)
+    assert 5.0 * needed == pytest.approx(cone, abs=6e-4)
+    assert PROFILE.limits.joint_torque / needed == pytest.approx(force, abs=5e-3)
+
+
+def test_a_torque_for_no_lever_or_no_cone_is_refused():
+    for l_out, tilt in ((0.0, 0.1), (np.nan, 0.1), (0.1, 2.0), (0.1, -0.1), (0.1, np.nan)):
+        with pytest.raises(MechanismError, match="must be above 0"):
+            torque_per_newton(GEOMETRY, l_out, tilt)
+    far = Geometry(0.01, 0.012, 0.085, GEOMETRY.fulcrum, 0.2)
+    with pytest.raises(MechanismError, match="no tool point within 30° of tilt is reached"):
+        torque_per_newton(far, 0.1, np.radians(30.0))
 
 
 def test_a_third_of_the_sixty_degree_cone_is_out_of_reach():

@@ -107,6 +107,13 @@ def test_the_printed_law_is_twice_too_strong_at_45_degrees():
     assert last["felt minus wanted [N]"] < 1e-12
 
 
+def test_five_newtons_at_the_skin_need_nearly_twice_the_torque_of_the_thesis():
+    found = rows(numbers.torques(PROFILE))
+    assert found[0.0]["upright, 5 N [N·m]"] == pytest.approx(1.079, abs=1e-3)
+    assert found[90.0]["upright, 5 N [N·m]"] == pytest.approx(0.5934, abs=1e-3)
+    assert found[0.0]["cone of 39°, 0.6 N·m [N]"] == pytest.approx(2.76, abs=5e-3)
+
+
 def test_only_studies_import_the_wrong_formulas():
     folder = Path(app.__file__).parent
     for path in folder.rglob("*.py"):

@@ -54,6 +54,7 @@ from app.mechanisms.pantograph.workspace import (
     Workspace,
     locate,
     survey,
+    torque_per_newton,
 )
 
 __all__ = [
@@ -101,6 +102,7 @@ __all__ = [
     "system_rates",
     "tool_by_hub",
     "tool_force",
+    "torque_per_newton",
     "velocity_terms",
     "working_mode",
 ]

@@ -17,7 +17,9 @@ from app.mechanisms.pantograph.kinematics import WORKING_MODE
 from app.mechanisms.pantograph.status import OK, Status
 
 _RINGS, _SPOKES = 121, 360
-_REACHED, _Q1, _Q2, _DEXTERITY, _LEVER, _TORQUE, _PRINTED, _COLUMNS = range(8)
+_REACHED, _Q1, _Q2, _DEXTERITY, _LEVER = range(5)
+_TORQUE, _PRINTED, _COLUMNS = 5, 7, 9  # each: left, right
+_FINE, _ROUNDS, _SHRINK = 33, 16, 0.25  # of the search about the largest torque of the grid
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +59,9 @@ def survey(
 ) -> Workspace:
     """Survey the cone on rings and spokes that each stand for the same area, rim and middle too.
 
+    The torques' peaks lie between the rings (5 mm beside the vertical for the ICube lengths): from
+    the grid's largest they are searched on, joint by joint, to about 1e-9 of the disc's radius.
+
     Args:
         geometry: lengths.
         tilt: half angle of the cone [rad].
@@ -73,8 +78,8 @@ def survey(
     points = _disc(geometry, radius)
     rows = np.zeros((len(points), _COLUMNS))
     modes = float(mode[0]), float(mode[1]), float(assembly)
-    lengths = *geometry.links, *geometry.fulcrum_xyz, geometry.needle_length
-    _survey(points, rows, np.array(lengths), *modes)
+    lengths = np.array([*geometry.links, *geometry.fulcrum_xyz, geometry.needle_length, 0.0])
+    _survey(points, rows, lengths, *modes)
     found = rows[rows[:, _REACHED] > 0.0]
     held = found[found[:, _LEVER] > 0.0]
     if not len(held):
@@ -82,6 +87,10 @@ def survey(
             f"no tool point within {np.degrees(tilt):g}° of tilt is reached in mode {mode},"
             f" assembly {assembly}"
         )
+    largest = [
+        max(_peak(points, rows, column + side, radius, lengths, *modes) for side in (0, 1))
+        for column in (_TORQUE, _PRINTED)
+    ]
     return Workspace(
         tilt=float(tilt),
         radius=radius,
@@ -90,10 +99,50 @@ def survey(
         q_right=_range(found[:, _Q2]),
         worst_condition=float(1.0 / found[:, _DEXTERITY].min()),
         lever=_range(held[:, _LEVER]),
-        torque=float(force * held[:, _TORQUE].max()),
-        torque_printed=float(force * held[:, _PRINTED].max()),
+        torque=force * largest[0],
+        torque_printed=force * largest[1],
         no_grip=1.0 - len(held) / len(found),
     )
+
+
+def torque_per_newton(
+    geometry: Geometry,
+    l_out: float,
+    tilt: float = 0.0,
+    mode: tuple[int, int] = WORKING_MODE,
+    assembly: int = 1,
+) -> float:
+    """Return the largest joint torque [N·m] that 1 N at the hand can need, L_out as measured.
+
+    Over all directions of the force across the needle and all directions of the needle in a cone;
+    its inverse times the largest torque is the force that can be had everywhere there.
+
+    Args:
+        geometry: lengths.
+        l_out: hub to fulcrum [m].
+        tilt: half angle of the cone [rad]; 0: upright only.
+        mode: working mode.
+        assembly: closure.
+
+    Raises:
+        MechanismError: if `l_out` is not above 0, `tilt` not in [0, π/2), or nothing is reached.
+    """
+    if not (l_out > 0.0 and 0.0 <= tilt < 0.5 * np.pi):
+        raise MechanismError(
+            f"L_out is {l_out} m and tilt {tilt} rad; L_out must be above 0, tilt in [0, π/2)"
+        )
+    radius = float(geometry.fulcrum[2] * np.tan(tilt))
+    points = _disc(geometry, radius)
+    rows = np.zeros((len(points), _COLUMNS))
+    modes = float(mode[0]), float(mode[1]), float(assembly)
+    lengths = np.array([*geometry.links, *geometry.fulcrum_xyz, 0.0, float(l_out)])
+    _survey(points, rows, lengths, *modes)
+    if not (rows[:, _REACHED] > 0.0).any():
+        raise MechanismError(
+            f"no tool point within {np.degrees(tilt):g}° of tilt is reached in mode {mode},"
+            f" assembly {assembly}"
+        )
+    return max(_peak(points, rows, _TORQUE + side, radius, lengths, *modes) for side in (0, 1))
 
 
 class Region(StrEnum):
@@ -187,24 +236,75 @@ def _survey(
     mode_right: float,
     assembly: float,
 ) -> None:
-    a1, a2, base, fx, fy, fz, needle = lengths
     for k in range(len(points)):
-        x, y = points[k]
-        status, q1, q2 = kernels.inverse_kernel(x, y, a1, a2, base, mode_left, mode_right)
-        if status != OK or assembly_kernel(q1, q2, x, y, a1, base) != assembly:
-            continue
-        status, jxl, jxr, jyl, jyr = kernels.jacobian_kernel(q1, q2, x, y, a1, a2, base)
-        if status != OK:
-            continue
-        rows[k, _REACHED], rows[k, _Q1], rows[k, _Q2] = 1.0, q1, q2
-        rows[k, _DEXTERITY] = dexterity_kernel(jxl, jxr, jyl, jyr)
-        dx, dy, dz, l_in = kernels.axis_kernel(x, y, fx, fy, fz)
-        if l_in < needle:
-            rows[k, _LEVER] = (needle - l_in) / l_in
-            for jx, jy in ((jxl, jyl), (jxr, jyr)):
-                vw, printed = _torque_per_newton(jx, jy, dx, dy, dz, rows[k, _LEVER])
-                rows[k, _TORQUE] = max(rows[k, _TORQUE], vw)
-                rows[k, _PRINTED] = max(rows[k, _PRINTED], printed)
+        _look(points[k, 0], points[k, 1], rows[k], lengths, mode_left, mode_right, assembly)
+
+
+@njit
+def _look(
+    x: float,
+    y: float,
+    row: FloatArray,
+    lengths: FloatArray,
+    mode_left: float,
+    mode_right: float,
+    assembly: float,
+) -> None:
+    """Fill a row of the survey; `lengths` ends with L_out [m], 0 for the printed mode C - L_in."""
+    a1, a2, base, fx, fy, fz, needle, l_out = lengths
+    row[:] = 0.0
+    status, q1, q2 = kernels.inverse_kernel(x, y, a1, a2, base, mode_left, mode_right)
+    if status != OK or assembly_kernel(q1, q2, x, y, a1, base) != assembly:
+        return
+    status, jxl, jxr, jyl, jyr = kernels.jacobian_kernel(q1, q2, x, y, a1, a2, base)
+    if status != OK:
+        return
+    row[_REACHED], row[_Q1], row[_Q2] = 1.0, q1, q2
+    row[_DEXTERITY] = dexterity_kernel(jxl, jxr, jyl, jyr)
+    dx, dy, dz, l_in = kernels.axis_kernel(x, y, fx, fy, fz)
+    outside = l_out if l_out > 0.0 else needle - l_in
+    if outside > 0.0:
+        row[_LEVER] = outside / l_in
+        row[_TORQUE], row[_PRINTED] = _torque_per_newton(jxl, jyl, dx, dy, dz, row[_LEVER])
+        row[_TORQUE + 1], row[_PRINTED + 1] = _torque_per_newton(jxr, jyr, dx, dy, dz, row[_LEVER])
+
+
+@njit
+def _peak(
+    points: FloatArray,
+    rows: FloatArray,
+    column: int,
+    radius: float,
+    lengths: FloatArray,
+    mode_left: float,
+    mode_right: float,
+    assembly: float,
+) -> float:
+    """Largest value of a column over the disc: finer and finer grids about the surveyed largest.
+
+    In polar coordinates, so that the rim is a straight edge of the grid; what is not reached has
+    the value 0 and is never the largest.
+    """
+    best = int(np.argmax(rows[:, column]))
+    largest = rows[best, column]
+    fx, fy = lengths[3], lengths[4]
+    x, y = points[best, 0] - fx, points[best, 1] - fy
+    away, turn = np.hypot(x, y), np.arctan2(y, x)
+    row = np.zeros(_COLUMNS)
+    width, angle = 0.1 * radius, np.pi
+    for _ in range(_ROUNDS):
+        middle, heading = away, turn
+        for i in range(_FINE):
+            r = middle + width * (2.0 * i / (_FINE - 1) - 1.0)
+            r = min(max(r, 0.0), radius)
+            for j in range(_FINE):
+                a = heading + angle * (2.0 * j / (_FINE - 1) - 1.0)
+                px, py = fx + r * np.cos(a), fy + r * np.sin(a)
+                _look(px, py, row, lengths, mode_left, mode_right, assembly)
+                if row[column] > largest:
+                    largest, away, turn = row[column], r, a
+        width, angle = _SHRINK * width, _SHRINK * angle
+    return largest
 
 
 @njit

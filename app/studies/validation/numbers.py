@@ -9,6 +9,7 @@ from app.core.arrays import FloatArray
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph.statics import felt_force, force_map, joint_torques, printed_force
 from app.mechanisms.pantograph.system import needle_at
+from app.mechanisms.pantograph.workspace import torque_per_newton
 from app.mechanisms.profile import DeviceProfile
 from app.studies.findings import Cell, Sheet
 from app.studies.printed import laboratory, thesis
@@ -229,6 +230,39 @@ def forces(profile: DeviceProfile) -> Sheet:
             "left torque [N·m]",
             "right torque [N·m]",
             "felt minus wanted [N]",
+        ),
+        tuple(rows),
+    )
+
+
+def torques(profile: DeviceProfile, step: float = 0.010) -> Sheet:
+    """Torque that the hand's largest force needs at each measured depth, and what can be had.
+
+    Args:
+        profile: of a robot; its depth range, tilt limit and limits.
+        step: of the depths [m].
+    """
+    geometry, limits = profile.pantograph, profile.limits
+    low, high = profile.depth_range
+    rows: list[tuple[Cell, ...]] = []
+    for depth in np.arange(low, high + 0.5 * step, step).tolist():
+        cells: list[Cell] = [round(1e3 * depth, 6)]
+        for tilt in (0.0, profile.tilt_limit):
+            each = torque_per_newton(geometry, geometry.needle_length - depth, tilt)
+            cells += [limits.hand_force * each, limits.joint_torque / each]
+        rows.append(tuple(cells))
+    force, torque = limits.hand_force, limits.joint_torque
+    cone = f"cone of {np.degrees(profile.tilt_limit):g}°"
+    return Sheet(
+        "torque",
+        f"{profile.name}: joint torque for {force:g} N at the hand, worst direction, and the force"
+        f" that {torque:g} N·m can give everywhere (below {force:g} N it limits)",
+        (
+            "depth [mm]",
+            f"upright, {force:g} N [N·m]",
+            f"upright, {torque:g} N·m [N]",
+            f"{cone}, {force:g} N [N·m]",
+            f"{cone}, {torque:g} N·m [N]",
         ),
         tuple(rows),
     )

@@ -9,6 +9,8 @@ from app.core.units import MILLIMETRE
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph.statics import force_map, joint_torques, printed_force
 from app.mechanisms.pantograph.system import needle_at
+from app.mechanisms.profile import DeviceProfile
+from app.studies.findings import Sheet
 from app.studies.validation.maps import (
     closure,
     disc,
@@ -148,6 +150,30 @@ def _pulled_upright(
     jacobian = jacobian_many(geometry, q, p3[None, :])[0]
     right = force_map(needle, force)
     return right, printed_force(needle, force), joint_torques(jacobian, right)
+
+
+def torque(figure: Any, profile: DeviceProfile, sheet: Sheet) -> None:
+    """Torque for the largest force at the hand over the measured depth, and the force to be had."""
+    table = np.array(sheet.rows, dtype=np.float64)
+    limits = profile.limits
+    need, have = figure.add_subplot(1, 2, 1), figure.add_subplot(1, 2, 2)
+    names = ("upright", f"cone of {np.degrees(profile.tilt_limit):g}°")
+    for number, (name, colour) in enumerate(zip(names, (_BLUE, _RED), strict=True)):
+        style = "-" if number == 0 else "--"
+        need.plot(table[:, 0], table[:, 1 + 2 * number], style, color=colour, label=name)
+        most = np.minimum(table[:, 2 + 2 * number], limits.hand_force)
+        have.plot(table[:, 0], most, style, color=colour, label=name)
+    need.axhline(limits.joint_torque, color="#777777", linestyle=":", label="limit of the profile")
+    need.set(ylabel=f"joint torque for {limits.hand_force:g} N at the hand [N·m]")
+    have.axhline(limits.hand_force, color="#777777", linestyle=":", label="limit of the profile")
+    have.set(ylabel=f"force at the hand for {limits.joint_torque:g} N·m [N]")
+    for axes in (need, have):
+        axes.set(xlabel="depth of the tip beyond the fulcrum, measured [mm]")
+        axes.set_ylim(bottom=0.0)
+        axes.grid(True, color="#DDDDDD", linewidth=0.5)
+        axes.legend(fontsize=8)
+    figure.suptitle(f"{profile.name}: worst direction of the force and of the needle", fontsize=10)
+    figure.tight_layout()
 
 
 def _exponent(values: FloatArray) -> FloatArray:
