@@ -10,6 +10,12 @@ from app.core.errors import ConfigurationError
 
 M = TypeVar("M", bound="Strict")
 
+LARGEST_FILE = 1 << 20
+"""No file of settings, profile, calibration or exercise is larger [bytes]."""
+
+MOST_VALUES = 200_000
+"""Nor holds more values than this; a few lines of aliases can stand for any number of them."""
+
 
 class Strict(BaseModel):
     """Base of everything that is read from YAML: frozen; unknown keys, NaN and infinity refused."""
@@ -53,18 +59,71 @@ def read_yaml(path: Path) -> Any:
     """Read one YAML document.
 
     Raises:
-        ConfigurationError: if the file cannot be read or is not YAML; names the file and the line.
+        ConfigurationError: if the file cannot be read, is larger than `LARGEST_FILE` or is not
+            YAML; names the file and the line.
     """
     try:
-        text = path.read_text(encoding="utf-8")
-        return yaml.load(text, Loader=_UniqueKeyLoader)  # a SafeLoader
+        with path.open("rb") as file:
+            data = file.read(LARGEST_FILE + 1)
     except OSError as error:
         raise ConfigurationError(f"cannot read {path}: {error.strerror or error}") from error
-    except RecursionError as error:
-        raise ConfigurationError(f"{path} is not valid YAML: it is nested too deeply") from error
-    except (yaml.YAMLError, ValueError, LookupError, AttributeError) as error:
-        # Not all are YAMLError: a date of month 99, `!!int abc` or `!!bool x` raise these.
+    if len(data) > LARGEST_FILE:
+        raise ConfigurationError(
+            f"{path} is larger than {LARGEST_FILE >> 20} MB; no file of settings is: choose another"
+        )
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError as error:
         raise ConfigurationError(f"{path} is not valid YAML: {_one_line(error)}") from error
+    return parse_yaml(text, str(path))
+
+
+def parse_yaml(text: str, origin: str) -> Any:
+    """Read one YAML document that is already in memory; `origin` names it in messages.
+
+    Raises:
+        ConfigurationError: if it is not YAML, or its aliases make more of it than `MOST_VALUES`.
+    """
+    try:
+        loader = _UniqueKeyLoader(text)  # a SafeLoader
+        try:
+            node = loader.get_single_node()
+            if node is None:
+                return None
+            _count_values(node, {})
+            return loader.construct_document(node)
+        finally:
+            loader.dispose()
+    except RecursionError as error:
+        raise ConfigurationError(f"{origin} is not valid YAML: it is nested too deeply") from error
+    except (yaml.YAMLError, ValueError, LookupError, AttributeError, ArithmeticError) as error:
+        # Not all are YAMLError: a date of month 99, `!!int abc`, `!!bool x` or 1:1:…:1 raise these.
+        raise ConfigurationError(f"{origin} is not valid YAML: {_one_line(error)}") from error
+
+
+def _count_values(node: yaml.Node, known: dict[int, int]) -> int:
+    """Count the values that a node stands for; an alias counts as all that it repeats."""
+    count = known.get(id(node))
+    if count == 0:
+        raise yaml.constructor.ConstructorError(
+            None, None, "an alias within what it repeats", node.start_mark
+        )
+    if count is not None:
+        return count
+    known[id(node)], count = 0, 1
+    if isinstance(node, yaml.MappingNode):
+        count += sum(_count_values(part, known) for pair in node.value for part in pair)
+    elif isinstance(node, yaml.SequenceNode):
+        count += sum(_count_values(part, known) for part in node.value)
+    if count > MOST_VALUES:
+        raise yaml.constructor.ConstructorError(
+            None,
+            None,
+            f"more than {MOST_VALUES} values (an alias counts as all that it repeats)",
+            node.start_mark,
+        )
+    known[id(node)] = count
+    return count
 
 
 def load(path: Path, model: type[M]) -> M:
@@ -84,12 +143,16 @@ def parse(document: Any, model: type[M], origin: str) -> M:
         first = error.errors(include_url=False)[0]
         field = ".".join(str(part) for part in first["loc"]) or "(document)"
         more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""
-        value = _short(first.get("input"))
+        value = shown(first.get("input"))
         raise ConfigurationError(f"{origin}: {field}: {first['msg']}, got {value}{more}") from error
 
 
-def _short(value: object) -> str:
-    text = repr(value)
+def shown(value: object) -> str:
+    """Return a value for a message: at most 60 characters."""
+    try:
+        text = repr(value)
+    except ValueError:  # a whole number of thousands of digits
+        return "a number that is too long to be written"
     return text if len(text) <= 60 else text[:57] + "..."
 
 

@@ -1,5 +1,6 @@
 """Calibration files: what goes out comes back; what is wrong is named."""
 
+import random
 from pathlib import Path
 
 import cv2
@@ -8,9 +9,12 @@ import pytest
 import yaml
 from calibration_samples import sample
 
+from app.core.configuration import parse_yaml
+from app.core.errors import ConfigurationError
 from app.tracking.calibration.formats.own import load_calibration, save_calibration
 from app.tracking.calibration.formats.reading import read_calibration
 from app.tracking.calibration.formats.ros import documents, ros_paths, write_ros
+from app.tracking.calibration.formats.storage import read_matrices
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
 from app.tracking.optics.rig import load_rig
@@ -369,3 +373,85 @@ def test_a_real_file_of_opencvs_samples_asks_for_its_other_half(shared_data: Pat
         read_calibration([folder / "intrinsics.yml"])
     with pytest.raises(CalibrationError, match="a lens of OpenCV's one-camera sample"):
         read_calibration([folder / "left_intrinsics.yml"])
+
+
+@pytest.mark.parametrize("suffix", ["yml", "xml", "json"])
+def test_every_form_of_opencvs_files_is_read_as_opencv_reads_it(
+    tmp_path: Path, suffix: str
+) -> None:
+    rng = np.random.default_rng(5)
+    wanted = {
+        "M1": rng.normal(size=(3, 3)) * 1e3,
+        "D1": np.array([[0.0, -1e-7, 3e25, 5.0, 1.0]]),
+        "T": rng.normal(size=(3, 1)),
+    }
+    path = storage(tmp_path / f"one.{suffix}", **wanted)
+    found = read_matrices(path, ("M1", "D1", "T", "R"))
+    assert set(found) == set(wanted)
+    theirs = cv2.FileStorage(str(path), cv2.FILE_STORAGE_READ)
+    for key, value in found.items():
+        np.testing.assert_array_equal(value, theirs.getNode(key).mat())
+    theirs.release()
+
+
+@pytest.mark.parametrize("suffix", ["yml", "xml", "json"])
+def test_damaged_files_of_opencv_end_in_a_named_error_and_never_end_the_program(
+    tmp_path: Path, opencv: tuple[Path, Path], suffix: str
+) -> None:
+    matrices = {}
+    for path, keys in zip(opencv, (("M1", "D1", "M2", "D2"), ("R", "T")), strict=True):
+        matrices |= read_matrices(path, keys)
+    path = storage(tmp_path / f"both.{suffix}", **matrices)
+    whole, dice = path.read_bytes(), random.Random(18)
+    outcomes = {"right": 0, "named": 0}
+    for _ in range(250):
+        data = bytearray(whole)
+        for _ in range(dice.randint(1, 4)):
+            at, length = dice.randrange(len(data)), dice.randint(1, 12)
+            piece = dice.choice(
+                (b"", dice.randbytes(length), bytes(data[:length]), b"[", b"]", b":", b"\0")
+            )
+            data[at : at + dice.randint(0, length)] = piece
+        path.write_bytes(data)
+        try:
+            read_calibration([path], unit=0.01, image_size=(640, 480))
+            outcomes["right"] += 1
+        except CalibrationError as error:
+            outcomes["named" if "\n" not in str(error) else "in lines"] += 1
+    assert min(outcomes.values()) > 5
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<?xml version='1.0'?><!DOCTYPE a [<!ENTITY b 'c'>]><opencv_storage/>",
+        "<?xml version='1.0'?><opencv_storage><M1 type_id='opencv-matrix'/></opencv_storage>",
+        "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 1, cols: 1, dt: d, data: [.Nan]}",
+        "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 99999999, cols: 9999, dt: d, data: [1.]}",
+        "%YAML:1.0\nM1: !!opencv-matrix\n  {rows: 1, cols: 1, dt: d, data: '$base64$AA'}",
+        '{"M1": ' + "[" * 5000,
+    ],
+)
+def test_what_is_no_matrix_in_a_file_of_opencv_is_named(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "intrinsics.yml"
+    path.write_text(text + "\n# opencv-matrix\n")
+    with pytest.raises(CalibrationError, match=r"intrinsics.yml"):
+        read_calibration([path], unit=0.01, image_size=(640, 480))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a: &a [x, x, x, x, x, x, x, x, x, x]\n"
+        + "".join(
+            f"{b}: &{b} [{', '.join(10 * ['*' + a])}]\n"
+            for a, b in zip("abcdefgh", "bcdefghi", strict=True)
+        ),
+        "a: &a [*a]",
+        "a: " + "1:" * 300 + "1.0",
+        "[" * 3000,
+    ],
+)
+def test_yaml_that_stands_for_more_than_it_says_is_refused_by_name(text: str) -> None:
+    with pytest.raises(ConfigurationError, match="bomb is not valid YAML"):
+        parse_yaml(text, "bomb")

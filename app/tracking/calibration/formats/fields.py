@@ -8,7 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.core.configuration import read_yaml
+from app.core.configuration import read_yaml, shown
 from app.core.errors import ConfigurationError
 from app.core.transform import RigidTransform
 from app.tracking.errors import CalibrationError
@@ -38,7 +38,7 @@ class Fields:
             raise CalibrationError(str(error)) from error
         if not isinstance(document, Mapping):
             raise CalibrationError(
-                f"{path}: a file of names and values is needed, got {document!r}"
+                f"{path}: a file of names and values is needed, got {shown(document)}"
             )
         self._document: Mapping[Any, Any] = document
 
@@ -86,7 +86,7 @@ class Fields:
 
     def wrong(self, key: str, value: object, wanted: str) -> CalibrationError:
         """Return the error that names file, field, value and what is valid."""
-        return CalibrationError(f"{self.path}: {key}: {wanted} is needed, got {value!r}")
+        return CalibrationError(f"{self.path}: {key}: {wanted} is needed, got {shown(value)}")
 
     def _value(self, key: str) -> Any:
         if key not in self._document:

@@ -3,7 +3,7 @@
 `intrinsics.yml` holds M1, D1, M2, D2 (camera matrices and distortion of left and right),
 `extrinsics.yml` holds R, T (x_right = R·x_left + T) beside what follows from them. One file may
 hold all six. T is in the unit of the board's square; neither the unit nor the pictures' size is in
-them. XML and JSON of FileStorage are read as well.
+them. XML and JSON of FileStorage are read as well. The files are parsed by `storage`, not OpenCV.
 """
 
 from collections.abc import Sequence
@@ -17,11 +17,10 @@ from app.core.arrays import FloatArray
 from app.core.transform import RigidTransform
 from app.tracking.calibration.formats.fields import intrinsics, pose
 from app.tracking.calibration.formats.imported import NAMES, ImportedCamera, stereo_of
+from app.tracking.calibration.formats.storage import read_matrices
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
 
-_HEADS: Final = (b"%YAML:1.0", b"<?xml", b"<opencv_storage")
-_TAG: Final = b"opencv-matrix"
 _PAIR: Final = ("M1", "D1", "M2", "D2", "R", "T")
 _LENS: Final = "camera_matrix"
 _COUNTS: Final = (4, 5, 8, 12, 14)
@@ -29,22 +28,6 @@ _GRID: Final = 21
 
 WORST_PX: Final = 0.2
 """Five coefficients stand for more of them if no pixel is moved by more than this."""
-
-
-def is_opencv(path: Path) -> bool:
-    """Return whether a file is one of FileStorage, by its beginning.
-
-    Raises:
-        CalibrationError: if it cannot be read.
-    """
-    try:
-        with path.open("rb") as file:
-            head = file.read(4096).lstrip()
-    except OSError as error:
-        raise CalibrationError(
-            f"cannot read {path}: {error.strerror or error}; check its name and that it may be read"
-        ) from error
-    return head.startswith(_HEADS) or _TAG in head  # OpenCV 5 begins as any other YAML
 
 
 def read_opencv(
@@ -67,7 +50,7 @@ def read_opencv(
     """
     found: dict[str, tuple[Path, FloatArray]] = {}
     for path in files:
-        found |= {key: (path, value) for key, value in _matrices(path).items()}
+        found |= {key: (path, value) for key, value in read_matrices(path, (*_PAIR, _LENS)).items()}
     named = " and ".join(str(path) for path in files)
     _require(named, found)
     if unit is None or image_size is None:
@@ -94,27 +77,6 @@ def read_opencv(
         cameras.append(ImportedCamera(source, image_size, focal, centre, lens, T_camera_left))
     made = stereo_of(cameras[0], cameras[1], "OpenCV FileStorage", names=names)
     return made.model_copy(update={"notes": (*made.notes, *notes)})
-
-
-def _matrices(path: Path) -> dict[str, FloatArray]:
-    try:
-        storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_READ)
-    except (cv2.error, SystemError) as error:
-        raise CalibrationError(
-            f"{path} begins as a file of OpenCV's FileStorage but is damaged; write it again"
-        ) from error
-    try:
-        keys = storage.root().keys() if storage.isOpened() else []
-        nodes = {key: storage.getNode(key) for key in (*_PAIR, _LENS) if key in keys}
-        found = {key: node.mat() for key, node in nodes.items()}
-    except (cv2.error, SystemError) as error:
-        raise CalibrationError(f"{path}: a matrix in it is damaged; write it again") from error
-    finally:
-        storage.release()
-    for key, value in found.items():
-        if value is None or not np.isfinite(value).all():
-            raise CalibrationError(f"{path}: {key}: a matrix of finite numbers is needed")
-    return {key: np.asarray(value, dtype=np.float64) for key, value in found.items()}
 
 
 def _require(named: str, found: dict[str, tuple[Path, FloatArray]]) -> None:
@@ -170,6 +132,8 @@ def _five(
     design = np.concatenate([rows[0], rows[1]], axis=1).T
     to_pixels = np.diag(matrix)[:2].repeat(x.size)
     wanted = np.concatenate([bent[:, 0] - x, bent[:, 1] - y])
+    if not (np.isfinite(design).all() and np.isfinite(wanted).all()):
+        raise CalibrationError(f"{where}: coefficients that bend the picture beyond any number")
     five = np.linalg.lstsq(design, wanted, rcond=None)[0]
     worst = float(np.abs((design @ five - wanted) * to_pixels).max())
     if not worst <= WORST_PX:

@@ -6,9 +6,10 @@ from pathlib import Path
 from app.tracking.calibration.formats.fields import Fields
 from app.tracking.calibration.formats.icube import read_icube
 from app.tracking.calibration.formats.imported import NAMES
-from app.tracking.calibration.formats.opencv import is_opencv, read_opencv
+from app.tracking.calibration.formats.opencv import read_opencv
 from app.tracking.calibration.formats.own import load_calibration
 from app.tracking.calibration.formats.ros import read_ros
+from app.tracking.calibration.formats.storage import is_storage
 from app.tracking.calibration.formats.temuge import find_pair, read_temuge
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
@@ -42,7 +43,7 @@ def read_calibration(
         return _text_files(files[0], unit, image_size, names)
     if len(files) not in (1, 2):
         raise CalibrationError(f"{len(files)} files were given; {_EXPECTED}")
-    if any(is_opencv(path) for path in files):
+    if any(is_storage(path) for path in files):
         return read_opencv(files, unit=unit, image_size=image_size, names=names)
     if len(files) == 1:
         return load_calibration(files[0])
