@@ -99,7 +99,7 @@ def test_breathing_follows_the_way_the_patient_lies():
         loop = build_loop(TrainerSetup(exercise, placed, clock=clock), profile)
         loop.open()
         loop.step(8000)
-        shift = loop.rows()[:, sv.TARGET_SHIFT_X : sv.TARGET_SHIFT_Z + 1]
+        shift = loop.rows()[:, sv.TARGET_SHIFT]
         loop.close()
         assert np.ptp(shift[:, 1]) > 5e-3, "head-foot, along world y"
         anterior = shift[np.argmax(np.abs(shift[:, 2])), 2] * up

@@ -132,15 +132,15 @@ def _held_pose(profile: "DeviceProfile") -> "FloatArray":
     from app.mechanisms.pantograph import inverse, jacobian
 
     state, fulcrum = _working_state(), profile.pantograph.fulcrum
-    axis = state[sv.AXIS_X : sv.AXIS_Z + 1]
+    axis = state[sv.AXIS]
     state[sv.L_IN] = -fulcrum[2] / axis[2]
     p3 = fulcrum + state[sv.L_IN] * axis
     q = inverse(profile.pantograph, p3[:2])
     rates = jacobian(profile.pantograph, q)
-    state[sv.P3_X : sv.P3_Y + 1] = p3[:2]
+    state[sv.P3] = p3[:2]
     state[[sv.Q_LEFT, sv.Q_RIGHT]], state[[sv.QD_LEFT, sv.QD_RIGHT]] = q, (0.3, -0.2)
     state[[sv.J_XL, sv.J_XR, sv.J_YL, sv.J_YR]] = rates.ravel()
-    state[sv.P3_VX : sv.P3_VY + 1] = rates @ (0.3, -0.2)
+    state[sv.P3_V] = rates @ (0.3, -0.2)
     state[sv.PATH_Z], state[sv.ASSISTANCE], state[sv.HUB_VX] = -1.0, 0.7, 0.02
     return state
 

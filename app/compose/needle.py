@@ -31,12 +31,12 @@ def needle_scene(
     def scene(time: float) -> MarkerScene:
         row = row_at(loop, time)
         if real:
-            axis, depth = row[sv.AXIS_X : sv.AXIS_X + 3], float(row[sv.HAND_DEPTH])
+            axis, depth = row[sv.AXIS], float(row[sv.HAND_DEPTH])
             if not axis.any():  # before the first tick
                 axis = np.array(UPRIGHT)
             return MarkerScene.from_tip(geometry.fulcrum + depth * axis, axis, marker_offset)
         depth = float(row[sv.PLANT_DEPTH])
-        q = row[sv.PLANT_Q_LEFT : sv.PLANT_Q_LEFT + 2]
+        q = row[sv.PLANT_Q]
         needle = system_forward(geometry, q, geometry.needle_length - depth)
         tip = geometry.fulcrum + depth * needle.axis
         return MarkerScene.from_tip(tip, needle.axis, marker_offset)
@@ -64,7 +64,7 @@ def measured_axis(loop: Loop) -> Callable[[float], FloatArray | None]:
     def axis(time: float) -> FloatArray | None:
         row = row_at(loop, time)
         known = row[sv.TICK] > 0.0 and row[sv.KINEMATICS] == 0.0
-        return row[sv.AXIS_X : sv.AXIS_X + 3] if known else None
+        return row[sv.AXIS] if known else None
 
     return axis
 
@@ -74,6 +74,6 @@ def felt_force(loop: Loop) -> Callable[[float], FloatArray | None]:
 
     def force(time: float) -> FloatArray | None:
         row = row_at(loop, time)
-        return row[sv.FELT_X : sv.FELT_X + 3] if row[sv.TICK] > 0.0 else None
+        return row[sv.FELT] if row[sv.TICK] > 0.0 else None
 
     return force

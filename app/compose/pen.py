@@ -104,7 +104,7 @@ class Pen:
         def scene(time: float) -> PenScene:
             row = row_at(loop, time)
             depth = float(row[sv.PLANT_DEPTH])
-            q = row[sv.PLANT_Q_LEFT : sv.PLANT_Q_LEFT + 2]
+            q = row[sv.PLANT_Q]
             axis = system_forward(geometry, q, geometry.needle_length - depth).axis
             p_tip = geometry.fulcrum + depth * axis
             return PenScene(body_pose(p_tip, axis, tip.p_tip, tip.axis, _ROLL), p_tip)

@@ -5,7 +5,10 @@ Device and simulation both build on these names, and only on these; a stage is
 the start of every tick from the inbox that other threads write, so they are also exactly what a
 recording needs for a replay. All values are SI, in `world` unless said otherwise.
 
-A slot is added by adding a line; nothing else counts them.
+A slot is added by adding a line; nothing else counts them. What a slot belongs to is said in its
+own line, never by its place: `_input`, `_sum`, or an ordinary slot. Vectors are slices that are
+named below their slots. Code loops over `SUMS` and slices by `AXIS`, never from one slot to
+another. Lines may therefore be moved: nothing changes by it, or this import fails and says why.
 """
 
 from itertools import count
@@ -16,32 +19,71 @@ import numpy as np
 from app.core.arrays import FloatArray
 
 _next = count()
+_inputs: list[int] = []
+_sums: list[int] = []
+
+
+def _input() -> int:
+    """Return the place of a new input; inputs are copied as one block, so they stand first."""
+    slot = next(_next)
+    if slot != len(_inputs):
+        raise ImportError(
+            f"state_vector: the input at place {slot} stands below a slot that is none; move its"
+            " line up among the inputs"
+        )
+    _inputs.append(slot)
+    return slot
+
+
+def _sum() -> int:
+    """Return the place of a new sum that force laws and effects add to in every tick."""
+    _sums.append(next(_next))
+    return _sums[-1]
+
+
+def _end_of_inputs() -> int:
+    """Return the number of inputs, which is the place of a slot that nobody uses."""
+    slot = next(_next)
+    if slot != len(_inputs):
+        raise ImportError("state_vector: INPUTS does not stand directly below the last input")
+    return slot
+
+
+def _vector(*slots: int) -> slice:
+    """Return a vector's slots, which must stand one below the other in this order."""
+    if slots != tuple(range(slots[0], slots[0] + len(slots))):
+        raise ImportError(
+            f"state_vector: the parts of a vector lie at the places {slots}; put their lines one"
+            " below the other, in the order x, y, z or left, right"
+        )
+    return slice(slots[0], slots[-1] + 1)
+
 
 # --- inputs: written by other threads through the inbox -------------------------------------------
-ASSISTANCE: Final = next(_next)  # [-] 1 full guidance ... 0 nothing ... -1 full repulsion
-ENABLED: Final = next(_next)  # [-] 1 while forces are armed
-HEARTBEAT: Final = next(_next)  # [s] monotonic time of the window's last sign of life
-PATH_X: Final = next(_next)  # [-] wanted needle direction, hub to tip, unit vector
-PATH_Y: Final = next(_next)
-PATH_Z: Final = next(_next)
-TARGET_X: Final = next(_next)  # [m] target at rest (no breathing)
-TARGET_Y: Final = next(_next)
-TARGET_Z: Final = next(_next)
-TRACKED_DEPTH: Final = next(_next)  # [m] depth of the tip beyond the fulcrum by the cameras
-TRACKED_TIME: Final = next(_next)  # [s] capture time of that fix; 0 before the first
-TRACKED_VARIANCE: Final = next(_next)  # [m²]
-HAND_X: Final = next(_next)  # [-] x of the needle direction that the simulated hand wants
-HAND_Y: Final = next(_next)  # [-] y of it
-HAND_DEPTH: Final = next(_next)  # [m] depth that the simulated hand wants
-HAND_HOLDS: Final = next(_next)  # [-] 1 while the simulated hand holds the needle
-HOMED: Final = next(_next)  # [-] 1 once encoders are homed and signs checked in this power cycle
-FORCE_CAP: Final = next(_next)  # [N] largest force at the hand that this device is cleared for
-TEST_X: Final = next(_next)  # [N] force at the hub point that a service routine asks for
-TEST_Y: Final = next(_next)
-TEST_Z: Final = next(_next)
-TEST_LEFT: Final = next(_next)  # [N·m] joint torques that a service routine asks for
-TEST_RIGHT: Final = next(_next)
-INPUTS: Final = next(_next)  # number of input slots (and a spare slot)
+ASSISTANCE: Final = _input()  # [-] 1 full guidance ... 0 nothing ... -1 full repulsion
+ENABLED: Final = _input()  # [-] 1 while forces are armed
+HEARTBEAT: Final = _input()  # [s] monotonic time of the window's last sign of life
+PATH_X: Final = _input()  # [-] wanted needle direction, hub to tip, unit vector
+PATH_Y: Final = _input()
+PATH_Z: Final = _input()
+TARGET_X: Final = _input()  # [m] target at rest (no breathing)
+TARGET_Y: Final = _input()
+TARGET_Z: Final = _input()
+TRACKED_DEPTH: Final = _input()  # [m] depth of the tip beyond the fulcrum by the cameras
+TRACKED_TIME: Final = _input()  # [s] capture time of that fix; 0 before the first
+TRACKED_VARIANCE: Final = _input()  # [m²]
+HAND_X: Final = _input()  # [-] x of the needle direction that the simulated hand wants
+HAND_Y: Final = _input()  # [-] y of it
+HAND_DEPTH: Final = _input()  # [m] depth that the simulated hand wants
+HAND_HOLDS: Final = _input()  # [-] 1 while the simulated hand holds the needle
+HOMED: Final = _input()  # [-] 1 once encoders are homed and signs checked in this power cycle
+FORCE_CAP: Final = _input()  # [N] largest force at the hand that this device is cleared for
+TEST_X: Final = _input()  # [N] force at the hub point that a service routine asks for
+TEST_Y: Final = _input()
+TEST_Z: Final = _input()
+TEST_LEFT: Final = _input()  # [N·m] joint torques that a service routine asks for
+TEST_RIGHT: Final = _input()
+INPUTS: Final = _end_of_inputs()  # number of input slots (and a spare slot)
 
 # --- time -----------------------------------------------------------------------------------------
 TIME: Final = next(_next)  # [s] monotonic time of the tick
@@ -50,9 +92,7 @@ TICK: Final = next(_next)  # [-] number of the tick
 LATENESS: Final = next(_next)  # [s] wake-up after the deadline
 MISSED: Final = next(_next)  # [-] deadlines missed so far
 TICK_COST: Final = next(_next)  # [s] time that the stages of this tick took; 0 on a virtual clock
-INPUT_FAULT: Final = next(
-    _next
-)  # [-] number of inputs that were not finite and kept their last value
+INPUT_FAULT: Final = next(_next)  # [-] inputs that were not finite and kept their last value
 
 # --- the wire: written by a link's read stages --------------------------------------------------
 LINK_STATUS: Final = next(_next)  # [-] 0 fine, else a `device.links.link.LinkStatus`
@@ -99,18 +139,18 @@ ANGLE_ERROR: Final = next(_next)  # [rad] between needle and path
 
 
 # --- forces ---------------------------------------------------------------------------------------
-FORCE_X: Final = next(_next)  # [N] wanted at the hub point: sum over force laws and effects
-FORCE_Y: Final = next(_next)
-FORCE_Z: Final = next(_next)
-GUIDE_X: Final = next(_next)  # [N] the force laws' share of it
-GUIDE_Y: Final = next(_next)
-GUIDE_Z: Final = next(_next)
-JOINT_LEFT: Final = next(_next)  # [N·m] joint torques wanted beside FORCE_*: compensation, service
-JOINT_RIGHT: Final = next(_next)
-POTENTIAL: Final = next(_next)  # [J] stored energy behind FORCE_*: sum over force laws and effects
-GAIN_WORK: Final = next(_next)  # [J] share of POTENTIAL that changes of gain added in this tick
-FRICTION_WORK: Final = next(_next)  # [J] let out in this tick for the joints' friction to take
-AXIAL_FORCE: Final = next(_next)  # [N] tissue on needle along the axis; positive pushes the tip out
+FORCE_X: Final = _sum()  # [N] wanted at the hub point: sum over force laws and effects
+FORCE_Y: Final = _sum()
+FORCE_Z: Final = _sum()
+GUIDE_X: Final = _sum()  # [N] the force laws' share of it
+GUIDE_Y: Final = _sum()
+GUIDE_Z: Final = _sum()
+JOINT_LEFT: Final = _sum()  # [N·m] joint torques wanted beside FORCE_*: compensation, service
+JOINT_RIGHT: Final = _sum()
+POTENTIAL: Final = _sum()  # [J] stored energy behind FORCE_*: sum over force laws and effects
+GAIN_WORK: Final = _sum()  # [J] share of POTENTIAL that changes of gain added in this tick
+FRICTION_WORK: Final = _sum()  # [J] let out in this tick for the joints' friction to take
+AXIAL_FORCE: Final = _sum()  # [N] tissue on needle along the axis; positive pushes the tip out
 FELT_X: Final = next(_next)  # [N] at the hub point after all limits (estimated from torques)
 FELT_Y: Final = next(_next)
 FELT_Z: Final = next(_next)
@@ -149,6 +189,32 @@ TRAINEE_PHASE: Final = next(_next)  # [-] phase of the scripted trainee; 0 none,
 
 SLOTS: Final = next(_next)
 """Length of the state vector."""
+
+# --- blocks ---------------------------------------------------------------------------------------
+SUMS: Final = tuple(_sums)
+"""What force laws and effects add to: cleared before them in every tick, checked after them."""
+
+PATH: Final = _vector(PATH_X, PATH_Y, PATH_Z)
+TARGET: Final = _vector(TARGET_X, TARGET_Y, TARGET_Z)
+TEST: Final = _vector(TEST_X, TEST_Y, TEST_Z)
+Q: Final = _vector(Q_LEFT, Q_RIGHT)
+QD: Final = _vector(QD_LEFT, QD_RIGHT)
+P3: Final = _vector(P3_X, P3_Y)
+P3_V: Final = _vector(P3_VX, P3_VY)
+JACOBIAN: Final = _vector(J_XL, J_XR, J_YL, J_YR)
+AXIS: Final = _vector(AXIS_X, AXIS_Y, AXIS_Z)
+HUB: Final = _vector(HUB_X, HUB_Y, HUB_Z)
+HUB_V: Final = _vector(HUB_VX, HUB_VY, HUB_VZ)
+TIP: Final = _vector(TIP_X, TIP_Y, TIP_Z)
+FORCE: Final = _vector(FORCE_X, FORCE_Y, FORCE_Z)
+GUIDE: Final = _vector(GUIDE_X, GUIDE_Y, GUIDE_Z)
+JOINT: Final = _vector(JOINT_LEFT, JOINT_RIGHT)
+FELT: Final = _vector(FELT_X, FELT_Y, FELT_Z)
+TORQUE: Final = _vector(TORQUE_LEFT, TORQUE_RIGHT)
+TARGET_SHIFT: Final = _vector(TARGET_SHIFT_X, TARGET_SHIFT_Y, TARGET_SHIFT_Z)
+PLANT_Q: Final = _vector(PLANT_Q_LEFT, PLANT_Q_RIGHT)
+PLANT_QD: Final = _vector(PLANT_QD_LEFT, PLANT_QD_RIGHT)
+PULL: Final = _vector(PULL_X, PULL_Y, PULL_Z)
 
 INDEX: Final[dict[str, int]] = {
     name.lower(): value

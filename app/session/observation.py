@@ -120,7 +120,7 @@ def observe(
         pose = _no_device(placed, now, last, missing)
     else:
         pose = fuse(device, fixes.usable(), now, last)
-        shift = device.row[slots.TARGET_SHIFT_X : slots.TARGET_SHIFT_X + 3]
+        shift = device.row[slots.TARGET_SHIFT]
         if np.isfinite(shift).all():
             p_target = read_only(placed.p_target + shift)
     status, residual = fixes.status(now)

@@ -39,9 +39,7 @@ def states() -> list[FloatArray]:
         tilt, azimuth = rng.uniform(0.0, PROFILE.tilt_limit), rng.uniform(-np.pi, np.pi)
         reach = GEOMETRY.fulcrum[2] * np.tan(tilt) * np.array([np.cos(azimuth), np.sin(azimuth)])
         state = sv.empty_state()
-        state[sv.Q_LEFT : sv.Q_RIGHT + 1] = pantograph.inverse(
-            GEOMETRY, GEOMETRY.fulcrum[:2] + reach
-        )
+        state[sv.Q] = pantograph.inverse(GEOMETRY, GEOMETRY.fulcrum[:2] + reach)
         state[[sv.QD_LEFT, sv.QD_RIGHT]] = rng.uniform(-0.5, 0.5, 2)
         state[[sv.ENABLED, sv.ASSISTANCE, sv.ARMING, sv.HOMED]] = 1.0
         state[sv.FORCE_CAP] = PROFILE.limits.hand_force
@@ -93,12 +91,10 @@ def main() -> None:
             start = perf_counter()
             kernel.repeat(state, functions, parameters, CALLS)
             compiled.append((perf_counter() - start) / CALLS)
-    path = rows[0][sv.PATH_X : sv.PATH_Z + 1]
+    path = rows[0][sv.PATH]
     for row in rows[:20]:
-        numpy_tick(row[sv.Q_LEFT : sv.Q_RIGHT + 1], path)
-    peer = [
-        seconds(lambda row=row: numpy_tick(row[sv.Q_LEFT : sv.Q_RIGHT + 1], path)) for row in rows
-    ]
+        numpy_tick(row[sv.Q], path)
+    peer = [seconds(lambda row=row: numpy_tick(row[sv.Q], path)) for row in rows]
     ours_us, p99_us = np.percentile(compiled, (50, 99)) * 1e6
     peer_us, peer_p99_us = np.percentile(peer, (50, 99)) * 1e6
     print(f"{'':28}{'median':>10}{'p99':>10}   [µs], {POSES} poses, {CHUNKS} x {CALLS} ticks each")

@@ -72,7 +72,7 @@ def main(profile: DeviceProfile) -> None:
         for item in loop.table:
             print(f"  {item.name:26}{stage_cost(item.function, item.parameters, row) * 1e6:10.3f}")
     median, p99 = np.percentile(costs[20:], (50, 99))
-    felt = np.linalg.norm(row[sv.FELT_X : sv.FELT_Z + 1])
+    felt = np.linalg.norm(row[sv.FELT])
     verdict = "reached" if median <= LIMIT_US else "NOT reached"
     print(f"{'whole tick, recorded':28}{median:10.3f}{p99:10.3f}   felt {felt:.2f} N")
     print(f"to reach: at most {LIMIT_US} µs with {', '.join(requests())}, guard, FOAW: {verdict}")

@@ -46,11 +46,11 @@ def pose(d: Any, depth: float = 0.06, velocity: Any = (0.0, 0.0, 0.0), **slots: 
     state = sv.empty_state()
     length = PROFILE.geometry.needle_length
     state[sv.DT], state[sv.TIME] = 1e-3, 5.0
-    state[sv.AXIS_X : sv.AXIS_Z + 1] = d
+    state[sv.AXIS] = d
     state[sv.L_OUT], state[sv.DEPTH] = length - depth, depth
-    state[sv.HUB_X : sv.HUB_Z + 1] = FULCRUM - (length - depth) * np.array(d)
-    state[sv.TIP_X : sv.TIP_Z + 1] = FULCRUM + depth * np.array(d)
-    state[sv.HUB_VX : sv.HUB_VZ + 1] = velocity
+    state[sv.HUB] = FULCRUM - (length - depth) * np.array(d)
+    state[sv.TIP] = FULCRUM + depth * np.array(d)
+    state[sv.HUB_V] = velocity
     for name, value in slots.items():
         state[sv.INDEX[name]] = value
     return state
@@ -58,7 +58,7 @@ def pose(d: Any, depth: float = 0.06, velocity: Any = (0.0, 0.0, 0.0), **slots: 
 
 def with_joints(state: FloatArray, qd: Any = (0.0, 0.0)) -> FloatArray:
     """Fill in motor angles, tool point, Jacobian and velocities for the state's direction."""
-    d = state[sv.AXIS_X : sv.AXIS_Z + 1]
+    d = state[sv.AXIS]
     l_in = -FULCRUM[2] / d[2]
     p3 = FULCRUM + l_in * d
     q = inverse(GEOMETRY, p3[:2])
@@ -72,7 +72,7 @@ def with_joints(state: FloatArray, qd: Any = (0.0, 0.0)) -> FloatArray:
     state[sv.P3_VX], state[sv.P3_VY] = v
     state[sv.L_IN] = l_in
     hub = -(state[sv.L_OUT] / l_in) * (np.array([*v, 0.0]) - d * (d[:2] @ v))
-    state[sv.HUB_VX : sv.HUB_VZ + 1] = hub
+    state[sv.HUB_V] = hub
     return state
 
 
@@ -92,8 +92,8 @@ class OneLaw:
     def force(self, state: FloatArray) -> FloatArray:
         """Force of one tick at the hub [N]."""
         done = self.run(state)
-        force = done[sv.FORCE_X : sv.FORCE_Z + 1]
-        assert force.tolist() == done[sv.GUIDE_X : sv.GUIDE_Z + 1].tolist()
+        force = done[sv.FORCE]
+        assert force.tolist() == done[sv.GUIDE].tolist()
         return force
 
     def energy(self, state: FloatArray) -> float:
@@ -105,8 +105,8 @@ class OneLaw:
         energies = []
         for s in (step, -step):
             turned = state.copy()
-            d = state[sv.AXIS_X : sv.AXIS_Z + 1] - s / state[sv.L_OUT] * direction
-            turned[sv.AXIS_X : sv.AXIS_Z + 1] = d / np.linalg.norm(d)
+            d = state[sv.AXIS] - s / state[sv.L_OUT] * direction
+            turned[sv.AXIS] = d / np.linalg.norm(d)
             if state[sv.L_IN] != 0.0:
                 turned = with_joints(turned)
             energies.append(self.energy(turned))

@@ -16,8 +16,8 @@ forces = st.floats(-3.0, 3.0)
 
 def through(force, joint, law=ForceLaw.VIRTUAL_WORK):
     state = with_joints(pose(leaning(0.3, 0.8), 0.05))
-    d = state[sv.AXIS_X : sv.AXIS_Z + 1]
-    state[sv.FORCE_X : sv.FORCE_Z + 1] = np.array(force) - d * np.dot(d, force)
+    d = state[sv.AXIS]
+    state[sv.FORCE] = np.array(force) - d * np.dot(d, force)
     state[[sv.JOINT_LEFT, sv.JOINT_RIGHT]] = joint
     _, function, parameters = Transmission.of(PROFILE, law).stage()
     function(state, parameters)
@@ -29,7 +29,7 @@ def through(force, joint, law=ForceLaw.VIRTUAL_WORK):
 def test_the_sum_is_scaled_as_one(force, joint):
     state, sent = through(force, joint)
     needle = system_forward(GEOMETRY, state[[sv.Q_LEFT, sv.Q_RIGHT]], float(state[sv.L_OUT]))
-    across = state[sv.FORCE_X : sv.FORCE_Z + 1]
+    across = state[sv.FORCE]
     across = across * min(1.0, PROFILE.limits.hand_force / max(np.linalg.norm(across), 1e-300))
     matrix = jacobian(GEOMETRY, state[[sv.Q_LEFT, sv.Q_RIGHT]])
     wanted = joint_torques(matrix, force_map(needle, across)) + np.array(joint)

@@ -121,7 +121,7 @@ def test_a_hand_in_normal_motion_keeps_the_whole_force(name, depth, force):
             rig.hold(direction(0.45 - 0.08 * 1e-3 * k / lever, 0.5))
             rig.step(1)
         rows = rig.loop.rows()[-550:]
-    assert np.linalg.norm(rows[:, sv.FELT_X : sv.FELT_Z + 1], axis=1).max() > force
+    assert np.linalg.norm(rows[:, sv.FELT], axis=1).max() > force
     assert rows[:, sv.LET_GO_SCALE].min() == 1.0
     assert not rows[:, sv.FAULT].any()
 

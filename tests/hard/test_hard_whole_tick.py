@@ -26,7 +26,7 @@ def held(stiffness: float = 1.0) -> LetGoRig:
 
 def assert_bounded(rows) -> None:
     assert np.isfinite(rows).all()
-    assert np.linalg.norm(rows[:, sv.FELT_X : sv.FELT_Z + 1], axis=1).max() <= LIMIT + 1e-9
+    assert np.linalg.norm(rows[:, sv.FELT], axis=1).max() <= LIMIT + 1e-9
     assert np.abs(rows[:, SENT]).max() <= PROFILE.limits.joint_torque + 1e-12
 
 

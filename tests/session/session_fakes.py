@@ -58,10 +58,10 @@ def row(
     state[sv.TIME] = state[sv.Q_TIME] = time
     state[sv.TICK] = tick
     state[sv.DT] = 0.001
-    state[sv.AXIS_X : sv.AXIS_X + 3] = axis
+    state[sv.AXIS] = axis
     state[sv.DEPTH] = depth
-    state[sv.TIP_X : sv.TIP_X + 3] = FULCRUM + depth * axis
-    state[sv.HUB_X : sv.HUB_X + 3] = FULCRUM - (0.2 - depth) * axis
+    state[sv.TIP] = FULCRUM + depth * axis
+    state[sv.HUB] = FULCRUM - (0.2 - depth) * axis
     state[sv.LIMIT_SCALE] = state[sv.SAFETY_SCALE] = 1.0
     for name, value in slots.items():
         state[sv.INDEX[name]] = value

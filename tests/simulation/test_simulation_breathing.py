@@ -18,7 +18,7 @@ def shifts(times: FloatArray, **parameters: float) -> FloatArray:
         state = sv.empty_state()
         state[sv.TIME] = time
         effect.step(state, memory)
-        rows.append(state[sv.TARGET_SHIFT_X : sv.TARGET_SHIFT_Z + 1].copy())
+        rows.append(state[sv.TARGET_SHIFT].copy())
     return np.array(rows)
 
 

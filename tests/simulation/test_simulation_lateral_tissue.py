@@ -30,10 +30,10 @@ def leaning(tilt: float, azimuth: float = 0.3) -> FloatArray:
 def tick(memory: FloatArray, axis: FloatArray, depth: float, source: float = 1.0) -> FloatArray:
     """Force at the hub [N] after one tick."""
     state = sv.empty_state()
-    state[sv.AXIS_X : sv.AXIS_Z + 1] = axis
+    state[sv.AXIS] = axis
     state[sv.DEPTH], state[sv.L_OUT], state[sv.DEPTH_SOURCE] = depth, LENGTH - depth, source
     effect.step(state, memory)
-    return state[sv.FORCE_X : sv.FORCE_Z + 1].copy()
+    return state[sv.FORCE].copy()
 
 
 def test_the_moment_about_the_fulcrum_is_the_sum_over_layers_of_k_cubes_over_three() -> None:
@@ -178,7 +178,7 @@ def test_nothing_is_added_without_valid_kinematics(
 ) -> None:
     tick(memory, leaning(0.0), 0.06)
     state = sv.empty_state()
-    state[sv.AXIS_X : sv.AXIS_Z + 1] = leaning(0.2)
+    state[sv.AXIS] = leaning(0.2)
     state[sv.DEPTH], state[sv.L_OUT], state[sv.KINEMATICS] = 0.06, 0.14, 1.0
     effect.step(state, memory)
-    assert not state[sv.FORCE_X : sv.FORCE_Z + 1].any()
+    assert not state[sv.FORCE].any()

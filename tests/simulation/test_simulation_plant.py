@@ -21,7 +21,7 @@ from app.simulation.plant import Hand, Surroundings, initial_plant, plant_stage
 
 PROFILE = load_profile("icube")
 DOWN = np.array([0.0, 0.0, -1.0])
-Q, QD = slice(sv.PLANT_Q_LEFT, sv.PLANT_Q_RIGHT + 1), slice(sv.PLANT_QD_LEFT, sv.PLANT_QD_RIGHT + 1)
+Q, QD = sv.PLANT_Q, sv.PLANT_QD
 
 
 def begin(axis: FloatArray = DOWN, depth: float = 0.0) -> FloatArray:
@@ -120,7 +120,7 @@ def test_the_hand_turns_the_needle_to_where_it_wants() -> None:
     # Coulomb friction of the joints and the seal leave a small part of the way.
     assert angle_between(axis_of(state), wanted) < np.deg2rad(0.3)
     assert state[sv.PLANT_DEPTH] == pytest.approx(0.03, abs=0.3e-3)
-    pull = rows[0, sv.PULL_X : sv.PULL_Z + 1]
+    pull = rows[0, sv.PULL]
     assert abs(pull @ axis_of(rows[0])) < 1e-9
 
 
@@ -129,7 +129,7 @@ def test_the_pull_of_the_hand_balances_the_robot_in_rest() -> None:
     grip(state, DOWN, 0.02)
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = 0.06, 0.02
     run(plant_stage(profile), state, 4000)
-    pull, axis = state[sv.PULL_X : sv.PULL_Z + 1], axis_of(state)
+    pull, axis = state[sv.PULL], axis_of(state)
     geometry, depth = profile.pantograph, float(state[sv.PLANT_DEPTH])
     needle = needle_at(geometry, forward(geometry, state[Q]), geometry.needle_length - depth)
     torque = joint_torques(jacobian(geometry, state[Q]), force_map(needle, pull))

@@ -41,7 +41,7 @@ def begin(assistance: float) -> FloatArray:
     start = initial_plant(PROFILE, (0.0, 0.0, -1.0), -0.015)
     for name, value in start.items():
         state[sv.INDEX[name]] = value
-    state[sv.PATH_X : sv.PATH_Z + 1] = AXIS
+    state[sv.PATH] = AXIS
     state[sv.HOMED], state[sv.FORCE_CAP] = 1.0, PROFILE.limits.hand_force
     state[sv.ASSISTANCE], state[sv.ENABLED], state[sv.DT] = assistance, 1.0, 1e-3
     return state
@@ -71,7 +71,7 @@ def attempt(skill: str, seed: int, assistance: float) -> FloatArray:
 def miss(rows: FloatArray) -> tuple[float, float]:
     """Distance of the true tip from the target: across the path and along it [m]."""
     last = rows[-1]
-    tip = PROFILE.pantograph.fulcrum + last[sv.PLANT_DEPTH] * last[sv.AXIS_X : sv.AXIS_Z + 1]
+    tip = PROFILE.pantograph.fulcrum + last[sv.PLANT_DEPTH] * last[sv.AXIS]
     error = tip - PROFILE.pantograph.fulcrum - DEPTH * AXIS
     along = float(error @ AXIS)
     return float(np.linalg.norm(error - along * AXIS)), along
@@ -99,9 +99,9 @@ def test_a_run_is_the_same_twice(guided_expert: FloatArray) -> None:
 
 def test_nothing_ever_is_not_a_number_or_beyond_the_limits(guided_expert: FloatArray) -> None:
     assert np.isfinite(guided_expert).all()
-    felt = np.linalg.norm(guided_expert[:, sv.FELT_X : sv.FELT_Z + 1], axis=1)
+    felt = np.linalg.norm(guided_expert[:, sv.FELT], axis=1)
     assert felt.max() <= PROFILE.limits.hand_force * 1.01
-    torques = guided_expert[:, sv.TORQUE_LEFT : sv.TORQUE_RIGHT + 1]
+    torques = guided_expert[:, sv.TORQUE]
     assert np.abs(torques).max() <= PROFILE.limits.joint_torque * (1.0 + 1e-12)
 
 
@@ -113,7 +113,7 @@ def test_the_hand_feels_the_friction_of_the_shaft(guided_expert: FloatArray) -> 
 
 
 def test_the_target_breathes(guided_expert: FloatArray) -> None:
-    shift = guided_expert[:, sv.TARGET_SHIFT_X : sv.TARGET_SHIFT_Z + 1]
+    shift = guided_expert[:, sv.TARGET_SHIFT]
     assert np.linalg.norm(shift, axis=1).max() == pytest.approx(0.0125, abs=5e-4)
 
 

@@ -205,7 +205,7 @@ class Routine(ABC):
 
     def _angles(self, since: int) -> FloatArray:
         """Joint angles [rad] of the finite readings since a tick, shape (n, 2)."""
-        angles = self._loop.rows(since)[:, sv.Q_LEFT : sv.Q_RIGHT + 1]
+        angles = self._loop.rows(since)[:, sv.Q]
         return angles[np.isfinite(angles).all(axis=1)]
 
     @property

@@ -2,14 +2,13 @@
 
 from dataclasses import dataclass
 from math import atan2, isfinite
-from typing import Any
-
-import numpy as np
+from typing import Any, Final, NamedTuple
 
 from app.core import staleness
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.device.control.vectors import norm_kernel, unit_kernel
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph.kernels import (
@@ -21,23 +20,27 @@ from app.mechanisms.pantograph.kernels import (
 from app.mechanisms.pantograph.status import OK
 from app.mechanisms.profile import DeviceProfile
 
-(
-    _A1,
-    _A2,
-    _BASE,
-    _FX,
-    _FY,
-    _FZ,
-    _LENGTH,
-    _FRESH,
-    _HOLD,
-    _BLEND,
-    _L_OUT_MIN,
-    _STARTED,
-    _WEIGHT,
-    _HELD,
-    _SIZE,
-) = range(15)
+
+class _Places(NamedTuple):
+    """Lengths of the mechanism [m], the limits of `Kinematics`, and memory."""
+
+    a1: int
+    a2: int
+    base: int
+    fx: int
+    fy: int
+    fz: int
+    length: int
+    fresh: int
+    hold: int
+    blend: int
+    l_out_min: int
+    started: int = 0
+    weight: int = 0
+    held: int = 0
+
+
+_AT: Final = numbered(_Places)
 
 MODEL, TRACKED, HELD = 0, 1, 2
 """Values of the slot `DEPTH_SOURCE`."""
@@ -45,7 +48,7 @@ MODEL, TRACKED, HELD = 0, 1, 2
 
 @njit
 def _clear_forces(state: FloatArray) -> None:
-    for slot in range(sv.FORCE_X, sv.AXIAL_FORCE + 1):  # POTENTIAL and JOINT_* lie between them
+    for slot in sv.SUMS:
         state[slot] = 0.0
 
 
@@ -57,27 +60,27 @@ def _length_outside(state: FloatArray, p: FloatArray, l_in: float) -> float:
     age = abs(state[sv.TIME] - state[sv.TRACKED_TIME])
     depth = state[sv.TRACKED_DEPTH]
     source = MODEL
-    if state[sv.TRACKED_TIME] != 0.0 and isfinite(depth) and age < p[_HOLD]:
-        source = TRACKED if age < p[_FRESH] else HELD
-        p[_HELD] = depth
+    if state[sv.TRACKED_TIME] != 0.0 and isfinite(depth) and age < p[_AT.hold]:
+        source = TRACKED if age < p[_AT.fresh] else HELD
+        p[_AT.held] = depth
     goal = 0.0 if source == MODEL else 1.0
-    step = state[sv.DT] / p[_BLEND] if p[_STARTED] != 0.0 else 1.0
-    weight = p[_WEIGHT]
+    step = state[sv.DT] / p[_AT.blend] if p[_AT.started] != 0.0 else 1.0
+    weight = p[_AT.weight]
     weight += min(max(goal - weight, -step), step)
-    p[_WEIGHT] = weight
-    p[_STARTED] = 1.0
-    model = p[_LENGTH] - l_in
-    l_out = model + weight * (p[_LENGTH] - p[_HELD] - model)
+    p[_AT.weight] = weight
+    p[_AT.started] = 1.0
+    model = p[_AT.length] - l_in
+    l_out = model + weight * (p[_AT.length] - p[_AT.held] - model)
     state[sv.DEPTH_SOURCE] = source
-    return max(l_out, p[_L_OUT_MIN])
+    return max(l_out, p[_AT.l_out_min])
 
 
 @njit
 def _place_needle(state: FloatArray, p: FloatArray, x: float, y: float) -> None:
-    fx, fy, fz = p[_FX], p[_FY], p[_FZ]
+    fx, fy, fz = p[_AT.fx], p[_AT.fy], p[_AT.fz]
     dx, dy, dz, l_in = axis_kernel(x, y, fx, fy, fz)
     l_out = _length_outside(state, p, l_in)
-    depth = p[_LENGTH] - l_out
+    depth = p[_AT.length] - l_out
     state[sv.P3_X], state[sv.P3_Y] = x, y
     state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z] = dx, dy, dz
     state[sv.L_IN], state[sv.L_OUT], state[sv.DEPTH] = l_in, l_out, depth
@@ -114,7 +117,7 @@ def kinematics_stage(state: FloatArray, p: FloatArray) -> None:
     """
     _clear_forces(state)
     q1, q2 = state[sv.Q_LEFT], state[sv.Q_RIGHT]
-    a1, a2, base = p[_A1], p[_A2], p[_BASE]
+    a1, a2, base = p[_AT.a1], p[_AT.a2], p[_AT.base]
     status, x, y = forward_kernel(q1, q2, a1, a2, base, 1.0)
     jxl = jxr = jyl = jyr = 0.0
     if status == OK:
@@ -127,7 +130,7 @@ def kinematics_stage(state: FloatArray, p: FloatArray) -> None:
         _set_velocities(state, jxl * v1 + jxr * v2, jyl * v1 + jyr * v2)
     else:
         if state[sv.L_IN] == 0.0:  # no valid pose yet: a vertical needle
-            _place_needle(state, p, p[_FX], p[_FY])
+            _place_needle(state, p, p[_AT.fx], p[_AT.fy])
         _set_velocities(state, 0.0, 0.0)
     state[sv.ANGLE_ERROR] = angle_error_kernel(
         state[sv.AXIS_X],
@@ -164,13 +167,20 @@ class Kinematics:
 
     def stage(self) -> tuple[str, Any, FloatArray]:
         """Return the stage for a loop's table, with memory of its own."""
-        parameters = np.zeros(_SIZE)
-        parameters[:_LENGTH] = (*self.geometry.links, *self.geometry.fulcrum_xyz)
-        parameters[_LENGTH:_STARTED] = (
-            self.geometry.needle_length,
-            self.fresh,
-            self.hold,
-            self.blend,
-            self.l_out_min,
+        a1, a2, base = self.geometry.links
+        fx, fy, fz = self.geometry.fulcrum_xyz
+        parameters = packed(
+            _AT,
+            a1=a1,
+            a2=a2,
+            base=base,
+            fx=fx,
+            fy=fy,
+            fz=fz,
+            length=self.geometry.needle_length,
+            fresh=self.fresh,
+            hold=self.hold,
+            blend=self.blend,
+            l_out_min=self.l_out_min,
         )
         return "kinematics", kinematics_stage, parameters

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from math import isfinite
-from typing import Any
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
@@ -10,6 +10,7 @@ from app.core import staleness
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.device.control.limits import (
     cap,
     fade,
@@ -47,23 +48,27 @@ _OF_STATUS = np.array(
     dtype=np.int64,
 )
 
-(
-    _HAND_LIMIT,
-    _TORQUE_LIMIT,
-    _FADE_FROM,
-    _FADE_TO,
-    _HEARTBEAT,
-    _ARMING,
-    _SLEW,
-    _TILT,
-    _TILT_MARGIN,
-    _CHECK_FORCE,
-    _CHECK_TORQUE,
-    _LAST_LEFT,
-    _LAST_RIGHT,
-    _LATCHED,
-    _SIZE,
-) = range(15)
+
+class _Places(NamedTuple):
+    """Limits and time-outs of `Safety`, and memory."""
+
+    hand_limit: int
+    torque_limit: int
+    fade_from: int
+    fade_to: int
+    heartbeat: int
+    arming: int
+    slew: int
+    tilt: int
+    tilt_margin: int
+    check_force: int
+    check_torque: int
+    last_left: int = 0
+    last_right: int = 0
+    latched: int = 0
+
+
+_AT: Final = numbered(_Places)
 
 
 @njit
@@ -78,7 +83,7 @@ def _data_fault(state: FloatArray) -> int:
     if status != OK:
         return _OF_STATUS[min(max(status, 0), len(_OF_STATUS) - 1)]
     forces = 0.0 * (state[sv.TORQUE_LEFT] + state[sv.TORQUE_RIGHT])
-    for slot in range(sv.FORCE_X, sv.AXIAL_FORCE + 1):
+    for slot in sv.SUMS:
         forces += 0.0 * state[slot]
     return _FORCE_NOT_FINITE if forces != 0.0 else 0
 
@@ -97,10 +102,10 @@ def _latching_fault(state: FloatArray) -> int:
 def _fault(state: FloatArray, p: FloatArray, armed: bool, freshness: float) -> int:
     latching = _latching_fault(state)
     if not armed:
-        p[_LATCHED] = 0.0
+        p[_AT.latched] = 0.0
     elif latching != 0:
-        p[_LATCHED] = latching
-    fault = latching if latching != 0 else int(p[_LATCHED])
+        p[_AT.latched] = latching
+    fault = latching if latching != 0 else int(p[_AT.latched])
     if fault == 0:
         fault = _data_fault(state)
     if fault == 0 and freshness == 0.0:
@@ -108,14 +113,14 @@ def _fault(state: FloatArray, p: FloatArray, armed: bool, freshness: float) -> i
     if fault == 0 and armed:
         if not state[sv.HOMED] >= 0.25:
             fault = _NOT_HOMED
-        elif not abs(state[sv.TIME] - state[sv.HEARTBEAT]) <= p[_HEARTBEAT]:
+        elif not abs(state[sv.TIME] - state[sv.HEARTBEAT]) <= p[_AT.heartbeat]:
             fault = _HEARTBEAT_LOST
     return fault
 
 
 @njit
 def _drop_bad_forces(state: FloatArray) -> None:
-    for slot in range(sv.FORCE_X, sv.AXIAL_FORCE + 1):
+    for slot in sv.SUMS:
         if not isfinite(state[slot]):
             state[slot] = 0.0
 
@@ -131,8 +136,8 @@ def _send(state: FloatArray, p: FloatArray, left: float, right: float) -> None:
         return
     dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
     tilt = tilt_kernel(dx, dy, dz)
-    if tilt > p[_TILT]:
-        gx, gy = inwards(gx, gy, dx, dy, tilt, p[_TILT], p[_TILT_MARGIN])
+    if tilt > p[_AT.tilt]:
+        gx, gy = inwards(gx, gy, dx, dy, tilt, p[_AT.tilt], p[_AT.tilt_margin])
         before = abs(left) + abs(right)
         left, right = torque_kernel(gx, gy, jxl, jxr, jyl, jyr)
         after = abs(left) + abs(right)
@@ -141,13 +146,15 @@ def _send(state: FloatArray, p: FloatArray, left: float, right: float) -> None:
             gx, gy = gx * before / after, gy * before / after
     fx, fy, fz = felt_kernel(gx, gy, dx, dy, dz, state[sv.L_IN], state[sv.L_OUT])
     homed = state[sv.HOMED]
-    torque_limit = p[_TORQUE_LIMIT] if homed >= 1.0 else min(p[_TORQUE_LIMIT], p[_CHECK_TORQUE])
-    hand_limit = cap(p[_HAND_LIMIT], state[sv.FORCE_CAP], homed, p[_CHECK_FORCE])
+    torque_limit = (
+        p[_AT.torque_limit] if homed >= 1.0 else min(p[_AT.torque_limit], p[_AT.check_torque])
+    )
+    hand_limit = cap(p[_AT.hand_limit], state[sv.FORCE_CAP], homed, p[_AT.check_force])
     scale = min(torque_factor(left, right, torque_limit), shrink_kernel(fx, fy, fz, hand_limit))
-    step = p[_SLEW] * state[sv.DT]
-    scale *= slew_factor(scale * left, scale * right, p[_LAST_LEFT], p[_LAST_RIGHT], step)
+    step = p[_AT.slew] * state[sv.DT]
+    scale *= slew_factor(scale * left, scale * right, p[_AT.last_left], p[_AT.last_right], step)
     left, right = snapped(scale * left), snapped(scale * right)
-    p[_LAST_LEFT], p[_LAST_RIGHT] = left, right
+    p[_AT.last_left], p[_AT.last_right] = left, right
     state[sv.LIMIT_SCALE] *= scale
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = left, right
     state[sv.FELT_X], state[sv.FELT_Y], state[sv.FELT_Z] = scale * fx, scale * fy, scale * fz
@@ -155,7 +162,7 @@ def _send(state: FloatArray, p: FloatArray, left: float, right: float) -> None:
 
 @njit
 def _hold_at_zero(state: FloatArray, p: FloatArray) -> None:
-    p[_LAST_LEFT], p[_LAST_RIGHT] = 0.0, 0.0
+    p[_AT.last_left], p[_AT.last_right] = 0.0, 0.0
     state[sv.TORQUE_LEFT] = 0.0
     state[sv.TORQUE_RIGHT] = 0.0
     state[sv.FELT_X], state[sv.FELT_Y], state[sv.FELT_Z] = 0.0, 0.0, 0.0
@@ -169,9 +176,9 @@ def safety_stage(state: FloatArray, p: FloatArray) -> None:
     again. Any other fault ends with its cause, and the force comes back along the arming ramp.
     """
     armed = state[sv.ENABLED] > 0.5
-    freshness = fade(state[sv.TIME] - state[sv.Q_TIME], p[_FADE_FROM], p[_FADE_TO])
+    freshness = fade(state[sv.TIME] - state[sv.Q_TIME], p[_AT.fade_from], p[_AT.fade_to])
     fault = _fault(state, p, armed, freshness)
-    arming = ramp(state[sv.ARMING], state[sv.DT], p[_ARMING], armed and fault == 0)
+    arming = ramp(state[sv.ARMING], state[sv.DT], p[_AT.arming], armed and fault == 0)
     state[sv.ARMING] = arming
     scale = freshness * arming
     state[sv.FAULT] = fault
@@ -221,24 +228,27 @@ class Safety:
         """Safety with the limits of a device profile."""
         limits = profile.limits
         slew = limits.joint_torque / 0.020
-        return cls(limits.hand_force, limits.joint_torque, profile.tilt_limit, slew)
+        return cls(
+            hand_limit=limits.hand_force,
+            torque_limit=limits.joint_torque,
+            tilt_limit=profile.tilt_limit,
+            slew=slew,
+        )
 
     def stage(self) -> tuple[str, Any, FloatArray]:
         """Return the stage for a loop's table, with memory of its own."""
-        parameters = np.zeros(_SIZE)
-        parameters[:_SLEW] = (
-            self.hand_limit,
-            self.torque_limit,
-            self.fade_from,
-            self.fade_to,
-            self.heartbeat,
-            self.arming,
-        )
-        parameters[_SLEW:_LAST_LEFT] = (
-            self.slew,
-            self.tilt_limit,
-            self.tilt_margin,
-            self.check_force,
-            self.check_torque,
+        parameters = packed(
+            _AT,
+            hand_limit=self.hand_limit,
+            torque_limit=self.torque_limit,
+            fade_from=self.fade_from,
+            fade_to=self.fade_to,
+            heartbeat=self.heartbeat,
+            arming=self.arming,
+            slew=self.slew,
+            tilt=self.tilt_limit,
+            tilt_margin=self.tilt_margin,
+            check_force=self.check_force,
+            check_torque=self.check_torque,
         )
         return "safety", safety_stage, parameters

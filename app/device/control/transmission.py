@@ -1,13 +1,12 @@
 """From the wanted force at the hand to joint torques, within the limits of both."""
 
 from dataclasses import dataclass
-from typing import Any
-
-import numpy as np
+from typing import Any, Final, NamedTuple
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
+from app.core.parameters import numbered, packed
 from app.device.control.vectors import shrink_kernel
 from app.mechanisms.pantograph import ForceLaw
 from app.mechanisms.pantograph.kernels import (
@@ -17,7 +16,16 @@ from app.mechanisms.pantograph.kernels import (
 )
 from app.mechanisms.profile import DeviceProfile
 
-_HAND_LIMIT, _TORQUE_LIMIT, _PRINTED = range(3)
+
+class _Places(NamedTuple):
+    """Limits of force [N] and torque [N·m], and whether the printed law is used."""
+
+    hand_limit: int
+    torque_limit: int
+    printed: int
+
+
+_AT: Final = numbered(_Places)
 
 
 @stage
@@ -33,10 +41,10 @@ def transmission_stage(state: FloatArray, p: FloatArray) -> None:
     dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
     along = fx * dx + fy * dy + fz * dz
     fx, fy, fz = fx - along * dx, fy - along * dy, fz - along * dz
-    scale = shrink_kernel(fx, fy, fz, p[_HAND_LIMIT])
+    scale = shrink_kernel(fx, fy, fz, p[_AT.hand_limit])
     fx, fy, fz = scale * fx, scale * fy, scale * fz
     l_in, l_out = state[sv.L_IN], state[sv.L_OUT]
-    if p[_PRINTED] != 0.0:
+    if p[_AT.printed] != 0.0:
         gx, gy = printed_force_kernel(fx, fy, fz, dx, dy, dz, l_in, l_out)
     else:
         gx, gy = force_map_kernel(fx, fy, fz, dx, dy, dz, l_in, l_out)
@@ -45,7 +53,7 @@ def transmission_stage(state: FloatArray, p: FloatArray) -> None:
     )
     left, right = left + state[sv.JOINT_LEFT], right + state[sv.JOINT_RIGHT]
     largest = max(abs(left), abs(right))
-    factor = p[_TORQUE_LIMIT] / largest if largest > p[_TORQUE_LIMIT] else 1.0
+    factor = p[_AT.torque_limit] / largest if largest > p[_AT.torque_limit] else 1.0
     state[sv.LIMIT_SCALE] = scale * factor
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = factor * left, factor * right
 
@@ -67,10 +75,13 @@ class Transmission:
     @classmethod
     def of(cls, profile: DeviceProfile, law: ForceLaw = ForceLaw.VIRTUAL_WORK) -> "Transmission":
         """Transmission with the limits of a device profile."""
-        return cls(profile.limits.hand_force, profile.limits.joint_torque, law)
+        limits = profile.limits
+        return cls(hand_limit=limits.hand_force, torque_limit=limits.joint_torque, law=law)
 
     def stage(self) -> tuple[str, Any, FloatArray]:
         """Return the stage for a loop's table."""
         printed = 1.0 if self.law is ForceLaw.PRINTED else 0.0
-        parameters = np.array([self.hand_limit, self.torque_limit, printed])
+        parameters = packed(
+            _AT, hand_limit=self.hand_limit, torque_limit=self.torque_limit, printed=printed
+        )
         return "transmission", transmission_stage, parameters
