@@ -230,7 +230,10 @@ class DesktopRun:
         """What its views need, as the robot's board says it now: it may have come back anew."""
         from app.device.control.velocity import DEFAULT_VELOCITY
         from app.exercises.guidance import GuidanceMode
-        from app.views.exercise.pad_view import rings  # Qt only for who has a window
+        from app.views.exercise.pad_view import (  # Qt only for who has a window
+            depth_tolerance,
+            rings,
+        )
         from app.views.exercise.run import ExerciseRun
         from app.views.exercise.shown import Shown
 
@@ -241,6 +244,7 @@ class DesktopRun:
             self._rig.profile,
             interactive=setup.skill is None and (setup.pen is None or setup.pen.simulated),
             rings=rings(setup.exercise.tolerances),
+            depth_tolerance=depth_tolerance(setup.exercise.tolerances),
             inspect=_inspector(self._rig.tracker),
             touched=_touched(self._rig.tracker),
             learn_colour=_learner(self._rig.tracker, setup.cameras),

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, read_only
+from app.planning.off_path import Offset, offset
 from app.planning.placement import PlacedPlan
 from app.scoring.errors import MetricUnavailableError, TrajectoryError
 from app.scoring.risks import RiskMark
@@ -179,6 +180,10 @@ class Trajectory:
         if self.target_shift is None:
             return self.placed.p_target
         return self.placed.p_target + self.target_shift[index]
+
+    def offset(self, index: int) -> Offset:
+        """How far the needle of a sample is from the target and off the path, as they were then."""
+        return offset(self.tip[index], self.axis[index], self.placed, self.target(index))
 
     def duration(self, mask: NDArray[np.bool_]) -> float:
         """Time [s] covered by the samples in `mask`: each counts until the next one."""

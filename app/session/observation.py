@@ -8,8 +8,9 @@ import numpy as np
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
 from app.device.faults import Fault
+from app.planning.off_path import Offset
 from app.planning.placement import PlacedPlan
-from app.session.curves import Offset, offset
+from app.session.curves import offset
 from app.session.fixes import Fixes
 from app.session.inputs import LoopInputs
 from app.session.machine import State
@@ -124,9 +125,9 @@ def observe(
         if np.isfinite(shift).all():
             p_target = read_only(placed.p_target + shift)
     status, residual = fixes.status(now)
-    away = offset(pose, p_target, placed.axis)
+    away = offset(pose, p_target, placed)
     seen = shown(pose, fixes.motion(moment(pose)))
-    seen_away = away if seen is pose else offset(seen, p_target, placed.axis)
+    seen_away = away if seen is pose else offset(seen, p_target, placed)
     return Observation(now, pose, away, p_target, device, status, residual, seen, seen_away)
 
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from app.core.arrays import FloatArray
+from app.planning.off_path import Offset
 from app.session.arming import Arming
-from app.session.curves import Offset
 from app.session.inputs import LoopInputs
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose

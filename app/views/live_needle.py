@@ -6,6 +6,7 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.transform import RigidTransform
+from app.core.units import MILLIMETRE
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.needle_overlay import NeedleOverlay
@@ -22,11 +23,13 @@ class LiveNeedle:
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
         self._drawn: FloatArray | None = None
+        self._target: FloatArray | None = None
         self._hidden = False
 
     def forget(self) -> None:
         """Draw everything anew at the next snapshot: another run, or another plan."""
         self._drawn, self._hidden = None, False
+        self._show_target(None)
 
     def show(self, run: ExerciseRun, snapshot: Snapshot) -> None:
         """Draw a moment; nothing where the run tells nothing of its needle."""
@@ -42,6 +45,8 @@ class LiveNeedle:
         spread = pose.covariance if pose.measured else None
         needle = NeedleOverlay.of_world(p_end, pose.axis, length, transform, pose.measured, spread)
         self._workspace.viewing.set_needle(needle)
+        moved = bool((snapshot.p_target != run.placed.p_target).any())
+        self._show_target(transform.inverse() @ snapshot.p_target / MILLIMETRE if moved else None)
         ends = np.concatenate([needle.start_mm, needle.tip_mm])
         if self._drawn is None or np.abs(ends - self._drawn).max() > SCENE_DEAD_BAND_MM:
             self._drawn = ends
@@ -53,6 +58,19 @@ class LiveNeedle:
     def hide(self) -> None:
         """Take the needle, and the robot, whose arms point along it, out of every view."""
         self._drawn, self._hidden = None, True
+        self._show_target(None)
         self._workspace.viewing.set_needle(None)
         self._workspace.scene.set_needle(None)
         self._workspace.scene.set_robot(None, RigidTransform.identity())
+
+    def _show_target(self, target_mm: FloatArray | None) -> None:
+        """Let target and path go with what breathing moves, LPS [mm]; None leaves them at rest."""
+        viewing, before = self._workspace.viewing, self._target
+        viewing.set_target_now(target_mm)
+        if target_mm is None:
+            again = before is not None
+        else:
+            again = before is None or np.abs(target_mm - before).max() > SCENE_DEAD_BAND_MM
+        if again:
+            self._target = target_mm
+            self._workspace.scene.set_plan(viewing.shown_draft)

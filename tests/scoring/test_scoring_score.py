@@ -135,8 +135,7 @@ def test_a_required_metric_that_cannot_be_computed_makes_the_score_void() -> Non
     phase[-3:] = 1
     result = score(PERFECT.trajectory(phase=phase))
     assert result.void_reason == (
-        "lateral error is required and cannot be computed: "
-        "the needle was out of the body at the end"
+        "off the path is required and cannot be computed: the needle was out of the body at the end"
     )
 
 

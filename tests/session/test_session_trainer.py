@@ -288,7 +288,10 @@ def test_the_snapshot_says_how_far_it_is_to_the_target(bench: Bench) -> None:
 def test_a_moving_target_moves_the_offset(bench: Bench) -> None:
     bench.loop.extra["target_shift_y"] = 0.005
     snapshot = bench.run(0.2, 0.06)
-    assert snapshot.offset.lateral == pytest.approx(0.005, abs=1e-9)
+    # Across the path to the target as it is now: 5 mm aside at 60 mm, from the entry.
+    aside = np.arctan2(0.005, 0.06)
+    assert snapshot.offset.lateral == pytest.approx(snapshot.pose.depth * np.sin(aside), abs=1e-9)
+    assert snapshot.offset.angle == pytest.approx(aside, abs=1e-9)
 
 
 def test_open_and_close_start_and_stop_everything_once(tmp_path: Path) -> None:

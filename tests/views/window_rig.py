@@ -11,7 +11,7 @@ from app.core.events import EventQueue
 from app.core.state_vector import empty_state
 from app.exercises.library import library
 from app.exercises.scene import device_of
-from app.session.curves import Offset
+from app.planning.off_path import NOWHERE
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.snapshot import Snapshot
@@ -37,7 +37,7 @@ class FakeTrainer:
                                  felt=np.zeros(3), fault=0, row=empty_state(),
                                  qd=np.zeros(2), torque=np.zeros(2))  # fmt: skip
         timing = SimpleNamespace(median=8e-5, p99=2e-4, missed=0, ticks=9)
-        offset = Offset(*[0.0] * len(Offset.__dataclass_fields__))
+        offset = NOWHERE
         return Snapshot(1.0, self.state, "", 0.0, MappingProxyType({}), pose, offset,
                         placed.p_target, device, timing, None, "valid", 0, 1.0, False, None,
                         ())  # fmt: skip

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from app.core.arrays import angle_between
 from app.core.errors import NumericalError
 from app.core.rotation import rotation_exp
+from app.planning.off_path import Offset
 from app.views.exercise.pad_geometry import (
     PadScale,
     clamp_to_cone,
@@ -184,7 +185,12 @@ def test_ct_angles_follow_the_patient_not_the_table():
     assert frame.ct_angles(world) == pytest.approx(ct_angles((0.3, 0.8, -0.2)))
 
 
+def aside(frame, right, up):
+    across = right * frame.right + up * frame.up
+    return Offset(float(np.hypot(right, up)), 0.0, 0.0, 0.0, across, frame.axis)
+
+
 def test_the_lateral_offset_is_said_with_the_patients_sides():
     frame = path_frame((0.0, 0.0, -1.0), SUPINE)
-    assert lateral(frame, (0.003, -0.004)) == "off the path: 5.0 mm  (L 3.0  I 4.0)"
-    assert lateral(frame, (0.0, 0.0)) == "off the path: 0.0 mm"
+    assert lateral(frame, aside(frame, 0.003, -0.004)) == "off the path: 5.0 mm  (L 3.0  I 4.0)"
+    assert lateral(frame, aside(frame, 0.0, 0.0)) == "off the path: 0.0 mm"

@@ -48,7 +48,7 @@ def curves(
 def score(void: bool = False) -> Score:
     """A score with every band, a missing value and rows that do not count."""
     values = {
-        "lateral_error": ("Lateral error", "mm", 2.4),
+        "lateral_error": ("Off the path", "mm", 2.4),
         "depth_error": ("Depth error", "mm", -0.9),
         "angle_error": ("Angle error", "°", 2.7),
         "path_ratio": ("Path ratio", "", 1.72),

@@ -65,7 +65,7 @@ def snapshot(placed: PlacedPlan | None = None, **changes: Any) -> Snapshot:
     values: dict[str, Any] = {
         "time": 1.0, "state": State.READY, "reason": "", "elapsed": 0.0,
         "phases": MappingProxyType({}), "pose": where,
-        "offset": offset(where, placed.p_target, placed.axis), "p_target": placed.p_target,
+        "offset": offset(where, placed.p_target, placed), "p_target": placed.p_target,
         "device": device, "tracker": statistics(),
         "timing": SimpleNamespace(median=8e-5, p99=2e-4, missed=2, ticks=5000),
         "fix_status": "valid", "scans": 0, "assistance": 1.0, "armed": False,

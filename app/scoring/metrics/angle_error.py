@@ -1,4 +1,4 @@
-"""Angle between the needle and the planned path at the end."""
+"""Angle between the needle and the path to the target, as it is at the end."""
 
 from app.core.arrays import angle_between
 from app.core.units import DEGREE
@@ -8,9 +8,10 @@ NAME = "angle_error"
 LABEL = "Angle error"
 UNIT = "°"
 HIGHER_IS_BETTER = False
+READS = ("target_shift_x", "target_shift_y", "target_shift_z")
 
 
 def compute(trajectory: Trajectory) -> float:
     """Return the angle [°], 0 ... 180."""
-    axis = trajectory.axis[trajectory.final()]
-    return angle_between(axis, trajectory.placed.axis) / DEGREE
+    i = trajectory.final()
+    return angle_between(trajectory.axis[i], trajectory.offset(i).path) / DEGREE

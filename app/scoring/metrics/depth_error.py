@@ -1,4 +1,4 @@
-"""Part of tip − target along the planned path, at the end; positive beyond the target."""
+"""Part of tip − target along the path at the end; positive beyond the target."""
 
 from app.core.units import MILLIMETRE
 from app.scoring.trajectory import Trajectory
@@ -11,7 +11,5 @@ READS = ("target_shift_x", "target_shift_y", "target_shift_z")
 
 
 def compute(trajectory: Trajectory) -> float:
-    """Return e·a [mm], with e = tip − target and a the planned direction."""
-    i = trajectory.final()
-    error = trajectory.tip[i] - trajectory.target(i)
-    return float(error @ trajectory.placed.axis) / MILLIMETRE
+    """Return what the tip went beyond the target as it is then, along the path to it [mm]."""
+    return -trajectory.offset(trajectory.final()).remaining / MILLIMETRE

@@ -1,20 +1,15 @@
-"""Part of tip − target that is perpendicular to the planned path, at the end."""
-
-import numpy as np
+"""How far the tip is off the path at the end: `planning.off_path`, as the window shows it."""
 
 from app.core.units import MILLIMETRE
 from app.scoring.trajectory import Trajectory
 
 NAME = "lateral_error"
-LABEL = "Lateral error"
+LABEL = "Off the path"
 UNIT = "mm"
 HIGHER_IS_BETTER = False
 READS = ("target_shift_x", "target_shift_y", "target_shift_z")
 
 
 def compute(trajectory: Trajectory) -> float:
-    """Return |e − (e·a)a| [mm], with e = tip − target and a the planned direction."""
-    i = trajectory.final()
-    error = trajectory.tip[i] - trajectory.target(i)
-    axis = trajectory.placed.axis
-    return float(np.linalg.norm(error - (error @ axis) * axis)) / MILLIMETRE
+    """Return the part of tip − target across the path to the target as it is then [mm]."""
+    return trajectory.offset(trajectory.final()).lateral / MILLIMETRE

@@ -17,7 +17,7 @@ from app.scoring.trajectory import Phase
 from app.session.calibration_flag import CalibrationFlags
 from app.session.control_scan import ControlScan, scans_of
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
-from app.session.curves import Curves, curves
+from app.session.curves import Curves, at_rest, curves
 from app.session.errors import SessionError
 from app.session.needle import FROM_CAMERAS
 from app.session.recording import Recording, read_recording
@@ -70,7 +70,8 @@ class Review:
         spans: states over time.
         marks: events over time.
         placed: the plan.
-        tip: tip [m], shape (n, 3), NaN where not valid.
+        tip: tip as it was to the target [m], shape (n, 3), NaN where not valid: with the target at
+            rest its place, with a moving one as far off the path and from the target as it was.
         force_limit: of the device [N].
         measured_force: force across the needle that a gauge measured [N], shape (n,), NaN where it
             did not; None if there was none: then the force is the estimate in `curves`.
@@ -168,7 +169,7 @@ def review(recording: Recording) -> Review:
         spans=spans(figures.time, samples.state),
         marks=marks(recording.events, origin, SHOWN_EVENTS),
         placed=placed,
-        tip=np.where(measured[:, None], samples.tip, np.nan),
+        tip=np.where(measured[:, None], at_rest(samples, placed), np.nan),
         force_limit=_force_limit(recording),
         measured_force=samples.measured if np.isfinite(samples.measured).any() else None,
         tip_radius=samples.tip_radius(),

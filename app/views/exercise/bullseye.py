@@ -136,16 +136,16 @@ class Bullseye(QWidget):
         hand = self._hand
         self.pad.show_view(view, hand.tilts if hand and not self._depth_only else None)
         self.depth_bar.show_depth(view.depth, view.measured, hand.pose.depth if hand else None)
-        in_plane, out_of_plane = corrections(scene.frame, scene.frame.tilts(view.direction))
+        frame = view.frame(scene)
+        in_plane, out_of_plane = corrections(frame, frame.tilts(view.direction))
         self._in_plane.setText(in_plane)
         self._out_of_plane.setText(out_of_plane)
-        self._angles.setText(ct_words(scene.frame, view.direction))
-        along = float((view.p_tip - scene.p_entry) @ scene.frame.axis)
-        distance = remaining(along, scene.target_depth, scene.depth_tolerance)
+        self._angles.setText(ct_words(frame, view.direction))
+        distance = remaining(view.offset, scene.rings[0], scene.depth_tolerance)
         # A guess is never said as if it were known.
         self._remaining.setText(distance if view.measured else "–")
-        offset = scene.frame.offset(view.p_tip, scene.p_entry)
-        self._lateral.setText(lateral(scene.frame, offset) if view.measured else "–")
+        beside = lateral(frame, view.offset)
+        self._lateral.setText(beside if view.measured else "–")
         self._source.setText("" if view.measured else tr("◇ depth not measured now"))
 
     def _connect_source(self) -> None:

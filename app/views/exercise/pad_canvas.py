@@ -96,7 +96,7 @@ class PadCanvas(QWidget):
         if self._blind:
             paint_blind(painter, self.area, tr("Move the hand here: it is not shown"))
             return
-        paint_background(painter, self.area, self._scene)
+        paint_background(painter, self.area, self._scene, self._view)
         if self._view is not None:
             paint_needle(painter, self.area, self._scene, self._view)
             if self._hand is not None:

@@ -19,6 +19,9 @@ HAND_COLOUR: Final = "#ffffff"
 _CORNERS: Final = ((1, -1), (1, 1), (-1, 1), (-1, -1))
 """Where a ring's size may stand, to the right and downwards from the middle."""
 
+RING_POINTS: Final = 48
+"""Corners of a ring that is drawn beside the middle."""
+
 _LEAD: Final = radians(0.15)
 """Below this angle between hand and needle no spring is drawn [rad]."""
 
@@ -54,14 +57,26 @@ def paint_blind(painter: QPainter, area: PadArea, words: str) -> None:
     painter.drawText(box, flags, words)
 
 
-def paint_background(painter: QPainter, area: PadArea, scene: PadScene) -> None:
-    """Rim, rings with their sizes, cross, letters, target."""
+def paint_background(
+    painter: QPainter, area: PadArea, scene: PadScene, view: PadView | None = None
+) -> None:
+    """Rim, rings with their sizes, cross, letters, target.
+
+    With a `view` whose target has moved, target and rings stand where it is now: the rings as the
+    ovals that the pad's scale makes of circles beside its middle.
+    """
     painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.5))
     painter.setBrush(QColor("#0e1114"))
     painter.drawEllipse(area.centre, area.radius, area.radius)
     _cross(painter, area)
     taken: list[QRectF] = []
+    moved = view if view is not None and view.frame(scene) is not scene.frame else None
     for i, ring in reversed(list(enumerate(scene.rings))):
+        if moved is not None:
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor(theme.TARGET.colour), 2.5 if i == 0 else 1.6))
+            painter.drawPolygon(moved_ring(area, scene, moved, ring))
+            continue
         radius = scene.scale.radius(atan2(ring, scene.scale.length))
         _ring(painter, area, radius, theme.TARGET.colour, 2.5 if i == 0 else 1.6)
         name = tr("{mm:g} mm", mm=1e3 * ring)
@@ -73,14 +88,22 @@ def paint_background(painter: QPainter, area: PadArea, scene: PadScene) -> None:
     _letters(painter, area, scene.frame.letters)
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(theme.TARGET.qcolor())
-    painter.drawEllipse(area.centre, 3.5, 3.5)
+    at = area.centre if moved is None else area.point(moved.place(scene, np.zeros(3)))
+    painter.drawEllipse(at, 3.5, 3.5)
+
+
+def moved_ring(area: PadArea, scene: PadScene, view: PadView, radius: float) -> QPolygonF:
+    """Ring of `radius` [m] round the target as it is now, on the pad."""
+    frame = view.frame(scene)
+    turns = np.linspace(0.0, 2.0 * np.pi, RING_POINTS, endpoint=False)
+    around = radius * (np.cos(turns)[:, None] * frame.right + np.sin(turns)[:, None] * frame.up)
+    return QPolygonF([area.point(view.place(scene, across)) for across in around])
 
 
 def paint_needle(painter: QPainter, area: PadArea, scene: PadScene, view: PadView) -> None:
     """Needle from hub to tip, and where it is heading: a dashed line to the aim's cross."""
     tip, hub = (
-        area.point(scene.scale.place_of_offset(scene.frame.offset(p, scene.p_entry)))
-        for p in (view.p_tip, view.p_hub)
+        area.point(view.place(scene, across)) for across in (view.offset.across, view.hub_across)
     )
     aim = area.point(scene.scale.place(scene.frame.tilts(view.direction)))
     painter.setPen(theme.NEEDLE.pen(1.5, 0.9))

@@ -2,13 +2,20 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
+from app.planning.off_path import Offset
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.tolerance import Bands
 from app.views.exercise.hand import HandLimits
-from app.views.exercise.pad_geometry import PadScale, PathFrame
+from app.views.exercise.pad_geometry import PadScale, PathFrame, path_frame
+
+SAME_PATH: Final = 1e-12
+"""Paths whose directions differ by less are one: the target is at rest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +29,8 @@ class PadScene:
         limits: how far the simulated hand may go.
         p_entry: the entry in world [m], shape (3,).
         target_depth: depth of the target beyond the entry [m].
-        depth_tolerance: how far from it is still good [m].
+        depth_tolerance: how far from it along the path is still at the target [m]; across the path
+            it is the innermost ring.
         stop_depth: depth that must not be passed [m].
     """
 
@@ -42,7 +50,9 @@ class PadView:
 
     Attributes:
         direction: needle direction in world, shape (3,).
-        p_tip, p_hub: tip and hub point in world [m], shape (3,).
+        offset: from the tip to the target as it is now, by which everybody says "off the path".
+        hub_across: from the path to the hub point, across the path [m], shape (3,).
+        p_target: target as it is now [m], shape (3,).
         depth: depth of the tip beyond the entry [m].
         measured: whether the depth is a fresh measurement (else held or from the model).
         force: force felt at the hand [N], estimated.
@@ -50,12 +60,33 @@ class PadView:
     """
 
     direction: FloatArray
-    p_tip: FloatArray
-    p_hub: FloatArray
+    offset: Offset
+    hub_across: FloatArray
+    p_target: FloatArray
     depth: float
     measured: bool
     force: float
     force_limit: float
+
+    def frame(self, scene: PadScene) -> PathFrame:
+        """Frame of the path to the target as it is now: the scene's while that is at rest."""
+        if float(np.abs(self.offset.path - scene.frame.axis).max()) < SAME_PATH:
+            return scene.frame
+        return path_frame(self.offset.path, scene.frame.R_world_patient)
+
+    def place(self, scene: PadScene, across: FloatArray) -> FloatArray:
+        """Place on the pad of what lies so far off the path [m], (3,) -> (2,).
+
+        By the direction from the entry that leads as far past the target: so tip, hub, rings and
+        direction share one scale, whose middle goes with the target.
+        """
+        return scene.scale.place(scene.frame.tilts(self.p_target + across - scene.p_entry))
+
+
+def depth_tolerance(tolerances: Mapping[str, Bands] = DEFAULT_TOLERANCES) -> float:
+    """How far from the target along the path still counts as at it [m]: expert's depth error."""
+    bands = tolerances.get("depth_error", DEFAULT_TOLERANCES["depth_error"])
+    return MILLIMETRE * bands.expert
 
 
 def rings(tolerances: Mapping[str, Bands] = DEFAULT_TOLERANCES) -> tuple[float, float]:

@@ -7,6 +7,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.device.faults import Fault
 from app.device.state import DeviceState
+from app.planning.off_path import split
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.watch import CameraState
 from app.tracking.fix import FixStatus
@@ -65,8 +66,9 @@ def pad_view(snapshot: Snapshot, needle_length: float, force_limit: float) -> Pa
         hub = device.hub
     return PadView(
         direction=pose.axis,
-        p_tip=pose.p_tip,
-        p_hub=hub,
+        offset=snapshot.offset,
+        hub_across=split(hub - snapshot.p_target, snapshot.offset.path)[0],
+        p_target=snapshot.p_target,
         depth=pose.depth,
         measured=pose.measured,
         force=felt(snapshot).force,

@@ -16,7 +16,7 @@ from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
 from app.views.exercise.hand import HandLimits
 from app.views.exercise.pad_geometry import PadScale, path_frame
-from app.views.exercise.pad_view import PadScene, rings
+from app.views.exercise.pad_view import PadScene, depth_tolerance, rings
 from app.views.exercise.shown import Shown
 
 if TYPE_CHECKING:
@@ -83,6 +83,7 @@ class ExerciseRun:
         interactive: whether the mouse moves a simulated hand, with a real robot its depth alone;
             False for a scripted trainee.
         rings: tolerance rings of the pad [m], from the inside.
+        depth_tolerance: how far from the target along the path is still at it [m].
         touched: takes the depth [m] that the cameras measured while the tip touched a known place,
             and the true one; None where no cameras watch a marker.
         learn_colour: takes a camera's name and a pixel of its picture that shows the marker; raises
@@ -106,6 +107,7 @@ class ExerciseRun:
     profile: DeviceProfile
     interactive: bool = True
     rings: tuple[float, ...] = field(default_factory=rings)
+    depth_tolerance: float = field(default_factory=depth_tolerance)
     inspect: Callable[[bool, bool], Inspection] | None = None
     touched: Callable[[float, float], None] | None = None
     learn_colour: Callable[[str, FloatArray], None] | None = None
@@ -135,6 +137,6 @@ class ExerciseRun:
             limits=HandLimits(self.profile.tilt_limit, shallowest, deepest),
             p_entry=placed.p_entry,
             target_depth=placed.length,
-            depth_tolerance=self.rings[0],
+            depth_tolerance=self.depth_tolerance,
             stop_depth=min(placed.length + self.rings[-1], deepest),
         )

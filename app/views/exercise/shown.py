@@ -15,7 +15,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, read_only
-from app.session.curves import Offset
+from app.planning.off_path import NOWHERE
 from app.session.machine import State
 from app.session.needle import DOWN, NeedlePose
 from app.session.ports import DeviceStatePort
@@ -88,6 +88,6 @@ def veiled(snapshot: Snapshot) -> Snapshot:
         tracker = replace(tracker, discrepancy="")  # it says by how much the needle is elsewhere
     return replace(
         snapshot, state=state, phases=MappingProxyType({}), pose=nobody, measured_pose=None,
-        offset=Offset(*[0.0] * len(Offset.__dataclass_fields__)), p_target=read_only(np.zeros(3)),
+        offset=NOWHERE, p_target=read_only(np.zeros(3)),
         device=device, tracker=tracker, messages=(),
     )  # fmt: skip

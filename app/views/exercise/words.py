@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
+from app.planning.off_path import Offset
 from app.views.exercise.pad_geometry import PathFrame
 from app.views.text import tr
 
@@ -53,17 +54,17 @@ def _correction(name: str, angle_deg: float, positive: str, negative: str) -> st
     )
 
 
-def lateral(frame: PathFrame, offset: ArrayLike) -> str:
-    """How far the tip is off the path's line, and to which side.
+def lateral(frame: PathFrame, offset: Offset) -> str:
+    """How far the tip is off the path, and to which side.
 
     Args:
-        frame: axes of the pad.
-        offset: of the tip [m], shape (2,): to the right, upwards.
+        frame: of the path to the target as it is now.
+        offset: of the tip from it.
     """
-    right, up = (1e3 * np.asarray(offset, dtype=np.float64)).tolist()
-    length = float(np.hypot(right, up))
+    length = 1e3 * offset.lateral
     if length < 0.05:
         return tr("off the path: 0.0 mm")
+    right, up = 1e3 * float(offset.across @ frame.right), 1e3 * float(offset.across @ frame.up)
     left_letters, right_letters, top, bottom = frame.letters
     parts = ((abs(right), right_letters if right > 0.0 else left_letters),
              (abs(up), top if up > 0.0 else bottom))  # fmt: skip
@@ -80,11 +81,13 @@ def ct_words(frame: PathFrame, direction: ArrayLike) -> str:
     )  # fmt: skip
 
 
-def remaining(depth: float, target_depth: float, tolerance: float) -> str:
-    """Millimetres to the target, or beyond it."""
-    gap_mm = 1e3 * (target_depth - depth)
-    if abs(gap_mm) <= 1e3 * tolerance:
+def remaining(offset: Offset, across: float, along: float) -> str:
+    """Millimetres to the target, or beyond it; at it only within both tolerances [m]."""
+    gap_mm = 1e3 * offset.remaining
+    if offset.arrived(across, along):
         return tr("✔ at target ({gap:+.1f} mm)", gap=-gap_mm)
+    if abs(offset.remaining) <= along:
+        return tr("beside the target")
     if gap_mm > 0.0:
         return tr("{gap:.1f} mm to go", gap=gap_mm)
     return tr("▲ {gap:.1f} mm too deep", gap=-gap_mm)

@@ -127,7 +127,7 @@ class LayerStack:
     def _place_plan(self, plane: SlicePlane, index: float, scale: float) -> None:
         viewing = self._viewing
         error = viewing.target_error if viewing.shows_errors else None
-        self.plan.place(viewing.draft, plane, index, scale, error is not None)
+        self.plan.place(viewing.shown_draft, plane, index, scale, error is not None)
         self.errors.place_target(error, plane, index, scale)
         self.disc.place(plane, index, scale)
 
@@ -145,7 +145,7 @@ class LayerStack:
         pixel_at: Callable[[float, float], QPointF],
     ) -> None:
         """Put the names of the marks where they cover nothing and nothing cuts them."""
-        draft, needle = self._viewing.draft, self._viewing.needle
+        draft, needle = self._viewing.shown_draft, self._viewing.needle
         lines = [] if needle is None else [(needle.start_mm, needle.tip_mm)]
         if draft.entry_mm is not None and draft.target_mm is not None:
             lines.append((np.asarray(draft.entry_mm), np.asarray(draft.target_mm)))

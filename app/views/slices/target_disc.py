@@ -32,7 +32,7 @@ class TargetDisc:
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Show the rings; faded where the target is not in the slice."""
-        target = self._viewing.draft.target_mm
+        target = self._viewing.shown_draft.target_mm
         if target is None:
             self.hide()
             return

@@ -153,7 +153,7 @@ class TickLayer:
 
     def _line(self) -> tuple[FloatArray, FloatArray] | None:
         """Start and end of the line, LPS [mm]."""
-        needle, draft = self._viewing.needle, self._viewing.draft
+        needle, draft = self._viewing.needle, self._viewing.shown_draft
         target = None if draft.target_mm is None else np.asarray(draft.target_mm)
         if needle is not None and needle.valid:
             shaft = needle.tip_mm - needle.start_mm

@@ -28,6 +28,9 @@ from app.views.slices.reformatter import Reformatter
 FOLLOW_DEAD_BAND_MM = 0.3
 """Slices that follow the tip stay while it moves less than this, so that they do not tremble."""
 
+TARGET_DEAD_BAND_MM = 0.05
+"""A target that moves is drawn anew beyond this."""
+
 
 class Tool(StrEnum):
     """What the left button does in a slice."""
@@ -79,6 +82,7 @@ class Viewing(QObject):
         self.scheme, self.left_zooms, self.level_reversed = OHIF, False, False
         self.tool = Tool.NAVIGATE
         self.draft = DraftPlan()
+        self.target_now_mm: FloatArray | None = None
         self.tolerances_mm: tuple[float, ...] = ()
         self.needle: NeedleOverlay | None = None
         self.target_error: ErrorOverlay | None = None
@@ -194,9 +198,26 @@ class Viewing(QObject):
         self.point_refused = True
 
     def set_draft(self, draft: DraftPlan) -> None:
-        """Show entry and target."""
-        self.draft = draft
+        """Show entry and target, at rest."""
+        self.draft, self.target_now_mm = draft, None
         self.plan_changed.emit()
+
+    def set_target_now(self, target_mm: FloatArray | None) -> None:
+        """Show the target where breathing has it now, LPS [mm]; None shows it at rest."""
+        before, self.target_now_mm = self.target_now_mm, target_mm
+        if before is None or target_mm is None:
+            changed = before is not target_mm
+        else:
+            changed = bool(np.abs(target_mm - before).max() > TARGET_DEAD_BAND_MM)
+            self.target_now_mm = target_mm if changed else before
+        if changed:
+            self.plan_changed.emit()
+
+    @property
+    def shown_draft(self) -> DraftPlan:
+        """The plan as it is drawn: with the target where it is now."""
+        now = self.target_now_mm
+        return self.draft if now is None else self.draft.with_target(now)
 
     def set_tolerances(self, radii_mm: tuple[float, ...]) -> None:
         """Draw these rings round the target [mm], from the inside."""

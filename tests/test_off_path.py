@@ -1,0 +1,191 @@
+"""One meaning of "off the path": panel, bull's-eye, slices, record and score of the same ticks."""
+
+import os
+import re
+
+import numpy as np
+import pytest
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+from app.compose.trainer import TrainerSetup, build_rig
+from app.core import state_vector as sv
+from app.core.clock import VirtualClock
+from app.exercises.library import load_exercise
+from app.exercises.scene import device_of, placed_plan_of
+from app.planning.off_path import offset, path_to
+from app.planning.plan import Plan
+from app.session.curves import curves
+from app.session.recording import read_recording
+from app.session.trainer import Trainer
+from app.tracking.fix import FixStatus, NeedleFix
+from app.views.application import start
+from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.pad_view import depth_tolerance, rings
+from app.views.exercise.readings import figures, pad_view
+from app.views.exercise.run import ExerciseRun
+from app.views.live_needle import LiveNeedle
+
+PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
+
+
+class Kept:
+    """Takes what slices and 3D view are given."""
+
+    def __init__(self):
+        self.needle = self.target = self.draft = None
+        self.viewing = self.scene = self
+
+    def set_needle(self, needle):
+        self.needle = needle
+
+    def set_target_now(self, target):
+        self.target = target
+
+    @property
+    def shown_draft(self):
+        return self.target
+
+    def set_plan(self, draft):
+        self.draft = draft
+
+    def set_robot(self, *_):
+        pass
+
+
+def attempt(exercise, sessions, seconds=9.0, steer=None):
+    """Drive the whole trainer in virtual time; yields each moment, then its record."""
+    chosen = load_exercise(exercise)
+    placed = placed_plan_of(chosen, device_of(chosen), PLAN)
+    clock = VirtualClock(100.0)
+    skill = None if steer else "expert"
+    rig = build_rig(TrainerSetup(chosen, placed, skill=skill, sessions=sessions, clock=clock))
+
+    def measure(now):
+        state = rig.loop.latest()
+        tip = rig.profile.pantograph.fulcrum + state.row[sv.PLANT_DEPTH] * state.axis
+        pixels = (np.zeros(2), np.zeros(2))
+        trainer.on_fix(NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0))
+
+    trainer = Trainer(rig.loop, None, placed, chosen, rig.trainer._context, clock, measure)
+    run = ExerciseRun(
+        trainer, placed, rig.profile, rings=rings(chosen.tolerances),
+        depth_tolerance=depth_tolerance(chosen.tolerances),
+    )  # fmt: skip
+    rig.loop.open()
+    trainer.step()
+    trainer.begin("tester")
+    moments = []
+    while clock.now() < 100.0 + seconds:
+        if steer is not None:
+            steer(trainer, clock.now() - 100.0)
+        moments.append(trainer.step())
+        if moments[-1].device.row[sv.TRAINEE_PHASE] == 9.0:
+            break
+    result = trainer.end()
+    rig.loop.close()
+    return run, moments, result
+
+
+@pytest.fixture(scope="module")
+def application():
+    return start(offscreen=True)
+
+
+def said(text):
+    """Millimetres in a line of words."""
+    return float(re.search(r"[-+]?\d+\.\d", text)[0])
+
+
+@pytest.mark.parametrize("exercise", ["first-insertion", "breathing-liver"])
+def test_panel_bullseye_slices_record_and_score_say_the_same_of_a_tick(
+    exercise, tmp_path, application
+):
+    run, snapshots, result = attempt(exercise, tmp_path)
+    widget, kept = Bullseye(), Kept()
+    widget.set_scene(run.scene(), interactive=False)
+    live = LiveNeedle(kept)
+    moved = 0.0
+    for snapshot in snapshots[50::40]:
+        if not snapshot.pose.measured:
+            continue
+        panel = figures(snapshot, 5.0)
+        widget.show_view(pad_view(snapshot, 0.2, 5.0))
+        live.show(run, snapshot)
+        away = said(widget._lateral.text())
+        assert away == pytest.approx(1e3 * panel.lateral, abs=0.051)
+        # The tip's mark on the slices, against entry and target as the slices have them.
+        target = run.placed.plan.target_mm if kept.target is None else kept.target
+        way = target - run.placed.plan.entry_mm
+        way = way / np.linalg.norm(way)
+        beyond = kept.needle.tip_mm - target
+        beside = np.linalg.norm(beyond - (beyond @ way) * way)
+        assert beside == pytest.approx(1e3 * panel.lateral, abs=1e-6)
+        assert -beyond @ way == pytest.approx(1e3 * panel.to_target, abs=1e-6)
+        moved = max(moved, float(np.abs(target - run.placed.plan.target_mm).max()))
+    assert (moved > 3.0) == (exercise == "breathing-liver")
+    recording = read_recording(result.record)
+    kept_curves = curves(recording.samples, recording.placed_plan())
+    final = result.trajectory.final()
+    assert result.score.row("lateral_error").value == pytest.approx(
+        1e3 * result.trajectory.offset(final).lateral, abs=1e-12
+    )
+    assert 1e3 * kept_curves.lateral[-1] == pytest.approx(
+        result.score.row("lateral_error").value, abs=1e-6
+    )
+    assert np.degrees(kept_curves.angle[-1]) == pytest.approx(
+        result.score.row("angle_error").value, abs=1e-6
+    )
+
+
+def test_at_target_is_said_only_within_the_tolerance_across_too(tmp_path, application):
+    widget, texts = Bullseye(), []
+
+    def steer(trainer, time):  # 5° beside the path, as deep as the target
+        axis = placed.axis + np.array([0.075, 0.0, 0.0])
+        axis = axis / np.linalg.norm(axis)
+        depth = min(-0.015 + 0.04 * max(0.0, time - 1.0), placed.length / (axis @ placed.axis))
+        trainer.hand(float(axis[0]), float(axis[1]), depth)
+
+    chosen = load_exercise("first-insertion")
+    placed = placed_plan_of(chosen, device_of(chosen), PLAN)
+    run, snapshots, _ = attempt("first-insertion", tmp_path, seconds=5.0, steer=steer)
+    widget.set_scene(run.scene(), interactive=False)
+    for snapshot in snapshots[::10]:
+        widget.show_view(pad_view(snapshot, 0.2, 5.0))
+        texts.append((widget._remaining.text(), snapshot.offset))
+    near = [(text, off) for text, off in texts if abs(off.remaining) < run.depth_tolerance]
+    assert near, "the needle came as deep as the target"
+    assert all(off.lateral > run.rings[0] for _, off in near)
+    assert not any("at target" in text for text, _ in texts)
+
+
+def test_rings_and_target_stand_where_breathing_has_the_target(tmp_path, application):
+    run, snapshots, _ = attempt("breathing-liver", tmp_path, seconds=6.0)
+    scene = run.scene()
+    farthest = max(snapshots, key=lambda s: float(np.linalg.norm(s.p_target - run.placed.p_target)))
+    view = pad_view(farthest, 0.2, 5.0)
+    middle = view.place(scene, np.zeros(3))
+    assert np.linalg.norm(middle) > 0.1
+    # A needle that points at the target as it is now has its cross in the middle of the rings.
+    way = farthest.p_target - run.placed.p_entry
+    assert np.allclose(scene.scale.place(scene.frame.tilts(way)), middle, atol=1e-12)
+    # On the ring means as far off the path as the ring says.
+    frame = view.frame(scene)
+    on = view.place(scene, scene.rings[0] * frame.right)
+    assert not np.allclose(on, middle)
+
+
+def test_a_target_at_rest_has_the_planned_path_to_the_last_bit():
+    chosen = load_exercise("first-insertion")
+    placed = placed_plan_of(chosen, device_of(chosen), PLAN)
+    assert (path_to(placed, placed.p_target) == placed.axis).all()
+    many = np.array([placed.p_target, placed.p_target + [0.0, 0.01, 0.0], [np.nan] * 3])
+    paths = path_to(placed, many)
+    assert (paths[[0, 2]] == placed.axis).all()
+    assert paths[1] @ (many[1] - placed.p_entry) == pytest.approx(
+        np.linalg.norm(many[1] - placed.p_entry)
+    )
+    at_entry = offset(placed.p_entry, placed.axis, placed, many[1])
+    assert at_entry.lateral < 1e-15, "the entry is on every path"
+    assert at_entry.remaining == pytest.approx(np.linalg.norm(many[1] - placed.p_entry))
