@@ -74,10 +74,17 @@ class Task(QObject):
         """Whether the callback is still to come."""
         return self._timer.isActive()
 
-    def close(self, timeout: float = 2.0) -> None:
-        """Cancel, drop the callbacks and wait up to `timeout` [s] for the thread; idempotent."""
+    def drop(self) -> None:
+        """Cancel and call nobody back, without waiting: for work that other work replaces."""
+        was_running = self.is_running()
         self._timer.stop()
         self.cancel()
+        if was_running:
+            self.finished.emit()  # whoever shows it lets go of it
+
+    def close(self, timeout: float = 2.0) -> None:
+        """Drop it and wait up to `timeout` [s] for the thread, for the end of a window; idempotent."""
+        self.drop()
         if self._thread.is_alive():
             self._thread.join(timeout)
 

@@ -111,7 +111,8 @@ class OpenCt(QObject):
     def _start(
         self, title: str, operation: Callable[[Progress], T], on_success: Callable[[T], object]
     ) -> None:
-        self.close()
+        if self._task is not None:
+            self._task.drop()
         self._task = run_in_background(
             self, operation, on_success, self._fail, title=title, indicator=self._indicator
         )

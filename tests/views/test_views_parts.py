@@ -94,6 +94,20 @@ def test_a_closed_task_calls_nobody(application, settle):
     assert not ended
 
 
+def test_work_that_is_replaced_holds_nobody_and_leaves_the_strip(application, settle):
+    strip, ended = ProgressStrip(), []
+    gate = threading.Event()
+    task = run_in_background(strip, lambda _: gate.wait(5.0), ended.append, ended.append,
+                             title="Reading", indicator=strip)  # fmt: skip
+    began = time.monotonic()
+    task.drop()
+    assert time.monotonic() - began < 0.5  # the work hears of it when it reports next
+    assert strip.count == 0
+    gate.set()
+    settle(timeout=0.15)
+    assert not ended
+
+
 def test_the_strip_shows_a_task_and_its_cancel(application, settle):
     strip, ended = ProgressStrip(), []
     gate = threading.Event()

@@ -39,7 +39,7 @@ class SurfaceExtraction(QObject):
     def start(self, patient: Patient) -> None:
         """Extract a patient's surfaces."""
         if self._task is not None:
-            self._task.close(timeout=0.0)
+            self._task.drop()
         self._task = run_in_background(
             self,
             lambda progress: _surfaces(patient, progress),
