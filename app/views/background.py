@@ -54,6 +54,7 @@ class Task(QObject):
         self._callbacks = (on_success, on_error, on_cancel)
         self._box = _Box(operation)
         self._reported: tuple[float, str] | None = None
+        self._is_running = False
         self._timer = QTimer(self, interval=POLL_MS)
         self._timer.timeout.connect(self._look)
         box = self._box  # not self: the worker must not keep the Qt object alive
@@ -62,6 +63,7 @@ class Task(QObject):
 
     def open(self) -> "Task":
         """Start the thread and the looking."""
+        self._is_running = True
         self._timer.start()
         self._thread.start()
         return self
@@ -72,14 +74,14 @@ class Task(QObject):
 
     def is_running(self) -> bool:
         """Whether the callback is still to come."""
-        return self._timer.isActive()
+        return self._is_running
 
     def drop(self) -> None:
         """Cancel and call nobody back, without waiting: for work that other work replaces."""
-        was_running = self.is_running()
-        self._timer.stop()
         self.cancel()
-        if was_running:
+        if self._is_running:  # else Qt may have deleted it already
+            self._is_running = False
+            self._timer.stop()
             self.finished.emit()  # whoever shows it lets go of it
 
     def close(self, timeout: float = 2.0) -> None:
@@ -95,6 +97,7 @@ class Task(QObject):
             self._reported = report
             self.progressed.emit(*report)
         if done:
+            self._is_running = False
             self._timer.stop()
             self._deliver()
 

@@ -108,6 +108,16 @@ def test_work_that_is_replaced_holds_nobody_and_leaves_the_strip(application, se
     assert not ended
 
 
+def test_work_that_has_ended_can_still_be_dropped_and_closed(application, settle):
+    parent, ended = QObject(), []
+    task = run_in_background(parent, lambda _: 1, ended.append, ended.append)
+    assert settle(lambda: ended == [1], 5.0)
+    settle(timeout=0.1)  # Qt deletes it
+    task.drop()
+    task.close()
+    assert not task.is_running()
+
+
 def test_the_strip_shows_a_task_and_its_cancel(application, settle):
     strip, ended = ProgressStrip(), []
     gate = threading.Event()
