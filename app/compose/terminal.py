@@ -1,8 +1,6 @@
 """A pseudo-terminal that can be unplugged: to other programs, a serial port."""
 
 import os
-import pty
-import tty
 from pathlib import Path
 
 from app.core.arrays import FloatArray
@@ -44,9 +42,20 @@ class Terminal:
         self.put()
 
     def put(self) -> None:
-        """Make a new terminal and put it behind the descriptor. Does nothing if there is one."""
+        """Make a new terminal and put it behind the descriptor. Does nothing if there is one.
+
+        Raises:
+            LinkError: if the system has none.
+        """
         if self._slave >= 0:
             return
+        try:
+            import pty
+            import tty
+        except ImportError:
+            raise LinkError(
+                "this system has no pseudo-terminals (Windows): the emulated board runs on Linux"
+            ) from None
         master, self._slave = pty.openpty()
         tty.setraw(self._slave)
         os.set_blocking(master, False)

@@ -5,7 +5,6 @@ from such a place can do no harm. Whatever has to be decoded is decoded in the w
 which writes to the same memory.
 """
 
-import fcntl
 import math
 import mmap
 import os
@@ -16,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from app.core.descriptors import SEAL_GROW, SEAL_SHRINK, seal
 from app.core.progress import Progress
 from app.imaging import memory
 from app.imaging.decoding import is_raw, stored_type
@@ -27,8 +27,6 @@ from app.imaging.worker.service import fill_slices
 _THREADS = 2
 _TURN = 8
 """Slices that a thread copies before it says so."""
-
-_ADD_SEALS, _SHRINK, _GROW = 1033, 0x2, 0x4  # fcntl(2): the child must not change the size
 
 
 def filled(
@@ -86,7 +84,7 @@ def _shared(descriptor: int, shape: tuple[int, int, int], dtype: np.dtype[Any]) 
     size = math.prod(shape) * dtype.itemsize
     try:
         os.ftruncate(descriptor, size)
-        fcntl.fcntl(descriptor, _ADD_SEALS, _SHRINK | _GROW)
+        seal(descriptor, SEAL_SHRINK | SEAL_GROW)  # the child must not change the size
         memory = mmap.mmap(descriptor, size)
     except (OSError, ValueError, OverflowError) as error:
         raise SeriesRefusedError(

@@ -1,7 +1,6 @@
 """The folder that an import is written to before it joins the library, whole or not at all."""
 
 import errno
-import fcntl
 import os
 import shutil
 import tempfile
@@ -10,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from app.core.descriptors import hold, is_held
 from app.core.files import sync
 from app.imaging.errors import ImagingError
 from app.imaging.privacy.deidentified import LOCK
@@ -40,7 +40,7 @@ def staging(library: Path, series: Series) -> Iterator[Path]:
         raise ImportFailedError(f"the library {library} cannot be written: {_why(error)}") from None
     lock = os.open(folder / LOCK, os.O_CREAT | os.O_RDWR)
     try:
-        fcntl.flock(lock, fcntl.LOCK_SH)  # the process that writes there holds it as well
+        hold(lock)  # the process that writes there holds it as well
         yield folder
     except OSError as error:
         if isinstance(error, ImagingError):
@@ -112,9 +112,6 @@ def _abandoned(folder: Path) -> bool:
     except OSError:
         return False
     try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
+        return not is_held(lock)
     finally:
         os.close(lock)
-    return True

@@ -12,7 +12,6 @@ import pytest
 import serial
 
 from app.device.errors import LinkError
-from app.device.links import port as port_file
 from app.device.links import protocols
 from app.device.links.port import Port, ports, reason
 from app.device.links.serial_link import SerialLink
@@ -51,7 +50,7 @@ def test_a_forbidden_port_says_how_to_be_let_in(monkeypatch):
     def forbid(*_, **__):
         raise serial.SerialException(errno.EACCES, "Permission denied")
 
-    monkeypatch.setattr(port_file.serial, "Serial", forbid)
+    monkeypatch.setattr(serial, "Serial", forbid)
     with pytest.raises(LinkError, match=r"sudo usermod -aG dialout \$USER.*log out and in"):
         Port("/dev/ttyACM0", 115200).open()
 

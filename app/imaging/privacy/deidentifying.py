@@ -1,12 +1,12 @@
 """A series de-identified into a folder, in the worker process: the originals are foreign files."""
 
-import fcntl
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeVar
 
+from app.core.descriptors import hold
 from app.core.progress import Cancelled, Progress
 from app.imaging.errors import FileDamagedError
 from app.imaging.header import SliceHeader
@@ -58,7 +58,7 @@ def _held(staging: Path) -> Iterator[None]:
     """Hold the lock of the folder too: nobody sweeps it while there is still somebody writing."""
     lock = os.open(staging / LOCK, os.O_RDWR)
     try:
-        fcntl.flock(lock, fcntl.LOCK_SH)
+        hold(lock)
         yield
     finally:
         os.close(lock)

@@ -2,9 +2,13 @@
 
 import contextlib
 import os
-import resource
 from dataclasses import dataclass
 from pathlib import Path
+
+try:
+    import resource
+except ImportError:  # Windows: the watchdog alone ends what takes too long
+    resource = None  # type: ignore[assignment]
 
 MEMORY_BYTES = 1 << 31
 """Memory that the child may take for one file beside its own [bytes]."""
@@ -83,6 +87,8 @@ class MemoryLimit:
     """
 
     def __init__(self) -> None:
+        if resource is None:
+            return
         pages = int(Path("/proc/self/statm").read_text().split()[0])
         self._own = pages * resource.getpagesize()
         self._hard = resource.getrlimit(resource.RLIMIT_AS)[1]
@@ -92,6 +98,8 @@ class MemoryLimit:
 
     def set(self, allowed: int) -> None:
         """Let the process grow by so many bytes and no further."""
+        if resource is None:
+            return
         most = self._own + allowed
         if self._hard != resource.RLIM_INFINITY:
             most = min(most, self._hard)
@@ -100,6 +108,8 @@ class MemoryLimit:
 
 def limit_time() -> None:
     """Let this process work for a few seconds from now on."""
+    if resource is None:
+        return
     used = resource.getrusage(resource.RUSAGE_SELF)
     soft = int(used.ru_utime + used.ru_stime) + 1 + _KILLED_AFTER
     resource.setrlimit(resource.RLIMIT_CPU, (soft, resource.RLIM_INFINITY))

@@ -3,19 +3,20 @@
 numpy is loaded with the first array: most messages have none.
 """
 
-import fcntl
 import math
 import mmap
 import os
 import sys
 from typing import TYPE_CHECKING, Any
 
+from app.core.descriptors import SEAL_GROW, SEAL_SEAL, SEAL_SHRINK, SEAL_WRITE, seal
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _ALIGNED = 64
 _KINDS = "biuf"
-_ADD_SEALS, _SEALED = 1033, 0xF  # fcntl(2): neither size nor content nor the seals change any more
+_SEALED = SEAL_SEAL | SEAL_SHRINK | SEAL_GROW | SEAL_WRITE
 _KEY = "array"
 
 
@@ -90,7 +91,7 @@ def opened(message: Any, descriptor: int) -> Any:
         LuggageError: if it is no such memory, or an array does not lie in it.
     """
     try:
-        fcntl.fcntl(descriptor, _ADD_SEALS, _SEALED)  # nobody shrinks it under a reader's feet
+        seal(descriptor, _SEALED)  # nobody shrinks it under a reader's feet
         size = os.fstat(descriptor).st_size
         memory = mmap.mmap(descriptor, size, flags=mmap.MAP_PRIVATE) if size else b""
     except (OSError, ValueError, OverflowError) as error:

@@ -1,0 +1,45 @@
+"""Locks and seals of open files, where the system has them (Linux); elsewhere nothing is held.
+
+Windows has no `fcntl`. What is only a safeguard there falls away; what would be harm without a
+lock is not done.
+"""
+
+try:
+    import fcntl
+except ImportError:  # pragma: no cover - tested in a process without it
+    fcntl = None  # type: ignore[assignment]
+
+_ADD_SEALS = 1033  # fcntl(2), F_ADD_SEALS
+SEAL_SEAL, SEAL_SHRINK, SEAL_GROW, SEAL_WRITE = 0x1, 0x2, 0x4, 0x8
+"""What `seal` forbids: further seals, a smaller size, a larger size, other content."""
+
+
+def hold(descriptor: int) -> None:
+    """Hold a file together with others (a shared lock) until it is closed.
+
+    Raises:
+        OSError: if somebody holds it alone.
+    """
+    if fcntl is not None:
+        fcntl.flock(descriptor, fcntl.LOCK_SH)
+
+
+def is_held(descriptor: int) -> bool:
+    """Whether somebody else holds a file; True where the system cannot tell."""
+    if fcntl is None:
+        return True
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return True
+    return False
+
+
+def seal(descriptor: int, seals: int) -> None:
+    """Forbid changes of anonymous memory from now on.
+
+    Raises:
+        OSError: if it is no memory that can be sealed.
+    """
+    if fcntl is not None:
+        fcntl.fcntl(descriptor, _ADD_SEALS, seals)
