@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: setup demo run test by-hand check bench fuzz docs-pictures wheel clean
+.PHONY: setup demo run test by-hand careless check bench fuzz docs-pictures wheel clean
 
 setup: $(STAMP)  ## make .venv and install what the system lacks
 
@@ -27,6 +27,11 @@ test: setup  ## the tests (no display and no network needed), a file at a time o
 
 by-hand: setup  ## one insertion in the real window with mouse and keyboard, on an X server of its own
 	env -u DISPLAY ACUS_BY_HAND=1 ./tools/with-display $(BIN)/python -m pytest -q tests/display
+
+MINUTES ?= 10
+SEED ?= 1
+careless: setup  ## the real window used at random by mouse and keyboard, and checked after every action
+	$(BIN)/python -m tests.careless --minutes $(MINUTES) --seed $(SEED) $(CARELESS)
 
 check: setup  ## style, types, structure
 	$(BIN)/ruff check .

@@ -1,0 +1,1 @@
+"""A careless user: the real window driven at random, and checked after every action."""

@@ -1,0 +1,92 @@
+"""Defects that are planted to see that each check finds its own."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+from PySide6.QtWidgets import QLabel
+
+from app.device.control.safety import Safety
+from app.mechanisms.profile import DeviceProfile
+from app.views.window import MainWindow
+
+
+def log(window: MainWindow) -> None:
+    """A click on a slice raises."""
+
+    def placed(*_: object) -> None:
+        raise RuntimeError("planted: the crosshair moved")
+
+    window.workspace.viewing.cursor_changed.connect(placed)
+
+
+def void(window: MainWindow) -> None:
+    """A hand that moves far at once voids the attempt."""
+    bullseye, controller = window.workspace.bullseye, window.conductor.controller
+
+    def moved(pose: object) -> None:
+        run = controller.run
+        if run is not None and run.trainer.snapshot().state == "inserting":
+            run.trainer.abort("planted: the needle ran away faster than a hand moves it")
+
+    bullseye.hand_moved.connect(moved)
+
+
+def quantity(window: MainWindow) -> None:
+    """The bull's-eye says a tenth more than the panel."""
+    from app.views.exercise import bullseye
+
+    honest = bullseye.lateral
+    bullseye.lateral = lambda frame, offset: honest(frame, 1.1 * offset)
+
+
+def patient(window: MainWindow) -> None:
+    """The count of scans survives a change of patient."""
+    values = window.workspace.exercise_panel.readouts._values["scans"]
+    plain = values.setText
+    values.setText = lambda text: plain("3" if text == "–" else text)  # type: ignore[method-assign]
+    window.workspace.exercise_panel.readouts.show_figures(None)
+
+
+def answer(window: MainWindow) -> None:
+    """Every change of the window's width holds it for 1.3 s."""
+    window.workspace.arranged.connect(lambda: time.sleep(1.3))
+
+
+def force(window: MainWindow) -> None:
+    """The last stage lets pass half as much again as it may."""
+    honest = Safety.of.__func__  # type: ignore[attr-defined]
+
+    def of(cls: type[Safety], profile: DeviceProfile) -> Safety:
+        safe = honest(cls, profile)
+        object.__setattr__(safe, "hand_limit", 1e3)
+        object.__setattr__(safe, "torque_limit", 1e3)
+        return safe
+
+    Safety.of = classmethod(of)  # type: ignore[method-assign,assignment]
+    from app.device.control.transmission import Transmission
+
+    asked = Transmission.of.__func__  # type: ignore[attr-defined]
+
+    def more(cls: type[Transmission], profile: DeviceProfile, *rest: object) -> Transmission:
+        wide = asked(cls, profile, *rest)
+        object.__setattr__(wide, "hand_limit", 1e3)
+        object.__setattr__(wide, "torque_limit", 1e3)
+        return wide
+
+    Transmission.of = classmethod(more)  # type: ignore[method-assign,assignment]
+
+
+def text(window: MainWindow) -> None:
+    """A label of the plan has no room for its words."""
+    label = QLabel("A planted label that is wider than its place", window.workspace.plan_panel)
+    label.setGeometry(4, 4, 60, 16)
+    label.show()
+
+
+DEFECTS: dict[str, Callable[[MainWindow], None]] = {
+    "log": log, "void": void, "quantity": quantity, "patient": patient, "answer": answer,
+    "force": force, "text": text,
+}  # fmt: skip
+"""One for each check, by its name."""
