@@ -85,7 +85,7 @@ class Task(QObject):
             self.finished.emit()  # whoever shows it lets go of it
 
     def close(self, timeout: float = 2.0) -> None:
-        """Drop it and wait up to `timeout` [s] for the thread at the end of a window; idempotent."""
+        """Drop it and wait up to `timeout` [s] for the thread, when a window ends; idempotent."""
         self.drop()
         if self._thread.is_alive():
             self._thread.join(timeout)
