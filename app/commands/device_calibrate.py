@@ -38,7 +38,7 @@ def calibrate(
         typer.Option(help="Routine; repeatable. Default: homing, signs, latency, force."),
     ] = None,
     readings: Annotated[
-        str, typer.Option(help="Scale readings in grams at 0.2, 0.5 and 1 N, e.g. 20.5,51,102.")
+        str, typer.Option(help="Scale readings in grams at 0.2, 0.5 and 0.9 N, e.g. 20.5,51,92.")
     ] = "",
     yes: Annotated[
         bool,

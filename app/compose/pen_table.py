@@ -7,6 +7,7 @@ from typing import Final
 from app.compose.needle import UPRIGHT
 from app.core.arrays import FloatArray
 from app.device.control import Table
+from app.device.control.depth_interval import DepthInterval
 from app.device.control.kinematics import Kinematics
 from app.device.control.velocity import DEFAULT_VELOCITY, velocity_stage
 from app.device.links.link import Triple
@@ -67,5 +68,6 @@ def pen_table(
     trainee = (
         [trainee_stage(placed.axis, placed.length, skill, seed)] if simulated and skill else []
     )
-    stages = [*trainee, *read, velocity_stage(DEFAULT_VELOCITY, profile)]
-    return Table.of([*stages, Kinematics.of(profile).stage(), *effects.stages()], plant)
+    place = [DepthInterval.of(profile).stage(), Kinematics.of(profile).stage()]
+    stages = [*trainee, *read, velocity_stage(DEFAULT_VELOCITY, profile), *place]
+    return Table.of([*stages, *effects.stages()], plant)

@@ -29,10 +29,12 @@ class DeviceState:
         l_out: hub point to fulcrum [m].
         depth: tip beyond the fulcrum along the axis [m].
         depth_source: 1 tracked, 2 held, 0 model.
+        depth_least, depth_most: interval that holds the depth [m].
         angle_error: between needle and path [rad].
         force: wanted at the hub [N], shape (3,).
         guide: share of the virtual fixture [N], shape (3,).
-        felt: at the hub after all limits [N], shape (3,), estimated from the torques.
+        felt: at the hub after all limits [N], shape (3,), estimated from the torques and the depth.
+        felt_most: largest that it can be, at `depth_most` [N].
         force_measured: whether the board's gauge measures the force at the hand.
         measured_force: what it measures, across the needle [N]; 0 without a gauge.
         torque: joint torques sent (left, right) [N·m], shape (2,).
@@ -58,10 +60,13 @@ class DeviceState:
     l_out: float
     depth: float
     depth_source: int
+    depth_least: float
+    depth_most: float
     angle_error: float
     force: FloatArray
     guide: FloatArray
     felt: FloatArray
+    felt_most: float
     force_measured: bool
     measured_force: float
     torque: FloatArray
@@ -95,10 +100,13 @@ class DeviceState:
             l_out=number(sv.L_OUT),
             depth=number(sv.DEPTH),
             depth_source=int(copy[sv.DEPTH_SOURCE]),
+            depth_least=number(sv.DEPTH_LEAST),
+            depth_most=number(sv.DEPTH_MOST),
             angle_error=number(sv.ANGLE_ERROR),
             force=copy[sv.FORCE],
             guide=copy[sv.GUIDE],
             felt=copy[sv.FELT],
+            felt_most=number(sv.FELT_MOST),
             force_measured=bool(copy[sv.GAUGE] > 0.0),
             measured_force=number(sv.GAUGE_FORCE) if copy[sv.GAUGE] > 0.0 else 0.0,
             torque=copy[sv.TORQUE],

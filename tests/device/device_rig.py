@@ -97,5 +97,5 @@ class Rig:
 
     @property
     def felt(self) -> float:
-        """Length of the force felt [N]."""
-        return float(np.linalg.norm(self.loop.latest().felt))
+        """Largest force that the hand can feel, at any depth [N]: what the limits are for."""
+        return self.loop.latest().felt_most

@@ -208,9 +208,13 @@ def test_a_large_force_is_limited_at_the_hand_in_its_direction():
         rig.arm()
         state = rig.loop.latest()
     wanted = rig.force - state.axis * np.dot(state.axis, rig.force)
-    assert np.linalg.norm(state.felt) == pytest.approx(HAND_LIMIT)
+    assert state.felt_most == pytest.approx(HAND_LIMIT)
+    felt = np.linalg.norm(state.felt)
+    assert felt == pytest.approx(
+        HAND_LIMIT * (GEOMETRY.needle_length - state.depth_most) / state.l_out
+    )
     assert np.cross(state.felt, wanted) == pytest.approx(np.zeros(3), abs=1e-9)
-    assert state.limit_scale == pytest.approx(HAND_LIMIT / np.linalg.norm(wanted))
+    assert state.limit_scale == pytest.approx(felt / np.linalg.norm(wanted))
 
 
 def test_the_torque_limit_scales_both_joints_so_that_the_direction_stays():

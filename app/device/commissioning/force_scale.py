@@ -7,14 +7,19 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, unit
 from app.device.commissioning.errors import CommissioningError
+from app.device.commissioning.report import Report
 from app.device.commissioning.results import ForceScale as Found
 from app.device.commissioning.results import Step
 from app.device.commissioning.routine import Routine, RunningLoop, Script
 from app.device.readiness import SCALE_TOLERANCE, UNVERIFIED_FORCE
 from app.mechanisms.profile import DeviceProfile
 
-FORCES: Final = (0.2, 0.5, 1.0)
-"""Commanded forces at the hub [N], the smallest first: a missing gear makes it ten times more."""
+FORCES: Final = (0.2, 0.5, 0.9)
+"""Commanded forces at the hub [N], the smallest first: a missing gear makes it ten times more,
+and the largest has to stay below 1 N at any depth that the ruler allows."""
+
+RULER: Final = 0.0005
+"""Standard deviation of a depth that is held by a ruler [m]."""
 
 GRAVITY: Final = 9.80665
 """Standard gravity [m/s²]: what turns a scale's grams into newtons."""
@@ -26,7 +31,9 @@ _NOTHING: Final = 0.05  # factor below which the scale did not feel the robot
 
 
 class ForceScale(Routine):
-    """Push the hub with 0.2, 0.5 and 1 N and ask what the scale shows after each.
+    """Push the hub with 0.2, 0.5 and 0.9 N and ask what the scale shows after each.
+
+    No camera measures the depth here, so the person holds it by a ruler, and the loop is told so.
 
     Args:
         loop, profile: as in `Routine`.
@@ -45,6 +52,17 @@ class ForceScale(Routine):
     ) -> None:
         super().__init__(loop, profile)
         self._direction = unit(direction, "direction")
+        self._lever = profile.pantograph.needle_length - profile.pantograph.fulcrum[2]
+
+    def step(self, now: float) -> Report:
+        """Go on; the depth is the one that the person was asked to hold."""
+        depth = self._profile.pantograph.needle_length - self._lever
+        self._loop.inbox.write(tracked_depth=depth, tracked_time=now, tracked_variance=RULER**2)
+        return super().step(now)
+
+    def _quiet(self) -> None:
+        super()._quiet()
+        self._loop.inbox.write(tracked_time=0.0)
 
     def _script(self) -> Script:
         self._disarm()
@@ -52,7 +70,9 @@ class ForceScale(Routine):
         yield from self._ask(
             "hold the needle upright against the scale (or tie the hub to the weight on it, see"
             f" docs/hardware.md), so that a force towards ({x:g}, {y:g}, {z:g}) is weighed"
-            " (x to the right, z up); tare the scale and confirm"
+            " (x to the right, z up), with the hub, where the force is weighed,"
+            f" {1e3 * self._lever:.0f} mm by a ruler above the fulcrum: the force that is felt"
+            " depends on it; tare the scale and confirm"
         )
         direction = self._across()
         yield from self._arm(1.0, UNVERIFIED_FORCE)

@@ -1,6 +1,7 @@
 """The tick of a robot that is being commissioned: no force law, only the service stage."""
 
 from app.device.control.corrections import Corrections
+from app.device.control.depth_interval import DepthInterval
 from app.device.control.governor import SpeedGovernor
 from app.device.control.kinematics import Kinematics
 from app.device.control.safety import Safety
@@ -28,6 +29,7 @@ def commissioning_table(
             *link.read,
             (corrections or Corrections()).stage(),
             VelocityFilter().stage(),
+            DepthInterval.of(profile).stage(),
             Kinematics.of(profile).stage(),
             Service().stage(),
             Transmission.of(profile).stage(),

@@ -11,6 +11,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.core.parameters import numbered, packed
+from app.device.control.depth_interval import shortest_lever
 from app.device.control.limits import (
     cap,
     fade,
@@ -20,7 +21,7 @@ from app.device.control.limits import (
     tilt_kernel,
     torque_factor,
 )
-from app.device.control.vectors import shrink_kernel, snapped
+from app.device.control.vectors import norm_kernel, shrink_kernel, snapped
 from app.device.faults import Fault
 from app.mechanisms.pantograph.kernels import felt_kernel, tool_force_kernel, torque_kernel
 from app.mechanisms.pantograph.status import OK
@@ -145,12 +146,15 @@ def _send(state: FloatArray, p: FloatArray, left: float, right: float) -> None:
             left, right = left * before / after, right * before / after
             gx, gy = gx * before / after, gy * before / after
     fx, fy, fz = felt_kernel(gx, gy, dx, dy, dz, state[sv.L_IN], state[sv.L_OUT])
+    worst = state[sv.L_OUT] / shortest_lever(state)  # the hand can feel this much more
     homed = state[sv.HOMED]
     torque_limit = (
         p[_AT.torque_limit] if homed >= 1.0 else min(p[_AT.torque_limit], p[_AT.check_torque])
     )
     hand_limit = cap(p[_AT.hand_limit], state[sv.FORCE_CAP], homed, p[_AT.check_force])
-    scale = min(torque_factor(left, right, torque_limit), shrink_kernel(fx, fy, fz, hand_limit))
+    scale = min(
+        torque_factor(left, right, torque_limit), shrink_kernel(fx, fy, fz, hand_limit / worst)
+    )
     step = p[_AT.slew] * state[sv.DT]
     scale *= slew_factor(scale * left, scale * right, p[_AT.last_left], p[_AT.last_right], step)
     left, right = snapped(scale * left), snapped(scale * right)
@@ -158,6 +162,7 @@ def _send(state: FloatArray, p: FloatArray, left: float, right: float) -> None:
     state[sv.LIMIT_SCALE] *= scale
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = left, right
     state[sv.FELT_X], state[sv.FELT_Y], state[sv.FELT_Z] = scale * fx, scale * fy, scale * fz
+    state[sv.FELT_MOST] = worst * scale * norm_kernel(fx, fy, fz)
 
 
 @njit
@@ -166,6 +171,7 @@ def _hold_at_zero(state: FloatArray, p: FloatArray) -> None:
     state[sv.TORQUE_LEFT] = 0.0
     state[sv.TORQUE_RIGHT] = 0.0
     state[sv.FELT_X], state[sv.FELT_Y], state[sv.FELT_Z] = 0.0, 0.0, 0.0
+    state[sv.FELT_MOST] = 0.0
 
 
 @stage
@@ -196,7 +202,8 @@ class Safety:
 
     The inputs HOMED and FORCE_CAP narrow the limits: below 0.25 not homed, no force; below 1 the
     signs are being checked, `check_force` and `check_torque` hold; the force felt never exceeds
-    FORCE_CAP, which is 0 until somebody sets it.
+    FORCE_CAP, which is 0 until somebody sets it. The force felt is taken at the depth that makes it
+    largest, DEPTH_MOST: FELT_MOST.
 
     Attributes:
         hand_limit: largest force felt at the hand [N].

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from app.core.arrays import FloatArray
+from app.device.control.depth_interval import DepthInterval
 from app.device.control.governor import SpeedGovernor
 from app.device.control.kinematics import Kinematics
 from app.device.control.passivity import PassivityGuard
@@ -67,7 +68,7 @@ def pantograph_stages(
     velocity: VelocityMethod = DEFAULT_VELOCITY,
     energy_bound: float | None = None,
 ) -> Table:
-    """Table of a needle pantograph: link read, velocity, kinematics, force laws, effects,
+    """Table of a needle pantograph: link read, velocity, depth, kinematics, force laws, effects,
     transmission, speed governor, passivity guard, safety, link write.
 
     Args:
@@ -88,6 +89,7 @@ def pantograph_stages(
         [
             *link.read,
             velocity_stage(velocity, profile),
+            DepthInterval.of(profile).stage(),
             Kinematics.of(profile).stage(),
             *laws,
             *effects,

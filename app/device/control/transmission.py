@@ -7,6 +7,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
 from app.core.parameters import numbered, packed
+from app.device.control.depth_interval import shortest_lever
 from app.device.control.vectors import shrink_kernel
 from app.mechanisms.pantograph import ForceLaw
 from app.mechanisms.pantograph.kernels import (
@@ -32,18 +33,20 @@ _AT: Final = numbered(_Places)
 def transmission_stage(state: FloatArray, p: FloatArray) -> None:
     """Write TORQUE_* and LIMIT_SCALE from FORCE_* and JOINT_*; keep the last torques in SENT_*.
 
-    Only the part of the force across the needle can be delivered; that part is limited to the
-    hand's limit and becomes joint torques, to which those of JOINT_* are added. The sums are scaled
-    together to the joints' limit, so that their direction stays.
+    Only the part of the force across the needle can be delivered; that part is limited so that the
+    hand feels no more than its limit at any depth that the needle can have (there the force is that
+    of the estimate times L_out over the shortest lever), and becomes joint torques, to which those
+    of JOINT_* are added. The sums are scaled together to the joints' limit, so that their direction
+    stays.
     """
     state[sv.SENT_LEFT], state[sv.SENT_RIGHT] = state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT]
     fx, fy, fz = state[sv.FORCE_X], state[sv.FORCE_Y], state[sv.FORCE_Z]
     dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
     along = fx * dx + fy * dy + fz * dz
     fx, fy, fz = fx - along * dx, fy - along * dy, fz - along * dz
-    scale = shrink_kernel(fx, fy, fz, p[_AT.hand_limit])
-    fx, fy, fz = scale * fx, scale * fy, scale * fz
     l_in, l_out = state[sv.L_IN], state[sv.L_OUT]
+    scale = shrink_kernel(fx, fy, fz, p[_AT.hand_limit] * shortest_lever(state) / l_out)
+    fx, fy, fz = scale * fx, scale * fy, scale * fz
     if p[_AT.printed] != 0.0:
         gx, gy = printed_force_kernel(fx, fy, fz, dx, dy, dz, l_in, l_out)
     else:

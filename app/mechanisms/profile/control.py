@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from app.mechanisms.profile.values import Angle, Section, Torque
+from app.mechanisms.profile.values import Angle, Provenance, Section, Torque
 
 
 class Axis(StrEnum):
@@ -74,6 +74,17 @@ class HaplySection(Section):
     encoder_ports: tuple[int, int]
     encoder_ccw: tuple[bool, bool]
     encoder_offset_deg: tuple[float, float]
+
+
+class HandSection(Section):
+    """The hand that holds the needle: fastest that it moves it along itself [m/s].
+
+    A depth that was measured is uncertain by this speed times its age, and a fix that would need a
+    faster hand is not believed.
+    """
+
+    depth_speed: Annotated[float, Field(ge=0.05, le=1.0)] = 0.15
+    provenance: dict[str, Provenance] = Field(default={"depth_speed": Provenance.ESTIMATED})
 
 
 class LoopSection(Section):

@@ -14,6 +14,7 @@ from app.mechanisms.profile.control import (
     Axis,
     EncoderSection,
     FixtureSection,
+    HandSection,
     HaplySection,
     LimitSection,
     LoopSection,
@@ -45,6 +46,7 @@ class DeviceProfile(Strict):
     mounting: MountingSection
     wire: WireSection
     loop: LoopSection
+    hand: HandSection = HandSection()
     haply: HaplySection | None = None
 
     @model_validator(mode="after")

@@ -55,7 +55,7 @@ def step_words(step: Step) -> StepWords:
             tr("Force scale"),
             tr("Finds out whether a commanded newton is a newton. Until it is measured on this "
                "device, forces stay below 1 N."),
-            tr("A kitchen scale that shows grams. The robot pushes with 0.2, 0.5 and 1 N."),
+            tr("A kitchen scale that shows grams. The robot pushes with 0.2, 0.5 and 0.9 N."),
         ),
         Step.LATENCY: StepWords(
             tr("Latency"),
