@@ -27,12 +27,13 @@ def explain(
     """Print the force laws, what an exercise simulates and what it leaves out, and why."""
     from app.exercises.library import load_exercise
     from app.exercises.scene import compile_exercise, device_of, law_requests
+    from app.views.declared import declared_views
 
     chosen = load_exercise(exercise)
     profile = device_of(chosen)
     if _is_first_time():
         typer.echo("compiling for the first time, up to a minute …", err=True)
-    plan = compile_exercise(chosen, profile, simulated=not real)
+    plan = compile_exercise(chosen, profile, declared_views(), simulated=not real)
     document = _document(chosen.id, chosen.device, not real, plan)
     document["assistance"] = chosen.assistance
     document["laws"] = _laws(law_requests(chosen), profile)

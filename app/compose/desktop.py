@@ -229,7 +229,6 @@ class DesktopRun:
     def run(self) -> ExerciseRun:
         """What its views need, as the robot's board says it now: it may have come back anew."""
         from app.device.control.velocity import DEFAULT_VELOCITY
-        from app.exercises.guidance import GuidanceMode
         from app.views.exercise.pad_view import (  # Qt only for who has a window
             depth_tolerance,
             rings,
@@ -256,7 +255,7 @@ class DesktopRun:
             forceful=setup.pen is None,
             held_arming=self._rig.trainer.held_arming,
             guidance=setup.exercise.guidance,
-            shown=Shown(live=setup.exercise.guidance_mode is GuidanceMode.LIVE),
+            shown=Shown.of_exercise(setup.exercise),
         )
 
     def place(self, placed: PlacedPlan) -> ExerciseRun:

@@ -19,6 +19,7 @@ from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.simulation.plant import plant_stage
 from app.simulation.trainee import trainee_stage
+from app.views.declared import declared_views
 
 START_DEPTH: Final = -0.015
 """Where the needle of a simulated hand waits [m]."""
@@ -63,7 +64,8 @@ def pen_table(
         seed: of the trainee.
         simulated: whether a simulated hand holds the pen.
     """
-    effects = compile_exercise(exercise.placed_as(placed.placement), profile, simulated=False)
+    placed_exercise = exercise.placed_as(placed.placement)
+    effects = compile_exercise(placed_exercise, profile, declared_views(), simulated=False)
     plant = [plant_stage(profile, UPRIGHT, START_DEPTH)] if simulated else []
     trainee = (
         [trainee_stage(placed.axis, placed.length, skill, seed)] if simulated and skill else []

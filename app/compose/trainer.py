@@ -33,6 +33,7 @@ from app.tracking.optics.rig import load_rig
 from app.tracking.pen.settings import PenSettings
 from app.tracking.pen.tracker import PenTracker
 from app.tracking.tracker import Tracker
+from app.views.declared import declared_views
 
 START_DEPTH: Final = -0.015
 """Where the needle waits: tip 15 mm above the skin [m]."""
@@ -193,7 +194,6 @@ def _build_rig(
         held_arming=setup.held_arming or robot is not None,
         risks=setup.risks,
     )
-    trainer.assistance(setup.exercise.assistance)
     return Rig(setup, profile, loop, tracker, trainer, robot)
 
 
@@ -207,10 +207,10 @@ def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
     documents = {"device": pen.profile, "pen": pen.settings.profile()}
     context = run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents)
     trainer = Trainer(
-        loop, tracker, setup.placed, setup.exercise, context, setup.clock, risks=setup.risks
-    )
+        loop, tracker, setup.placed, setup.exercise, context, setup.clock, risks=setup.risks,
+        dial=0.0,
+    )  # fmt: skip
     tracker.listen(trainer.on_fix)
-    trainer.assistance(0.0)
     return Rig(setup, pen.profile, loop, tracker, trainer, pen=pen)
 
 
@@ -247,7 +247,7 @@ def loop_table(
         trainee = trainee_stage(placed.axis, placed.length, setup.skill, setup.seed)
         link = Link.of([trainee, *link.read], link.write)
     requests = law_requests(exercise)
-    plan = compile_exercise(exercise, profile, simulated)
+    plan = compile_exercise(exercise, profile, declared_views(), simulated)
     bound = laws.energy_bound(requests, profile) + plan.energy_bound()
     forces = laws.stages_of(requests, profile)
     return pantograph_stages(profile, forces, plan.stages(), link, energy_bound=bound)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, field_validator, model_validator
 
@@ -29,16 +29,25 @@ class WindowPart(Strict):
     level: Annotated[float, Field(ge=-LARGEST_HU, le=LARGEST_HU)]
 
 
+class SlabPart(Strict):
+    """Thickness of the slices of every pane, and what of it is shown; 0 mm is one slice."""
+
+    kind: Literal["mean", "mip", "minip"] = "mean"
+    thickness_mm: Annotated[float, Field(ge=0.0, le=100.0)] = 0.0
+
+
 class ReadingPart(Strict):
     """What a student begins with.
 
     Attributes:
         window: numbers, or in the file a preset's name; None leaves it to the student.
+        slab: of the panes; None leaves it to the student.
         layout: of the panes; None leaves it to the student.
         locked: whether what is given here stays as it is.
     """
 
     window: WindowPart | None = None
+    slab: SlabPart | None = None
     layout: LayoutName | None = None
     locked: bool = False
 
@@ -58,8 +67,8 @@ class ReadingPart(Strict):
 
     @model_validator(mode="after")
     def _something_to_lock(self) -> ReadingPart:
-        if self.locked and self.window is None and self.layout is None:
-            raise ValueError("locked keeps window and layout: give at least one of them")
+        if self.locked and self.window is None and self.slab is None and self.layout is None:
+            raise ValueError("locked keeps window, slab and layout: give at least one of them")
         return self
 
     @property

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from app.exercises.errors import ExerciseError
 from app.exercises.guidance import GuidanceMode
-from app.exercises.parts import OwnPlan, PlanPoints, View
+from app.exercises.parts import OwnPlan, PlanPoints
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile, load_profile
 from app.planning.draft import DraftPlan
@@ -16,12 +17,16 @@ from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
 from app.scoring import metrics
 from app.simulation.compiler import compile as compile_scene
-from app.simulation.consumers import VIEW_READS, Consumer, DevicePort
+from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.plan import SimulationPlan
 from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Layer, Needle, Scene
 
 if TYPE_CHECKING:
     from app.imaging.phantom.anatomy import Anatomy
+
+
+CONTROL_SCAN: Final = "control_scan"
+"""Name of the view that shows the control scans, where they guide."""
 
 
 def plan_of(exercise: Exercise) -> Plan:
@@ -105,33 +110,43 @@ def metric_consumers(exercise: Exercise) -> tuple[Consumer, ...]:
 
 
 def compile_exercise(
-    exercise: Exercise, profile: DeviceProfile, simulated: bool = True
+    exercise: Exercise,
+    profile: DeviceProfile,
+    views: Mapping[str, Consumer],
+    simulated: bool = True,
 ) -> SimulationPlan:
     """Decide what an exercise simulates on a device, and why: what `acus explain` prints.
 
     Args:
         exercise: the exercise.
         profile: its device.
+        views: what every view reads, by its name (`views.declared.declared_views`).
         simulated: whether robot and hand are simulated too.
 
     Raises:
         SimulationError: for an unknown effect, model or parameter; names what is valid.
+        ExerciseError: if the exercise shows a view that `views` does not have.
     """
     renders = frozenset(axis.value for axis in profile.renders)
     return compile_scene(
         scene_of(exercise, profile),
         DevicePort(profile.name, renders, simulated),
-        _watching(exercise),
+        _watching(exercise, views),
         metric_consumers(exercise),
     )
 
 
-def _watching(exercise: Exercise) -> list[str | Consumer]:
-    """List the views that show something, and the control scans: these show the target too."""
-    views: list[str | Consumer] = [view.value for view in exercise.shown_views]
+def _watching(exercise: Exercise, views: Mapping[str, Consumer]) -> list[Consumer]:
+    """List the views that show something, the control scans among them where they guide."""
+    names = [view.value for view in exercise.shown_views]
     if exercise.guidance_mode is GuidanceMode.CONTROL_CT:
-        views.append(Consumer("control scans show it", VIEW_READS[View.TARGET_MOTION.value]))
-    return views
+        names.append(CONTROL_SCAN)
+    if missing := [name for name in names if name not in views]:
+        raise ExerciseError(
+            f"exercise {exercise.id}: nothing declares the view {missing[0]!r}; declared are "
+            f"{', '.join(sorted(views)) or 'none'}; see 'How to add a view'"
+        )
+    return [views[name] for name in names]
 
 
 def law_requests(exercise: Exercise) -> dict[str, dict[str, float]]:

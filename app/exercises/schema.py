@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Annotated
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from app.core.configuration import Strict
 from app.exercises.guidance import GuidanceMode, GuidancePart, Purpose
+from app.exercises.locks import EVERY_LOCK, HandName, Lock
 from app.exercises.parts import (
     TELLING,
     Ct,
@@ -61,6 +62,9 @@ class Exercise(Strict):
         guidance: what pictures the student has of the needle.
         reading: window and layout that it is read with.
         views: what is shown.
+        locks: controls that stay as the exercise has them; an assessment locks all.
+        hand: what moves the simulated hand; None leaves it to the student, or is the mouse where
+            it is locked.
         seed: of everything random in the attempt.
     """
 
@@ -87,6 +91,8 @@ class Exercise(Strict):
     guidance: GuidancePart = GuidancePart()
     reading: ReadingPart = ReadingPart()
     views: tuple[View, ...] = (View.LIVE_OVERLAY, View.BULLSEYE, View.THREE_D)
+    locks: tuple[Lock, ...] | None = None
+    hand: HandName | None = None
     seed: Annotated[int, Field(ge=0)] = 1
 
     @field_validator("effects", "laws", mode="before")
@@ -123,6 +129,17 @@ class Exercise(Strict):
         return self
 
     @model_validator(mode="after")
+    def _an_assessment_locks_all(self) -> Exercise:
+        if self.purpose is Purpose.ASSESSMENT and self.locks is not None:
+            free = [lock.value for lock in Lock if lock not in self.locks]
+            if free:
+                raise ValueError(
+                    f"locks: an assessment locks all controls, and {', '.join(free)} is missing: "
+                    "leave locks out, or use purpose: practice"
+                )
+        return self
+
+    @model_validator(mode="after")
     def _plan_fits_ct(self) -> Exercise:
         if isinstance(self.plan, OwnPlan):
             if self.plan.target_mm is None and self.ct.phantom is None:
@@ -147,6 +164,17 @@ class Exercise(Strict):
         if self.guidance_mode is GuidanceMode.LIVE:
             return self.views
         return tuple(view for view in self.views if view not in TELLING)
+
+    @property
+    def locked(self) -> frozenset[Lock]:
+        """Controls that the student cannot change: as said; all of them in an assessment."""
+        if self.purpose is Purpose.ASSESSMENT:
+            return EVERY_LOCK
+        return frozenset(self.locks or ())
+
+    def showing(self, views: Collection[View]) -> Exercise:
+        """Return the exercise with other views."""
+        return self.model_copy(update={"views": tuple(view for view in View if view in views)})
 
     def placed_as(self, placement: Placement) -> Exercise:
         """Return the exercise with the patient placed otherwise."""

@@ -15,6 +15,10 @@ class ScanNotPossibleError(SessionError):
     """A control scan while nobody knows where the needle is; it is not counted."""
 
 
+class ControlLockedError(SessionError):
+    """A control that the exercise keeps as it is."""
+
+
 class NotReadyError(SessionError):
     """The robot's loop has not reported yet (its kernels are being loaded)."""
 

@@ -4,12 +4,13 @@
 satisfy them with small fakes.
 """
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from typing import Any, Protocol
 
 from app.core.arrays import FloatArray
 from app.core.events import EventQueue
 from app.core.latest import Stamped
+from app.exercises.locks import Lock
 from app.imaging.scan_order import ScanOrder
 from app.scoring.rows import Rules
 from app.scoring.tolerance import Tolerance
@@ -139,6 +140,11 @@ class ExercisePort(Protocol):
     @property
     def assistance(self) -> float:
         """Assistance at the start, 0...1."""
+        ...
+
+    @property
+    def locked(self) -> Container[Lock]:
+        """Controls that stay as the exercise has them."""
         ...
 
     @property

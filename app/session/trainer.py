@@ -6,11 +6,13 @@ from typing import Final
 
 from app.core.clock import Clock, SystemClock
 from app.core.events import EventQueue
+from app.exercises.locks import Lock
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
 from app.session.arming import Arming, ClearanceOf
 from app.session.attempt_log import AttemptLog
 from app.session.context import RunContext
+from app.session.errors import ControlLockedError
 from app.session.inputs import LoopInputs
 from app.session.machine import Event
 from app.session.ports import ExercisePort, FixPort, LoopPort, TrackerPort
@@ -54,19 +56,22 @@ class Trainer:
         clearance: ClearanceOf | None = None,
         held_arming: bool = False,
         risks: tuple[Risk, ...] = (),
+        dial: float | None = None,
     ) -> None:
         """Keep the parts.
 
         `advance` is for virtual time only. `clearance` is asked in every tick how much force the
         device is cleared for; without it, whoever built the loop has written it. With
         `held_arming`, forces are on only between `arm` and `disarm` during an attempt.
-        `risks` are measured and recorded when an attempt ends.
+        `risks` are measured and recorded when an attempt ends. `dial` is the assistance that every
+        attempt begins with; None for the exercise's.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
         self._loop = loop
         self._placed = placed
         self._exercise = exercise
+        self._dial = exercise.assistance if dial is None else dial
         self._scorer = scorer(exercise)
         self._context = context or RunContext()
         self._clock = clock or SystemClock()
@@ -90,7 +95,7 @@ class Trainer:
         if self._ticker is not None:
             return
         try:
-            self._inputs.prepare(self._placed, self._exercise.assistance)
+            self._inputs.prepare(self._placed, self._dial)
             self._watch.open()
         except BaseException:
             self._watch.close()
@@ -109,7 +114,7 @@ class Trainer:
 
     def step(self, ticks: int = 20) -> Snapshot:
         """Let virtual time pass: `ticks` of the loop, the simulated cameras, then one tick."""
-        self._inputs.prepare(self._placed, self._exercise.assistance)
+        self._inputs.prepare(self._placed, self._dial)
         self.heartbeat()
         self._loop.step(ticks)
         now = self._clock.now()
@@ -140,7 +145,8 @@ class Trainer:
             if self._ticker is not None:
                 self._watch.require_ticks(self._ticker.failed)
             self._arming.require()
-            self._inputs.prepare(self._placed, self._exercise.assistance)
+            self._inputs.prepare(self._placed, self._dial)
+            self._inputs.assist(self._dial)  # whatever the dial was turned to before
             now = self._clock.now()
             header = self._context.header(self._exercise, self._placed, student, now, hand)
             recorder = self._context.recorder(header, self._loop, self._placed, self._clock)
@@ -186,7 +192,16 @@ class Trainer:
         self._inputs.hand(x, y, depth, holds)
 
     def assistance(self, value: float) -> None:
-        """Set the assistance: 1 full guidance, 0 nothing, -1 full repulsion."""
+        """Set the assistance: 1 full guidance, 0 nothing, -1 full repulsion.
+
+        Raises:
+            ControlLockedError: if the exercise keeps the dial as it is; nothing has changed then.
+        """
+        if Lock.ASSISTANCE in self._exercise.locked:
+            raise ControlLockedError(
+                f"exercise {self._exercise.id} keeps the assistance at {self._dial:g}; it can be "
+                "turned in exercises that do not lock it"
+            )
         self._inputs.assist(value)
 
     @property

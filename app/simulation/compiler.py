@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from graphlib import CycleError, TopologicalSorter
 
 from app.core import state_vector as sv
-from app.simulation.consumers import Consumer, DevicePort, metric_consumers, view_consumers
+from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.declaration import Declaration
 from app.simulation.errors import SimulationError
 from app.simulation.plan import Dropped, Kept, SimulationPlan
@@ -19,8 +19,8 @@ from app.simulation.scene import EffectRequest, Scene
 def compile(
     scene: Scene,
     device: DevicePort,
-    views: Sequence[str | Consumer] = (),
-    scoring: Sequence[str | Consumer] = (),
+    views: Sequence[Consumer] = (),
+    scoring: Sequence[Consumer] = (),
 ) -> SimulationPlan:
     """Return what has to be simulated for this device, these views and this scoring.
 
@@ -28,7 +28,7 @@ def compile(
         SimulationError: for an unknown effect, model or parameter, a value out of range, or
             effects that need each other's results in a circle.
     """
-    consumers = (*device.consumers(), *view_consumers(views), *metric_consumers(scoring))
+    consumers = (*device.consumers(), *views, *scoring)
     declared = {request.name: declaration(request.name) for request in scene.effects}
     checked = {r.name: _checked(r, declared[r.name]) for r in scene.effects}
     dropped = {

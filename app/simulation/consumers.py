@@ -1,28 +1,17 @@
-"""Who can consume what the simulation computes: device axes, the simulated hand, views, metrics."""
+"""Who can consume what the simulation computes: device axes, the simulated hand, views, metrics.
 
-from collections.abc import Iterable
+Views and metrics declare in their own files what they read; whoever compiles hands them in.
+"""
+
 from dataclasses import dataclass
 from typing import Final
 
 from app.simulation.errors import SimulationError
 
 _FORCE: Final = ("force_x", "force_y", "force_z")
-_SHIFT: Final = ("target_shift_x", "target_shift_y", "target_shift_z")
 
 DEVICE_AXES: Final[dict[str, tuple[str, ...]]] = {"lateral": _FORCE, "axial": ("axial_force",)}
 """What a device that can render along an axis reads."""
-
-VIEW_READS: Final[dict[str, tuple[str, ...]]] = {
-    "force_gauge": ("axial_force",),
-    "target_motion": _SHIFT,
-}
-"""What views read beyond the needle's pose; a view that is not named here reads none of it."""
-
-METRIC_READS: Final[dict[str, tuple[str, ...]]] = {
-    "axial_force": ("axial_force",),
-    "moving_target": _SHIFT,
-}
-"""What metrics read beyond the trajectory and the target at rest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,23 +52,3 @@ class DevicePort:
         ]
         hand = [Consumer("the simulated hand feels it along the needle", ("axial_force",))]
         return (*axes, *(hand if self.simulated else []))
-
-
-def view_consumers(views: Iterable[str | Consumer]) -> tuple[Consumer, ...]:
-    """Consumers among the views, by name or given in full."""
-    return tuple(
-        view
-        if isinstance(view, Consumer)
-        else Consumer(f"view {view} shows it", VIEW_READS.get(view, ()))
-        for view in views
-    )
-
-
-def metric_consumers(metrics: Iterable[str | Consumer]) -> tuple[Consumer, ...]:
-    """Consumers among the metrics, by name or given in full."""
-    return tuple(
-        metric
-        if isinstance(metric, Consumer)
-        else Consumer(f"metric {metric} scores it", METRIC_READS.get(metric, ()))
-        for metric in metrics
-    )

@@ -7,7 +7,9 @@ from PySide6.QtCore import QObject, Signal
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.units import MILLIMETRE
-from app.exercises.parts import OwnPlan
+from app.exercises.errors import ExerciseError
+from app.exercises.locks import HandName, Lock
+from app.exercises.parts import TELLING, OwnPlan, View
 from app.exercises.scene import device_of, draft_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
@@ -20,7 +22,10 @@ from app.views.background import Indicator
 from app.views.exercise.controller import ExerciseController
 from app.views.exercise.pad_view import rings
 from app.views.exercise.run import ExerciseRun
+from app.views.exercise.shown import Shown
+from app.views.fixed_reading import apply as apply_reading
 from app.views.live_needle import LiveNeedle
+from app.views.lock_words import why_locked
 from app.views.patient import Patient
 from app.views.plan.editor import PlanEditor
 from app.views.runs import Runs
@@ -29,6 +34,7 @@ from app.views.scene.extraction import SurfaceExtraction
 from app.views.services import RobotChoice, RunSetup
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool, Viewing
+from app.views.target_motion import TargetMotion
 from app.views.text import tr
 from app.views.workspace import Workspace
 
@@ -42,11 +48,13 @@ class Conductor(QObject):
         failed(object): an error to show; nothing was lost.
         patient_changed(): another patient is shown.
         exercise_taken(str): identifier of the exercise that is being prepared.
+        views_changed(): other views are on, or may be switched.
     """
 
     failed = Signal(object)
     patient_changed = Signal()
     exercise_taken = Signal(str)
+    views_changed = Signal()
 
     def __init__(
         self,
@@ -66,7 +74,7 @@ class Conductor(QObject):
         self._cameras: CameraSettings | None = None
         self._profile: DeviceProfile | None = None
         self._surfaces = SurfaceExtraction(workspace.scene, self)
-        self._needle = LiveNeedle(workspace)
+        self._needle, self._motion = LiveNeedle(workspace), TargetMotion(workspace)
         self.scans = ScanSource(self, workspace)
         self._connect()
 
@@ -81,6 +89,8 @@ class Conductor(QObject):
         self._runs.gone.connect(self._detach)
         self._surfaces.failed.connect(self.failed)
         self.controller.snapshot_taken.connect(self.show_snapshot)
+        self.controller.attached.connect(self._show_views)
+        self.controller.beginning.connect(self._as_the_exercise_says)
         self.scans.connect_all()
 
     @property
@@ -122,10 +132,65 @@ class Conductor(QObject):
         self._editor.set_profile(self._profile)
         radii = rings(exercise.tolerances)
         self._workspace.viewing.set_tolerances(tuple(radius / MILLIMETRE for radius in radii))
-        self._workspace.exercise_panel.set_assistance(exercise.assistance)
+        self._as_the_exercise_says(reading=False)
+        self._show_views()
         if self.patient is not None and self.fits(self.patient):
             self._start_plan(self.patient)
         self.exercise_taken.emit(exercise.id)
+
+    def _as_the_exercise_says(self, reading: bool = True) -> None:
+        """Put dial, hand and, unless `reading` is False, the reading as the exercise has them."""
+        exercise, workspace = self.exercise, self._workspace
+        if exercise is None:
+            return
+        panel, source = workspace.exercise_panel, workspace.bullseye.source
+        panel.set_assistance(exercise.assistance)
+        panel.set_locked(why_locked(exercise, Lock.ASSISTANCE))
+        why, hand = why_locked(exercise, Lock.HAND), exercise.hand
+        if why:
+            source.fix(hand or HandName.MOUSE, why)
+        else:
+            source.release()
+            if hand is not None:
+                source.set_source(hand)
+        if reading:
+            apply_reading(workspace, exercise)
+
+    # --- views --------------------------------------------------------------------------------
+    @property
+    def shown(self) -> Shown:
+        """What the exercise shows: the one gate of every view."""
+        run, exercise = self.controller.run, self.exercise
+        if run is not None:
+            return run.shown
+        return Shown() if exercise is None else Shown.of_exercise(exercise)
+
+    def why_view_stays(self, view: View) -> str:
+        """Say why the student cannot switch a view now; empty where he can."""
+        if self.exercise is None:
+            return tr("Choose an exercise first.")
+        if not self.shown.live and view in TELLING:
+            return tr("Control scans guide here: nothing tells of the needle between them.")
+        if self._editor.locked:
+            return tr("Views can be switched between attempts.")
+        return why_locked(self.exercise, Lock.VIEWS)
+
+    def show_view(self, view: View, on: bool) -> None:
+        """Switch a view, where the exercise lets the student; a run is built anew with it."""
+        why, exercise = self.why_view_stays(view), self.exercise
+        if why or exercise is None:
+            self.failed.emit(ExerciseError(why))
+        else:
+            others = frozenset(exercise.views) - {view}
+            self.exercise = exercise.showing(others | {view} if on else others)
+            self._show_plan()
+        self._show_views()
+
+    def _show_views(self) -> None:
+        run = self.controller.run
+        why = why_locked(self.exercise, Lock.VIEWS)
+        self._workspace.show_views(self.shown, run is None or run.interactive, why)
+        self.views_changed.emit()
 
     def set_robot(self, choice: RobotChoice) -> None:
         """Take another robot, from now on; a run on the present one ends."""
@@ -210,16 +275,19 @@ class Conductor(QObject):
     # --- robot and needle ---------------------------------------------------------------------
     def _attach(self, run: ExerciseRun) -> None:
         self._needle.forget()
+        self._motion.hide()
         self.controller.attach(run)
         self._show_plan()
 
     def _moved(self, run: ExerciseRun) -> None:
         self._needle.forget()
+        self._motion.hide()
         self.controller.replan(run)
 
     def _detach(self) -> None:
         self.controller.detach()
         self._needle.hide()
+        self._motion.hide()
         self._show_plan()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
@@ -229,11 +297,13 @@ class Conductor(QObject):
             return
         self._editor_lock(snapshot)
         self._needle.show(run, snapshot)
+        self._motion.show(run, snapshot)
 
     def _editor_lock(self, snapshot: Snapshot) -> None:
         running = snapshot.state in RUNNING
         if running != self._editor.locked:
             self._editor.set_locked(running)
+            self.views_changed.emit()
 
     def close(self) -> None:
         """Let go of everything that runs; idempotent."""

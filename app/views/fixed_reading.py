@@ -2,24 +2,43 @@
 
 from __future__ import annotations
 
-from app.exercises.reading import ReadingPart
+from dataclasses import replace
+
+from app.exercises.locks import Lock
+from app.exercises.schema import Exercise
+from app.views.layouts import FOUR
+from app.views.slices.looks import Slab
+from app.views.slices.panes import PaneId
+from app.views.slices.presets import default_window
 from app.views.workspace import Workspace
 
 
 def let_go(workspace: Workspace) -> None:
     """End what the last exercise held: the user may change everything again."""
     workspace.viewing.greys.fix(False)
+    workspace.viewing.fix_slabs(False)
     workspace.fix_layout(False)
 
 
-def apply(workspace: Workspace, part: ReadingPart) -> None:
-    """Read as an exercise says; what it locks cannot be changed until `let_go`."""
+def apply(workspace: Workspace, exercise: Exercise) -> None:
+    """Read as an exercise says; what it locks cannot be changed until `let_go`.
+
+    Where it locks the reading as a whole, what it does not say is as at the program's first start;
+    else that is left as the student has it.
+    """
     let_go(workspace)
-    greys, window = workspace.viewing.greys, part.window_level
-    if window is not None:
+    part, whole = exercise.reading, Lock.READING in exercise.locked
+    window, layout, slab = part.window_level, part.layout, part.slab
+    viewing, greys = workspace.viewing, workspace.viewing.greys
+    if whole or window is not None:
         greys.set_locked(False)
-        greys.set(window)
-        greys.fix(part.locked)
-    if part.layout is not None:
-        workspace.show_layout(part.layout)
-        workspace.fix_layout(part.locked)
+        greys.set(window or default_window())
+        greys.fix(whole or part.locked)
+    if whole or slab is not None:
+        wanted = Slab() if slab is None else Slab(slab.kind, slab.thickness_mm)
+        for pane in PaneId:
+            viewing.set_look(pane, replace(viewing.look(pane), slab=wanted))
+        viewing.fix_slabs(whole or part.locked)
+    if whole or layout is not None:
+        workspace.show_layout(layout or FOUR.name)
+        workspace.fix_layout(whole or part.locked)

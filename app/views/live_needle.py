@@ -1,17 +1,25 @@
-"""The live needle and the robot in slices and 3D, where they may be shown."""
+"""The view `live_overlay`: the live needle on the slices; and needle and robot in 3D."""
 
 from __future__ import annotations
+
+from typing import Any, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.transform import RigidTransform
-from app.core.units import MILLIMETRE
+from app.exercises.parts import View
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.needle_overlay import NeedleOverlay
 from app.views.scene.robot import RobotShape
 from app.views.workspace import Workspace
+
+DECLARATION: Final[dict[str, Any]] = {
+    "view": "live_overlay",
+    "title": "Needle on the slices",
+    "reads": (),
+}
 
 SCENE_DEAD_BAND_MM = 0.25
 """The 3D picture is made anew when the needle moved more than this."""
@@ -23,13 +31,11 @@ class LiveNeedle:
     def __init__(self, workspace: Workspace) -> None:
         self._workspace = workspace
         self._drawn: FloatArray | None = None
-        self._target: FloatArray | None = None
         self._hidden = False
 
     def forget(self) -> None:
         """Draw everything anew at the next snapshot: another run, or another plan."""
         self._drawn, self._hidden = None, False
-        self._show_target(None)
 
     def show(self, run: ExerciseRun, snapshot: Snapshot) -> None:
         """Draw a moment; nothing where the run tells nothing of its needle."""
@@ -44,9 +50,9 @@ class LiveNeedle:
         p_end = pose.p_tip if pose.measured else run.placed.p_entry
         spread = pose.covariance if pose.measured else None
         needle = NeedleOverlay.of_world(p_end, pose.axis, length, transform, pose.measured, spread)
-        self._workspace.viewing.set_needle(needle)
-        moved = bool((snapshot.p_target != run.placed.p_target).any())
-        self._show_target(transform.inverse() @ snapshot.p_target / MILLIMETRE if moved else None)
+        self._workspace.viewing.set_needle(needle if run.shown.shows(View.LIVE_OVERLAY) else None)
+        if not run.shown.shows(View.THREE_D):
+            return
         ends = np.concatenate([needle.start_mm, needle.tip_mm])
         if self._drawn is None or np.abs(ends - self._drawn).max() > SCENE_DEAD_BAND_MM:
             self._drawn = ends
@@ -58,19 +64,6 @@ class LiveNeedle:
     def hide(self) -> None:
         """Take the needle, and the robot, whose arms point along it, out of every view."""
         self._drawn, self._hidden = None, True
-        self._show_target(None)
         self._workspace.viewing.set_needle(None)
         self._workspace.scene.set_needle(None)
         self._workspace.scene.set_robot(None, RigidTransform.identity())
-
-    def _show_target(self, target_mm: FloatArray | None) -> None:
-        """Let target and path go with what breathing moves, LPS [mm]; None leaves them at rest."""
-        viewing, before = self._workspace.viewing, self._target
-        viewing.set_target_now(target_mm)
-        if target_mm is None:
-            again = before is not None
-        else:
-            again = before is None or np.abs(target_mm - before).max() > SCENE_DEAD_BAND_MM
-        if again:
-            self._target = target_mm
-            self._workspace.scene.set_plan(viewing.shown_draft)

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 def connect_pages(window: MainWindow) -> None:
     """Connect the pages of a window whose parts are all there."""
     controller = window.conductor.controller
-    controller.began.connect(lambda _: window.menus.bullseye.setChecked(True))
     controller.began.connect(lambda _: window.workspace.show_exercise())
     controller.finished.connect(window.show_result)
     window.workspace.exercise_panel.exercise_chosen.connect(window.begin_exercise)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QSettings, QSize
 
 from app.core.errors import AcusError
+from app.exercises.locks import Lock
 from app.imaging.window import WindowLevel
 from app.views.fixed_reading import apply, let_go
 from app.views.layouts import LAYOUTS
@@ -70,8 +71,11 @@ class Remembered:
         let_go(workspace)
         self._take(key, lambda state: set_reading(workspace, state))
         taken = self._window.conductor.exercise
-        if taken is not None and (taken.reading.locked or self._settings.value(key) is None):
-            apply(workspace, taken.reading)
+        if taken is None:
+            return
+        held = taken.reading.locked or Lock.READING in taken.locked
+        if held or self._settings.value(key) is None:
+            apply(workspace, taken)
 
     def _keep_reading(self) -> None:
         state = json.dumps(reading(self._window.workspace))

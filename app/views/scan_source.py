@@ -1,8 +1,8 @@
-"""From the pedal to the picture: a control scan is made beside the window, then shown."""
+"""The view `control_scan`: from the pedal to the picture, made beside the window, then shown."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final
 
 from PySide6.QtCore import QObject
 
@@ -16,6 +16,13 @@ from app.views.workspace import Workspace
 
 if TYPE_CHECKING:
     from app.views.conductor import Conductor
+
+DECLARATION: Final[dict[str, Any]] = {
+    "view": "control_scan",
+    "title": "Control scans",
+    "reads": ("target_shift_x", "target_shift_y", "target_shift_z"),
+}
+"""The slices show the patient where breathing has him, the target too."""
 
 
 class ScanSource(QObject):
@@ -51,8 +58,6 @@ class ScanSource(QObject):
     def _attached(self) -> None:
         run = self._conductor.controller.run
         scanning = run is not None and not run.shown.live
-        has_hand = run is None or run.interactive
-        self._workspace.needle_cell.set_scanning(scanning, has_hand)
         self._show_range()
         if not scanning:
             self._view.clear()

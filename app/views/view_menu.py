@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu
 
+from app.exercises.locks import Lock
+from app.exercises.parts import View
 from app.views.layouts import LAYOUTS, layout_title
+from app.views.lock_words import view_title, why_locked
 from app.views.slices.bindings import SCHEMES
 from app.views.slices.needle_menu import fill_needle_menu
 from app.views.slices.operator_side import Side, side_name, turns
@@ -35,6 +38,7 @@ class ViewMenu:
 
     def __init__(self, menu: QMenu, window: MainWindow) -> None:
         self._menu, self._window = menu, window
+        menu.setToolTipsVisible(True)
         viewing, workspace = window.workspace.viewing, window.workspace
         self._greys = viewing.greys
         self.layouts = self._layout_menu(menu.addMenu(tr("Layout")))
@@ -48,6 +52,7 @@ class ViewMenu:
         self.bullseye = self._switch(
             tr("Bull's-eye beside the slices"), "", workspace.show_bullseye
         )
+        self.shown = self._shown_menu(menu.addMenu(tr("Shown by the exercise")))
         self._entry(tr("Crosshair to target"), "", window.cursor_to_target)
         needle = menu.addMenu(tr("Needle's planes"))
         needle.aboutToShow.connect(lambda: self._fill_needle(needle))
@@ -56,6 +61,7 @@ class ViewMenu:
         menu.addSeparator()
         self.schemes = self._scheme_menu(menu.addMenu(tr("Mouse and keys")))
         self._screen_entries()
+        window.conductor.views_changed.connect(self.refresh)
         for changed in (workspace.arranged, viewing.window_changed, viewing.scheme_changed):
             changed.connect(self.refresh)
         self.refresh()
@@ -100,6 +106,7 @@ class ViewMenu:
 
     def _layout_menu(self, menu: QMenu) -> dict[str, QAction]:
         workspace, actions = self._window.workspace, {}
+        menu.setToolTipsVisible(True)
         group = QActionGroup(menu)
         for number, name in enumerate(LAYOUTS, start=1):
             action = group.addAction(menu.addAction(layout_title(name)))
@@ -111,6 +118,16 @@ class ViewMenu:
         self._left_handed = menu.addAction(tr("Left-handed: panel on the right"))
         self._left_handed.setCheckable(True)
         self._left_handed.toggled.connect(workspace.set_left_handed)
+        return actions
+
+    def _shown_menu(self, menu: QMenu) -> dict[View, QAction]:
+        conductor, actions = self._window.conductor, {}
+        menu.setToolTipsVisible(True)
+        for view in View:
+            action = menu.addAction(view_title(view))
+            action.setCheckable(True)
+            action.triggered.connect(lambda on, view=view: conductor.show_view(view, on))
+            actions[view] = action
         return actions
 
     def _scheme_menu(self, menu: QMenu) -> dict[str, QAction]:
@@ -152,6 +169,10 @@ class ViewMenu:
             action.setEnabled(name in workspace.layouts and not workspace.is_layout_fixed)
             action.setChecked(name == workspace.layout_name)
         self._locked.setEnabled(not greys.is_fixed)
+        why = why_locked(self._window.conductor.exercise, Lock.READING)
+        for action in (*self.layouts.values(), self._locked):
+            action.setToolTip("" if action.isEnabled() else why)
+        self._refresh_views()
         for action, is_on in self._room:
             action.setChecked(is_on())
         scheme = workspace.viewing.scheme
@@ -167,6 +188,18 @@ class ViewMenu:
         ):  # fmt: skip
             if switch.isChecked() != state:
                 switch.setChecked(state)
+
+    def _refresh_views(self) -> None:
+        """Check the views that the exercise shows; say why one cannot be switched."""
+        conductor, workspace = self._window.conductor, self._window.workspace
+        for view, action in self.shown.items():
+            why = conductor.why_view_stays(view)
+            action.setChecked(conductor.shown.shows(view))
+            action.setEnabled(not why)
+            action.setToolTip(why)
+        why = why_locked(conductor.exercise, Lock.VIEWS)
+        self.bullseye.setEnabled(not (workspace.is_cell_fixed and workspace.has_bullseye))
+        self.bullseye.setToolTip("" if self.bullseye.isEnabled() else why)
 
     def _fill_presets(self, menu: QMenu) -> None:
         """Offer windows for the pane that has the keyboard, or had it last."""

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.units import MILLIMETRE
+from app.exercises.parts import View
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseViews
 from app.views.exercise.messages import MessageList
@@ -19,10 +20,12 @@ from app.views.exercise.needle_cell import NeedleCell
 from app.views.exercise.pad_view import rings
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.scan_view import ScanView
+from app.views.exercise.shown import Shown
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.tracker_panel import TrackerPanel
 from app.views.grid import Cell, ViewGrid
 from app.views.layouts import BULLSEYE, FOUR, SCENE, chosen, possible
+from app.views.lock_words import off_words
 from app.views.measure.editor import MeasureEditor
 from app.views.measure.panel import MeasurePanel
 from app.views.plan.editor import PlanEditor
@@ -73,7 +76,8 @@ class Workspace(QWidget):
         panes: dict[str, QWidget] = {str(pane.pane): pane for pane in self.slices}
         self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: Cell(self.needle_cell)}, self)
         self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
-        self.is_layout_fixed = False
+        self.is_layout_fixed = self.is_cell_fixed = False
+        self._has_cell = True
         for pane in self.slices:
             pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
             pane.leave_wanted.connect(lambda on, pane=pane: self._go_on(pane, on))
@@ -102,8 +106,9 @@ class Workspace(QWidget):
     def exercise_views(self) -> ExerciseViews:
         """The widgets that the exercise controller feeds."""
         return ExerciseViews(
-            self.bullseye, self.exercise_panel, self.status, self.tracker_panel, self.messages
-        )
+            self.bullseye, self.exercise_panel, self.status, self.tracker_panel, self.messages,
+            self.needle_cell.gauge,
+        )  # fmt: skip
 
     def _set_up_needle_panes(self) -> None:
         planes, viewing = self.needle_planes, self.viewing
@@ -150,9 +155,30 @@ class Workspace(QWidget):
         self.arranged.emit()
 
     def show_bullseye(self, shown: bool) -> None:
-        """Give the bull's-eye a place in the layout, or take it away."""
-        self.has_bullseye = shown
+        """Give the bull's-eye's cell a place in the layout, or take it away, if there is anything
+        in it and the exercise lets it go.
+        """
+        self.has_bullseye = self._has_cell and (shown or self.is_cell_fixed)
         self._arrange()
+
+    def show_views(self, shown: Shown, has_hand: bool, why_fixed: str = "") -> None:
+        """Show what an exercise shows, and nothing that it does not.
+
+        Args:
+            shown: says what.
+            has_hand: whether there is a simulated hand to move.
+            why_fixed: why the student cannot change it; empty where he can.
+        """
+        shows, scanning = shown.shows, not shown.live
+        pad, gauge = shows(View.BULLSEYE), shows(View.FORCE_GAUGE)
+        self.needle_cell.set_shown(scanning, has_hand, pad, gauge)
+        self._has_cell = scanning or has_hand or pad or gauge
+        self.is_cell_fixed = bool(why_fixed)
+        self.scene.set_off("" if shows(View.THREE_D) else off_words(why_fixed))
+        self.tracker_panel.set_off("" if shows(View.CAMERAS) else off_words(why_fixed))
+        if self.has_bullseye and not self._has_cell:
+            self.show_bullseye(False)
+        self.arranged.emit()
 
     def set_left_handed(self, left_handed: bool) -> None:
         """Put panel and panes where the left hand at the mouse leaves them free to see."""

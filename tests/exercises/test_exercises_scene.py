@@ -15,6 +15,7 @@ from app.exercises.scene import (
 from app.exercises.schema import Exercise
 from app.planning.plan import Plan
 from app.simulation.errors import SimulationError
+from app.views.declared import declared_views
 
 POINTS = {"entry_mm": (0.0, -90.0, 300.0), "target_mm": (5.0, -20.0, 305.0)}
 
@@ -25,7 +26,7 @@ def exercise(**changes: object) -> Exercise:
 
 def fate(name: str, simulated: bool) -> tuple[list[str], dict[str, str]]:
     chosen = load_exercise(name)
-    plan = compile_exercise(chosen, device_of(chosen), simulated)
+    plan = compile_exercise(chosen, device_of(chosen), declared_views(), simulated)
     return sorted(kept.name for kept in plan.kept), {d.name: d.why for d in plan.dropped}
 
 
@@ -98,7 +99,7 @@ def test_breathing_is_dropped_where_neither_view_nor_metric_consumes_it() -> Non
 def test_an_unknown_effect_or_parameter_is_refused_with_the_names_that_exist() -> None:
     chosen = exercise(effects={"earthquake": None})
     with pytest.raises(SimulationError, match="no effect 'earthquake'; there are breathing"):
-        compile_exercise(chosen, device_of(chosen))
+        compile_exercise(chosen, device_of(chosen), declared_views())
     chosen = exercise(effects={"breathing": {"parameters": {"speed": 1.0}}})
     with pytest.raises(SimulationError, match=r"no parameter 'speed'; it has .*period"):
-        compile_exercise(chosen, device_of(chosen))
+        compile_exercise(chosen, device_of(chosen), declared_views())

@@ -31,6 +31,7 @@ EXERCISE = SimpleNamespace(
     title="Liver, first insertion",
     version=1,
     assistance=0.5,
+    locked=frozenset(),
     tolerances=DEFAULT_TOLERANCES,
     rules=Rules(),
     guidance=GuidancePart(),

@@ -14,14 +14,16 @@ from app.simulation.scene import EffectRequest, Layer, Scene
 ALL = tuple(EffectRequest(n) for n in ("breathing", "shaft_friction", "lateral_tissue"))
 REAL = DevicePort("icube")
 SIMULATED = DevicePort("icube", simulated=True)
+GAUGE = Consumer("view force_gauge shows it", ("axial_force",))
+MOTION = Consumer("view target_motion shows it", ("target_shift_x",))
 
 
-def names(scene: Scene, device: DevicePort, **asked: tuple[str | Consumer, ...]) -> set[str]:
+def names(scene: Scene, device: DevicePort, **asked: tuple[Consumer, ...]) -> set[str]:
     return {kept.name for kept in compile(scene, device, **asked).kept}
 
 
 def test_a_device_that_pushes_sideways_gets_no_axial_friction() -> None:
-    plan = compile(Scene(effects=ALL), REAL, views=("axial", "sagittal"))
+    plan = compile(Scene(effects=ALL), REAL, views=(Consumer("view axial shows it", ()),))
     assert [kept.name for kept in plan.kept] == ["lateral_tissue"]
     assert {d.name for d in plan.dropped} == {"breathing", "shaft_friction"}
     why = next(d.why for d in plan.dropped if d.name == "shaft_friction")
@@ -34,9 +36,9 @@ def test_each_kind_of_consumer_keeps_what_it_reads() -> None:
     axial = DevicePort("three", frozenset({"lateral", "axial"}))
     assert "shaft_friction" in names(scene, axial)
     assert "shaft_friction" in names(scene, SIMULATED)
-    assert "shaft_friction" in names(scene, REAL, views=("force_gauge",))
-    assert "breathing" in names(scene, REAL, views=("target_motion",))
-    assert "breathing" in names(scene, REAL, scoring=("moving_target",))
+    assert "shaft_friction" in names(scene, REAL, views=(GAUGE,))
+    assert "breathing" in names(scene, REAL, views=(MOTION,))
+    assert "breathing" in names(scene, REAL, scoring=(MOTION,))
     needs = Consumer("metric tip_to_target scores it", ("target_shift_z",))
     assert "breathing" in names(scene, REAL, scoring=(needs,))
 
@@ -54,11 +56,11 @@ def test_every_decision_says_why() -> None:
 
 
 def test_an_effect_without_layers_or_on_another_organ_is_dropped() -> None:
-    bare = compile(Scene(effects=ALL, layers=()), SIMULATED, views=("target_motion",))
+    bare = compile(Scene(effects=ALL, layers=()), SIMULATED, views=(MOTION,))
     assert [kept.name for kept in bare.kept] == ["breathing"]
     request = EffectRequest("breathing", organ="liver")
     spine = Scene(effects=(request,), target_organ="spine")
-    plan = compile(spine, SIMULATED, views=("target_motion",))
+    plan = compile(spine, SIMULATED, views=(MOTION,))
     assert plan.kept == ()
     assert "liver" in plan.dropped[0].why
     assert "spine" in plan.dropped[0].why
@@ -134,6 +136,6 @@ def test_a_dropped_effect_is_not_even_imported() -> None:
 
 
 def test_stages_have_fresh_memory_each_time() -> None:
-    plan = compile(Scene(effects=ALL), SIMULATED, views=("target_motion",))
+    plan = compile(Scene(effects=ALL), SIMULATED, views=(MOTION,))
     one, two = plan.stages(), plan.stages()
     assert all(a[2] is not b[2] for a, b in zip(one, two, strict=True))

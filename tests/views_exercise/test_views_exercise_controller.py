@@ -14,6 +14,7 @@ from app.session.machine import State
 from app.tracking.inspection import InspectedPicture, Inspection
 from app.tracking.markers.extractor import MarkerFix
 from app.tracking.tracked_picture import TrackedPicture
+from app.views.exercise.axial_gauge import AxialGauge
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.camera_view import CameraView
 from app.views.exercise.controller import ExerciseController, ExerciseViews
@@ -28,7 +29,7 @@ from app.views.exercise.tracker_panel import TrackerFigures, TrackerPanel
 @pytest.fixture
 def desk(qt):
     views = ExerciseViews(
-        Bullseye(), ExercisePanel(), StatusStrip(), TrackerPanel(), MessageList()
+        Bullseye(), ExercisePanel(), StatusStrip(), TrackerPanel(), MessageList(), AxialGauge()
     )  # fmt: skip
     controller = ExerciseController(views, VirtualClock(10.0))
     trainer = FakeTrainer()

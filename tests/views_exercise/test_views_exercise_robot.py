@@ -16,6 +16,7 @@ from app.device.links.link import BoardInfo
 from app.session.machine import State
 from app.views.exercise import assistance_dial
 from app.views.exercise.assistance_dial import AssistanceDial, share_words
+from app.views.exercise.axial_gauge import AxialGauge
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseController, ExerciseViews
 from app.views.exercise.enable_switch import EnableSwitch
@@ -313,7 +314,7 @@ def test_a_latched_fault_is_told_with_its_own_message(fault):
 @pytest.fixture
 def desk(qt):
     views = ExerciseViews(
-        Bullseye(), ExercisePanel(), StatusStrip(), TrackerPanel(), MessageList()
+        Bullseye(), ExercisePanel(), StatusStrip(), TrackerPanel(), MessageList(), AxialGauge()
     )  # fmt: skip
     controller = ExerciseController(views, VirtualClock(10.0))
     yield controller, views.panel

@@ -53,11 +53,12 @@ class AssistanceDial(QWidget):
         grid.addWidget(_Scale(self), 1, 0)
         self.slider.valueChanged.connect(self._show)
         self.slider.valueChanged.connect(lambda percent: self.changed.emit(percent / _FULL))
-        self.setToolTip(tr(
+        self._help = (tr(
             "How the robot helps. To the right it guides the needle back to the planned path, to "
             "the left it pushes the needle away from it, which is harder to master; in the middle "
             "it does nothing. Arrow keys 1 %, Page keys 10 %, Home or double click: off."
         ))  # fmt: skip
+        self.set_locked("")
         self.setFocusProxy(self.slider)
         self._show(self.slider.value())
 
@@ -72,6 +73,11 @@ class AssistanceDial(QWidget):
         with QSignalBlocker(self.slider):
             self.slider.setValue(percent)
         self._show(self.slider.value())
+
+    def set_locked(self, why: str) -> None:
+        """Keep the dial as it is, because of `why`; empty lets it be turned again."""
+        self.slider.setEnabled(not why)
+        self.setToolTip(why or self._help)
 
     def _show(self, percent: int) -> None:
         text = share_words(percent / _FULL)

@@ -1,6 +1,6 @@
-"""The bull's-eye: pad, depth bar, corrections in words, and the simulated hand."""
+"""The view `bullseye`: pad, depth bar, corrections in words; and the simulated hand."""
 
-from typing import Final
+from typing import Any, Final
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
@@ -15,6 +15,12 @@ from app.views.exercise.pad_canvas import PadCanvas
 from app.views.exercise.pad_view import PadScene, PadView
 from app.views.exercise.words import corrections, ct_words, lateral, remaining
 from app.views.text import tr
+
+DECLARATION: Final[dict[str, Any]] = {
+    "view": "bullseye",
+    "title": "Bull's-eye",
+    "reads": (),
+}
 
 INTENT_MS: Final = 10
 """Shortest time between two hand intents: 100 Hz."""
@@ -99,12 +105,15 @@ class Bullseye(QWidget):
         for label in self._words:
             label.clear()
 
-    def set_blind(self, blind: bool) -> None:
-        """Show nothing of needle, hand and path from the next scene on; the hand still moves."""
+    def set_blind(self, blind: bool, beside_scan: bool = True) -> None:
+        """Show nothing of needle, hand and path from the next scene on; the hand still moves.
+
+        `beside_scan`: whether an empty pad leaves the room to a control scan.
+        """
         self._blind = blind
         self.pad.set_blind(blind)
-        self.source.set_compact(blind)
-        self.setMaximumWidth(BLIND_WIDTH if blind else QWIDGETSIZE_MAX)
+        self.source.set_compact(blind and beside_scan)
+        self.setMaximumWidth(BLIND_WIDTH if blind and beside_scan else QWIDGETSIZE_MAX)
         self.depth_bar.setVisible(not blind)
         for label in self._words:
             label.setVisible(not blind)

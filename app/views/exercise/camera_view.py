@@ -54,6 +54,7 @@ class CameraView(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._shown: InspectedPicture | None = None
+        self._instead = ""
         self._image = QImage()
         self.overlays = Overlays()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -64,9 +65,9 @@ class CameraView(QWidget):
         """Preferred size."""
         return QSize(320, 240)
 
-    def show_picture(self, inspected: InspectedPicture | None) -> None:
-        """Show a picture; None says that there is none."""
-        self._shown = inspected
+    def show_picture(self, inspected: InspectedPicture | None, instead: str = "") -> None:
+        """Show a picture; None says that there is none, or what is to be said `instead`."""
+        self._shown, self._instead = inspected, instead
         self._image = qimage(inspected.picture.image) if inspected else QImage()
         self.update()
 
@@ -92,7 +93,8 @@ class CameraView(QWidget):
         painter.fillRect(self.rect(), QColor(theme.IMAGE_BACKGROUND))
         if self._shown is None or self._image.isNull():
             painter.setPen(QColor(theme.IMAGE_DIM))
-            painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, tr("No picture"))
+            flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+            painter.drawText(self.rect(), flags, self._instead or tr("No picture"))
             return
         corner, scale = self._placed()
         size = QPointF(scale * self._image.width(), scale * self._image.height())

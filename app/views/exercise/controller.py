@@ -31,6 +31,7 @@ class ExerciseController(QObject):
         snapshot_taken(Snapshot): at every look.
         event_seen(Event): each event of the trainer, once.
         attached(): another run, or none, is served.
+        beginning(): an attempt is about to begin; everything is to be as the exercise has it.
         began(str): session id of an attempt that began.
         finished(AttemptResult): an attempt ended or was aborted, once each.
         failed(str): something that the user asked for did not work, in one line.
@@ -41,6 +42,7 @@ class ExerciseController(QObject):
     snapshot_taken = Signal(object)
     event_seen = Signal(object)
     attached = Signal()
+    beginning = Signal()
     began = Signal(str)
     finished = Signal(object)
     failed = Signal(str)
@@ -125,7 +127,9 @@ class ExerciseController(QObject):
             self.worked.emit()
         self._drain(run)
         self._display.take_hand(snapshot)
-        shown = run.shown.of(snapshot)  # nobody beyond this line knows more than may be told
+        shown = run.shown.of(
+            snapshot, run.placed
+        )  # nobody beyond this line knows more than may be told
         self._display.show(run, shown, now, late)
         self.snapshot_taken.emit(shown)
         if shown.pose.valid:
@@ -157,6 +161,7 @@ class ExerciseController(QObject):
         run = self._run
         if run is None:
             return
+        self.beginning.emit()
         self._views.messages.clear()
         self._views.messages.start_clock(self._clock.now())
         try:
@@ -207,9 +212,15 @@ class ExerciseController(QObject):
             run.trainer.disarm()
 
     def set_assistance(self, share: float) -> None:
-        """Set the assistance, -1 repels … 0 off … 1 guides."""
-        if self._run is not None:
-            self._run.trainer.assistance(share)
+        """Set the assistance, -1 repels … 0 off … 1 guides, unless the exercise keeps it."""
+        run = self._run
+        if run is None:
+            return
+        try:
+            run.trainer.assistance(share)
+        except AcusError as error:
+            self._views.panel.set_assistance(run.trainer.snapshot().assistance)
+            self._fail(str(error))
 
     def _ended(self, result: AttemptResult) -> None:
         self._ending = False

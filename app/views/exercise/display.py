@@ -6,8 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
+from app.exercises.parts import View
 from app.session.machine import RUNNING
 from app.session.snapshot import Snapshot
+from app.views.exercise.axial_gauge import AxialGauge, axial_force
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.enable_words import enabling
 from app.views.exercise.energy import energy_figures
@@ -37,6 +39,7 @@ class ExerciseViews:
     status: StatusStrip
     tracker: TrackerPanel
     messages: MessageList
+    gauge: AxialGauge
 
 
 class ExerciseDisplay:
@@ -61,11 +64,12 @@ class ExerciseDisplay:
 
     def show_run(self, run: ExerciseRun) -> None:
         """Draw what stays the same during an attempt; nothing of the needle where scans guide."""
-        live = run.shown.live
-        self._views.bullseye.set_blind(not live)
+        live, shows = run.shown.live, run.shown.shows
+        self._views.bullseye.set_blind(not shows(View.BULLSEYE), beside_scan=not live)
         self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
         self._views.panel.set_forceful(run.forceful)
         self._views.panel.set_guidance(None if live else run.guidance, run.placed.plan)
+        self._views.panel.set_offsets(shows(View.BULLSEYE))
 
     def take_hand(self, snapshot: Snapshot) -> None:
         """Let the simulated hand go on from where the loop has it; draws nothing."""
@@ -110,11 +114,13 @@ class ExerciseDisplay:
         view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
         if view is not None:
             bullseye.show_view(view)
+        if run.shown.shows(View.FORCE_GAUGE):
+            self._views.gauge.show_force(axial_force(snapshot))
 
     def _show_tracker(self, run: ExerciseRun, snapshot: Snapshot, now: float) -> None:
         tracker = self._views.tracker
         if tracker.due(now):
             wanted = tracker.overlays
-            may = run.inspect is not None and run.shown.live  # a picture tells as much as a number
+            may = run.inspect is not None and run.shown.shows(View.CAMERAS)
             seen = run.inspect(wanted.mask, wanted.epipolar) if may and run.inspect else None
             tracker.show_tracker(seen, tracker_figures(snapshot), now)

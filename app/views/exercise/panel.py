@@ -60,6 +60,7 @@ class ExercisePanel(QWidget):
         self.exercise = QComboBox(self)
         self.student = QLineEdit(self)
         self.assistance = AssistanceDial(self)
+        self._dial_title = QLabel(tr("Assistance"), self)
         self._note = QLabel(self)
         self.steps = Steps(self)
         self.buttons = AttemptActions(self)
@@ -91,6 +92,16 @@ class ExercisePanel(QWidget):
         """Show an assistance that came from elsewhere, -1…1; emits nothing."""
         self.assistance.set_share(share)
 
+    def set_locked(self, why: str) -> None:
+        """Keep the dial as the exercise has it, because of `why`; empty leaves it to the student.
+
+        What is so stands beside the dial.
+        """
+        self.assistance.set_locked(why)
+        self._dial_title.setText(tr("Assistance\nfixed") if why else tr("Assistance\nfree to turn"))
+        free = tr("Practice: you may turn the dial. Every attempt begins with the exercise's own.")
+        self._dial_title.setToolTip(why or free)
+
     def set_ready(self, ready: bool, note: str = "") -> None:
         """Say whether an attempt can start, and if not, why not."""
         self._ready = ready
@@ -104,6 +115,10 @@ class ExercisePanel(QWidget):
         self.steps.set_blind(guidance is not None)
         self.readouts.set_telling(None if guidance is None else TELLING_NOTHING)
         self.buttons.set_pedal(guidance is not None)
+
+    def set_offsets(self, shown: bool) -> None:
+        """Say how far the needle is off the path, or not where the bull's-eye may not either."""
+        self.readouts.set_offsets(shown)
 
     def set_forceful(self, forceful: bool) -> None:
         """Show the dial and the force felt, or neither where there is nothing that could push."""
@@ -143,7 +158,7 @@ class ExercisePanel(QWidget):
         form.setFieldGrowthPolicy(QFormLayout.FieldGrowthPolicy.ExpandingFieldsGrow)
         form.addRow(tr("Exercise"), self.exercise)
         form.addRow(tr("Student"), self.student)
-        form.addRow(tr("Assistance"), self.assistance)
+        form.addRow(self._dial_title, self.assistance)
         column = QVBoxLayout(self)
         column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
         column.setSpacing(theme.SPACING - 2)  # with every part shown it still fits 768 lines

@@ -1,6 +1,7 @@
 """The panel's live read-outs: large numbers that do not move their neighbours."""
 
 from math import degrees
+from typing import Final
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFontDatabase
@@ -13,6 +14,9 @@ from app.views.text import tr
 
 _EMPTY = "–"
 
+OFFSETS: Final = frozenset({"angle", "lateral", "to_target"})
+"""Read-outs that say what the bull's-eye shows."""
+
 
 class Readouts(QWidget):
     """Time, depth, angle, distances, scans and force."""
@@ -22,7 +26,8 @@ class Readouts(QWidget):
         self._values: dict[str, QLabel] = {}
         self._titles: dict[str, QLabel] = {}
         self.force = ForceBar(self)
-        self._tells_all = self._forceful = True
+        self._telling: frozenset[str] | None = None
+        self._offsets = self._forceful = True
         self._grid = QGridLayout(self)
         self._grid.setContentsMargins(0, 0, 0, 0)
         self._grid.setVerticalSpacing(3)
@@ -48,11 +53,20 @@ class Readouts(QWidget):
 
     def set_telling(self, keys: frozenset[str] | None) -> None:
         """Leave only these read-outs, None for all with the force: the rest would tell too much."""
-        for key, value in self._values.items():
-            for label in (value, self._titles[key]):
-                label.setVisible(keys is None or key in keys)
-        self._tells_all = keys is None
+        self._telling = keys
+        self._show_rows()
         self._show_force_bar()
+
+    def set_offsets(self, shown: bool) -> None:
+        """Say how far the needle is off the path, or not."""
+        self._offsets = shown
+        self._show_rows()
+
+    def _show_rows(self) -> None:
+        for key, value in self._values.items():
+            told = self._telling is None or key in self._telling
+            for label in (value, self._titles[key]):
+                label.setVisible(told and (self._offsets or key not in OFFSETS))
 
     def set_forceful(self, forceful: bool) -> None:
         """Show the force felt, or not where nothing can push."""
@@ -61,7 +75,7 @@ class Readouts(QWidget):
 
     def _show_force_bar(self) -> None:
         for widget in (self._force_title, self.force):
-            widget.setVisible(self._tells_all and self._forceful)
+            widget.setVisible(self._telling is None and self._forceful)
 
     def text(self, key: str) -> str:
         """Text of one read-out: `elapsed`, `depth`, `angle`, `lateral`, `to_target`, `scans`."""

@@ -1,8 +1,9 @@
-"""What the window may tell of the needle: everything, or nothing but the control scans.
+"""What the window may tell and show: by the exercise's views, or nothing but the control scans.
 
-One value decides, at one place: `ExerciseController` asks it for the snapshot that everybody else
-gets. Where control scans guide, that snapshot holds no pose, no offset, no joint angle and no
-force, so whoever watches, now or later, has nothing to give away.
+One value decides, at one place. `ExerciseController` asks it for the snapshot that everybody else
+gets: where control scans guide, that snapshot holds no pose, no offset, no joint angle and no
+force, so whoever watches, now or later, has nothing to give away. Every view asks it whether the
+exercise shows it.
 """
 
 from __future__ import annotations
@@ -15,7 +16,12 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, read_only
+from app.exercises.guidance import GuidanceMode
+from app.exercises.parts import TELLING, View
+from app.exercises.schema import Exercise
 from app.planning.off_path import NOWHERE
+from app.planning.placement import PlacedPlan
+from app.session.curves import offset
 from app.session.machine import State
 from app.session.needle import DOWN, NeedlePose
 from app.session.ports import DeviceStatePort
@@ -56,13 +62,32 @@ class Shown:
 
     Attributes:
         live: whether the needle is shown while it moves.
+        views: what is shown of it; with `live` False none of those that tell.
     """
 
     live: bool = True
+    views: frozenset[View] = frozenset(View)
 
-    def of(self, snapshot: Snapshot) -> Snapshot:
-        """Return the snapshot that may be shown."""
-        return snapshot if self.live else veiled(snapshot)
+    @classmethod
+    def of_exercise(cls, exercise: Exercise) -> Shown:
+        """Return what an exercise shows."""
+        live = exercise.guidance_mode is GuidanceMode.LIVE
+        return cls(live, frozenset(exercise.shown_views))
+
+    def shows(self, view: View) -> bool:
+        """Whether this view is on."""
+        return view in self.views and (self.live or view not in TELLING)
+
+    def of(self, snapshot: Snapshot, placed: PlacedPlan) -> Snapshot:
+        """Return the snapshot that may be shown; where the target's motion is not, it is at rest,
+        and all distances are to the target at rest.
+        """
+        if not self.live:
+            return veiled(snapshot)
+        if self.shows(View.TARGET_MOTION) or not (snapshot.p_target != placed.p_target).any():
+            return snapshot
+        still = offset(snapshot.pose, placed.p_target, placed)
+        return replace(snapshot, p_target=placed.p_target, offset=still)
 
     def tells(self, kind: str, state: object) -> bool:
         """Whether an event of this kind, with this state among its data, may be listed."""

@@ -1,9 +1,9 @@
-"""Both camera pictures with what was found in them, and how well they agree."""
+"""The view `cameras`: both pictures with what was found in them, and how well they agree."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
@@ -15,6 +15,12 @@ from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.tracking.inspection import Inspection
+
+DECLARATION: Final[dict[str, Any]] = {
+    "view": "cameras",
+    "title": "Camera pictures",
+    "reads": (),
+}
 
 REFRESH: Final = 1.0 / 15.0
 """Shortest time between two refreshes [s]."""
@@ -60,6 +66,7 @@ class TrackerPanel(QWidget):
         self._buttons: dict[str, QToolButton] = {}
         self.learn = QToolButton(self)
         self._shown = -1e9
+        self.off = ""
         column = QVBoxLayout(self)
         column.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
         column.setSpacing(4)
@@ -69,6 +76,14 @@ class TrackerPanel(QWidget):
         column.addLayout(self._switches())
         column.addWidget(self._verdict)
         column.addWidget(self._figures)
+
+    def set_off(self, words: str) -> None:
+        """Show these words in place of pictures, because the exercise does not show them; empty
+        ends that. How the tracker is stands below as ever.
+        """
+        self.off = words
+        for camera in self.cameras:
+            camera.show_picture(None, words)
 
     @property
     def overlays(self) -> Overlays:
@@ -87,7 +102,8 @@ class TrackerPanel(QWidget):
         pictures = inspection.pictures if inspection is not None else ()
         self._show_what_there_is(inspection is None or inspection.cameras > 1)
         for i, camera in enumerate(self.cameras):
-            camera.show_picture(pictures[i] if i < len(pictures) else None)
+            camera.show_picture(pictures[i] if i < len(pictures) else None, self.off)
+        self.learn.setEnabled(not self.off)
         colour, symbol = figures.item.verdict.look
         self._verdict.setStyleSheet(f"color: {colour};")
         self._verdict.setText(f"{symbol} {figures.item.text}")

@@ -37,7 +37,7 @@ class SceneFeed(QObject):
         self._renderer, self._pane = renderer, pane
         self.orbit, self.image = orbit, QImage()
         self._turned_at = self._fine_at = -SETTLE_S
-        self._fine, self._pending = False, False
+        self._fine, self._pending, self._paused = False, False, False
         self._timer = QTimer(self, interval=POLL_MS)
         self._timer.timeout.connect(self._look)
         self._timer.start()
@@ -48,9 +48,16 @@ class SceneFeed(QObject):
         """Why no pictures come, one line; empty while all is well."""
         return self._renderer.error
 
+    def set_paused(self, paused: bool) -> None:
+        """Ask for no pictures while nobody may see them."""
+        self._paused = paused
+        self._pending = True
+
     @property
     def is_settled(self) -> bool:
         """Whether the picture is the fine one of what there is to be seen."""
+        if self._paused:
+            return True
         return self._fine and not self._pending and self._renderer.idle
 
     def change(self, kind: str, change: Change) -> None:
@@ -79,7 +86,7 @@ class SceneFeed(QObject):
             borrowed = QImage(picture.data, width, height, QImage.Format.Format_RGBX8888)
             self.image = borrowed.convertToFormat(QImage.Format.Format_RGB32)
             self.arrived.emit()
-        if not self._pane.isVisible() or not self._renderer.idle:
+        if self._paused or not self._pane.isVisible() or not self._renderer.idle:
             return
         now = monotonic()
         if now - self._turned_at < SETTLE_S:

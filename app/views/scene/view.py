@@ -1,8 +1,8 @@
-"""The 3D pane: shows the newest picture of the render thread, and turns it with the mouse."""
+"""The view `three_d`: shows the newest picture of the render thread, and turns it by mouse."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from PySide6.QtCore import QPointF, Qt, Signal
@@ -41,6 +41,12 @@ if TYPE_CHECKING:
     from app.views.scene.mesh import Mesh
     from app.views.scene.surfaces import Surfaces
 
+DECLARATION: Final[dict[str, Any]] = {
+    "view": "three_d",
+    "title": "3D view",
+    "reads": (),
+}
+
 HOME_TURN_PX = (-50.0, 30.0)
 """From the front one first looks a little from the left and from above, for depth."""
 
@@ -71,7 +77,7 @@ class SceneView(QWidget):
         self._feed.arrived.connect(self.update)
         self._body: FloatArray = _box(np.zeros((1, 3)))
         self._robot: FloatArray | None = None
-        self.note = ""
+        self.note = self.off = ""
         self.legend: tuple[Entry, ...] = ()
         self._enlargement = Enlargement()
         self._pressed, self._last = QPointF(), QPointF()
@@ -117,6 +123,14 @@ class SceneView(QWidget):
     def set_plan(self, draft: DraftPlan) -> None:
         """Show entry, target and path."""
         self._feed.change("plan", lambda stage: stage.set_plan(draft))
+
+    def set_off(self, words: str) -> None:
+        """Show nothing but these words, because the exercise does not show this view; empty ends
+        that.
+        """
+        self.off = words
+        self._feed.set_paused(bool(words))
+        self.update()
 
     def set_needle(self, needle: NeedleOverlay | None) -> None:
         """Show the needle."""
@@ -168,6 +182,11 @@ class SceneView(QWidget):
         """Draw the newest picture, stretched while a better one is on its way."""
         painter = QPainter(self)
         painter.fillRect(self.rect(), QColor(theme.IMAGE_BACKGROUND))
+        if self.off:
+            painter.setPen(QColor(theme.IMAGE_DIM))
+            flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+            painter.drawText(self.rect().adjusted(8, 8, -8, -8), flags, self.off)
+            return
         if not self._feed.image.isNull():
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
             painter.drawImage(self.rect(), self._feed.image)
@@ -199,7 +218,7 @@ class SceneView(QWidget):
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Tell of a click that stayed in place."""
         moved = (event.position() - self._pressed).manhattanLength()
-        if event.button() is Qt.MouseButton.LeftButton and moved < 4:
+        if event.button() is Qt.MouseButton.LeftButton and moved < 4 and not self.off:
             at = event.position()
             self.clicked.emit(*self.orbit.ray(at.x(), at.y(), self._size()))
 

@@ -47,7 +47,9 @@ def build_menu(pane: SlicePane) -> QMenu:
                    lambda: greys.set_locked(not greys.is_locked))  # fmt: skip
     lock.setEnabled(not greys.is_fixed)
     menu.addSeparator()
-    _slabs(menu.addMenu(tr("Slab")), pane)
+    slabs = menu.addMenu(tr("Slab"))
+    _slabs(slabs, pane)
+    slabs.setEnabled(not pane.viewing.is_slab_fixed)
     _turns(menu.addMenu(tr("Turn and mirror")), pane)
     cine = menu.addMenu(tr("Cine"))
     _switch(cine, tr("Run through the slices") + "\tC", pane.cine.is_running, pane.cine.toggle)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from enum import StrEnum
 
 import numpy as np
@@ -88,7 +89,7 @@ class Viewing(QObject):
         self.target_error: ErrorOverlay | None = None
         self.shows_errors, self.shows_traces = True, True
         self.seen_panes: frozenset[PaneId] = frozenset()
-        self.follows_tip = False
+        self.follows_tip = self.is_slab_fixed = False
         self.point_refused = False
         self.clicked_pane: PaneId | None = None
 
@@ -146,11 +147,18 @@ class Viewing(QObject):
         return self._planes.look(pane)
 
     def set_look(self, pane: PaneId, look: Look) -> None:
-        """Give a pane another slab, or turn it."""
+        """Give a pane another slab, unless an exercise holds them, or turn it."""
+        if self.is_slab_fixed and look.slab != self.look(pane).slab:
+            self.greys.refused.emit()
+            look = replace(look, slab=self.look(pane).slab)
         if look != self.look(pane):
             self._planes.set_look(pane, look)
             self.look_changed.emit(pane)
             self.plane_changed.emit(pane)
+
+    def fix_slabs(self, fixed: bool) -> None:
+        """Keep the slabs of all panes as they are for an exercise, or end that."""
+        self.is_slab_fixed = fixed
 
     def set_frame(self, pane: PaneId, frame: Frame | None, ahead: ArrayLike | None = None) -> None:
         """Lay a pane's plane along a frame.

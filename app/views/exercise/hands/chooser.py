@@ -32,7 +32,8 @@ class HandChooser(QWidget):
         super().__init__(parent)
         self._pad = pad
         self._source: HandSource | None = None
-        self._interactive = self._depth_only = False
+        self._interactive = self._depth_only = self._busy = False
+        self._why, self._own = "", ("mouse", "normal")
         self._note = ""
         self.box, self.gain, self._help = _source_box(), _gain_box(), QLabel(self)
         self._help.setWordWrap(True)
@@ -62,7 +63,33 @@ class HandChooser(QWidget):
         return self._source
 
     def set_source(self, name: str) -> None:
-        """Choose a source by name, as if the user had; an unknown one is the mouse."""
+        """Choose a source by name, as if the user had; an unknown one is the mouse. Where an
+        exercise has fixed another, it is kept for later.
+        """
+        if self._why:
+            self._own = name, self._own[1]
+            return
+        self._take(name)
+
+    def fix(self, name: str, why: str) -> None:
+        """Use this source at the usual gain, because of `why`, until `release`."""
+        if not self._why:
+            self._own = self.name, str(self.gain.currentData())
+        self._why = why
+        self.gain.setCurrentIndex(max(0, self.gain.findData("normal")))
+        self._take(name)
+        self._enable()
+
+    def release(self) -> None:
+        """Leave source and gain to the user again, as they were; idempotent."""
+        if self._why:
+            self._why = ""
+            name, gain = self._own
+            self.gain.setCurrentIndex(max(0, self.gain.findData(gain)))
+            self._take(name)
+            self._enable()
+
+    def _take(self, name: str) -> None:
         with QSignalBlocker(self.box):
             self.box.setCurrentIndex(max(0, self.box.findData(name)))
         self._reopen()
@@ -73,8 +100,7 @@ class HandChooser(QWidget):
         With `depth_only` it is the mouse whatever is chosen, and its wheel and Page keys count.
         """
         self._interactive, self._depth_only = interactive, depth_only
-        for widget in (self.box, self.gain):
-            widget.setEnabled(interactive and not depth_only)
+        self._enable()
         self._reopen()
 
     def set_compact(self, compact: bool) -> None:
@@ -90,7 +116,15 @@ class HandChooser(QWidget):
 
     def set_locked(self, locked: bool) -> None:
         """Keep the source while an attempt runs: it is recorded with it."""
-        self.box.setEnabled(self._interactive and not self._depth_only and not locked)
+        self._busy = locked
+        self._enable()
+
+    def _enable(self) -> None:
+        usable = self._interactive and not self._depth_only and not self._why
+        self.gain.setEnabled(usable)
+        self.box.setEnabled(usable and not self._busy)
+        self.gain.setToolTip(self._why or gain_help())
+        self.box.setToolTip(self._why or self._words())
 
     def _choose(self) -> None:
         self._reopen()
@@ -107,7 +141,7 @@ class HandChooser(QWidget):
                 self._open("mouse" if self._depth_only else self.name)
             except AcusError as error:
                 self.refused.emit(str(error))
-                self.set_source("mouse")
+                self._take("mouse")
 
     def _open(self, name: str) -> None:
         source = SOURCES[name](self._pad)
@@ -138,7 +172,7 @@ class HandChooser(QWidget):
         text = f"▲ {note}" if note else self._words()
         roomy = bool(note) or theme.scale() <= 1.0  # large words would be cut: they are the tip too
         self._help.setText(text if self._interactive and roomy else "")
-        self.box.setToolTip(self._words())
+        self.box.setToolTip(self._why or self._words())
 
     def _words(self) -> str:
         return depth_help() if self._depth_only else source_help(self.name)
@@ -153,12 +187,17 @@ def _source_box() -> QComboBox:
     return box
 
 
+def gain_help() -> str:
+    """Say what the gain is."""
+    return tr("How far the hand moves when mouse, pen or stick moves")
+
+
 def _gain_box() -> QComboBox:
     box = QComboBox()
     names = {"fine": tr("fine"), "normal": tr("normal"), "direct": tr("direct")}
     for key in GAINS:
         box.addItem(f"{names[key]} ×{GAINS[key]:g}", key)
     box.setCurrentIndex(list(GAINS).index("normal"))
-    box.setToolTip(tr("How far the hand moves when mouse, pen or stick moves"))
+    box.setToolTip(gain_help())
     box.setFocusPolicy(Qt.FocusPolicy.ClickFocus)
     return box

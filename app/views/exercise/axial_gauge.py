@@ -1,0 +1,140 @@
+"""The view `force_gauge`: the force along the needle, to be read at arm's length."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import Any, Final
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from app.core import state_vector as sv
+from app.session.snapshot import Snapshot
+from app.views import theme
+from app.views.text import tr
+
+DECLARATION: Final[dict[str, Any]] = {
+    "view": "force_gauge",
+    "title": "Force along the needle",
+    "reads": ("axial_force",),
+}
+
+FULL_N: Final = 8.0
+"""Force at the ends of the bar [N]: what the friction of 100 mm of tissue comes to, and some."""
+
+NUMBER_PX: Final = 30
+"""Height of the number [px]: 8 mm on a usual screen, readable from 2 m."""
+
+_QUIET: Final = 0.05
+"""Below this force it is said that there is none [N]."""
+_BAR: Final = 16
+_NUMBER_WIDTH: Final = 5.2
+"""Width that the number keeps, in its own heights."""
+
+
+def axial_force(snapshot: Snapshot) -> float | None:
+    """Force of the tissue along the needle [N], positive where it pushes the tip out; None where
+    there is no robot that tells.
+    """
+    if snapshot.device is None:
+        return None
+    force = float(snapshot.device.row[sv.AXIAL_FORCE])
+    return force if isfinite(force) else None
+
+
+class AxialGauge(QWidget):
+    """A large number and a bar from its middle: to the right the tissue pushes the needle out."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._force: float | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setToolTip(tr(
+            "Force of the tissue along the needle, as the simulation has it: friction on the "
+            "shaft. The robot cannot push along the needle; a simulated hand feels it."
+        ))  # fmt: skip
+        self.show_force(None)
+
+    def sizeHint(self) -> QSize:
+        """Preferred size."""
+        return QSize(320, self._height())
+
+    def minimumSizeHint(self) -> QSize:
+        """Size that number and words need."""
+        return QSize(200, self._height())
+
+    @property
+    def force(self) -> float | None:
+        """What is shown [N]; None while nobody knows."""
+        return self._force
+
+    @property
+    def number(self) -> str:
+        """The number as it is written."""
+        return "–" if self._force is None else tr("{force:.1f} N", force=abs(self._force))
+
+    @property
+    def words(self) -> str:
+        """What the force does."""
+        if self._force is None:
+            return tr("Force along the needle: not known")
+        if abs(self._force) < _QUIET:
+            return tr("Force along the needle: none")
+        if self._force > 0.0:
+            return tr("Along the needle: tissue pushes it out ▶")
+        return tr("Along the needle: tissue holds it back ◀")
+
+    def show_force(self, force: float | None) -> None:
+        """Show a force [N], positive outwards; None where nobody knows."""
+        rounded = None if force is None else round(force, 2)
+        if rounded == self._force and self.accessibleName():
+            return
+        self._force = rounded
+        self.setAccessibleName(f"{self.words}, {self.number}")
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw number, words and bar."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        large, height = round(NUMBER_PX * theme.scale()), self.height()
+        left = _NUMBER_WIDTH * 0.6 * large
+        painter.setFont(_font(painter, large, bold=True))
+        painter.setPen(QColor(theme.TEXT))
+        flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        painter.drawText(QRectF(0, 0, left, height), flags, self.number)
+        self._paint_bar(
+            painter, QRectF(left + 12, height - _BAR - 3, self.width() - left - 16, _BAR)
+        )
+        painter.setFont(_font(painter, theme.SMALL_PX))
+        painter.setPen(QColor(theme.TEXT))
+        above = QRectF(left + 12, 0, self.width() - left - 16, height - _BAR - 4)
+        words = painter.fontMetrics().elidedText(
+            self.words, Qt.TextElideMode.ElideRight, int(above.width())
+        )
+        painter.drawText(above, Qt.AlignmentFlag.AlignVCenter, words)
+
+    def _paint_bar(self, painter: QPainter, bar: QRectF) -> None:
+        painter.setPen(QPen(QColor(theme.BORDER), 1.0))
+        painter.setBrush(QColor("#0e1114"))
+        painter.drawRoundedRect(bar, 3, 3)
+        middle, half = bar.center().x(), bar.width() / 2 - 2
+        reach = half * max(-1.0, min(1.0, (self._force or 0.0) / FULL_N))
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(theme.NEEDLE.qcolor())
+        painter.drawRect(
+            QRectF(min(middle, middle + reach), bar.top() + 2, abs(reach), bar.height() - 4)
+        )
+        painter.setPen(QPen(QColor(theme.IMAGE_LINE), 2.0))
+        painter.drawLine(QPointF(middle, bar.top() - 2), QPointF(middle, bar.bottom() + 2))
+
+    def _height(self) -> int:
+        return round(NUMBER_PX * theme.scale()) + 12
+
+
+def _font(painter: QPainter, pixels: int, bold: bool = False) -> QFont:
+    font = QFont(painter.font())
+    font.setPixelSize(pixels)
+    font.setBold(bold)
+    return font
