@@ -24,14 +24,14 @@ def needle_scene(
     """Return what the cameras see: the true needle of the robot, not what its encoders say.
 
     Simulated cameras cannot see a real needle: its direction is then the measured one, its depth
-    the one that the simulated hand wants (HAND_DEPTH).
+    that of the simulated hand (GRIP_DEPTH).
     """
     geometry = profile.pantograph
 
     def scene(time: float) -> MarkerScene:
         row = row_at(loop, time)
         if real:
-            axis, depth = row[sv.AXIS], float(row[sv.HAND_DEPTH])
+            axis, depth = row[sv.AXIS], float(row[sv.GRIP_DEPTH])
             if not axis.any():  # before the first tick
                 axis = np.array(UPRIGHT)
             return MarkerScene.from_tip(geometry.fulcrum + depth * axis, axis, marker_offset)

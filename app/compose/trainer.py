@@ -25,6 +25,7 @@ from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.hands import TRAINEE
 from app.session.risks import Risk
 from app.session.trainer import Trainer
+from app.simulation.hand_motion import hand_stage
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.trainee import trainee_stage
 from app.tracking.cameras.settings import CameraSettings
@@ -235,13 +236,16 @@ def loop_table(
 ) -> Table:
     """Table of a tick: trainee, encoders, the exercise's force laws and effects, plant.
 
-    With a robot that is not simulated its link in place of encoders and plant; without the robot
-    itself neither trainee nor link nor plant: for a replay.
+    With a robot that is not simulated its link in place of encoders and plant, and a hand that
+    moves only what simulated cameras see; without the robot itself neither trainee nor link nor
+    plant: for a replay.
     """
     exercise = setup.exercise.placed_as(setup.placed.placement)
     link = robot.stages() if robot is not None else Link.of([], [])
     if simulated:
         link = simulated_link(profile, [plant_stage(profile, UPRIGHT, START_DEPTH)])
+    else:  # a simulated hand may still move what simulated cameras see
+        link = Link.of([hand_stage(profile.geometry.needle_length), *link.read], link.write)
     if (simulated or robot is not None) and setup.skill is not None:
         placed = setup.placed
         trainee = trainee_stage(placed.axis, placed.length, setup.skill, setup.seed)

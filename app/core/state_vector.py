@@ -188,6 +188,9 @@ PULL_X: Final = next(_next)  # [N] force of the simulated hand at the hub point
 PULL_Y: Final = next(_next)
 PULL_Z: Final = next(_next)
 PUSH: Final = next(_next)  # [N] force of the simulated hand along the axis, positive inwards
+GRIP_X: Final = next(_next)  # [-] x of the needle direction where the simulated hand is
+GRIP_Y: Final = next(_next)
+GRIP_DEPTH: Final = next(_next)  # [m] depth where it is: HAND_* at the speed of a hand
 TRAINEE_PHASE: Final = next(_next)  # [-] phase of the scripted trainee; 0 none, 9 done
 
 SLOTS: Final = next(_next)

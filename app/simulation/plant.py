@@ -5,9 +5,10 @@ Sideways, in the motor angles (mechanisms/pantograph/dynamics):
     M(q) q̈ + h(q, q̇) + g(q) + friction(q̇) = τ + Aᵀ F_hand + Jᵀ γ_stop,   A = G_perp J,
 
 links, tool and needle, with the hand a spring-damper at the hub point, perpendicular to the needle,
-towards the wanted direction. Along the needle, one mass: hand spring-damper, the needle's weight
-and what its turning adds, the seal at the fulcrum (Coulomb and viscous) and AXIAL_FORCE. Stops: a
-stiff spring-damper on the tool beyond the tilt limit, an inelastic end of the depth range.
+towards where the hand is; it goes where it is wanted at a hand's speed (`hand_motion`). Along the
+needle, one mass: hand spring-damper, the needle's weight and what its turning adds, the seal at the
+fulcrum (Coulomb and viscous) and AXIAL_FORCE. Stops: a stiff spring-damper on the tool beyond the
+tilt limit, an inelastic end of the depth range.
 
 Springs, dampers and friction are integrated by linearly implicit Euler in substeps of at most half
 a millisecond: stable for any stiffness and any step, and it takes energy, never adds any, where the
@@ -28,6 +29,7 @@ from numpy.typing import ArrayLike
 from app.core.arrays import unit
 from app.mechanisms.pantograph.kernels import inverse_kernel
 from app.mechanisms.profile import DeviceProfile
+from app.simulation import hand_motion
 from app.simulation.errors import SimulationError
 from app.simulation.plan import Stage
 from app.simulation.plant_kernels import step
@@ -42,6 +44,8 @@ class Hand:
             for a relaxed grip).
         axial_stiffness, axial_damping: along the needle [N/m, N·s/m].
         strongest: largest spring force in either direction [N].
+        speed, acceleration: of the hand across the needle, at the hub [m/s, m/s²].
+        axial_speed, axial_acceleration: of the hand along the needle.
     """
 
     stiffness: float = 300.0
@@ -49,6 +53,10 @@ class Hand:
     axial_stiffness: float = 2000.0
     axial_damping: float = 20.0
     strongest: float = 30.0
+    speed: float = hand_motion.FASTEST
+    acceleration: float = hand_motion.STRONGEST
+    axial_speed: float = hand_motion.FASTEST_ALONG
+    axial_acceleration: float = hand_motion.STRONGEST
 
     def __post_init__(self) -> None:
         for name in self.__slots__:
@@ -117,8 +125,8 @@ def plant_stage(
 ) -> Stage:
     """Build the stage that moves the simulated robot; it belongs at the end of the tick.
 
-    It reads TORQUE_*, AXIAL_FORCE and HAND_*, and writes PLANT_*, PULL_* and PUSH. `axis` and
-    `depth` are the starting pose (as in `initial_plant`).
+    It reads TORQUE_*, AXIAL_FORCE and HAND_*, and writes GRIP_*, PLANT_*, PULL_* and PUSH. `axis`
+    and `depth` are the starting pose (as in `initial_plant`).
 
     Raises:
         SimulationError: if the starting pose is out of reach.
@@ -136,6 +144,8 @@ def plant_stage(
             *(hand.stiffness, hand.damping, hand.axial_stiffness, hand.axial_damping),
             hand.strongest,
             *(start["plant_q_left"], start["plant_q_right"], start["plant_depth"]),
+            *(hand.speed, hand.acceleration, hand.axial_speed, hand.axial_acceleration),
+            *np.zeros(hand_motion.SIZE - 4),  # it holds nothing yet
         ]
     )
     return "plant", step, parameters

@@ -1,7 +1,5 @@
 """Forces on the simulated robot: the hand's spring-dampers and the tilt stop."""
 
-from typing import Final
-
 import numpy as np
 
 from app.core import state_vector as sv
@@ -20,27 +18,13 @@ from app.simulation.plant_layout import (
     System,
 )
 
-_FLATTEST: Final = 0.98  # sine of the largest tilt that the hand may want
-
-
-@njit
-def wanted(state: FloatArray) -> tuple[bool, float, float, float]:
-    """Direction that the hand wants, and whether it holds: (holds, wx, wy, wz)."""
-    x, y = state[sv.HAND_X], state[sv.HAND_Y]
-    sine = np.sqrt(x * x + y * y)
-    if not (state[sv.HAND_HOLDS] > 0.5 and np.isfinite(sine + state[sv.HAND_DEPTH])):
-        return False, 0.0, 0.0, -1.0
-    if sine > _FLATTEST:
-        x, y = x * (_FLATTEST / sine), y * (_FLATTEST / sine)
-    return True, x, y, -np.sqrt(1.0 - x * x - y * y)
-
 
 @njit
 def spring(
-    p: FloatArray, wx: float, wy: float, wz: float, dx: float, dy: float, dz: float, l_out: float
+    p: FloatArray, gx: float, gy: float, gz: float, dx: float, dy: float, dz: float, l_out: float
 ) -> tuple[float, float, float, float]:
-    """Hand spring at the hub, across the needle: (stiffness in effect, fx, fy, fz)."""
-    sx, sy, sz = -l_out * (wx - dx), -l_out * (wy - dy), -l_out * (wz - dz)
+    """Spring of a hand at g, at the hub, across the needle: (stiffness in effect, fx, fy, fz)."""
+    sx, sy, sz = -l_out * (gx - dx), -l_out * (gy - dy), -l_out * (gz - dz)
     along = sx * dx + sy * dy + sz * dz
     sx, sy, sz = sx - along * dx, sy - along * dy, sz - along * dz
     stretch = np.sqrt(sx * sx + sy * sy + sz * sz)
@@ -53,7 +37,7 @@ def spring(
 @njit
 def axial_spring(state: FloatArray, p: FloatArray) -> tuple[float, float]:
     """Hand spring along the needle: (stiffness in effect [N/m], force inwards [N])."""
-    stretch = state[sv.HAND_DEPTH] - state[sv.PLANT_DEPTH]
+    stretch = state[sv.GRIP_DEPTH] - state[sv.PLANT_DEPTH]
     k = p[HAND_AXIAL_K]
     if k * abs(stretch) > p[HAND_MOST]:
         k = p[HAND_MOST] / abs(stretch)
@@ -64,9 +48,9 @@ def axial_spring(state: FloatArray, p: FloatArray) -> tuple[float, float]:
 def hand_at_tool(
     p: FloatArray,
     h: float,
-    wx: float,
-    wy: float,
-    wz: float,
+    hx: float,
+    hy: float,
+    hz: float,
     dx: float,
     dy: float,
     dz: float,
@@ -74,7 +58,7 @@ def hand_at_tool(
     l_out: float,
 ) -> System:
     """Hand force at the tool and its part of the system matrix: (gx, gy, xx, xy, yy)."""
-    k, fx, fy, fz = spring(p, wx, wy, wz, dx, dy, dz, l_out)
+    k, fx, fy, fz = spring(p, hx, hy, hz, dx, dy, dz, l_out)
     gx, gy = force_map_kernel(fx, fy, fz, dx, dy, dz, l_in, l_out)
     c = (h * p[HAND_B] + h * h * k) * (l_out / l_in) ** 2
     return gx, gy, c * (1.0 - dx * dx), -c * dx * dy, c * (1.0 - dy * dy)

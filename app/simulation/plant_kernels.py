@@ -9,11 +9,13 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
 from app.mechanisms.dynamic_model import FX, FY, FZ
 from app.mechanisms.pantograph.kernels import axis_kernel, hub_velocity_kernel
-from app.simulation.plant_hand import axial_spring, spring, wanted
+from app.simulation.hand_motion import advance, grip_direction, take_hold, turn, wanted
+from app.simulation.plant_hand import axial_spring, spring
 from app.simulation.plant_layout import (
     HAND_AXIAL_B,
     HAND_B,
     LENGTH,
+    MOTION,
     SHORTEST_LEVER,
     START_DEPTH,
     START_LEFT,
@@ -53,9 +55,7 @@ def _recover(state: FloatArray, p: FloatArray) -> Pose:
 
 
 @njit
-def _report(
-    state: FloatArray, p: FloatArray, holds: bool, wx: float, wy: float, wz: float, pose: Pose
-) -> None:
+def _report(state: FloatArray, p: FloatArray, holds: bool, pose: Pose) -> None:
     """Write the force of the hand across (PULL_*) and along (PUSH) the needle."""
     state[sv.PULL_X] = state[sv.PULL_Y] = state[sv.PULL_Z] = state[sv.PUSH] = 0.0
     ok, x, y, jxl, jxr, jyl, jyr = pose
@@ -64,7 +64,8 @@ def _report(
     v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
     dx, dy, dz, l_in = axis_kernel(x, y, p[FX], p[FY], p[FZ])
     l_out = max(p[LENGTH] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
-    _, fx, fy, fz = spring(p, wx, wy, wz, dx, dy, dz, l_out)
+    gx, gy, gz = grip_direction(state)
+    _, fx, fy, fz = spring(p, gx, gy, gz, dx, dy, dz, l_out)
     ux, uy, uz = hub_velocity_kernel(
         jxl * v1 + jxr * v2, jyl * v1 + jyr * v2, dx, dy, dz, l_in, l_out
     )
@@ -74,13 +75,29 @@ def _report(
     state[sv.PUSH] = axial_spring(state, p)[1] - p[HAND_AXIAL_B] * state[sv.PLANT_DEPTH_RATE]
 
 
+@njit
+def _move_hand(state: FloatArray, p: FloatArray, dt: float, pose: Pose) -> bool:
+    """Move GRIP_* towards HAND_*; returns whether the hand holds."""
+    holds, wx, wy, wz = wanted(state)
+    ok, x, y, _, _, _, _ = pose
+    dx, dy, _, _ = axis_kernel(x, y, p[FX], p[FY], p[FZ])
+    if not ok:
+        dx, dy = 0.0, 0.0
+    if take_hold(state, p, MOTION, holds, dx, dy, state[sv.PLANT_DEPTH]) and dt > 0.0:
+        lever = max(p[LENGTH] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
+        turn(state, p, MOTION, dt, wx, wy, wz, lever)
+        advance(state, p, MOTION, dt)
+    return holds
+
+
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
-    """Move robot and needle by DT (at most 5 ms) and write the forces of the hand."""
+    """Move hand, robot and needle by DT (at most 5 ms) and write the forces of the hand."""
     pose = _recover(state, parameters)
-    holds, wx, wy, wz = wanted(state)
-    if state[sv.DT] > 0.0:  # not for NaN
-        dt = min(state[sv.DT], LONGEST_STEP)
+    dt = min(state[sv.DT], LONGEST_STEP) if state[sv.DT] > 0.0 else 0.0  # not for NaN
+    holds = _move_hand(state, parameters, dt, pose)
+    if dt > 0.0:
+        gx, gy, gz = grip_direction(state)
         substeps = int(np.ceil(dt / SUBSTEP - 1e-9))
         h = dt / max(substeps, 1)
         t1 = _bounded(state[sv.TORQUE_LEFT], _TORQUE)
@@ -88,5 +105,5 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
         tissue = _bounded(state[sv.AXIAL_FORCE], _AXIAL)
         for _ in range(substeps):
             slide(state, parameters, h, tissue, holds, pose)
-            pose = swing(state, parameters, h, t1, t2, holds, wx, wy, wz, pose)
-    _report(state, parameters, holds, wx, wy, wz, pose)
+            pose = swing(state, parameters, h, t1, t2, holds, gx, gy, gz, pose)
+    _report(state, parameters, holds, pose)

@@ -1,8 +1,8 @@
 """The script of one attempt: what the trainee's hand wants over time, made once from a seed.
 
-Every movement is minimum-jerk from where the hand is to where it wants to be (Flash and Hogan
-1985); a slow drift and a physiological tremor tile come on top. Directions are written as an error
-(e1, e2) [rad] in the tangent plane of the path, so that the path itself is zero.
+Every movement is minimum-jerk from where the last one ended to where it wants to be (Flash and
+Hogan 1985); a slow drift and a physiological tremor tile come on top. Directions are written as an
+error (e1, e2) [rad] in the tangent plane of the path, so that the path itself is zero.
 """
 
 from dataclasses import dataclass, replace

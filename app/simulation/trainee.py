@@ -1,7 +1,8 @@
 """The scripted trainee as a stage of the tick: plays a script into HAND_* and TRAINEE_PHASE.
 
 It runs on TIME since the attempt was armed, so a run is the same on every machine and at every
-rate; it begins afresh with every attempt.
+rate; it begins afresh with every attempt, from where the hand is: what the script's beginning lies
+off it is taken out along a minimum-jerk curve while the script hovers.
 """
 
 from typing import Final
@@ -12,12 +13,13 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
 from app.core.compiled import njit, stage
 from app.simulation.errors import SimulationError
+from app.simulation.hand_motion import grip_direction
 from app.simulation.plan import Stage
-from app.simulation.script import STEP, TREMOR_ROWS, TREMOR_STEP, Script, write_script
+from app.simulation.script import STEP, TREMOR_ROWS, TREMOR_STEP, Phase, Script, write_script
 from app.simulation.skill import Skill, find_skill
 
-# Parameters array: heads, path axis, tangent basis, tremor tile, script rows.
-START, SPEED, ROWS, AXIS, FIRST, SECOND, TREMOR = 0, 1, 2, 3, 6, 9, 12
+# Parameters array: heads, path axis, tangent basis, where the hand was, tremor tile, script rows.
+START, SPEED, ROWS, AXIS, FIRST, SECOND, FROM, HOVER, TREMOR = 0, 1, 2, 3, 6, 9, 12, 15, 16
 _SCRIPT: Final = TREMOR + 3 * TREMOR_ROWS
 _TREMOR_PERIOD: Final = TREMOR_ROWS * TREMOR_STEP
 
@@ -45,8 +47,9 @@ def trainee_stage(
 
 def _parameters(script: Script, axis: FloatArray, speed: float) -> FloatArray:
     head = np.array([np.nan, speed, len(script.rows)])
+    hover = np.array([0.0, 0.0, 0.0, np.count_nonzero(script.rows[:, 3] == Phase.HOVER) * STEP])
     return np.concatenate(
-        [head, axis, script.basis.ravel(), script.tremor.ravel(), script.rows.ravel()]
+        [head, axis, script.basis.ravel(), hover, script.tremor.ravel(), script.rows.ravel()]
     )
 
 
@@ -66,6 +69,23 @@ def _direction(p: FloatArray, e1: float, e2: float, i: int) -> float:
     return np.cos(angle) * p[AXIS + i] + sinc * (e1 * p[FIRST + i] + e2 * p[SECOND + i])
 
 
+@njit
+def _begin_where_the_hand_is(state: FloatArray, p: FloatArray) -> None:
+    """Note how far the hand is off the script's beginning: e1, e2 [rad], depth [m]."""
+    gx, gy, gz = grip_direction(state)
+    along = gx * p[AXIS] + gy * p[AXIS + 1] + gz * p[AXIS + 2]
+    a = gx * p[FIRST] + gy * p[FIRST + 1] + gz * p[FIRST + 2]
+    b = gx * p[SECOND] + gy * p[SECOND + 1] + gz * p[SECOND + 2]
+    sine = np.sqrt(a * a + b * b)
+    turned = np.arctan2(sine, along) / sine if sine > 1e-9 else 1.0
+    p[FROM] = turned * a - p[_SCRIPT]
+    p[FROM + 1] = turned * b - p[_SCRIPT + 1]
+    p[FROM + 2] = state[sv.GRIP_DEPTH] - p[_SCRIPT + 2]
+    for i in range(3):
+        if not np.isfinite(p[FROM + i]):
+            p[FROM + i] = 0.0
+
+
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Write the wanted direction and depth, that the hand holds, and the phase."""
@@ -77,6 +97,7 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
         return
     if np.isnan(parameters[START]):
         parameters[START] = time
+        _begin_where_the_hand_is(state, parameters)
     elapsed = max(0.0, time - parameters[START])
     last = int(parameters[ROWS]) - 1
     at = min(elapsed * parameters[SPEED] / STEP, float(last))
@@ -88,6 +109,12 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     e1 = _interpolate(parameters, _SCRIPT, 4, row, next_row, at - row, 0)
     e2 = _interpolate(parameters, _SCRIPT, 4, row, next_row, at - row, 1)
     depth = _interpolate(parameters, _SCRIPT, 4, row, next_row, at - row, 2)
+    if parameters[HOVER] > 0.0:
+        s = min(elapsed * parameters[SPEED] / parameters[HOVER], 1.0)
+        left = 1.0 - s * s * s * (10.0 - 15.0 * s + 6.0 * s * s)
+        e1 += left * parameters[FROM]
+        e2 += left * parameters[FROM + 1]
+        depth += left * parameters[FROM + 2]
     share = shaking - np.floor(shaking)
     e1 += _interpolate(parameters, TREMOR, 3, shake, next_shake, share, 0)
     e2 += _interpolate(parameters, TREMOR, 3, shake, next_shake, share, 1)

@@ -12,13 +12,18 @@ from app.simulation.trainee import trainee_stage
 
 AXIS = unit(np.array([0.3, 0.1, -0.9]))
 DEPTH = 0.08
+UPRIGHT = np.array([0.0, 0.0, -0.015])
+"""Where a hand waits: x, y of the direction, depth."""
 
 
-def played(skill: str, seed: int = 0, speed: float = 1.0, start: float = 100.0) -> FloatArray:
+def played(
+    skill: str, seed: int = 0, speed: float = 1.0, start: float = 100.0, grip: FloatArray = UPRIGHT
+) -> FloatArray:
     """Time, hand direction (3), depth, phase every 2 ms until done, shape (n, 6)."""
     _, step, parameters = trainee_stage(AXIS, DEPTH, skill, seed, speed)
     state, rows = sv.empty_state(), []
     state[sv.ENABLED] = 1.0
+    state[sv.GRIP_X], state[sv.GRIP_Y], state[sv.GRIP_DEPTH] = grip
     for k in range(30_000):
         state[sv.TIME] = start + 0.002 * k
         step(state, parameters)
@@ -71,6 +76,26 @@ def test_it_starts_above_the_skin_off_the_path_and_holds_at_the_end() -> None:
 def test_phases_come_in_order_for_an_expert() -> None:
     phases = played("expert")[:, 5]
     assert (np.diff(phases) >= 0).all()
+
+
+@pytest.mark.parametrize("skill", ["novice", "expert"])
+@pytest.mark.parametrize("grip", [UPRIGHT, (0.3, -0.4, 0.02), (-0.6, 0.0, -0.02), (0.0, 0.6, 0.0)])
+def test_it_begins_where_the_hand_is(skill: str, grip: FloatArray) -> None:
+    rows = played(skill, grip=grip)
+    tremor = {"novice": 4e-3, "expert": 1e-3}[skill]
+    np.testing.assert_allclose(rows[0, 1:3], grip[:2], atol=tremor)
+    assert rows[0, 4] == pytest.approx(grip[2], abs=3e-4)
+
+
+def test_where_it_began_is_forgotten_once_it_has_hovered() -> None:
+    here, there = played("expert"), played("expert", grip=np.array([0.3, -0.4, 0.02]))
+    hovered = here[:, 5] != Phase.HOVER
+    np.testing.assert_allclose(here[hovered], there[hovered], atol=1e-12)
+
+
+def test_a_hand_that_is_nowhere_does_not_reach_the_script() -> None:
+    rows = played("expert", grip=np.array([np.nan, 0.0, np.inf]))
+    assert np.isfinite(rows).all()
 
 
 def test_the_hand_never_jumps() -> None:
