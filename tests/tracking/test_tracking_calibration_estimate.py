@@ -1,5 +1,7 @@
 """Cameras from views whose truth is known: estimates, their covariance, what is dropped."""
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ from app.core.transform import RigidTransform
 from app.tracking.calibration.bundle import adjust, with_free
 from app.tracking.calibration.lens import project, project_with_derivatives
 from app.tracking.calibration.mono import calibrate_mono
+from app.tracking.calibration.poses import board_pose
 from app.tracking.calibration.sightings import Sighting, State
 from app.tracking.calibration.start import first_estimate
 from app.tracking.calibration.validation import triangulated
@@ -204,3 +207,26 @@ def _triangulated(rig: Rig, state: State, pixels: list[np.ndarray]) -> np.ndarra
         for p, pose in zip(state.parameters, (None, state.T_right_left.inverse()), strict=True)
     )
     return triangulated(left, right, *pixels)[0]
+
+
+def test_no_pose_keeps_refined_corners_where_the_unrefined_ones_fit_better() -> None:
+    rig, rng = usual_rig(), np.random.default_rng(16)
+    poses = rig.poses(10, 4)
+    views = []
+    for i, T in enumerate(poses):
+        good, bad = rig.view(rig.left, T, 0.1, rng), rig.view(rig.left, T, 0.6, rng)
+        first, second = (bad, good) if i in (2, 7) else (good, bad)
+        views.append(replace(first, unrefined=second.pixels, window=4, name=f"view {i}"))
+    result = calibrate_mono(views, "left", hold_back=2)
+    taken = [i for i, view in enumerate(result.chosen) if view is not views[i]]
+    assert taken == [2, 7]
+    assert any("unrefined" in note and "view 2, view 7" in note for note in result.notes)
+    p = result.calibration.intrinsics, result.calibration.distortion
+    for view in result.chosen:
+        other = view.without_refinement()
+        assert board_pose(view, np.concatenate(p))[1] <= board_pose(other, np.concatenate(p))[1]
+    plain = calibrate_mono([replace(view, unrefined=None) for view in views], "left", hold_back=2)
+    assert result.calibration.rms_px < 0.2
+    assert plain.calibration.rms_px > 1.5 * result.calibration.rms_px or any(
+        "left out" in note for note in plain.notes
+    )

@@ -9,7 +9,7 @@ import pytest
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.tracking.calibration.boards import Board, parse_board
-from app.tracking.calibration.corners import find_corners
+from app.tracking.calibration.corners import find_corners, half_window
 from app.tracking.calibration.views import BoardView, Reason, Rejection
 from app.tracking.errors import CalibrationError
 from app.tracking.simulated.board import BoardRenderer
@@ -152,3 +152,32 @@ def test_colour_and_16_bit_pictures_give_the_same_corners() -> None:
 def test_an_array_that_is_no_picture_is_refused(image: np.ndarray) -> None:
     with pytest.raises(CalibrationError, match="is no picture"):
         find_corners(image, CHARUCO)
+
+
+def test_the_window_follows_from_the_square_and_from_the_width_of_its_edges() -> None:
+    board = usual_rig().board
+    assert half_window(board, 30.0, 2.6) == 10  # sharp: a third of the square, as before
+    assert half_window(board, 14.0, 4.6) == 6  # blurred: 1.5 edges
+    assert half_window(board, 10.0, 4.6) == 5  # and never beyond half the square
+    assert half_window(board, 80.0, 2.0) == 11
+    assert half_window(CHARUCO, 40.0, 4.0) == 5  # no more than the white around the markers
+
+
+@pytest.mark.parametrize(("blur", "noise"), [(1.6, 8.0), (1.65, 2.0)])
+def test_blurred_edges_on_small_squares_get_a_window_that_holds_them(
+    blur: float, noise: float
+) -> None:
+    rig = usual_rig()
+    ours, third = [], []
+    for turn in ((10, 5, 5), (-20, 10, -15), (15, -25, 10)):
+        T = facing(rig.board, 0.82, turn)
+        image = BoardRenderer(rig.left, rig.board, 3).render(T, blur, noise)
+        view, as_before = find_corners(image, rig.board), find_corners(image, rig.board, window=4)
+        assert isinstance(view, BoardView)
+        assert 12.0 < view.square_px < 17.0
+        assert view.sharpness > 4.0
+        ours.append(errors(rig, view, T))
+        third.append(errors(rig, as_before, T))
+    was, now = (np.sqrt(np.mean(np.concatenate(one) ** 2)) for one in (third, ours))
+    assert now < 0.7 * was
+    assert now < 0.3

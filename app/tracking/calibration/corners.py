@@ -25,10 +25,19 @@ from app.tracking.calibration.views import BoardView, Reason, Rejection
 from app.tracking.errors import CalibrationError
 
 WINDOW_SHARE = 1.0 / 3.0
-"""Half the sub-pixel window over the shortest way across a square.
+"""Half the sub-pixel window over the shortest way across a square, where edges are sharp.
 
 At 0.4 corners of oblique squares are drawn to the next edge, at 0.2 noise is averaged less.
 """
+
+EDGE_FACTOR = 1.5
+"""Half the window over the width of the edges, where that asks for more (`acus study corners`).
+
+In a window narrower than the blurred edges nearly all gradients vanish: what is left is noise.
+"""
+
+WIDEST_SHARE = 0.5
+"""The window of a blurred picture grows no further than this: beyond lie the next corners."""
 
 MARKER_SHARE = 1.15
 """The same over the white between a square's edge and its marker.
@@ -205,7 +214,7 @@ def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> Boa
             f"the picture is blurred: edges are {sharpness:.1f} px wide, squares "
             f"{square_px:.0f} px; hold the board still and focus",
         )
-    half = window or int(np.clip(np.floor(window_share(board) * square_px), 2, WINDOW_MAX))
+    half = window or half_window(board, square_px, sharpness)
     return BoardView(
         board,
         ids,
@@ -214,14 +223,28 @@ def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> Boa
         sharpness=sharpness,
         square_px=square_px,
         window=half,
+        unrefined=pixels,
     )
 
 
-def window_share(board: Board) -> float:
-    """Half the sub-pixel window over the shortest way across a square of this board."""
+def half_window(board: Board, square_px: float, edge_px: float) -> int:
+    """Half the sub-pixel window [px] for squares and edges of this size.
+
+    A third of the shortest way across a square; where edges are wide, `EDGE_FACTOR` of their width,
+    up to half the square. ChArUco corners have no more room than the white around the markers.
+
+    Args:
+        board: which board.
+        square_px: shortest way across a square in the picture.
+        edge_px: width of its edges.
+    """
     if board.kind is BoardKind.CHECKERBOARD:
-        return WINDOW_SHARE
-    return min(WINDOW_SHARE, MARKER_SHARE * 0.5 * (1.0 - board.marker / board.square))
+        room = WIDEST_SHARE * square_px
+        half = min(max(WINDOW_SHARE * square_px, EDGE_FACTOR * edge_px), room)
+    else:
+        margin = 0.5 * (1.0 - board.marker / board.square)
+        half = min(WINDOW_SHARE, MARKER_SHARE * margin) * square_px
+    return int(np.clip(np.floor(half), 2, WINDOW_MAX))
 
 
 def refined(grey: Grey, pixels: FloatArray, half: int) -> FloatArray:

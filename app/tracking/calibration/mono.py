@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from app.core.arrays import FloatArray
 from app.core.progress import Progress
 from app.tracking.calibration import held_back
 from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
 from app.tracking.calibration.outliers import limit_px
-from app.tracking.calibration.poses import board_pose
-from app.tracking.calibration.remarks import ViewResidual, mono_remarks
+from app.tracking.calibration.poses import better_corners, board_pose
+from app.tracking.calibration.remarks import ViewResidual, mono_remarks, unrefined_remarks
 from app.tracking.calibration.selection import Dropped, smallest_model
 from app.tracking.calibration.sightings import Sighting, State
 from app.tracking.calibration.start import first_estimate, usual_rms
@@ -31,6 +32,8 @@ class MonoResult:
         calibration: the camera.
         adjusted: the estimate.
         views: those used, in the order of the estimate's poses.
+        chosen: every view given, in that order, with the corners that fit better: refined, or as
+            the finder gave them.
         residuals: of every view given, in that order.
         dropped: coefficients that the data do not support.
         usual_rms_px: what OpenCV's plain recipe leaves on the same corners: all views, all five
@@ -42,6 +45,7 @@ class MonoResult:
     calibration: CameraCalibration
     adjusted: Adjusted
     views: tuple[BoardView, ...]
+    chosen: tuple[BoardView, ...]
     residuals: tuple[ViewResidual, ...]
     dropped: tuple[Dropped, ...]
     usual_rms_px: float | None
@@ -70,16 +74,18 @@ def calibrate_mono(
     progress = progress or Progress()
     _require(views, name)
     views = named(views)
+    given = views
     count = held_back.default_count(len(views)) if hold_back is None else hold_back
     held = set(held_back.choose(views, min(count, len(views) - LEAST_VIEWS)))
-    kept = [view for i, view in enumerate(views) if i not in held]
     progress.report(0.1, f"{name}: first estimate")
-    used, out = _without_outliers(kept, progress.part(0.2, 0.6))
-    progress.report(0.6, f"{name}: which coefficients the views support")
-    start, choosing = first_estimate(used), progress.part(0.7, 0.9)
-    adjusted, names, dropped = smallest_model(
-        lambda free, earlier: _fit(used, earlier.state if earlier else start, free, choosing)
-    )
+    views = better_corners(views, _first(views, held, progress.part(0.1, 0.2)))
+    while True:
+        kept = [view for i, view in enumerate(views) if i not in held]
+        used, out, (adjusted, names, dropped) = _estimated(kept, name, progress)
+        better = better_corners(views, adjusted.state.parameters[0])
+        if better == views:  # the very same: every round takes more of them unrefined, or none
+            break
+        views = better
     _require_determined(adjusted, name)
     progress.report(0.9, f"{name}: views held back")
     residuals = _residuals(views, used, out, adjusted)
@@ -88,12 +94,39 @@ def calibrate_mono(
         _calibration(name, views[0].image_size, adjusted, names),
         adjusted,
         tuple(used),
+        tuple(views),
         residuals,
         dropped,
         usual_rms(views),
         float(np.sqrt(np.mean(np.square(apart)))) if apart else None,
-        tuple(mono_remarks(name, used, adjusted, dropped, residuals)),
+        (
+            *unrefined_remarks(name, given, views),
+            *mono_remarks(name, used, adjusted, dropped, residuals),
+        ),
     )
+
+
+_Model = tuple[Adjusted, tuple[str, ...], tuple[Dropped, ...]]
+
+
+def _estimated(
+    views: list[BoardView], name: str, progress: Progress
+) -> tuple[list[BoardView], list[BoardView], _Model]:
+    """Return views used, views left out, and the smallest model of the camera."""
+    used, out = _without_outliers(views, progress.part(0.2, 0.6))
+    progress.report(0.6, f"{name}: which coefficients the views support")
+    start, choosing = first_estimate(used), progress.part(0.7, 0.9)
+    model = smallest_model(
+        lambda free, earlier: _fit(used, earlier.state if earlier else start, free, choosing)
+    )
+    return used, out, model
+
+
+def _first(views: Sequence[BoardView], held: set[int], progress: Progress) -> FloatArray:
+    """Parameters of a camera from all views that are not held back, (9,)."""
+    progress.report(0.0, "first estimate")
+    kept = [view for i, view in enumerate(views) if i not in held]
+    return first_estimate(kept).parameters[0]
 
 
 def _require(views: Sequence[BoardView], name: str) -> None:

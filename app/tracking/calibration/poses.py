@@ -1,5 +1,7 @@
 """The pose of a board from one view by a camera that is known."""
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 
@@ -30,6 +32,30 @@ def board_pose(view: BoardView, parameters: FloatArray) -> tuple[RigidTransform,
     if not found:
         raise CalibrationError(f"view {view.name!r}: no pose of the board fits before the camera")
     return min(found, key=lambda candidate: candidate[1])
+
+
+def better_corners(views: Sequence[BoardView], parameters: FloatArray) -> list[BoardView]:
+    """Return views with the corners that fit the camera better: refined, or as they were found.
+
+    Refining helps as a rule; where a picture is blurred and noisy beyond what its window takes out
+    it does not, and the residual shows it.
+
+    Args:
+        views: with `unrefined` corners where they are known; a view that needs no change comes
+            back as it is.
+        parameters: of the camera, in the order of `PARAMETERS`, shape (9,).
+    """
+    return [_better(view, parameters) for view in views]
+
+
+def _better(view: BoardView, parameters: FloatArray) -> BoardView:
+    if view.unrefined is None:
+        return view
+    other = view.without_refinement()
+    try:
+        return min((view, other), key=lambda one: board_pose(one, parameters)[1])
+    except CalibrationError:
+        return view
 
 
 def _two_poses(view: BoardView, p: FloatArray) -> list[RigidTransform]:

@@ -51,6 +51,17 @@ def mono_remarks(
     return notes
 
 
+def unrefined_remarks(
+    name: str, given: Sequence[BoardView], taken: Sequence[BoardView]
+) -> list[str]:
+    """Say whose corners fit better as the finder gave them."""
+    changed = [old.name for old, new in zip(given, taken, strict=True) if old is not new]
+    if not changed:
+        return []
+    named = ", ".join(changed[:5]) + (f" and {len(changed) - 5} more" if len(changed) > 5 else "")
+    return [f"{name}: corners fit better unrefined and are taken so (blur, noise): {named}"]
+
+
 def coverage_notes(name: str, views: Sequence[BoardView]) -> list[str]:
     """Say where the distortion is not measured but continued."""
     pixels = np.concatenate([view.pixels for view in views])

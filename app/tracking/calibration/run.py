@@ -10,6 +10,7 @@ from app.tracking.calibration.bundle import rms
 from app.tracking.calibration.identity import new_id
 from app.tracking.calibration.mono import camera_of
 from app.tracking.calibration.pair_fit import matched, matched_residual
+from app.tracking.calibration.poses import better_corners
 from app.tracking.calibration.remarks import ViewResidual
 from app.tracking.calibration.stereo import LEAST_PAIRS, StereoEstimate, estimate_stereo
 from app.tracking.calibration.validation import ViewPair, validate
@@ -91,7 +92,11 @@ def calibrate_pairs(
     kept = [pair for i, pair in enumerate(pairs) if i not in held]
     estimate = estimate_stereo(kept, alone, names, progress.part(0.0, 0.9))
     progress.report(0.9, "pairs held back")
-    apart = [matched(pairs[i], estimate.adjusted) for i in sorted(held)]
+    cameras = estimate.adjusted.state.parameters
+    better = [
+        better_corners([pairs[i][side] for i in sorted(held)], cameras[side]) for side in (0, 1)
+    ]
+    apart = [matched(pair, estimate.adjusted) for pair in zip(*better, strict=True)]
     calibration = _value(estimate, names, now or datetime.now(UTC))
     if apart:
         update = {"validation": validate(calibration, apart)}

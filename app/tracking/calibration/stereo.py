@@ -97,6 +97,8 @@ def estimate_stereo(
         )
         for side in (0, 1)
     )
+    count = len(pairs)
+    pairs = list(zip(left.chosen[:count], right.chosen[:count], strict=True))
     progress.report(0.6, "which corner is which")
     posed = [_posed(pair, left, right) for pair in pairs]
     agreement = agree(posed, right.adjusted.state.parameters[0])

@@ -53,7 +53,10 @@ class BoardView:
         sharpness: width of the squares' edges, 10 to 90 % of the step, median [px]; about 1 to 2
             in a sharp picture, more in a blurred one.
         square_px: shortest distance across a square in the picture [px].
-        window: half width of the window in which the corners were refined [px].
+        window: half width of the window in which the corners were refined [px]; 0 if they were
+            not.
+        unrefined: the places as the finder gave them, shape (n, 2); None if they are not known, or
+            are `pixels` themselves.
         name: of the picture.
 
     Raises:
@@ -67,6 +70,7 @@ class BoardView:
     sharpness: float = field(default=0.0, kw_only=True)
     square_px: float = field(default=0.0, kw_only=True)
     window: int = field(default=0, kw_only=True)
+    unrefined: FloatArray | None = field(default=None, kw_only=True)
     name: str = field(default="", kw_only=True)
 
     def __post_init__(self) -> None:
@@ -82,9 +86,17 @@ class BoardView:
                 f"view {self.name!r}: corner {int(ids.max())} is not on the board "
                 f"{self.board.spec}, which has {self.board.count}"
             )
+        rough = None if self.unrefined is None else np.array(self.unrefined, dtype=np.float64)
+        if rough is not None and (rough.shape != pixels.shape or not np.isfinite(rough).all()):
+            raise CalibrationError(
+                f"view {self.name!r}: unrefined pixels of shape {rough.shape}; one finite pixel is "
+                "needed for every corner"
+            )
         order = np.argsort(ids, kind="stable")
         object.__setattr__(self, "ids", read_only(ids[order]))
         object.__setattr__(self, "pixels", read_only(pixels[order]))
+        if rough is not None:
+            object.__setattr__(self, "unrefined", read_only(rough[order]))
 
     @property
     def points(self) -> FloatArray:
@@ -94,6 +106,12 @@ class BoardView:
     def reordered(self, order: NDArray[np.int64]) -> "BoardView":
         """Return the same picture with corner i called `order[i]`."""
         return replace(self, ids=order[self.ids], pixels=self.pixels)
+
+    def without_refinement(self) -> "BoardView":
+        """Return the same picture with its corners as the finder gave them, if they are known."""
+        if self.unrefined is None:
+            return self
+        return replace(self, pixels=self.unrefined, unrefined=None, window=0)
 
     def called(self, name: str) -> "BoardView":
         """Return the same view under a name."""
