@@ -1,5 +1,6 @@
 """Two cameras from pairs whose truth is known: corner orders, outliers, swaps, scale."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -7,12 +8,16 @@ import numpy as np
 import pytest
 
 from app.core.progress import Cancelled, Progress
+from app.core.transform import RigidTransform
+from app.tracking.calibration import stereo
 from app.tracking.calibration.boards import parse_board
 from app.tracking.calibration.checks import check_baseline, check_second_board
+from app.tracking.calibration.corner_order import Agreement, PosedPair, agree
 from app.tracking.calibration.mirrored import mirrored_view
 from app.tracking.calibration.pairing import pair_folder
 from app.tracking.calibration.run import StereoResult, calibrate_pairs, calibrate_stereo
 from app.tracking.calibration.sets import stereo_set
+from app.tracking.calibration.stereo import estimate_stereo
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
@@ -214,3 +219,76 @@ def test_pictures_of_two_sizes_are_remarked(rig: Rig, pairs: tuple[Views, Views]
     notes = calibrate_pairs(left, half, hold_back=0).calibration.notes
     assert any("left 640x480, right 320x240" in note for note in notes)
     assert not any("sizes" in note for note in calibrate_pairs(left, right).calibration.notes)
+
+
+def test_pairs_that_the_rough_stage_left_out_come_back_when_they_fit(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    rig = usual_rig()
+    left, right = rig.pairs(10, 17)
+    right[8] = right[8].reordered(np.arange(rig.board.count)[::-1])
+    whole = estimate_stereo(list(zip(left, right, strict=True)))
+
+    def rough(pairs: list[PosedPair], camera: np.ndarray) -> Agreement:
+        found = agree(pairs, camera)
+        errors = found.errors.copy()
+        errors[[1, 4, 8]] = 3.0 * found.near
+        ways = tuple(0 if i == 8 else way for i, way in enumerate(found.ways))
+        return replace(found, errors=errors, ways=ways)
+
+    monkeypatch.setattr(stereo, "agree", rough)
+    found = estimate_stereo(list(zip(left, right, strict=True)))
+    assert [row.role for row in found.residuals] == ["used"] * 10
+    assert found.mended == whole.mended == ("r8",)
+    assert found.rms_px == pytest.approx(whole.rms_px, rel=1e-6)
+    np.testing.assert_allclose(found.adjusted.covariance, whole.adjusted.covariance, rtol=1e-3)
+
+
+def test_no_pair_is_left_out_that_fits_better_than_one_that_is_used() -> None:
+    rig = usual_rig()
+    left, right = rig.pairs(12, 23)
+    late = rig.pairs(12, 24)[1]
+    right[3] = late[3].called("r3")
+    found = estimate_stereo(list(zip(left, right, strict=True)))
+    rows = {
+        role: [r.rms_px for r in found.residuals if r.role == role] for role in ("used", "outlier")
+    }
+    assert len(rows["outlier"]) == 1
+    assert max(rows["used"]) < min(rows["outlier"])
+
+
+def moved(rig: Rig, count: int, seed: int) -> tuple[list[BoardView], list[BoardView]]:
+    """Pairs not taken at the same moment: the board moves between them by 0.3 mm and 0.1°."""
+    rng = np.random.default_rng(seed)
+    spread = np.array([3e-4] * 3 + [2e-3] * 3)
+    left, right = [], []
+    for i, T in enumerate(rig.poses(count, seed)):
+        later = RigidTransform.exp(spread * rng.standard_normal(6)) @ T
+        left.append(rig.view(rig.left, T, 0.07, rng).called(f"l{i}"))
+        right.append(rig.view(rig.right, later, 0.07, rng).called(f"r{i}"))
+    return left, right
+
+
+def test_pairs_that_do_not_belong_together_are_said_and_their_uncertainty_holds() -> None:
+    rig = usual_rig()
+    off, factors = [], []
+    for seed in range(8):
+        left, right = moved(rig, 10, 40 + seed)
+        found = estimate_stereo(list(zip(left, right, strict=True)))
+        assert max(found.left.calibration.rms_px, found.right.calibration.rms_px) < 0.12
+        assert found.rms_px > 3.0 * 0.1
+        assert any("do not belong together" in note for note in found.notes)
+        pose = found.adjusted.state.T_right_left
+        twist = (rig.T_right_left @ pose.inverse()).log()
+        off.append(twist / np.sqrt(np.diag(found.adjusted.covariance[18:, 18:])))
+        factors.append(found.together.sd_factor)
+    assert min(factors) > 4.0
+    assert 0.5 < np.sqrt(np.mean(np.square(off))) < 2.0  # it was 5 and more
+
+
+def test_pairs_taken_together_are_not_said_to_be_apart() -> None:
+    rig = usual_rig()
+    left, right = rig.pairs(10, 30, noise=0.1)
+    found = estimate_stereo(list(zip(left, right, strict=True)))
+    assert found.together.sd_factor == 1.0
+    assert not any("together" in note for note in found.notes)

@@ -9,7 +9,7 @@ from app.core.arrays import FloatArray
 from app.core.progress import Progress
 from app.tracking.calibration import held_back
 from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
-from app.tracking.calibration.outliers import limit_px
+from app.tracking.calibration.outliers import belongs, limit_px
 from app.tracking.calibration.poses import better_corners, board_pose
 from app.tracking.calibration.remarks import ViewResidual, mono_remarks, unrefined_remarks
 from app.tracking.calibration.selection import Dropped, smallest_model
@@ -168,15 +168,26 @@ def _fit(
 def _without_outliers(
     views: list[BoardView], progress: Progress
 ) -> tuple[list[BoardView], list[BoardView]]:
-    """Leave out views that do not belong, worst first, until all that are left do."""
-    used, out = list(views), list[BoardView]()
+    """Leave out views that do not belong, worst first; what fits again later comes back, once."""
+    used, out, came_back = list(views), list[BoardView](), set[int]()
     while True:
         adjusted = _fit(used, first_estimate(used), PARAMETERS, progress)
         each = [rms(r) for r in adjusted.residuals]
         worst = int(np.argmax(each))
-        if each[worst] <= limit_px(each) or len(used) <= LEAST_VIEWS:
+        if each[worst] > limit_px(each) and len(used) > LEAST_VIEWS:
+            out.append(used.pop(worst))
+            continue
+        parameters = adjusted.state.parameters[0]
+        again = [
+            view
+            for view in out
+            if id(view) not in came_back and belongs(board_pose(view, parameters)[1], each)
+        ]
+        if not again:
             return used, out
-        out.append(used.pop(worst))
+        came_back |= {id(view) for view in again}
+        out = [view for view in out if not any(view is other for other in again)]
+        used += again
 
 
 def _require_determined(adjusted: Adjusted, name: str) -> None:

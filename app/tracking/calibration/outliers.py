@@ -31,3 +31,14 @@ def limit_px(residuals: Sequence[float]) -> float:
     middle = float(np.median(values))
     spread = 1.4826 * float(np.median(np.abs(values - middle)))
     return max(middle + SPREADS * spread, FACTOR * middle, FLOOR)
+
+
+def belongs(residual: float, used: Sequence[float]) -> bool:
+    """Whether a view that was left out fits as those that are used do, [px].
+
+    The first estimates are rough: what they leave out may fit the last one. With fewer than `LEAST`
+    views in use only the median counts.
+    """
+    if len(used) >= LEAST:
+        return residual <= limit_px(used)
+    return residual <= max(FACTOR * float(np.median(used)), FLOOR)

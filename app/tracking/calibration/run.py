@@ -144,6 +144,7 @@ def _value(estimate: StereoEstimate, names: tuple[str, str], now: datetime) -> S
         cameras=(cameras[0], cameras[1]),
         pose=PoseCalibration.of(adjusted.state.T_right_left, covariance[18:, 18:]),
         rms_px=estimate.rms_px,
+        together=estimate.together,
         joint_covariance=tuple(tuple(float(value) for value in row) for row in covariance),
         notes=estimate.notes,
     )

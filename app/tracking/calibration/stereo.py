@@ -1,7 +1,7 @@
 """Two cameras from pairs of views of one board."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -10,10 +10,16 @@ from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
 from app.tracking.calibration.corner_order import Agreement, PosedPair, agree, turns
+from app.tracking.calibration.fit_together import fit_together, together_remarks
 from app.tracking.calibration.mirrored import one_side_is_mirrored
 from app.tracking.calibration.mono import MonoResult, calibrate_mono
-from app.tracking.calibration.outliers import limit_px
-from app.tracking.calibration.pair_fit import matched_residual, pair_residuals, pair_sightings
+from app.tracking.calibration.outliers import belongs, limit_px
+from app.tracking.calibration.pair_fit import (
+    matched,
+    matched_residual,
+    pair_residuals,
+    pair_sightings,
+)
 from app.tracking.calibration.poses import board_pose
 from app.tracking.calibration.remarks import ViewResidual, size_remarks, stereo_remarks
 from app.tracking.calibration.sightings import Sighting, State
@@ -21,6 +27,7 @@ from app.tracking.calibration.start import usual_stereo_rms
 from app.tracking.calibration.validation import ViewPair
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
+from app.tracking.optics.calibration import FitTogether
 
 LEAST_PAIRS = 3
 LEAST_BASELINE = 0.01
@@ -40,6 +47,8 @@ class StereoEstimate:
         mended: names of the pairs whose right picture was numbered the other way round.
         usual_rms_px: what OpenCV's plain recipe leaves on the same corners: all pairs, lenses as
             found by themselves; None if it finds nothing, or corners were seen by one camera only.
+        together: how well the pairs fit together, against each picture by itself; the estimate's
+            covariance is that of the adjustment times the square of its factor.
         notes: lines for people.
     """
 
@@ -50,6 +59,7 @@ class StereoEstimate:
     residuals: tuple[ViewResidual, ...]
     mended: tuple[str, ...]
     usual_rms_px: float | None
+    together: FitTogether
     notes: tuple[str, ...]
 
     @property
@@ -107,8 +117,13 @@ def estimate_stereo(
     adjusted, used = _adjusted(mended, posed, left, right, agreement, progress.part(0.7, 1.0))
     _require_apart(adjusted)
     residuals = _residuals(mended, used, adjusted)
-    changed = tuple(pairs[i][1].name for i in used if agreement.ways[i] and pairs[i][1].name)
+    together = fit_together(left, right, [mended[i] for i in used], adjusted)
+    adjusted = replace(adjusted, covariance=adjusted.covariance * together.sd_factor**2)
+    changed = tuple(
+        pairs[i][1].name for i in used if mended[i][1] is not pairs[i][1] and pairs[i][1].name
+    )
     remarks = stereo_remarks(names, len(pairs), changed, residuals, adjusted)
+    remarks += together_remarks(together)
     return StereoEstimate(
         left,
         right,
@@ -117,6 +132,7 @@ def estimate_stereo(
         residuals,
         changed,
         usual_stereo_rms(mended),
+        together,
         (*left.notes, *right.notes, *size_remarks(names, pairs[0]), *remarks),
     )
 
@@ -188,13 +204,18 @@ def _adjusted(
     agreement: Agreement,
     progress: Progress,
 ) -> tuple[Adjusted, list[int]]:
-    """Adjust everything together; pairs that do not belong are left out, worst first."""
+    """Adjust everything together; pairs that do not belong are left out, worst first.
+
+    What was left out is tried again after each adjustment, the first, rough stage's pairs too: it
+    comes back, once, if it fits as the others do; `pairs` then has it in the order that fits.
+    """
     free = np.vstack(
         [with_free(left.calibration.estimated), with_free(right.calibration.estimated)]
     )
     cameras = np.vstack([left.adjusted.state.parameters, right.adjusted.state.parameters])
     lone = _lone(posed, left, right, agreement.T_right_left)
     used = [i for i in range(len(pairs)) if agreement.agreeing[i]]
+    T_right_left, came_back = agreement.T_right_left, set[int]()
     while True:
         poses = [posed[i].T_left_board for i in used] + [T for _, _, T in lone]
         seen = pair_sightings([pairs[i] for i in used])
@@ -202,13 +223,24 @@ def _adjusted(
             Sighting(len(used) + i, side, view.points, view.pixels)
             for i, (side, view, _) in enumerate(lone)
         ]
-        start = State(cameras, agreement.T_right_left, tuple(poses))
-        adjusted = adjust(seen, start, free, progress)
+        adjusted = adjust(seen, State(cameras, T_right_left, tuple(poses)), free, progress)
         each = pair_residuals(adjusted, len(used))
         worst = int(np.argmax(each))
-        if each[worst] <= limit_px(each) or len(used) <= LEAST_PAIRS:
+        if each[worst] > limit_px(each) and len(used) > LEAST_PAIRS:
+            used = [i for place, i in enumerate(used) if place != worst]
+            continue
+        again = []
+        for i in (i for i in range(len(pairs)) if i not in used and i not in came_back):
+            pair = matched(pairs[i], adjusted)
+            if belongs(matched_residual(pair, adjusted), each):
+                again.append(i)
+                if not np.array_equal(pair[1].pixels, pairs[i][1].pixels):
+                    pairs[i] = pair
+        if not again:
             return adjusted, used
-        used = [i for place, i in enumerate(used) if place != worst]
+        came_back |= set(again)
+        used = sorted([*used, *again])
+        T_right_left = adjusted.state.T_right_left
 
 
 def _lone(

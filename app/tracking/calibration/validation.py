@@ -38,13 +38,15 @@ def validate(calibration: StereoCalibration, pairs: Sequence[ViewPair]) -> Valid
         raise CalibrationError(
             f"none of {len(pairs)} pairs shares {LEAST_SHARED} corners; nothing can be validated"
         )
-    distances, scales, lines = [], [], []
+    distances, scales, lines, far = [], [], [], []
     for view_left, view_right in boards:
         points = triangulated(left, right, view_left.pixels, view_right.pixels)
         board = view_left.points
         away = rigid_fit(board, points) @ board - points
         distances.append(np.linalg.norm(away, axis=1))
         scales.append(board_scale(board, points))
+        middle = points.mean(axis=0)
+        far.append(np.mean([np.linalg.norm(middle - model.centre) for model in (left, right)]))
         lines.append(epipolar_distances(left, right, view_left.pixels, view_right.pixels))
     away_mm = np.concatenate(distances) / MILLIMETRE
     spread = float(np.std(scales, ddof=1) / np.sqrt(len(scales))) if len(scales) > 1 else 0.0
@@ -56,6 +58,7 @@ def validate(calibration: StereoCalibration, pairs: Sequence[ViewPair]) -> Valid
         scale=float(np.mean(scales)),
         scale_sd=spread,
         epipolar_px=float(np.sqrt(np.mean(np.concatenate(lines) ** 2))),
+        distance_mm=float(np.mean(far)) / MILLIMETRE,
     )
 
 

@@ -127,6 +127,7 @@ class Validation(Strict):
         scale: mean measured length over true length of neighbouring corners; 1 is right.
         scale_sd: standard deviation of `scale`.
         epipolar_px: root mean square distance from the epipolar line.
+        distance_mm: mean distance of the boards from the cameras; None in older files.
     """
 
     views: int
@@ -136,6 +137,23 @@ class Validation(Strict):
     scale: float
     scale_sd: float
     epipolar_px: float
+    distance_mm: Annotated[float, Field(gt=0.0)] | None = None
+
+
+class FitTogether(Strict):
+    """How well pairs fit together, against each of their pictures by itself.
+
+    Attributes:
+        alone_px: root mean square residual of the left and the right pictures, each with its
+            board's pose fitted to it alone, 2D.
+        together_px: of both cameras estimated together.
+        sd_factor: by which the standard deviations were multiplied for the lack of fit; 1 if there
+            is none beyond chance.
+    """
+
+    alone_px: tuple[float, float]
+    together_px: Annotated[float, Field(ge=0.0)]
+    sd_factor: Annotated[float, Field(ge=1.0)] = 1.0
 
 
 class StereoCalibration(Strict):
@@ -150,6 +168,7 @@ class StereoCalibration(Strict):
         rms_px: root mean square reprojection error over both pictures.
         world: T_world_left; None until a board at a known place was seen.
         validation: on views held back; None if there were none.
+        together: how well the pairs fit together; None in older and imported files.
         joint_covariance: of both cameras' `PARAMETERS` and the twist of `pose`, estimated together,
             24 rows of 24; None where only each one's own is known (imported files). Lenses and pose
             make up for each other: taken as independent they promise less than is true.
@@ -166,6 +185,7 @@ class StereoCalibration(Strict):
     rms_px: Annotated[float, Field(ge=0.0)] = 0.0
     world: PoseCalibration | None = None
     validation: Validation | None = None
+    together: FitTogether | None = None
     joint_covariance: tuple[tuple[float, ...], ...] | None = None
     notes: tuple[str, ...] = ()
 
