@@ -25,6 +25,7 @@ from app.views.exercise.pad_view import depth_tolerance, rings
 from app.views.exercise.readings import figures, pad_view
 from app.views.exercise.run import ExerciseRun
 from app.views.live_needle import LiveNeedle
+from app.views.target_motion import TargetMotion
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 
@@ -104,13 +105,14 @@ def test_panel_bullseye_slices_record_and_score_say_the_same_of_a_tick(
     run, snapshots, result = attempt(exercise, tmp_path)
     widget, kept = Bullseye(), Kept()
     widget.set_scene(run.scene(), interactive=False)
-    live = LiveNeedle(kept)
+    live, motion = LiveNeedle(kept), TargetMotion(kept)
     moved = 0.0
     for snapshot in snapshots[50::40]:
         if not snapshot.pose.measured:
             continue
         panel = figures(snapshot, 5.0)
         widget.show_view(pad_view(snapshot, 0.2, 5.0))
+        motion.show(run, snapshot)
         live.show(run, snapshot)
         away = said(widget._lateral.text())
         assert away == pytest.approx(1e3 * panel.lateral, abs=0.051)

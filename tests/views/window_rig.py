@@ -1,6 +1,7 @@
 """Services, trainers and plans for tests of the whole window."""
 
 import threading
+from dataclasses import replace
 from types import MappingProxyType, SimpleNamespace
 
 import numpy as np
@@ -11,7 +12,7 @@ from app.core.events import EventQueue
 from app.core.state_vector import empty_state
 from app.exercises.library import library
 from app.exercises.scene import device_of
-from app.planning.off_path import NOWHERE
+from app.session.curves import offset
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.snapshot import Snapshot
@@ -20,6 +21,7 @@ from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.pen.webcam import guessed_webcam
 from app.tracking.statistics import TrackerMeter
 from app.views.exercise.run import ExerciseRun
+from app.views.exercise.shown import Shown
 from app.views.services import RobotPort
 from app.views.slices.viewing import Tool
 
@@ -37,8 +39,9 @@ class FakeTrainer:
                                  felt=np.zeros(3), fault=0, row=empty_state(),
                                  qd=np.zeros(2), torque=np.zeros(2))  # fmt: skip
         timing = SimpleNamespace(median=8e-5, p99=2e-4, missed=0, ticks=9)
-        offset = NOWHERE
-        return Snapshot(1.0, self.state, "", 0.0, MappingProxyType({}), pose, offset,
+
+        away = offset(pose, placed.p_target, placed)
+        return Snapshot(1.0, self.state, "", 0.0, MappingProxyType({}), pose, away,
                         placed.p_target, device, timing, None, "valid", 0, 1.0, False, None,
                         ())  # fmt: skip
 
@@ -59,11 +62,12 @@ class FakeOpen:
         self.run = ExerciseRun(
             FakeTrainer(setup.placed), setup.placed, device_of(setup.exercise), interactive=True,
             held_arming=setup.robot.held_arming, port=setup.robot.port,
+            shown=Shown.of_exercise(setup.exercise),
         )  # fmt: skip
 
     def place(self, placed):
         self.run.trainer.placed = placed
-        self.run = ExerciseRun(self.run.trainer, placed, self.run.profile)
+        self.run = replace(self.run, placed=placed)
         return self.run
 
     def close(self):

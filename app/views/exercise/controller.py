@@ -127,9 +127,8 @@ class ExerciseController(QObject):
             self.worked.emit()
         self._drain(run)
         self._display.take_hand(snapshot)
-        shown = run.shown.of(
-            snapshot, run.placed
-        )  # nobody beyond this line knows more than may be told
+        # Nobody beyond this line knows more than may be told.
+        shown = run.shown.of(snapshot, run.placed)
         self._display.show(run, shown, now, late)
         self.snapshot_taken.emit(shown)
         if shown.pose.valid:

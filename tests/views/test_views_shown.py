@@ -1,0 +1,265 @@
+"""Every view of an exercise is on or off by the exercise, in the real window, at one gate."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from views_exercise_fakes import FakeTrainer as Recorder
+from views_exercise_fakes import pose as pose_of
+from views_exercise_fakes import snapshot as snapshot_of
+from window_rig import plan
+
+from app.exercises.guidance import GuidanceMode, GuidancePart
+from app.exercises.library import load_exercise
+from app.exercises.locks import Lock
+from app.exercises.parts import TELLING, View
+from app.exercises.scene import CONTROL_SCAN, compile_exercise, device_of
+from app.exercises.schema import Exercise
+from app.session.curves import offset
+from app.views.declared import declared_views
+from app.views.exercise.run import ExerciseRun
+from app.views.exercise.shown import Shown
+from app.views.lock_words import view_title
+
+SHIFT = np.array([0.002, 0.006, -0.003])
+
+
+@pytest.fixture
+def shows(window, patient, settle):
+    """Show a moment of an attempt whose exercise has these views; returns the window."""
+
+    def show(views, interactive=True, **changes):
+        first = load_exercise("first-insertion").showing(views).model_copy(update=changes)
+        window.conductor.set_exercise(first)
+        window.show_patient(patient)
+        plan(window)
+        assert settle(lambda: window.runs.run is not None and window.conductor.settled, 20.0)
+        placed = window.runs.run.placed
+        where, moved = pose_of(placed, 0.1, 0.03), placed.p_target + SHIFT
+        moment = snapshot_of(
+            placed, pose=where, slots={"axial_force": 2.34}, p_target=moved,
+            offset=offset(where, moved, placed),
+        )  # fmt: skip
+        run = ExerciseRun(
+            Recorder(placed, now=moment), placed, window.runs.run.profile, interactive,
+            inspect=lambda *_: window.asked.append(True), shown=Shown.of_exercise(first),
+        )  # fmt: skip
+        window.asked = []
+        window.conductor._attach(run)
+        window.conductor.controller._timer.stop()
+        window.workspace.show_exercise()
+        window.workspace.show_cameras()
+        settle(timeout=0.05)
+        window.workspace.tracker_panel._shown = -1e9
+        window.conductor.controller._display._figures_time = -1.0
+        window.conductor.controller.look()
+        window.workspace.show_exercise()
+        settle(timeout=0.05)
+        return window
+
+    return show
+
+
+def both(view):
+    """Views with and without this one."""
+    return frozenset(View), frozenset(View) - {view}
+
+
+def test_the_needle_is_on_the_slices_by_live_overlay(shows):
+    on, off = both(View.LIVE_OVERLAY)
+    assert shows(on).workspace.viewing.needle is not None
+    assert shows(off).workspace.viewing.needle is None
+
+
+def test_the_bullseye_is_empty_without_its_view_and_says_no_offset(shows):
+    on, off = both(View.BULLSEYE)
+    window = shows(on)
+    panel, pad = window.workspace.exercise_panel, window.workspace.bullseye
+    assert pad.depth_bar.isVisible()
+    assert pad._lateral.text().startswith("off the path")
+    assert panel.readouts._values["lateral"].isVisible()
+    window = shows(off)
+    assert pad.isVisible()  # it moves the simulated hand
+    assert not pad.depth_bar.isVisible()
+    assert not pad._lateral.isVisible()
+    assert pad.pad._view is None
+    assert not panel.readouts._values["lateral"].isVisible()
+    assert not panel.readouts._values["angle"].isVisible()
+
+
+def test_the_bullseyes_cell_is_gone_where_nothing_would_be_in_it(shows):
+    window = shows(frozenset({View.THREE_D}), interactive=False)
+    assert not window.workspace.has_bullseye
+    window.menus.view.bullseye.trigger()
+    assert not window.workspace.has_bullseye
+    assert shows(frozenset({View.FORCE_GAUGE}), interactive=False).workspace.has_bullseye
+
+
+def test_the_3d_pane_says_that_it_is_off_and_draws_nothing(shows, settle):
+    on, off = both(View.THREE_D)
+    scene = shows(on).workspace.scene
+    assert scene.off == ""
+    window = shows(off)
+    assert "Not shown in this exercise" in scene.off
+    given = []
+    scene._feed._renderer.request = given.append
+    scene.set_orbit(scene.orbit.turned(5.0, 5.0))
+    window.conductor.controller.look()
+    settle(timeout=0.5)
+    assert given == []
+    assert scene.is_settled
+
+
+def test_camera_pictures_are_not_even_asked_for_without_their_view(shows):
+    on, off = both(View.CAMERAS)
+    assert shows(on).asked
+    window = shows(off)
+    assert not window.asked
+    cameras = window.workspace.tracker_panel.cameras
+    assert all("Not shown in this exercise" in camera._instead for camera in cameras)
+
+
+def test_the_force_along_the_needle_is_read_at_arms_length(shows):
+    on, off = both(View.FORCE_GAUGE)
+    window = shows(on)
+    gauge = window.workspace.needle_cell.gauge
+    assert gauge.isVisible()
+    assert gauge.number == "2.3 N"
+    assert "pushes it out" in gauge.words
+    assert gauge.height() >= 30
+    shows(off)
+    assert not gauge.isVisible()
+
+
+def test_the_target_moves_on_slices_and_in_every_number_only_where_its_motion_is_shown(shows):
+    on, off = both(View.TARGET_MOTION)
+    window = shows(on)
+    viewing, run = window.workspace.viewing, window.conductor.controller.run
+    moved = np.asarray(viewing.shown_draft.target_mm) - viewing.draft.target_mm
+    np.testing.assert_allclose(run.placed.T_world_patient.rotation @ moved, 1e3 * SHIFT, atol=1e-9)
+    moving = window.workspace.bullseye._view
+    np.testing.assert_allclose(moving.p_target, run.placed.p_target + SHIFT)
+    window = shows(off)
+    run = window.conductor.controller.run
+    assert viewing.target_now_mm is None
+    still = window.workspace.bullseye._view
+    np.testing.assert_array_equal(still.p_target, run.placed.p_target)
+    assert still.frame(run.scene()) is run.scene().frame or np.allclose(
+        still.offset.path, run.placed.axis
+    )
+    assert still.offset.lateral != pytest.approx(moving.offset.lateral, abs=1e-5)
+
+
+def test_where_scans_guide_nothing_that_tells_is_on_whatever_the_exercise_lists():
+    exercise = load_exercise("scans-only").showing(frozenset(View))
+    shown = Shown.of_exercise(exercise)
+    assert not any(shown.shows(view) for view in TELLING)
+    assert shown.shows(View.THREE_D)
+
+
+# --- switched by the student ------------------------------------------------------------------
+def test_a_student_switches_views_in_practice_and_the_run_is_built_anew_with_them(
+    window, patient, settle, services
+):
+    window.conductor.set_exercise(load_exercise("first-insertion"))
+    window.show_patient(patient)
+    plan(window)
+    assert settle(lambda: window.runs.run is not None, 20.0)
+    action = window.menus.view.shown[View.FORCE_GAUGE]
+    assert action.isEnabled()
+    assert not action.isChecked()
+    before = len(services.opened)
+    action.trigger()
+    assert settle(lambda: len(services.opened) > before and window.runs.run is not None, 20.0)
+    assert View.FORCE_GAUGE in services.opened[-1].setup.exercise.views
+    assert action.isChecked()
+    assert window.workspace.needle_cell.gauge.isVisibleTo(window.workspace.needle_cell)
+
+
+def test_locked_views_stay_and_say_why(window, patient, settle):
+    locked = load_exercise("first-insertion").model_copy(update={"locks": (Lock.VIEWS,)})
+    window.conductor.set_exercise(locked)
+    window.show_patient(patient)
+    said = []
+    window.conductor.failed.connect(lambda error: said.append(str(error)))
+    for view, action in window.menus.view.shown.items():
+        assert not action.isEnabled()
+        assert "First insertion" in action.toolTip()
+        action.trigger()
+        window.conductor.show_view(view, view not in locked.views)
+    assert window.conductor.exercise.views == locked.views
+    assert len(said) == len(View)
+
+
+# --- declared, and compiled -------------------------------------------------------------------
+def test_every_view_and_the_control_scans_declare_what_they_read():
+    assert set(declared_views()) == {view.value for view in View} | {CONTROL_SCAN}
+    assert all(view_title(view) for view in View)
+
+
+def fate(exercise: Exercise, simulated: bool = False) -> dict[str, str]:
+    plan_ = compile_exercise(exercise, device_of(exercise), declared_views(), simulated)
+    kept = {kept.name: kept.why for kept in plan_.kept}
+    return kept | {dropped.name: dropped.why for dropped in plan_.dropped}
+
+
+REST = {"planned_target_error": load_exercise("thick-tissue").tolerances["planned_target_error"]}
+
+
+@pytest.mark.parametrize("view", View)
+def test_with_a_view_off_an_effect_that_only_it_consumes_is_dropped(view):
+    effects = {"breathing": {}, "shaft_friction": {}}
+    everything = Exercise.model_validate(
+        {"id": "a", "title": "A", "effects": effects, "tolerances": REST}
+    )
+    on, off = (fate(everything.showing(views)) for views in both(view))
+    for effect, consumer in (
+        ("shaft_friction", View.FORCE_GAUGE),
+        ("breathing", View.TARGET_MOTION),
+    ):
+        assert on[effect].startswith("simulated")
+        assert off[effect].startswith("dropped" if view is consumer else "simulated")
+        assert f"view {consumer} shows it" in on[effect]
+        assert (f"view {view} shows it" in on[effect]) == (view is consumer)
+
+
+def test_the_control_scans_consume_the_motion_of_the_target_themselves():
+    exercise = Exercise.model_validate(
+        {"id": "a", "title": "A", "effects": ["breathing"], "tolerances": REST}
+    )
+    assert fate(exercise)["breathing"].startswith("dropped")
+    guided = replace_mode(exercise, GuidanceMode.CONTROL_CT)
+    assert "view control_scan shows it" in fate(guided)["breathing"]
+
+
+def replace_mode(exercise: Exercise, mode: GuidanceMode) -> Exercise:
+    return exercise.model_copy(update={"guidance": GuidancePart(mode=mode)})
+
+
+def test_a_declaration_that_is_not_one_is_refused_by_file(tmp_path):
+    from app.core.errors import ConfigurationError
+
+    good = '"""View."""\nDECLARATION = {"view": "a", "title": "A", "reads": ("axial_force",)}\n'
+    (tmp_path / "a.py").write_text(good)
+    assert declared_views(tmp_path)["a"].reads == ("axial_force",)
+    for number, (text, says) in enumerate((
+        (good, "declared twice"), (good.replace("axial_force", "axial"), "slots"),
+        (good.replace('"a"', '""'), "not empty"), (good.replace('"title"', '"name"'), "exactly"),
+    )):  # fmt: skip
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        (folder / "b.py").write_text(text)
+        if number == 0:
+            (folder / "a.py").write_text(good)
+        with pytest.raises(ConfigurationError, match=says):
+            declared_views(folder)
+
+
+def test_a_snapshot_without_the_targets_motion_has_all_distances_to_the_target_at_rest(shows):
+    window = shows(frozenset(View))
+    run = window.conductor.controller.run
+    snapshot = replace(run.trainer.snapshot(), p_target=run.placed.p_target + SHIFT)
+    still = Shown(True, frozenset(View) - {View.TARGET_MOTION}).of(snapshot, run.placed)
+    np.testing.assert_array_equal(still.p_target, run.placed.p_target)
+    np.testing.assert_allclose(still.offset.path, run.placed.axis, atol=1e-12)
+    assert Shown().of(snapshot, run.placed) is snapshot
