@@ -4,13 +4,14 @@ import sys
 
 from app.commands import build
 from app.core.errors import AcusError
+from app.core.exits import Exit
 
 
 def main() -> None:
-    """Run the command line; a bad input is one line on stderr and exit code 2."""
+    """Run the command line; a bad input is one line on stderr (`core.exits`)."""
     try:
         code = build()(standalone_mode=False)
-        sys.exit(code if isinstance(code, int) else 0)
+        sys.exit(code if isinstance(code, int) else Exit.DONE)
     except AcusError as error:
         fail(str(error))
     except KeyboardInterrupt:
@@ -23,9 +24,9 @@ def main() -> None:
 
 
 def fail(message: str) -> None:
-    """End with one line on stderr and exit code 2."""
+    """End with one line on stderr: it could not be done."""
     sys.stderr.write(f"acus: {' '.join(message.split())}\n")
-    sys.exit(2)
+    sys.exit(Exit.NOT_DONE)
 
 
 if __name__ == "__main__":

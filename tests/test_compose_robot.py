@@ -26,6 +26,7 @@ from app.device.links.serial_link import SerialLink
 from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
+from app.scoring.conditions import DeviceKind
 from app.session.errors import IllegalTransitionError, NotReadyError
 from app.session.machine import State
 from app.session.recording import read_recording
@@ -163,7 +164,12 @@ def test_an_attempt_on_a_board_in_memory_stays_below_the_cap(tmp_path, monkeypat
     rig.close()
     assert result.state is State.ENDED
     assert max(felt) == pytest.approx(1.0, abs=1e-6)
-    assert read_recording(result.record).metadata["device"]["simulated"] == "no"
+    device = read_recording(result.record).metadata["device"]
+    assert device["simulated"] == "no"
+    assert device["kind"] == "emulated"  # by its own word; a real board never says so
+    conditions = result.summary.conditions
+    assert conditions is not None
+    assert conditions.kind is DeviceKind.EMULATED
 
 
 def test_a_device_that_was_not_commissioned_refuses_an_attempt_and_says_why(emulator, tmp_path):

@@ -35,18 +35,19 @@ def check(
 ) -> None:
     """Check robot, pictures, marker and one touched point; two minutes; the result is kept.
 
-    Ends with code 1 if something is wrong.
+    Ends with code 3 if something is wrong.
     """
+    from app.core.exits import answer
     from app.session.checks.record import newest_check
     from app.session.checks.steps import Verdict
 
     found = newest_check() if last else _made(device, cameras, plate, point, touch, as_json)
     if found is None:
         typer.echo("null" if as_json else "no morning check was made yet")
-        raise typer.Exit(1)
+        answer(False)
+        return
     _print(found, as_json)
-    if found.verdict in (Verdict.BAD, Verdict.WAITING):
-        raise typer.Exit(1)
+    answer(found.verdict not in (Verdict.BAD, Verdict.WAITING))
 
 
 def _made(

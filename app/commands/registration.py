@@ -40,8 +40,9 @@ def check(
 ) -> None:
     """Register touched fiducials to a plate; say what is wrong, and the error at a target.
 
-    Ends with code 1 if the points do not fit the plate.
+    Ends with code 3 if the points do not fit the plate.
     """
+    from app.core.exits import answer
     from app.planning.registration.check import RegistrationCheck
     from app.planning.registration.plate import load_plate
     from app.planning.registration.points import read_points
@@ -54,8 +55,7 @@ def check(
         typer.echo(json.dumps(_document(found, point), indent=2))
     else:
         _print(found, point)
-    if not found.trusted:
-        raise typer.Exit(1)
+    answer(found.trusted)
 
 
 @app.command()

@@ -14,11 +14,13 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.
 
 
 def register(app: typer.Typer) -> None:
-    """Add `session list`, `session show`, `session replay` and `session export`."""
+    """Add `session list`, `session show`, `replay`, `verify`, `compare` and `export`."""
     session = typer.Typer(no_args_is_help=True, help="Recorded attempts.")
     session.command("list")(list_)
     session.command("show")(show)
     session.command("replay")(replay)
+    session.command("verify")(verify)
+    session.command("compare")(compare)
     session.command("export")(export)
     app.add_typer(session, name="session")
 
@@ -45,12 +47,12 @@ def show(
     """Show one attempt: score, events, what its record holds."""
     from app.session.calibration_flag import CalibrationFlags
     from app.session.recording import read_recording
+    from app.session.sidecar import fresh_summary
     from app.session.store import find
-    from app.session.summary import read_summary
 
     path = find(_folder(folder), session_id)
     recording = read_recording(path)
-    summary = CalibrationFlags.read().flagged(read_summary(path))
+    summary = CalibrationFlags.read().flagged(fresh_summary(path))
     document = _details(recording, summary.document())
     if as_json:
         _print_json(document)
@@ -61,7 +63,10 @@ def show(
 def replay(
     session_id: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
     check: Annotated[
-        bool, typer.Option("--check", help="Recompute every tick; exit code 1 if one differs.")
+        bool,
+        typer.Option(
+            "--check", help="Recompute every tick, and the score; exit code 3 if one differs."
+        ),
     ] = False,
     folder: FolderOption = None,
     as_json: JsonOption = False,
@@ -77,10 +82,63 @@ def replay(
         _print_json(held.document()) if as_json else typer.echo("\n".join(held.sentences()))
         return
     from app.compose.replay import replay_recording  # loads kernels
+    from app.core.exits import answer
+    from app.session.verify import verify as verified
 
-    report = replay_recording(recording)
-    _print_json(report.document()) if as_json else typer.echo("\n".join(report.sentences()))
-    raise typer.Exit(0 if report.identical else 1)
+    report, found = replay_recording(recording), verified(recording)
+    if as_json:
+        _print_json(report.document() | {"score": found.document()})
+    else:
+        typer.echo("\n".join([*report.sentences(), *(f"score: {s}" for s in found.sentences())]))
+    answer(report.identical and found.confirmed)
+
+
+def verify(
+    session_id: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
+    folder: FolderOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Compute score and metrics from the record; say what differs from what was written.
+
+    Looks at the score in the record and at the file beside it. Ends with code 3 if one differs.
+    """
+    from app.core.exits import answer
+    from app.session.sidecar import verify_record
+    from app.session.store import find
+
+    found = verify_record(find(_folder(folder), session_id))
+    _print_json(found.document()) if as_json else typer.echo("\n".join(found.sentences()))
+    answer(found.confirmed)
+
+
+def compare(
+    first: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
+    second: Annotated[str, typer.Argument(metavar="ID", help="Another one.")],
+    folder: FolderOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Say whether the scores of two attempts may be compared; code 3 with the reasons if not."""
+    from app.core.exits import answer
+    from app.scoring.conditions import Conditions, comparable
+    from app.session.sidecar import fresh_summary
+    from app.session.store import find
+
+    pair = [fresh_summary(find(_folder(folder), name)) for name in (first, second)]
+    a, b = (s.conditions or Conditions(s.exercise_id) for s in pair)
+    reasons = comparable(a, b)
+    if as_json:
+        _print_json(
+            {
+                "comparable": not reasons,
+                "reasons": list(reasons),
+                "sessions": [s.document() for s in pair],
+            }
+        )
+    else:
+        for summary in pair:
+            typer.echo(f"{summary.id}  {_total(summary.score)}")
+        typer.echo("\n".join(f"not comparable: {r}" for r in reasons) or "comparable")
+    answer(not reasons)
 
 
 def export(
@@ -118,11 +176,11 @@ def _folder(folder: Path | None) -> Path:
 
 def _scores(folder: Path, ids: list[str] | None) -> tuple[str, int]:
     from app.exchange.csv_export import score_table
-    from app.session.store import find, list_sessions
-    from app.session.summary import read_summary
+    from app.session.sidecar import fresh_summary
+    from app.session.store import computed, find
 
     chosen = [find(folder, name) for name in dict.fromkeys(ids or [])]
-    summaries = [read_summary(path) for path in chosen] if ids else list_sessions(folder)
+    summaries = [fresh_summary(path) for path in chosen] if ids else computed(folder)
     return score_table(summaries), len(summaries)
 
 

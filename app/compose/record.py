@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from app.core.build import BUILD, build
+from app.core.errors import AcusError
 from app.exchange.markups import plan_document
 from app.exercises.schema import Exercise
+from app.planning.placement import PlacedPlan
+from app.planning.registration.record import Registrations
+from app.session.conditions import CONDITIONS
 from app.session.context import RunContext
 from app.session.header import Attachment
 
@@ -20,6 +25,7 @@ def run_context(
     seed: int,
     metadata: Mapping[str, dict[str, str]],
     documents: Mapping[str, Any],
+    agreement: Callable[[PlacedPlan], Mapping[str, str]] = lambda _: {},
 ) -> RunContext:
     """Return the context of a run's records.
 
@@ -29,18 +35,58 @@ def run_context(
         seed: of everything random.
         metadata: `device`, `cameras`, `ct`, `trainee`.
         documents: further pydantic models to attach, by name.
+        agreement: how well screen and needle agree at a plan's target; see `agreement_of`.
     """
-    attached = {"exercise": _anonymous(exercise), **documents}
+    anonymous = _anonymous(exercise)
+    attached = {"exercise": anonymous, **documents}
     return RunContext(
         folder=folder,
         seed=seed,
-        metadata={**metadata, BUILD: build()},
+        metadata={**metadata, CONDITIONS: _conditions(anonymous), BUILD: build()},
         attachments=tuple(
             _attachment(f"{name}.json", document.model_dump(mode="json"))
             for name, document in attached.items()
         ),
         plan_files=lambda placed: (_attachment("plan.mrk.json", plan_document(placed.plan)),),
+        agreement=agreement,
     )
+
+
+def agreement_of(
+    calibration: str, rig: str, simulated: bool, ct: str
+) -> Callable[[PlacedPlan], Mapping[str, str]]:
+    """Return what looks up how well screen and needle agree at a plan's target.
+
+    It takes the newest registration check that holds for these cameras and this CT, and gives the
+    metadata record `agreement`: `radius_mm` and the `check`'s id; nothing where nobody has checked.
+    """
+
+    def look(placed: PlacedPlan) -> Mapping[str, str]:
+        try:
+            record = Registrations.own().newest(calibration, rig, simulated, ct)
+            if record is None:
+                return {}
+            used = placed.T_world_patient
+            radius = record.check().agreement(placed.p_target, T_world_patient=used).radius
+        except AcusError:  # the status strip and the check's own page say what is wrong with it
+            return {}
+        return {"radius_mm": f"{1e3 * radius:.3f}", "check": record.id}
+
+    return look
+
+
+def _conditions(exercise: Exercise) -> dict[str, str]:
+    """Return what the exercise sets, as a score is told with it, and a digest of its content."""
+    content = exercise.model_dump(
+        mode="json", exclude_defaults=True, exclude={"title", "description", "views", "assistance"}
+    )
+    text = json.dumps(content, sort_keys=True)
+    return {
+        "level": str(exercise.level),
+        "views": ",".join(sorted(view.value for view in exercise.shown_views)),
+        "assistance": repr(exercise.assistance),
+        "content": hashlib.sha256(text.encode()).hexdigest()[:12],
+    }
 
 
 def _anonymous(exercise: Exercise) -> Exercise:

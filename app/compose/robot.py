@@ -60,6 +60,7 @@ class Robot:
         return {
             "name": self.profile.name,
             "simulated": "yes" if info.simulated else "no",
+            "kind": info.kind,
             "serial": info.serial,
             "boot": str(info.boot),
             "firmware": info.firmware,

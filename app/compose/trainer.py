@@ -9,7 +9,7 @@ from typing import Final
 from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
 from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
 from app.compose.pen import Pen
-from app.compose.record import run_context
+from app.compose.record import agreement_of, run_context
 from app.compose.robot import Robot, connect
 from app.core import paths
 from app.core.clock import Clock, SystemClock
@@ -261,10 +261,14 @@ def _context(
     setup: TrainerSetup, profile: DeviceProfile, cameras: AttachedCameras, robot: Robot | None
 ) -> RunContext:
     metadata = {
-        "device": {"name": profile.name, "simulated": "yes"} if robot is None else robot.metadata(),
+        "device": {"name": profile.name, "simulated": "yes", "kind": "simulated"}
+        if robot is None
+        else robot.metadata(),
         "cameras": cameras.metadata,
         "ct": setup.ct.metadata(),
         TRAINEE: {"scripted": setup.skill or ""} | ({"hand": "robot"} if robot else {}),
     }
     documents = {"device": profile, "cameras": cameras.rig}
-    return run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents)
+    calibration, rig = cameras.metadata.get("calibration", ""), cameras.rig.name
+    agreement = agreement_of(calibration, rig, robot is None, setup.ct.pseudonym)
+    return run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents, agreement)

@@ -15,6 +15,7 @@ from app.core.disclaimer import DISCLAIMER
 from app.core.files import write_atomically
 from app.exchange.errors import ExportError
 from app.exchange.tables import table_text
+from app.scoring.conditions import Conditions, comparable
 from app.session.curves import curves
 from app.session.recording import Recording
 from app.session.samples import Samples
@@ -32,6 +33,23 @@ FIXED: Final = (
     "score_total_percent",
     "passed",
     "void_reason",
+    "exercise_version",
+    "exercise_level",
+    "assistance_set",
+    "assistance_least",
+    "assistance_most",
+    "assistance_mean",
+    "views",
+    "hand",
+    "scripted",
+    "robot",
+    "device",
+    "seed",
+    "software",
+    "calibration",
+    "agreement_mm",
+    "scoring_version",
+    "comparison_group",
 )
 """Columns before the metrics; each metric then has the column `<name>_<unit>`."""
 
@@ -69,14 +87,21 @@ def score_table(summaries: Iterable[Summary]) -> str:
     """Table of attempts, one row each, in the given order.
 
     The metrics' columns are the union over all attempts; a metric that an attempt does not have is
-    empty there.
+    empty there. Scores may be compared within one `comparison_group` only; it is empty without one.
     """
     rows = list(summaries)
+    groups = _groups(rows)
     metrics = list(dict.fromkeys(name for row in rows for name in _metrics(row)))
     lines: list[list[object]] = [[*FIXED, *metrics, "note"]]
-    for row in rows:
+    for row, group in zip(rows, groups, strict=True):
         values = _metrics(row)
-        cells = [*_fixed(row), *(values.get(name) for name in metrics), DISCLAIMER]
+        cells = [
+            *_fixed(row),
+            *_conditions(row),
+            group,
+            *(values.get(name) for name in metrics),
+            DISCLAIMER,
+        ]
         lines.append(cells)
     return table_text(lines)
 
@@ -148,6 +173,46 @@ def _fixed(row: Summary) -> Sequence[object]:
         score.get("passed"),
         score.get("void_reason"),
     )
+
+
+def _conditions(row: Summary) -> Sequence[object]:
+    """Cells of what the score was made under; empty where it is not known."""
+    c = row.conditions
+    if c is None:
+        return [None] * 16
+    dial = c.assistance
+    return (
+        c.version or None,
+        c.level or None,
+        *((dial.start, dial.least, dial.most, dial.mean) if dial is not None else [None] * 4),
+        None if c.views is None else " ".join(c.views),
+        c.hand,
+        c.scripted,
+        c.kind.value,
+        c.device,
+        c.seed,
+        c.software,
+        c.calibration,
+        c.agreement_mm,
+        c.scoring_version or None,
+    )
+
+
+def _groups(rows: Sequence[Summary]) -> list[int | None]:
+    """Return each row's group, as `comparable` decides: that of the first one it fits."""
+    first: list[Conditions] = []
+    found: list[int | None] = []
+    for row in rows:
+        own = row.conditions
+        if own is None or (row.score or {}).get("total") is None:
+            found.append(None)
+            continue
+        fits = (k for k, other in enumerate(first, 1) if not comparable(other, own))
+        number = next(fits, len(first) + 1)
+        if number > len(first):
+            first.append(own)
+        found.append(number)
+    return found
 
 
 def _metrics(row: Summary) -> dict[str, object]:

@@ -16,6 +16,11 @@ from app.scoring.tolerance import Tolerance
 FORMAT = "acus-score/1"
 """Name and version of the stored form."""
 
+SCORING_VERSION = 2
+"""Of the rules that make a score: it grows whenever a metric, the judging, or what makes an attempt
+void gives another answer to the same attempt. Scores of two versions are not comparable. Version 1
+did not say its number."""
+
 TRACKING = "tracking_valid"
 """Metric that decides whether a score is void."""
 
@@ -31,6 +36,7 @@ class Score:
         void_reason: why there is no score; empty if there is one.
         rules: what it was judged by.
         attempt_void: the part of `void_reason` that comes from the course of the attempt.
+        version: `SCORING_VERSION` of the program that made it.
     """
 
     rows: tuple[Row, ...]
@@ -39,6 +45,7 @@ class Score:
     void_reason: str
     rules: Rules
     attempt_void: str = ""
+    version: int = SCORING_VERSION
 
     @property
     def failures(self) -> tuple[Row, ...]:
@@ -70,6 +77,7 @@ class Score:
         """Return the score with all its parameters as JSON-ready values; never NaN."""
         return {
             "format": FORMAT,
+            "scoring_version": self.version,
             "total": self.total,
             "passed": self.passed,
             "void_reason": self.void_reason,
@@ -100,6 +108,7 @@ class Score:
                 void_reason=document["void_reason"],
                 rules=Rules.model_validate(document["rules"]),
                 attempt_void=document["attempt_void"],
+                version=int(document.get("scoring_version", 1)),
             )
         except (KeyError, TypeError, AttributeError, ValueError, ValidationError) as error:
             reason = f"{type(error).__name__}: {' '.join(str(error).split())}"

@@ -10,6 +10,7 @@ from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
 from app.scoring.trajectory import Trajectory
 from app.session import sample as encoding
+from app.session.conditions import conditions_of
 from app.session.control_scan import scan_marks
 from app.session.curves import curves
 from app.session.errors import RecordingError
@@ -19,9 +20,11 @@ from app.session.recorder import Recorder
 from app.session.result import AttemptResult
 from app.session.risks import Risk, event_of, risk_marks_of
 from app.session.sample import Sample
-from app.session.samples import History
+from app.session.samples import History, Samples
 from app.session.scored import renders_force, score_document, trajectory
-from app.session.summary import SCORE_FILE, Summary, write_summary
+from app.session.sidecar import write_summary
+from app.session.summary import Summary
+from app.session.verify import SCORE_FILE
 
 Scorer = Callable[[Trajectory], Score]
 """Scores a trajectory; raises an AcusError if it cannot."""
@@ -83,7 +86,7 @@ class AttemptLog:
             score = self.scorer(path)
         except AcusError as error:
             unscored = str(error)
-        summary = self._finish_record(attempt, score)
+        summary = self._finish_record(attempt, score, samples)
         status = self.recorder.status()
         return AttemptResult(
             summary=summary,
@@ -100,7 +103,7 @@ class AttemptLog:
             record=status.path if status.path.exists() and not status.failure else None,
         )
 
-    def _finish_record(self, attempt: Attempt, score: Score | None) -> Summary:
+    def _finish_record(self, attempt: Attempt, score: Score | None, samples: Samples) -> Summary:
         header = self.recorder.header
         document = score_document(score) if score is not None else None
         files: tuple[Attachment, ...] = ()
@@ -124,7 +127,12 @@ class AttemptLog:
             scans=self.scans,
             score=document,
             problems=_problems(status.failure, status.lost_rows),
-            calibration=header.metadata.get("cameras", {}).get("calibration", ""),
+            conditions=conditions_of(
+                header.records(),
+                {a.name: a.data for a in header.attachments},
+                samples,
+                score.version if score is not None else 0,
+            ),
         )
         return self._write(summary)
 

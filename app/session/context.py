@@ -12,6 +12,7 @@ from app.core.errors import AcusError
 from app.core.paths import sessions
 from app.device.checkpoint import Checkpoint
 from app.planning.placement import PlacedPlan
+from app.session.conditions import AGREEMENT
 from app.session.facts import PLAN, plan_record
 from app.session.hands import TRAINEE, hand_of
 from app.session.header import Attachment, SessionHeader, new_id
@@ -29,6 +30,7 @@ class RunContext:
         metadata: records by name, such as `device`, `cameras`, `ct`; values as text.
         attachments: exercise and profiles as files.
         plan_files: makes the files of a plan that go beside them.
+        agreement: how well screen and needle agree at a plan's target; empty where nobody knows.
         wall: wall-clock time, for the head only.
         identify: makes a session id from the wall-clock time.
     """
@@ -38,6 +40,7 @@ class RunContext:
     metadata: Mapping[str, Mapping[str, str]] = field(default_factory=lambda: MappingProxyType({}))
     attachments: tuple[Attachment, ...] = ()
     plan_files: Callable[[PlacedPlan], tuple[Attachment, ...]] = lambda _: ()
+    agreement: Callable[[PlacedPlan], Mapping[str, str]] = lambda _: {}
     wall: Callable[[], datetime] = lambda: datetime.now(UTC)
     identify: Callable[[datetime], str] = new_id
 
@@ -51,6 +54,8 @@ class RunContext:
         """
         trainee = dict(self.metadata.get(TRAINEE, {}))
         trainee["hand"] = hand_of(trainee, hand)
+        agreement = dict(self.agreement(placed))
+        checked = {AGREEMENT: agreement} if agreement else {}
         started = self.wall()
         return SessionHeader(
             id=self.identify(started),
@@ -61,7 +66,7 @@ class RunContext:
             exercise_title=exercise.title,
             exercise_version=exercise.version,
             seed=self.seed,
-            metadata={PLAN: plan_record(placed), **self.metadata, TRAINEE: trainee},
+            metadata={PLAN: plan_record(placed), **self.metadata, TRAINEE: trainee, **checked},
             attachments=(*self.plan_files(placed), *self.attachments),
         )
 

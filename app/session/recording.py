@@ -179,6 +179,7 @@ def _samples(content: Scan, problems: list[str]) -> Samples:
         felt=vectors([wrench.get("felt") for wrench in wrenches]),
         measured=floats([wrench.get("measured") for wrench in wrenches]),
         radius=floats([quality.get("radius_95") for quality in qualities]),
+        assistance=floats([wrench.get("assistance") for wrench in wrenches]),
     )
 
 

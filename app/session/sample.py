@@ -38,7 +38,7 @@ class Sample:
         p_target: target now, with its motion [m], shape (3,).
         fix_status: the tracker's newest status; empty before the first fix.
         residual_px: its residual.
-        assistance: dial, 0...1.
+        assistance: dial, -1...1.
         enabled: whether forces are armed.
     """
 

@@ -37,6 +37,8 @@ class Samples:
         measured: force across the needle that a gauge measured [N], shape (n,); NaN without one.
         radius: round the tip that holds the true one with 95 % [m], shape (n,); NaN where no camera
             vouches for the tip. None in records of versions that did not keep it.
+        assistance: the dial, -1...1, shape (n,); NaN where the robot said nothing. None where it is
+            not known.
     """
 
     time: FloatArray
@@ -52,6 +54,7 @@ class Samples:
     felt: FloatArray
     measured: FloatArray
     radius: FloatArray | None = None
+    assistance: FloatArray | None = None
 
     def tip_radius(self) -> float | None:
         """Median radius round the tip that holds the true one with 95 % [m]; None if not known."""
@@ -92,6 +95,7 @@ class History:
             felt=vectors([xyz(s.device.felt) if s.device else None for s in kept]),
             measured=floats([_measured(s) for s in kept]),
             radius=floats([radius_95(s) for s in kept]),
+            assistance=floats([s.assistance if s.device else None for s in kept]),
         )
 
 

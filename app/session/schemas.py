@@ -127,6 +127,7 @@ SCORE: Final = _object(
         "total": _NUMBER_OR_NULL,
         "passed": _FLAG,
         "void_reason": _TEXT,
+        "scoring_version": {"type": "integer"},
         "rows": _array(
             _object(
                 "acus.ScoreRow",
@@ -141,7 +142,7 @@ SCORE: Final = _object(
             )
         ),
     },
-    optional=("passed", "void_reason", "rows"),
+    optional=("passed", "void_reason", "scoring_version", "rows"),
 )
 """Of a stored score, what lists and tables need; `scoring.result.Score` knows the whole."""
 

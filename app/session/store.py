@@ -1,12 +1,14 @@
 """The folder of recorded attempts: list, find, delete to a trash folder and bring back."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
 from app.session.calibration_flag import CalibrationFlags
 from app.session.errors import SessionError, SessionNotFoundError
-from app.session.summary import Summary, read_summary, sidecar
+from app.session.sidecar import fresh_summary, read_summary, sidecar
+from app.session.summary import Summary
 
 SUFFIX: Final = ".mcap"
 TRASH: Final = ".trash"
@@ -24,9 +26,16 @@ def list_sessions(folder: Path) -> list[Summary]:
     Raises:
         SessionError: if the folder cannot be read.
     """
-    flags = CalibrationFlags.read()
-    summaries = [flags.flagged(read_summary(path)) for path in _records(folder)]
-    return sorted(summaries, key=lambda summary: (summary.started, summary.id), reverse=True)
+    return _sorted(folder, read_summary)
+
+
+def computed(folder: Path) -> list[Summary]:
+    """Return what `list_sessions` does, every one of them computed from its record: for exports.
+
+    Raises:
+        SessionError: if the folder cannot be read.
+    """
+    return _sorted(folder, fresh_summary)
 
 
 def find(folder: Path, session_id: str) -> Path:
@@ -64,6 +73,12 @@ def restore(folder: Path, session_id: str) -> Path:
         SessionError: if it cannot be moved.
     """
     return _move(find(folder / TRASH, session_id), folder)
+
+
+def _sorted(folder: Path, summary_of: Callable[[Path], Summary]) -> list[Summary]:
+    flags = CalibrationFlags.read()
+    summaries = [flags.flagged(summary_of(path)) for path in _records(folder)]
+    return sorted(summaries, key=lambda summary: (summary.started, summary.id), reverse=True)
 
 
 def _records(folder: Path) -> list[Path]:

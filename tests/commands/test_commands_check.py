@@ -30,15 +30,15 @@ def kept(verdict: Verdict) -> None:
 
 
 def test_no_check_is_said(monkeypatch, capsys):
-    assert run(monkeypatch, "--last") == 1
+    assert run(monkeypatch, "--last") == 3
     assert "no morning check" in capsys.readouterr().out
-    assert run(monkeypatch, "--last", "--json") == 1
+    assert run(monkeypatch, "--last", "--json") == 3
     assert json.loads(capsys.readouterr().out) is None
 
 
-def test_the_newest_check_says_what_to_do_and_ends_with_1(monkeypatch, capsys):
+def test_the_newest_check_says_what_to_do_and_ends_with_3(monkeypatch, capsys):
     kept(Verdict.BAD)
-    assert run(monkeypatch, "--last") == 1
+    assert run(monkeypatch, "--last") == 3
     text = capsys.readouterr().out
     assert "✖ marker" in text
     assert "→ push the needle on" in text

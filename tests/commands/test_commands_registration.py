@@ -47,17 +47,17 @@ def test_good_touches_say_how_well_screen_and_needle_agree(tmp_path, monkeypatch
     assert "FRE says how well the points fit each other" in text
 
 
-def test_a_wrong_touch_ends_with_code_1_and_names_it(tmp_path, monkeypatch, capsys):
+def test_a_wrong_touch_ends_with_code_3_and_names_it(tmp_path, monkeypatch, capsys):
     path = points(tmp_path, {"D": 7.0})
-    assert run(monkeypatch, "check", "--touched", str(path), "--json") == 1
+    assert run(monkeypatch, "check", "--touched", str(path), "--json") == 3
     document = json.loads(capsys.readouterr().out)
     assert document["agreement_95_mm"] is None
     assert "fiducial D lies" in document["troubles"][0]
 
 
-def test_exchanged_names_end_with_code_1(tmp_path, monkeypatch, capsys):
+def test_exchanged_names_end_with_code_3(tmp_path, monkeypatch, capsys):
     path = points(tmp_path, {}, "ABCDFE")
-    assert run(monkeypatch, "check", "--touched", str(path)) == 1
+    assert run(monkeypatch, "check", "--touched", str(path)) == 3
     assert "fiducials F and E were touched in another order" in capsys.readouterr().out
 
 

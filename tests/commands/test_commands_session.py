@@ -75,6 +75,7 @@ def test_list_as_json_has_the_documented_keys(
             "problems",
             "software",
             "calibration",
+            "conditions",
             "note",
         }
 

@@ -13,7 +13,7 @@ from mcap.writer import MCAP0_MAGIC
 
 from app.session.errors import BrokenRecordingError
 from app.session.recording import read_recording
-from app.session.summary import read_summary
+from app.session.sidecar import read_summary
 
 
 @pytest.fixture(scope="module")

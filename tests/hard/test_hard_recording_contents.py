@@ -20,8 +20,8 @@ from app.session.recorder import Recorder
 from app.session.recording import read_recording
 from app.session.sample import Sample, encode
 from app.session.scan import scan
+from app.session.sidecar import read_summary
 from app.session.store import find, list_sessions
-from app.session.summary import read_summary
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])

@@ -8,8 +8,8 @@ from session_fakes import Bench
 
 from app.core import paths
 from app.session.calibration_flag import CalibrationFlags
+from app.session.sidecar import read_summary, sidecar
 from app.session.store import list_sessions
-from app.session.summary import read_summary, sidecar
 from app.tracking.calibration.history_file import HistoryFile
 
 CONDEMNED = """\

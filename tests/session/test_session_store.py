@@ -9,8 +9,8 @@ from session_fakes import Bench
 
 from app.core.disclaimer import DISCLAIMER
 from app.session.errors import SessionError, SessionNotFoundError
+from app.session.sidecar import read_summary, sidecar
 from app.session.store import TRASH, delete, find, list_sessions, restore
-from app.session.summary import read_summary, sidecar
 
 
 @pytest.fixture

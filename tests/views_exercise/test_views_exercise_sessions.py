@@ -10,7 +10,8 @@ from views_exercise_attempts import placed_plan, review, score
 from app.scoring.trajectory import Trajectory
 from app.session.errors import SessionError
 from app.session.machine import State
-from app.session.summary import Summary, write_summary
+from app.session.sidecar import write_summary
+from app.session.summary import Summary
 from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.review import review_of_result

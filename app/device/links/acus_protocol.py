@@ -42,6 +42,8 @@ GREETED: Final = 16
 """Flags of a state."""
 
 FEATURE_GAUGE: Final = 1
+FEATURE_EMULATED: Final = 2
+"""Features of a board: it measures the force; it is a program, no hardware."""
 
 
 def hello() -> bytes:
@@ -54,12 +56,15 @@ def home(boot: int) -> bytes:
     return framing.frame(struct.pack("<BI", HOME, boot))
 
 
-def pack_info(profile: DeviceProfile, serial: str, boot: int, gauge: bool) -> bytes:
+def pack_info(
+    profile: DeviceProfile, serial: str, boot: int, gauge: bool, emulated: bool = False
+) -> bytes:
     """INFO of a board of a profile (without frame), as firmware would send it."""
+    features = FEATURE_GAUGE * gauge + FEATURE_EMULATED * emulated
     return struct.pack(
         INFO_FORMAT,
         *(INFO, VERSION, 1, 0, boot, profile.encoder.counts_per_turn, profile.limits.joint_torque),
-        *(FEATURE_GAUGE if gauge else 0, round(profile.wire.watchdog_ms)),
+        *(features, round(profile.wire.watchdog_ms)),
         *(serial.encode("ascii"), profile.name.encode("ascii")),
     )
 
@@ -91,6 +96,7 @@ def read_info(payload: bytes) -> tuple[BoardInfo, int, float, float]:
         protocol=f"acus {version}",
         boot=boot,
         gauge=bool(features & FEATURE_GAUGE),
+        emulated=bool(features & FEATURE_EMULATED),
     )
     return info, counts, torque, watchdog * 1e-3
 

@@ -83,7 +83,7 @@ def _say_info(p: FloatArray) -> None:
         message[k] = template[k]
     message[1] = int(p[at.VERSION])
     wire.put_int(message, 4, int(p[at.BOOT]), 4)
-    message[16] = 1 if p[at.GAUGE] != 0.0 else 0
+    message[16] = acus.FEATURE_EMULATED | (1 if p[at.GAUGE] != 0.0 else 0)
     _say(p, message, acus.INFO_BYTES)
 
 

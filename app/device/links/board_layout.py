@@ -66,6 +66,6 @@ def new_board(profile: DeviceProfile, serial: str = "EMULATED", boot: int = 1) -
         p[HAPLY], p[DEVICE_ID] = 1.0, section.device_id
         p[LEFT_SECOND] = section.encoder_ports[0] > section.encoder_ports[1]
     template = p[TEMPLATE:WORK].view(np.uint8)
-    text = acus.pack_info(profile, serial, boot, gauge=False)
+    text = acus.pack_info(profile, serial, boot, gauge=False, emulated=True)
     template[: len(text)] = np.frombuffer(text, np.uint8)
     return p

@@ -51,7 +51,9 @@ class BoardInfo:
         protocol: version of the wire protocol that it speaks.
         boot: number of its power cycle: homing and sign check count for one `boot` only.
         gauge: whether it measures the force.
-        simulated: whether there is no hardware behind it.
+        simulated: whether there is no hardware behind it: the plant is part of the loop.
+        emulated: whether another program plays the board, by its own word or because the port is a
+            pseudo-terminal, behind which no hardware can be.
     """
 
     profile: str
@@ -61,6 +63,12 @@ class BoardInfo:
     boot: int
     gauge: bool = False
     simulated: bool = False
+    emulated: bool = False
+
+    @property
+    def kind(self) -> str:
+        """What is at the other end: `real`, `emulated` or `simulated`."""
+        return "simulated" if self.simulated else "emulated" if self.emulated else "real"
 
 
 class DeviceLink(ABC):

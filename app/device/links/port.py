@@ -2,10 +2,11 @@
 
 import errno
 import os
+import sys
 import time
 from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 from app.device.errors import LinkError
 
@@ -14,6 +15,9 @@ ANSWER_TIME = 0.06
 
 LONGEST_ANSWER = 0.2
 """How long bytes are taken for one answer, if they never end [s]."""
+
+PSEUDO_TERMINALS: Final = range(136, 144)
+"""Major numbers of UNIX98 pseudo-terminals (Linux: Documentation/admin-guide/devices.txt)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +69,16 @@ class Port:
     def fd(self) -> int:
         """Descriptor of the open port."""
         return int(self._serial.fileno())
+
+    @property
+    def is_pseudo_terminal(self) -> bool:
+        """Whether another program is at its other end: no hardware is behind a pseudo-terminal.
+
+        By the device's major number on Linux; elsewhere nobody can tell.
+        """
+        if not sys.platform.startswith("linux"):
+            return False
+        return os.major(os.fstat(self.fd).st_rdev) in PSEUDO_TERMINALS
 
     def open(self) -> None:
         """Open the port, lock it against other programs, and set its speed.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -134,6 +135,7 @@ class SerialLink(DeviceLink):
         port.open()
         try:
             info = self._greeted(port)
+            info = replace(info, emulated=info.emulated or port.is_pseudo_terminal)
             if serial is not None and info.serial != serial:
                 raise LinkError(
                     f"another robot answers on {self.port} (serial number {info.serial!r} instead"

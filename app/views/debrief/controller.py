@@ -8,8 +8,10 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from app.core.files import write_atomically
 from app.exchange.csv_export import score_table, trajectory_table, write_csv
+from app.session.errors import SessionError
 from app.session.recording import read_recording
 from app.session.result import AttemptResult
+from app.session.sidecar import fresh_summary
 from app.session.store import find
 from app.session.summary import Summary
 from app.views.background import run_in_background
@@ -80,7 +82,7 @@ class DebriefController(QObject):
         """Ask where, and write the scores of these sessions as a table."""
         path = self._ask(tr("Export sessions"), "acus-sessions.csv", tr("CSV (*.csv)"), ".csv")
         if path is not None:
-            self._save(path, lambda: write_csv(path, score_table(summaries)))
+            self._save(path, lambda: write_csv(path, self._scores(summaries)))
 
     # --- inside -----------------------------------------------------------------------------------
     def _read(self, operation: Callable[[], Review]) -> None:
@@ -101,6 +103,16 @@ class DebriefController(QObject):
 
     def _trajectory(self, session_id: str) -> str:
         return trajectory_table(read_recording(find(self._folder, session_id)))
+
+    def _scores(self, summaries: Sequence[Summary]) -> str:
+        """Table of scores, each computed from its record; what has gone stays as it was listed."""
+        return score_table([self._computed(summary) for summary in summaries])
+
+    def _computed(self, summary: Summary) -> Summary:
+        try:
+            return fresh_summary(find(self._folder, summary.id))
+        except SessionError:
+            return summary
 
     def _save(self, path: Path, write: Callable[[], None]) -> None:
         run_in_background(self, lambda _: write(), lambda _: self.saved.emit(str(path)), self._fail)

@@ -6,6 +6,7 @@ from PySide6.QtCore import Qt, Signal, SignalInstance
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
 
 from app.views import theme
+from app.views.debrief.condition_words import facts_of, short_words
 from app.views.debrief.curves import CurvesView
 from app.views.debrief.path_view import PathView
 from app.views.debrief.review import Review
@@ -38,7 +39,7 @@ class DebriefPage(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._review: Review | None = None
-        self._title, self._facts = QLabel(self), QLabel(self)
+        self._title, self._facts, self.conditions = QLabel(self), QLabel(self), QLabel(self)
         self._verdict, self._total, self._reason = QLabel(self), QLabel(self), QLabel(self)
         self._problems, self.risks = QLabel(self), QLabel(self)
         self.table = ScoreTable(self)
@@ -58,6 +59,7 @@ class DebriefPage(QWidget):
         self._review = review
         self._title.setText(review.exercise)
         self._facts.setText(facts(review))
+        self._show_conditions(review)
         self._total.setText(total_text(review.score))
         self._show_words(review)
         lines = risk_lines(review)
@@ -67,6 +69,14 @@ class DebriefPage(QWidget):
         self.scans.show_review(review)
         self.path.show_review(review)
         self.curves.show_review(review)
+
+    def _show_conditions(self, review: Review) -> None:
+        """Say what the score was made under in one line, and all of it to whoever points there."""
+        known = review.conditions
+        self.conditions.setText(short_words(known))
+        self.conditions.setVisible(known is not None)
+        lines = [f"{name}: {value}" for name, value in facts_of(known)] if known else []
+        self.conditions.setToolTip("\n".join(lines))
 
     def _show_words(self, review: Review) -> None:
         """Write the verdict and what belongs to it, without names while they are hidden."""
@@ -86,11 +96,14 @@ class DebriefPage(QWidget):
 
     def _style(self) -> None:
         self._title.setProperty("role", "title")
-        self._facts.setProperty("role", "dim")
+        for label in (self._facts, self.conditions):
+            label.setProperty("role", "dim")
         self._total.setStyleSheet(f"font-size: {theme.TITLE_PX}px; font-weight: 600;")
         self._problems.setStyleSheet(f"color: {theme.WARNING}; font-size: {theme.SMALL_PX}px;")
         self.retry.setProperty("role", "primary")
-        for label in (self._title, self._facts, self._reason, self._problems, self.risks):
+        for label in (
+            self._title, self._facts, self.conditions, self._reason, self._problems, self.risks,
+        ):  # fmt: skip
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setWordWrap(True)
 
@@ -103,6 +116,7 @@ class DebriefPage(QWidget):
         headline.addWidget(self._total, 1, Qt.AlignmentFlag.AlignRight)
         column.addWidget(self._title)
         column.addWidget(self._facts)
+        column.addWidget(self.conditions)
         column.addLayout(headline)
         for widget in (self._reason, self._problems):
             column.addWidget(widget)

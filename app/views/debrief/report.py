@@ -1,5 +1,6 @@
 """The report of an attempt: A4, vector text and curves, a pseudonym and nothing about a patient."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
@@ -12,6 +13,7 @@ from app.imaging.scan_order import Seen
 from app.scoring.result import Score
 from app.scoring.rows import Row
 from app.session.control_scan import TEACHING_ESTIMATE
+from app.views.debrief.condition_words import facts_of
 from app.views.debrief.curves import curves_of
 from app.views.debrief.page import date_text
 from app.views.debrief.print_path import paint_path
@@ -31,7 +33,8 @@ _RESOLUTION: Final = 72
 """One unit of the painter is one point; a PDF has no pixels that this could coarsen."""
 _COLUMNS: Final = (0.0, 205.0, 295.0, 375.0, 455.0)
 """Left edges of the table's columns [pt]."""
-_ROW: Final = 17.0
+_ROW: Final = 15.5
+_LINE: Final = 13.5
 
 
 def write_report(review: Review, path: Path) -> None:
@@ -120,13 +123,21 @@ def _facts(painter: QPainter, review: Review, y: float) -> float:
         (tr("Control scans"), scans_text(review)),
         (tr("Path"), tr("{mm:.1f} mm from entry to target", mm=1e3 * review.placed.length)),
         (tr("Tip measured to"), radius_text(review.tip_radius)),
-        (tr("Recorded with"), f"Acus {review.software}"),
     )
+    y = _lines(painter, facts, y)
+    if review.conditions is None:
+        return _lines(painter, ((tr("Recorded with"), f"Acus {review.software}"),), y) + 16.0
+    _text(painter, MARGIN, y + 6.0, tr("Made under"), font(9.5, bold=True), DIM)
+    return _lines(painter, facts_of(review.conditions), y + 21.0) + 16.0
+
+
+def _lines(painter: QPainter, facts: Sequence[tuple[str, str]], y: float) -> float:
+    """Names and values under each other; returns where the page goes on."""
     for name, value in facts:
         _text(painter, MARGIN, y, name, font(9.5), DIM)
         _text(painter, MARGIN + 130.0, y, value, font(9.5))
-        y += 15.0
-    return y + 16.0
+        y += _LINE
+    return y
 
 
 def scans_text(review: Review) -> str:

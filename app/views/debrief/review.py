@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.planning.placement import PlacedPlan
-from app.scoring.errors import ScoreFormatError
+from app.scoring.conditions import Conditions
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.scoring.trajectory import Phase
@@ -24,7 +24,8 @@ from app.session.recording import Recording, read_recording
 from app.session.result import AttemptResult
 from app.session.risks import risk_marks
 from app.session.scored import renders_force
-from app.session.summary import SCORE_FILE, derive
+from app.session.summary import derive
+from app.session.verify import verify
 from app.views.debrief.timeline import Mark, Span, marks, spans
 from app.views.exercise.pad_geometry import PadScale, PathFrame, path_frame
 from app.views.exercise.pad_view import rings
@@ -80,6 +81,7 @@ class Review:
         origin: moment that their times are told from [s].
         ct: the CT, and how it was read.
         risks: structures of risk, and how near the needle came.
+        conditions: what the score was made under; None where nothing is known.
         tip_radius: round the tip that holds the true one with 95 %, median [m]; None if not known.
     """
 
@@ -107,6 +109,7 @@ class Review:
     origin: float = 0.0
     ct: CtFacts = UNKNOWN_CT
     risks: tuple[RiskMark, ...] = ()
+    conditions: Conditions | None = None
 
     @property
     def rings(self) -> tuple[float, float]:
@@ -146,13 +149,13 @@ def review(recording: Recording) -> Review:
     Raises:
         BrokenRecordingError: if the record holds no plan.
     """
-    summary = CalibrationFlags.read().flagged(derive(recording))
+    found = verify(recording)
+    summary = CalibrationFlags.read().flagged(derive(recording, found))
     placed = recording.placed_plan()
     samples = recording.samples
     measured = np.isin(samples.depth_source, FROM_CAMERAS)
     figures = only_measured(curves(samples, placed), measured)
     origin = float(samples.time[0]) if len(samples.time) else 0.0
-    score, problem = _score(recording)
     return Review(
         id=summary.id,
         student=summary.student,
@@ -163,8 +166,9 @@ def review(recording: Recording) -> Review:
         duration=summary.duration,
         scans=summary.scans,
         software=summary.software,
-        problems=(*summary.problems, *problem),
-        score=score,
+        problems=summary.problems,
+        score=found.standing,
+        conditions=summary.conditions,
         curves=figures,
         spans=spans(figures.time, samples.state),
         marks=marks(recording.events, origin, SHOWN_EVENTS),
@@ -220,6 +224,7 @@ def review_of_result(result: AttemptResult) -> Review:
         software=summary.software,
         problems=summary.problems,
         score=result.score,
+        conditions=summary.conditions,
         curves=result.curves,
         spans=spans(path.time - path.time[0], names),
         marks=marks(result.events, float(path.time[0]), SHOWN_EVENTS),
@@ -231,16 +236,6 @@ def review_of_result(result: AttemptResult) -> Review:
         risks=risk_marks(result.events),
         origin=float(path.time[0]),
     )
-
-
-def _score(recording: Recording) -> tuple[Score | None, tuple[str, ...]]:
-    stored = recording.attachments.get(SCORE_FILE)
-    if stored is None:
-        return None, ()
-    try:
-        return Score.from_json(stored.decode()), ()
-    except (ScoreFormatError, UnicodeDecodeError) as error:
-        return None, (str(error),)
 
 
 def _force_limit(recording: Recording) -> float:

@@ -8,6 +8,7 @@ from PySide6.QtGui import QColor
 
 from app.session.summary import BROKEN, Summary
 from app.views import theme
+from app.views.debrief.condition_words import facts_of, short_words
 from app.views.debrief.page import date_text
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.state_words import state_word
@@ -17,7 +18,7 @@ from app.views.text import tr
 Index = QModelIndex | QPersistentModelIndex
 SORT_ROLE: Final = Qt.ItemDataRole.UserRole
 SUMMARY_ROLE: Final = Qt.ItemDataRole.UserRole + 1
-DATE, STUDENT, EXERCISE, SCORE, STATE, DURATION, NOTE = range(7)
+DATE, STUDENT, EXERCISE, SCORE, MADE, STATE, DURATION, NOTE = range(8)
 _RIGHT: Final = frozenset({SCORE, DURATION})
 _RIGHTWARDS: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 _STATE_LOOKS: Final = {
@@ -58,7 +59,8 @@ class SessionsModel(QAbstractTableModel):
         if orientation is not Qt.Orientation.Horizontal or role != Qt.ItemDataRole.DisplayRole:
             return None
         return (
-            tr("Date"), tr("Student"), tr("Exercise"), tr("Score"), tr("State"), tr("Time"),
+            tr("Date"), tr("Student"), tr("Exercise"), tr("Score"), tr("Made with"), tr("State"),
+            tr("Time"),
             tr("Remark"),
         )[section]  # fmt: skip
 
@@ -72,7 +74,9 @@ class SessionsModel(QAbstractTableModel):
         if role == SUMMARY_ROLE:
             return summary
         if role == Qt.ItemDataRole.ToolTipRole:
-            lines = filter(None, (summary.id, summary.reason, *summary.problems))
+            known = summary.conditions
+            under = [f"{name}: {value}" for name, value in facts_of(known)] if known else []
+            lines = filter(None, (summary.id, summary.reason, *summary.problems, *under))
             return NAMES.veiled("\n".join(lines), files=True)
         if role == Qt.ItemDataRole.TextAlignmentRole and column in _RIGHT:
             return _RIGHTWARDS
@@ -88,9 +92,11 @@ def cell_text(summary: Summary, column: int) -> str:
     if column == STUDENT:
         return NAMES.shown(summary.student)
     if column == EXERCISE:
-        return summary.exercise_title or summary.exercise_id
+        return exercise_text(summary)
     if column == SCORE:
         return score_text(summary)
+    if column == MADE:
+        return short_words(summary.conditions)
     if column == STATE:
         symbol = _STATE_LOOKS.get(summary.state, ("", "•"))[1]
         return f"{symbol} {state_word(summary.state)}"
@@ -98,6 +104,14 @@ def cell_text(summary: Summary, column: int) -> str:
         return "" if summary.state == BROKEN else clock_text(summary.duration)
     remark = "; ".join(filter(None, (summary.reason, *summary.problems)))
     return NAMES.veiled(remark, files=True)
+
+
+def exercise_text(summary: Summary) -> str:
+    """Title of the exercise, with its version from the second one on."""
+    title, known = summary.exercise_title or summary.exercise_id, summary.conditions
+    if known is None or known.version < 2:
+        return title
+    return tr("{title} (version {n})", title=title, n=known.version)
 
 
 def score_text(summary: Summary) -> str:

@@ -1,0 +1,182 @@
+"""What a score was made under, and whether two of them may be compared."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+from enum import StrEnum
+from typing import Any, Final
+
+DIAL_TOLERANCE: Final = 0.05
+"""Dials of assistance that differ by no more than this count as the same: a twentieth of the way
+from no guidance to all of it."""
+
+
+class DeviceKind(StrEnum):
+    """What stood behind the needle."""
+
+    REAL = "real"
+    EMULATED = "emulated"
+    SIMULATED = "simulated"
+    PEN = "pen"
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True, slots=True)
+class Assistance:
+    """The dial over an attempt, -1 repels fully, 0 does nothing, 1 guides fully.
+
+    Attributes:
+        start: what the exercise sets; None where it is not known.
+        least, most: over the attempt.
+        mean: over the attempt, weighted by time.
+    """
+
+    start: float | None
+    least: float
+    most: float
+    mean: float
+
+    @property
+    def moved(self) -> bool:
+        """Whether it was turned during the attempt."""
+        return self.most - self.least > DIAL_TOLERANCE
+
+
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """Everything that a score depends on besides the hand's skill; an empty value is not known.
+
+    Attributes:
+        exercise: id.
+        version: of the exercise; 0 unknown.
+        level: difficulty; 0 unknown.
+        content: digest of what the exercise says; another one is another exercise.
+        assistance: the dial; None where nothing was recorded of it.
+        views: what was shown, sorted; None unknown.
+        hand: what held the needle, one of `session.hands.HANDS`.
+        scripted: skill of the scripted trainee; empty for a person.
+        kind: real, emulated or simulated robot, or a pen.
+        device: name of its profile.
+        ct: pseudonym of the CT.
+        seed: of everything random.
+        software: version that recorded it.
+        calibration: id of the cameras' calibration; empty for simulated or uncalibrated ones.
+        agreement_mm: distance within which screen and needle agreed at the target with 95 % when
+            the attempt began; None where nobody had checked.
+        scoring_version: of the rules that the score follows; 0 without a score.
+    """
+
+    exercise: str
+    version: int = 0
+    level: int = 0
+    content: str = ""
+    assistance: Assistance | None = None
+    views: tuple[str, ...] | None = None
+    hand: str = ""
+    scripted: str = ""
+    kind: DeviceKind = DeviceKind.UNKNOWN
+    device: str = ""
+    ct: str = ""
+    seed: int | None = None
+    software: str = ""
+    calibration: str = ""
+    agreement_mm: float | None = None
+    scoring_version: int = field(default=0)
+
+    def document(self) -> dict[str, Any]:
+        """JSON-ready mapping; the keys stand in docs/json.md."""
+        document = asdict(self)
+        document["kind"] = self.kind.value
+        document["views"] = None if self.views is None else list(self.views)
+        return document
+
+    @classmethod
+    def of(cls, document: Mapping[str, Any]) -> Conditions:
+        """Read what `document` wrote; names that are not known are left out.
+
+        Raises:
+            ValueError, TypeError, KeyError: if it is no such document.
+        """
+        known = {f.name: document[f.name] for f in fields(cls) if f.name in document}
+        dial, views = known.get("assistance"), known.get("views")
+        known["exercise"] = str(document["exercise"])
+        known["kind"] = DeviceKind(known.get("kind", DeviceKind.UNKNOWN))
+        known["assistance"] = None if dial is None else _assistance(dial)
+        known["views"] = None if views is None else tuple(str(view) for view in views)
+        for name in ("version", "level", "scoring_version"):
+            known[name] = int(known.get(name, 0))
+        for name in ("content", "hand", "scripted", "device", "ct", "software", "calibration"):
+            known[name] = str(known.get(name, ""))
+        for name, kind in (("seed", int), ("agreement_mm", _number)):
+            value = known.get(name)
+            known[name] = None if value is None else kind(value)
+        return cls(**known)
+
+
+def comparable(a: Conditions, b: Conditions) -> tuple[str, ...]:
+    """Say why two scores may not be compared, one reason each; empty if they may.
+
+    This alone decides it, wherever attempts meet: lists, curves, exports. Seed, software and the
+    calibration's id are told but part no scores: noise, and programs that score alike, are the same
+    task. What one of two records does not say counts as different only where it would matter most:
+    the device, and the dial.
+    """
+    return tuple(reason for reason in _reasons(a, b) if reason)
+
+
+def _reasons(a: Conditions, b: Conditions) -> tuple[str, ...]:
+    return (
+        "one of them has no score" if not (a.scoring_version and b.scoring_version) else "",
+        _differ("exercise", a.exercise, b.exercise),
+        _differ("version of the exercise", a.version, b.version),
+        _differ("level", a.level, b.level) if a.level and b.level else "",
+        "the exercise says something else under the same version"
+        if a.content and b.content and a.content != b.content
+        else "",
+        _differ("scored by version", a.scoring_version, b.scoring_version)
+        if a.scoring_version and b.scoring_version
+        else "",
+        _dials(a.assistance, b.assistance),
+        _differ("views", ", ".join(a.views), ", ".join(b.views))
+        if a.views is not None and b.views is not None
+        else "",
+        _differ("hand", a.hand, b.hand),
+        _differ("scripted trainee", a.scripted, b.scripted),
+        "what robot it was is not known of one of them"
+        if DeviceKind.UNKNOWN in (a.kind, b.kind)
+        else _differ("robot", a.kind.value, b.kind.value),
+        _differ("device", a.device, b.device),
+        "another CT" if a.ct and b.ct and a.ct != b.ct else "",
+    )
+
+
+def _differ(name: str, a: object, b: object) -> str:
+    return "" if a == b else f"{name}: {a or 'none'} and {b or 'none'}"
+
+
+def _dials(a: Assistance | None, b: Assistance | None) -> str:
+    if a is None or b is None:
+        return "" if a is b else "what the assistance was is not known of one of them"
+    for name, x, y in (
+        ("assistance, over time", a.mean, b.mean),
+        ("least assistance", a.least, b.least),
+        ("most assistance", a.most, b.most),
+    ):
+        if abs(x - y) > DIAL_TOLERANCE:
+            return f"{name}: {x:.2f} and {y:.2f}"
+    return ""
+
+
+def _assistance(document: Mapping[str, Any]) -> Assistance:
+    start = document["start"]
+    least, most, mean = (_number(document[name]) for name in ("least", "most", "mean"))
+    return Assistance(None if start is None else _number(start), least, most, mean)
+
+
+def _number(value: Any) -> float:
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{value!r} is no number")
+    return number

@@ -1,0 +1,133 @@
+"""Gathers from an attempt's head and samples what its score was made under."""
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any, Final
+
+import numpy as np
+
+from app.scoring.conditions import Assistance, Conditions, DeviceKind
+from app.session.hands import TRAINEE
+from app.session.machine import State
+from app.session.samples import Samples
+
+CONDITIONS: Final = "conditions"
+"""Metadata record of what the exercise sets: `level`, `views`, `assistance`, `content`."""
+
+AGREEMENT: Final = "agreement"
+"""Metadata record of the registration check in force: `radius_mm`, `check` (its id)."""
+
+EXERCISE_FILE: Final = "exercise.json"
+"""Attachment that holds the exercise."""
+
+_NO_BOARD: Final = ("EMULATED", "MEMORY")
+"""Serial numbers of emulated boards of versions that did not say that they are."""
+
+_RUNNING: Final = (State.ALIGNING.value, State.INSERTING.value, State.HOLDING.value)
+
+Metadata = Mapping[str, Mapping[str, str]]
+
+
+def conditions_of(
+    metadata: Metadata, attachments: Mapping[str, bytes], samples: Samples, scoring_version: int
+) -> Conditions:
+    """Gather the conditions of one attempt; what an old or damaged record does not say is empty.
+
+    Args:
+        metadata: metadata records by name.
+        attachments: attached files by name; `exercise.json` stands in for what old heads lack.
+        samples: the attempt over time.
+        scoring_version: of its score; 0 without one.
+    """
+    exercise = metadata.get("exercise", {})
+    said = _said(metadata.get(CONDITIONS, {}), attachments)
+    trainee, device = metadata.get(TRAINEE, {}), metadata.get("device", {})
+    agreement = _number(metadata.get(AGREEMENT, {}).get("radius_mm"))
+    return Conditions(
+        exercise=exercise.get("id", ""),
+        version=_whole(exercise.get("version")) or 0,
+        level=_whole(said.get("level")) or 0,
+        content=said.get("content", ""),
+        assistance=assistance_of(samples, _number(said.get("assistance"))),
+        views=None
+        if "views" not in said
+        else tuple(sorted(filter(None, said["views"].split(",")))),
+        hand=trainee.get("hand", ""),
+        scripted=trainee.get("scripted", ""),
+        kind=kind_of(device),
+        device=device.get("name", ""),
+        ct=metadata.get("ct", {}).get("pseudonym", ""),
+        seed=_whole(metadata.get("session", {}).get("seed")),
+        software=metadata.get("software", {}).get("version", ""),
+        calibration=metadata.get("cameras", {}).get("calibration", ""),
+        agreement_mm=agreement,
+        scoring_version=scoring_version,
+    )
+
+
+def assistance_of(samples: Samples, start: float | None = None) -> Assistance | None:
+    """Return the dial over the attempt, from what was recorded; None where nothing was.
+
+    `start` is what the exercise sets. Each sample counts until the next one.
+    """
+    dial = samples.assistance
+    if dial is None or len(dial) == 0:
+        return None
+    known = np.isfinite(dial) & np.isin(samples.state, _RUNNING)
+    if not known.any():
+        return None
+    spans = np.maximum(np.diff(samples.time, append=samples.time[-1]), 0.0)[known]
+    values = dial[known]
+    whole = float(spans.sum())
+    mean = float(values @ spans) / whole if whole > 0.0 else float(values.mean())
+    return Assistance(start, float(values.min()), float(values.max()), mean)
+
+
+def kind_of(device: Mapping[str, str]) -> DeviceKind:
+    """Tell what stood behind the needle, by the metadata record `device`.
+
+    A record of a version whose boards did not say that they are emulated cannot vouch for a real
+    robot: it is unknown.
+    """
+    if "yes" in (device.get("simulated"), device.get("pen")):
+        return DeviceKind.SIMULATED
+    if "pen" in device:
+        return DeviceKind.PEN
+    if device.get("serial") in _NO_BOARD:
+        return DeviceKind.EMULATED
+    try:
+        return DeviceKind(device.get("kind", ""))
+    except ValueError:
+        return DeviceKind.UNKNOWN
+
+
+def _said(record: Mapping[str, str], attachments: Mapping[str, bytes]) -> Mapping[str, str]:
+    """Return what the exercise sets: by the record, else by the attached exercise of an old one."""
+    if record:
+        return record
+    try:
+        exercise: Any = json.loads(attachments[EXERCISE_FILE])
+        views = exercise["views"]
+        return {
+            "level": str(exercise["level"]),
+            "views": ",".join(str(view) for view in views),
+            "assistance": str(exercise["assistance"]),
+        }
+    except (KeyError, TypeError, ValueError, RecursionError):
+        return {}
+
+
+def _whole(text: str | None) -> int | None:
+    try:
+        return int(text) if text is not None else None
+    except ValueError:
+        return None
+
+
+def _number(text: str | None) -> float | None:
+    try:
+        number = float(text) if text is not None else math.nan
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None

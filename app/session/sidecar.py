@@ -1,0 +1,194 @@
+"""The summary beside a record, as a cache: lists trust it as long as the record is as it was.
+
+`<id>.json` holds the summary, the size, time and digest of the record that it was made of, and a
+digest of itself. Where size and time are those of the record and its own digest is right, a list
+takes it as it is; else the record is read and the file written anew. Whatever shows one attempt
+(its debrief, report, exports, `acus session verify`) computes from the record and never asks the
+file.
+"""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any, Final
+
+from app.core.files import write_atomically
+from app.session.errors import BrokenRecordingError
+from app.session.recording import read_recording
+from app.session.sample import finite
+from app.session.summary import BROKEN, UNFINISHED, Summary, derive
+from app.session.verify import Change, Verification, verify
+
+_STILL_WRITTEN: Final = 10.0
+"""A record that changed within this time [s] may be under way: nothing is kept of it."""
+
+_NOT_OURS: Final = (
+    *(OSError, ValueError, LookupError, TypeError),
+    *(AttributeError, ArithmeticError, RecursionError),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Cached:
+    """What stands beside a record.
+
+    Attributes:
+        summary: the attempt.
+        size: of the record then [bytes].
+        modified_ns: its time of change then.
+        sha256: its digest then.
+        intact: whether the file's own digest is right: nobody has edited it.
+    """
+
+    summary: Summary
+    size: int
+    modified_ns: int
+    sha256: str
+    intact: bool
+
+    def fits(self, path: Path) -> bool:
+        """Whether a list may trust it: it is intact, and the record has the same size and time."""
+        return self.intact and _size_and_time(path) == (self.size, self.modified_ns)
+
+
+def sidecar(path: Path) -> Path:
+    """Return the summary's file beside a record."""
+    return path.with_suffix(".json")
+
+
+def write_summary(path: Path, summary: Summary) -> None:
+    """Write the summary beside the record `path`, whole or not at all."""
+    stat = path.stat()
+    record = {
+        "size": stat.st_size,
+        "modified_ns": stat.st_mtime_ns,
+        "sha256": file_digest(path),
+    }
+    document = summary.document() | {"record": record}
+    text = json.dumps(
+        document | {"digest": _digest(document)}, indent=1, allow_nan=False, ensure_ascii=False
+    )
+    write_atomically(sidecar(path), text + "\n")
+
+
+def cached(path: Path) -> Cached | None:
+    """Return what stands beside a record; None if nothing readable does."""
+    try:
+        document = json.loads(sidecar(path).read_text(encoding="utf-8"))
+        written, record = document.pop("digest", ""), document["record"]
+        return Cached(
+            summary=Summary.of(document, path.stem),
+            size=int(record["size"]),
+            modified_ns=int(record["modified_ns"]),
+            sha256=str(record["sha256"]),
+            intact=written == _digest(document),
+        )
+    except _NOT_OURS:
+        return None
+
+
+def read_summary(path: Path) -> Summary:
+    """Return the summary of a record for a list: from its sidecar where that may be trusted.
+
+    Never raises. A record that cannot be read gives a summary of state `broken` with the reason.
+    """
+    found = cached(path)
+    try:
+        if found is not None and found.fits(path):
+            return found.summary
+    except OSError:
+        pass  # the record has gone: reading it says why
+    return fresh_summary(path)
+
+
+def fresh_summary(path: Path) -> Summary:
+    """Return the summary of a record, computed from it, and keep it beside; never raises."""
+    try:
+        summary = derive(read_recording(path))
+    except BrokenRecordingError as error:
+        return Summary(path.stem, _modified(path), state=BROKEN, reason=str(error), software="")
+    if summary.state != UNFINISHED or _seconds_since(path) > _STILL_WRITTEN:
+        with suppress(OSError):  # a folder that cannot be written: next time again
+            write_summary(path, summary)
+    return summary
+
+
+def file_digest(path: Path) -> str:
+    """SHA-256 of a file, hexadecimal.
+
+    Raises:
+        OSError: if it cannot be read.
+    """
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def verify_record(path: Path) -> Verification:
+    """Verify a record together with what stands beside it.
+
+    Raises:
+        BrokenRecordingError: if the record cannot be read.
+    """
+    recording = read_recording(path)
+    found = verify(recording)
+    kept = cached(path)
+    if kept is None or (kept.size, kept.modified_ns) != _size_and_time(path):
+        return found  # no list believes it: it is written anew
+    changes = [
+        Change(f"{sidecar(path).name}: {name}", a, b)
+        for name, a, b in differences(kept.summary, derive(recording, found))
+    ]
+    if not kept.intact and not changes:
+        changes = [Change(sidecar(path).name, "edited", "its own digest is another")]
+    if kept.sha256 != file_digest(path):
+        changes.append(Change(f"{path.name}: digest", kept.sha256, file_digest(path)))
+    return replace(found, changes=(*found.changes, *changes))
+
+
+def differences(found: Summary, fresh: Summary) -> list[tuple[str, Any, Any]]:
+    """Fields in which a kept summary is not what the record gives: name, kept, computed."""
+    a, b = finite(found.document()), finite(fresh.document())
+    return [
+        pair for name in b if a.get(name) != b[name] for pair in _fields(name, a.get(name), b[name])
+    ]
+
+
+def _fields(name: str, a: Any, b: Any) -> list[tuple[str, Any, Any]]:
+    if isinstance(a, Mapping) and isinstance(b, Mapping):
+        keys = dict.fromkeys((*a, *b))
+        return [
+            pair
+            for key in keys
+            if a.get(key) != b.get(key)
+            for pair in _fields(f"{name}.{key}", a.get(key), b.get(key))
+        ]
+    return [(name, a, b)]
+
+
+def _size_and_time(path: Path) -> tuple[int, int]:
+    stat = path.stat()
+    return stat.st_size, stat.st_mtime_ns
+
+
+def _digest(document: Mapping[str, Any]) -> str:
+    text = json.dumps(document, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _seconds_since(path: Path) -> float:
+    try:
+        return datetime.now(UTC).timestamp() - path.stat().st_mtime
+    except OSError:
+        return 0.0
+
+
+def _modified(path: Path) -> str:
+    try:
+        seconds = path.stat().st_mtime
+    except OSError:
+        seconds = 0.0
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds")

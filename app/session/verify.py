@@ -1,0 +1,245 @@
+"""Recomputes an attempt's score from its record and says what differs from what was written.
+
+A score is believed because it can be computed again: everything that shows one outside the list of
+sessions takes it from here. Deliberate forgery of the samples themselves is not found here.
+"""
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Final
+
+from pydantic import ValidationError
+
+from app.core.errors import AcusError
+from app.scoring.conditions import Conditions
+from app.scoring.defaults import DEFAULT_TOLERANCES
+from app.scoring.errors import ScoreFormatError
+from app.scoring.result import SCORING_VERSION, Score
+from app.scoring.rows import Rules
+from app.scoring.score import score
+from app.scoring.tolerance import Tolerance
+from app.session.conditions import EXERCISE_FILE, conditions_of
+from app.session.machine import FINAL
+from app.session.recording import Recording
+
+SCORE_FILE: Final = "score.json"
+"""Name of the attachment that holds the score."""
+
+RELATIVE: Final = 1e-9
+"""Numbers that differ by less are the same: another processor sums in another order."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One value that is not what the record gives.
+
+    Attributes:
+        what: of the value: `total`, `passed`, a metric's name, or a field of the list's file.
+        written: value that was written.
+        recomputed: value that the record gives now.
+    """
+
+    what: str
+    written: Any
+    recomputed: Any
+
+    def sentence(self) -> str:
+        """Say it in one line."""
+        return f"{self.what}: {_word(self.written)} written, {_word(self.recomputed)} by the record"
+
+
+@dataclass(frozen=True, slots=True)
+class Verification:
+    """What the record of an attempt says of its score.
+
+    Attributes:
+        session: id.
+        written: the score as it was written; None without one.
+        recomputed: by today's rules; None where they give none.
+        unscored: why today's rules give no score; empty if they do.
+        changes: what differs, one each; empty if nothing does.
+        finished: whether the attempt was ended or aborted; only then a score is expected.
+    """
+
+    session: str
+    written: Score | None
+    recomputed: Score | None
+    unscored: str
+    changes: tuple[Change, ...]
+    finished: bool
+
+    @property
+    def same_rules(self) -> bool:
+        """Whether the score was written under today's scoring version; without one it was."""
+        return self.written is None or self.written.version == SCORING_VERSION
+
+    @property
+    def confirmed(self) -> bool:
+        """Whether what was written is what the record gives."""
+        return not self.changes
+
+    @property
+    def standing(self) -> Score | None:
+        """The score to show: what the record gives; of another scoring version, what it kept."""
+        if not self.finished:
+            return self.written
+        return self.recomputed if self.same_rules else self.written
+
+    def remarks(self) -> tuple[str, ...]:
+        """Say what whoever sees the score must know; nothing if all is as written."""
+        if not self.finished or (self.written is None and self.recomputed is None):
+            return ()
+        if self.written is not None and not self.same_rules:
+            now = _points(self.recomputed) if self.recomputed is not None else "no score"
+            return (
+                f"scored by version {self.written.version}: {_points(self.written)}, by today's "
+                f"rules: {now}",
+            )
+        if self.confirmed:
+            return ()
+        most = "; ".join(change.sentence() for change in self.changes[:3])
+        more = f"; and {len(self.changes) - 3} more" if len(self.changes) > 3 else ""
+        return (f"the score in this record is not what its samples give: {most}{more}",)
+
+    def sentences(self) -> list[str]:
+        """Say all of it, one line each."""
+        if not self.finished:
+            return ["the attempt was not finished: it has no score to verify"]
+        remarks = [] if self.same_rules else list(self.remarks())
+        if not self.confirmed:
+            return [*remarks, *(change.sentence() for change in self.changes)]
+        if self.recomputed is None:
+            return [*remarks, f"not scored, as written: {self.unscored}"]
+        rows = len(self.recomputed.rows)
+        return [*remarks, f"confirmed: {_points(self.recomputed)}, {rows} metrics"]
+
+    def document(self) -> dict[str, Any]:
+        """JSON-ready mapping; the keys stand in docs/json.md."""
+        return {
+            "session": self.session,
+            "confirmed": self.confirmed,
+            "finished": self.finished,
+            "written_total": self.written.total if self.written else None,
+            "written_version": self.written.version if self.written else None,
+            "recomputed_total": self.recomputed.total if self.recomputed else None,
+            "scoring_version": SCORING_VERSION,
+            "unscored": self.unscored,
+            "changes": [
+                {"what": c.what, "written": c.written, "recomputed": c.recomputed}
+                for c in self.changes
+            ],
+        }
+
+
+def verify(recording: Recording) -> Verification:
+    """Recompute score and metrics of a record and compare them with what was written; no raise."""
+    written, unreadable = written_score(recording)
+    finished = state_of(recording) in {state.value for state in FINAL}
+    if not finished:
+        return Verification(recording.id, written, None, "", (), finished)
+    now, unscored = _recomputed(recording, written)
+    changes = [Change(SCORE_FILE, unreadable, "a score")] if unreadable else []
+    if written is not None or now is not None:
+        changes += _changes(written, now, unscored)
+    return Verification(recording.id, written, now, unscored, tuple(changes), finished)
+
+
+def conditions(recording: Recording, standing: Score | None) -> Conditions:
+    """Gather what a recorded attempt was made under, with the version of the score that stands."""
+    version = standing.version if standing is not None else 0
+    return conditions_of(recording.metadata, recording.attachments, recording.samples, version)
+
+
+def state_of(recording: Recording) -> str:
+    """Last state of the attempt, as its result says or else its last sample; empty if neither."""
+    state = recording.metadata.get("result", {}).get("state", "")
+    if state in {final.value for final in FINAL}:
+        return state
+    states = recording.samples.state
+    return str(states[-1]) if len(states) else ""
+
+
+def written_score(recording: Recording) -> tuple[Score | None, str]:
+    """Return the score that was written, and why it cannot be read (empty if it can)."""
+    stored = recording.attachments.get(SCORE_FILE)
+    if stored is None:
+        return None, ""
+    try:
+        return Score.from_json(stored.decode()), ""
+    except (ScoreFormatError, UnicodeDecodeError, RecursionError) as error:
+        return None, str(error)
+
+
+def _recomputed(recording: Recording, written: Score | None) -> tuple[Score | None, str]:
+    tolerances, rules = _judged_by(recording, written)
+    try:
+        return score(recording.trajectory(), tolerances, rules), ""
+    except AcusError as error:
+        return None, str(error)
+
+
+def _judged_by(
+    recording: Recording, written: Score | None
+) -> tuple[Mapping[str, Tolerance], Rules]:
+    """Tolerances and rules: the attached exercise's, read by name, else the written score's."""
+    try:
+        exercise = json.loads(recording.attachments[EXERCISE_FILE])
+        tolerances = {
+            str(name): Tolerance.model_validate(limits)
+            for name, limits in exercise["tolerances"].items()
+        }
+        return tolerances, Rules.model_validate(exercise["rules"])
+    except (KeyError, TypeError, AttributeError, ValueError, ValidationError, RecursionError):
+        pass  # an old or damaged exercise: the score carries what it was judged by
+    if written is None:
+        return DEFAULT_TOLERANCES, Rules()
+    return {row.name: row.tolerance for row in written.rows if row.tolerance}, written.rules
+
+
+def _changes(written: Score | None, now: Score | None, unscored: str) -> list[Change]:
+    if written is None or now is None:
+        return [
+            Change("score", _points(written), _points(now) + (f" ({unscored})" if unscored else ""))
+        ]
+    pairs: list[tuple[str, Any, Any]] = [
+        ("total", written.total, now.total),
+        ("passed", written.passed, now.passed),
+        ("void", written.void_reason, now.void_reason),
+        ("pass mark", written.rules.pass_mark, now.rules.pass_mark),
+    ]
+    before = {row.name: row for row in written.rows}
+    after = {row.name: row for row in now.rows}
+    for name in dict.fromkeys((*before, *after)):
+        a, b = before.get(name), after.get(name)
+        pairs.append((name, a.value if a else "no such metric", b.value if b else "no such metric"))
+        if a and b and a.tolerance != b.tolerance:
+            pairs.append((f"limits of {name}", _limits(a.tolerance), _limits(b.tolerance)))
+    return [Change(name, a, b) for name, a, b in pairs if not _same(a, b)]
+
+
+def _same(a: Any, b: Any) -> bool:
+    if isinstance(a, float) and isinstance(b, float):
+        return math.isclose(a, b, rel_tol=RELATIVE, abs_tol=RELATIVE)
+    return bool(a == b)
+
+
+def _limits(tolerance: Tolerance | None) -> str:
+    if tolerance is None:
+        return "none"
+    knots = ", ".join(f"{knot:g}" for knot in tolerance.knots)
+    required = ", required" if tolerance.required else ""
+    return f"{knots} (weight {tolerance.weight:g}{required})"
+
+
+def _points(score: Score | None) -> str:
+    if score is None:
+        return "no score"
+    return "void" if score.total is None else f"{score.total:.0f}"
+
+
+def _word(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return "nothing" if value in (None, "") else str(value)

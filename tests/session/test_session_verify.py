@@ -1,0 +1,191 @@
+"""Scores are computed again wherever one is shown; what was written is not believed."""
+
+import json
+import os
+import shutil
+import struct
+import zlib
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from app.commands import build as command_line
+from app.core.exits import Exit
+from app.exchange.csv_export import score_table
+from app.scoring.conditions import DeviceKind, comparable
+from app.session.recording import read_recording
+from app.session.sidecar import cached, fresh_summary, read_summary, sidecar, verify_record
+from app.session.store import computed, list_sessions
+from app.session.verify import verify
+from app.views.debrief.review import review
+
+FOLDER = Path(__file__).parents[1] / "data" / "records"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Records of scoring version 1, without what stood beside them."""
+    for path in FOLDER.glob("*.mcap"):
+        shutil.copyfile(path, tmp_path / path.name)
+    return tmp_path
+
+
+def with_score(path: Path, change: str, to: str) -> None:
+    """Rewrite the score inside a record as an editor would: same length, right CRC."""
+    data = bytearray(path.read_bytes())
+    name = data.index(b"score.json")
+    start = name - 4 - 16 - 9  # opcode and length, two times, length of the name
+    size = struct.unpack_from("<Q", data, start + 1)[0]
+    body = start + 9
+    old, new = change.encode(), to.encode()
+    assert len(old) == len(new)
+    at = data.index(old, body, body + size)
+    data[at : at + len(old)] = new
+    crc = zlib.crc32(data[body : body + size - 4])
+    struct.pack_into("<I", data, body + size - 4, crc)
+    path.write_bytes(data)
+
+
+def run(*words: str) -> tuple[int, str]:
+    result = CliRunner().invoke(command_line(), list(words))
+    return result.exit_code, result.output
+
+
+def test_an_honest_record_is_confirmed_with_code_0(folder: Path) -> None:
+    path = next(folder.glob("*a001.mcap"))
+    assert verify(read_recording(path)).changes == ()
+    code, said = run("session", "verify", path.stem, "--folder", str(folder))
+    assert code == Exit.DONE
+    assert "scored by version 1: 100, by today's rules: 100" in said
+
+
+def test_an_edited_file_beside_the_record_is_believed_nowhere(folder: Path) -> None:
+    path = next(folder.glob("*a002.mcap"))
+    good = read_summary(path)
+    text = sidecar(path).read_text()
+    assert '"total": 100.0' in text
+    sidecar(path).write_text(text.replace('"total": 100.0', '"total": 55.5'))
+    code, said = run("session", "verify", path.stem, "--folder", str(folder))
+    assert code == Exit.NO
+    assert "55.5" in said
+    assert (fresh_summary(path).score or {})["total"] == 100.0
+    sidecar(path).write_text(text.replace('"total": 100.0', '"total": 55.5'))
+    assert read_summary(path) == good  # its own digest is wrong: even a list computes
+    assert sidecar(path).read_text() == text  # and has written it anew
+
+
+def test_a_file_with_a_forged_digest_is_found_out_where_a_score_counts(folder: Path) -> None:
+    from app.session import sidecar as module
+
+    path = next(folder.glob("*a002.mcap"))
+    read_summary(path)
+    document = json.loads(sidecar(path).read_text())
+    document.pop("digest")
+    document["score"]["total"] = 12.0
+    document["digest"] = module._digest(document)
+    sidecar(path).write_text(json.dumps(document))
+    assert (read_summary(path).score or {})["total"] == 12.0  # a list trusts it
+    assert not verify_record(path).confirmed
+    assert verify(read_recording(path)).confirmed  # the record itself is as it was
+    shown = review(read_recording(path)).score
+    assert shown is not None
+    assert shown.total == 100.0
+    assert run("session", "verify", path.stem, "--folder", str(folder))[0] == Exit.NO
+    assert [(s.score or {})["total"] for s in computed(folder)] == [pytest.approx(100.0)] * 3
+
+
+def test_a_score_rewritten_inside_the_record_is_found_out(folder: Path) -> None:
+    path = next(folder.glob("*a001.mcap"))
+    with_score(path, '"total":100.0', '"total":"9.0"'.replace('"9.0"', "  9.0"))
+    recording = read_recording(path)
+    assert recording.complete
+    assert recording.problems == ()
+    found = verify(recording)
+    assert [change.what for change in found.changes] == ["total"]
+    assert run("session", "verify", path.stem, "--folder", str(folder))[0] == Exit.NO
+
+
+def test_a_score_of_another_version_is_kept_said_and_not_comparable(folder: Path) -> None:
+    path = next(folder.glob("*a001.mcap"))
+    with_score(path, '"total":100.0', '"total": 91.0')
+    shown = review(read_recording(path))
+    assert shown.score is not None
+    assert shown.score.total == 91.0
+    assert "scored by version 1: 91, by today's rules: 100" in shown.problems
+    old = fresh_summary(path).conditions
+    assert old is not None
+    from dataclasses import replace
+
+    assert comparable(old, old) == ()
+    assert comparable(old, replace(old, scoring_version=2)) == ("scored by version: 1 and 2",)
+
+
+def test_lists_read_a_record_once_and_again_when_it_changed(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from app.session import sidecar as module
+
+    read: list[Path] = []
+
+    def counted(path: Path) -> object:
+        read.append(path)
+        return read_recording(path)
+
+    monkeypatch.setattr(module, "read_recording", counted)
+    first = list_sessions(folder)
+    assert len(read) == 3
+    assert list_sessions(folder) == first
+    assert len(read) == 3  # what was missing had been written
+    path = next(folder.glob("*a001.mcap"))
+    os.utime(path, ns=(1, 1))
+    list_sessions(folder)
+    assert read[3:] == [path]
+    list_sessions(folder)
+    assert len(read) == 4
+
+
+def test_conditions_of_old_records_stand_in_summary_list_table_and_debrief(folder: Path) -> None:
+    path = next(folder.glob("*a002.mcap"))
+    known = read_summary(path).conditions
+    assert known is not None
+    assert known == review(read_recording(path)).conditions
+    kept = cached(path)
+    assert kept is not None
+    assert kept.summary.conditions == known
+    assert (known.exercise, known.kind, known.hand) == (
+        "against-repulsion",
+        DeviceKind.SIMULATED,
+        "mouse",
+    )
+    dial = known.assistance
+    assert dial is not None
+    assert (dial.least, dial.most) == (-0.5, 0.65)
+    assert dial.mean == pytest.approx(0.075, abs=0.01)  # half of the time each
+    assert dial.moved
+    table = score_table(list_sessions(folder)).splitlines()
+    assert "assistance_least" in table[0]
+    assert "comparison_group" in table[0]
+    assert any("-0.5,0.65" in line for line in table)
+
+
+def test_two_attempts_are_compared_by_their_conditions_alone(folder: Path) -> None:
+    code, said = run(
+        "session", "compare", "20261120-080001", "20261120-081002", "--folder", str(folder)
+    )
+    assert code == Exit.NO
+    assert "exercise: first-insertion and against-repulsion" in said
+    code, said = run(
+        "session", "compare", "20261120-080001", "20261120-080001", "--folder", str(folder)
+    )
+    assert code == Exit.DONE
+    assert "comparable" in said
+
+
+def test_what_cannot_be_verified_is_no_answer(folder: Path) -> None:
+    (folder / "x.mcap").write_bytes(b"no record")
+    result = CliRunner().invoke(
+        command_line(), ["session", "verify", "x", "--folder", str(folder)], standalone_mode=False
+    )
+    assert result.exception is not None
+    assert "not an MCAP file" in str(result.exception)  # __main__ makes one line and code 2 of it
