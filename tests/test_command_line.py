@@ -98,3 +98,18 @@ def test_a_demonstration_on_a_folder_without_ct_is_refused_at_once(tmp_path):
     assert result.returncode == 2
     assert one_line(result.stderr)
     assert "note.txt" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--ct", "/nonexistent"), "/nonexistent does not exist"),
+        (("--device", "/dev/none"), "there is no port /dev/none"),
+        (("--exercise", "nope"), "no exercise 'nope'; there are first-insertion"),
+    ],
+)
+def test_a_window_is_not_opened_for_what_is_not_there(arguments, words):
+    result = acus("run", *arguments, timeout=60)
+    assert result.returncode == 2
+    assert words in result.stderr
+    assert one_line(result.stderr)

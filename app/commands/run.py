@@ -1,5 +1,7 @@
 """`acus run`: the trainer."""
 
+import errno
+import os
 from pathlib import Path
 from typing import Annotated
 
@@ -36,6 +38,7 @@ def run(
     ] = None,
 ) -> None:
     """Open the trainer; the mouse moves a simulated hand, or a real robot its own needle."""
+    _check(ct, device, exercise)
     from app.compose import Desktop
     from app.tracking.cameras.settings import parse_cameras
     from app.tracking.cameras.source import parse_source
@@ -63,3 +66,25 @@ def run(
     code = application.exec()
     collector.close()
     raise typer.Exit(code)
+
+
+def _check(ct: Path | None, device: str | None, exercise: str) -> None:
+    """Look at what was asked for before a window opens.
+
+    Raises:
+        AcusError: if there is no such folder, port or exercise; says which there are.
+    """
+    if ct is not None and not ct.exists():
+        from app.imaging.errors import FolderError
+
+        raise FolderError(f"--ct {ct} does not exist; name a folder or file with a CT")
+    if device is not None and os.sep in device and not Path(device).exists():
+        from app.device.errors import LinkError
+        from app.device.links.port import reason
+
+        absent = FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), device)
+        raise LinkError(reason(device, 0, absent))
+    if exercise:
+        from app.exercises.library import load_exercise
+
+        load_exercise(exercise)

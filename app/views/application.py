@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import signal
 import sys
 from typing import Final
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QTimer, QtMsgType, qInstallMessageHandler
 from PySide6.QtWidgets import QApplication
 
 from app import __version__
 from app.core.errors import AcusError
+from app.core.log_file import LogFile
+from app.views.names import NAMES
 from app.views.text import install_translation
 from app.views.theme import apply_theme
 
@@ -31,6 +34,26 @@ def has_display() -> bool:
     if sys.platform != "linux":
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def _open_log(application: QApplication) -> None:
+    """Log to a file from now on, Qt's own warnings too."""
+    log = LogFile(lambda: NAMES.known)
+    log.open()
+    application.aboutToQuit.connect(log.close)
+    levels = {
+        QtMsgType.QtWarningMsg: logging.WARNING,
+        QtMsgType.QtCriticalMsg: logging.ERROR,
+        QtMsgType.QtFatalMsg: logging.CRITICAL,
+    }
+    qt = logging.getLogger("qt")
+
+    def heard(kind: QtMsgType, _: object, words: str) -> None:
+        if kind in levels:
+            qt.log(levels[kind], "%s", words)
+            sys.stderr.write(f"{words}\n")
+
+    qInstallMessageHandler(heard)
 
 
 def start(offscreen: bool = False) -> QApplication:
@@ -56,6 +79,7 @@ def start(offscreen: bool = False) -> QApplication:
     application.setApplicationVersion(__version__)
     apply_theme(application)
     install_translation(application)
+    _open_log(application)
     signal.signal(signal.SIGINT, lambda *_: application.quit())
     awake = QTimer(application, interval=200)  # lets Python see the signal
     awake.timeout.connect(lambda: None)

@@ -178,5 +178,6 @@ class Menus:
     def _help(self) -> None:
         self._add(self._menu(tr("&Help")), [
             (tr("Keys and mouse"), "F1 | ?", self._window.show_shortcuts),
+            (tr("Report a problem…"), "", self._window.report_problem),
             (tr("About Acus"), "", self._window.show_about),
         ])  # fmt: skip

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-HIDDEN = "•••"
+from app.core.identifiers import HIDDEN, without_identifiers
 
 SHORTEST = 3
 """Shorter names are not looked for in other texts: they would be found within words."""
-
-_PSEUDONYM = re.compile(r"\b(?:CT|P)-[0-9A-Z]{6,}\b")
-_PATH = re.compile(r"(?<![\w/\\])(?:[A-Za-z]:)?[/\\](?:[^/\\:\n'\"]+[/\\])*[^\s/\\:,;'\"()]+")
-_RELATIVE = re.compile(r"[^\s:,;'\"()]+[/\\][^\s:,;'\"()]+")
-_FILE = re.compile(
-    r"[^\s/\\:,;'\"()]+\.(?:dcm|ima|nii|gz|zip|nrrd|json|csv|pdf|yaml|mcap)\b", re.IGNORECASE
-)
 
 
 class Names(QObject):
@@ -55,6 +47,11 @@ class Names(QObject):
             parts = (str(name), name.name) if isinstance(name, Path) else (name.strip(),)
             self._known.update(part for part in parts if len(part) >= SHORTEST)
 
+    @property
+    def known(self) -> frozenset[str]:
+        """Names that were learnt in this run."""
+        return frozenset(self._known)
+
     def veiled(self, text: str, files: bool = False) -> str:
         """Return a text, or while names are hidden the text with dots for every name in it.
 
@@ -66,11 +63,7 @@ class Names(QObject):
         """
         if not self._hidden or not text:
             return text
-        for name in sorted(self._known, key=len, reverse=True):
-            text = re.sub(rf"(?<!\w){re.escape(name)}(?!\w)", HIDDEN, text)
-        for pattern in (_PATH, *((_RELATIVE,) if files else ()), _FILE, _PSEUDONYM):
-            text = pattern.sub(HIDDEN, text)
-        return text
+        return without_identifiers(text, self._known, files)
 
     def folder(self, wanted: Path) -> Path:
         """Return where a file dialog begins: the home folder while names are hidden."""

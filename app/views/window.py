@@ -30,6 +30,7 @@ from app.views.pen.desk import PenDesk
 from app.views.plan.editor import PlanEditor
 from app.views.plan.files import PlanFiles
 from app.views.plan.helper import PathsHelper
+from app.views.problem_report import ProblemReport
 from app.views.progress_strip import ProgressStrip
 from app.views.projector import Projector
 from app.views.remembered import Remembered
@@ -140,6 +141,12 @@ class MainWindow(QMainWindow):
         sheet = ShortcutSheet(self.workspace.viewing.scheme, self)
         sheet.finished.connect(sheet.deleteLater)
         sheet.open()
+
+    def report_problem(self) -> None:
+        """Show what a report of a problem holds."""
+        report = ProblemReport(self)
+        report.finished.connect(report.deleteLater)
+        report.open()
 
     def show_about(self) -> None:
         """Say what this is and what it is not."""

@@ -9,11 +9,12 @@ from views_exercise_attempts import review
 
 from app.core.errors import AcusError
 from app.core.events import Event
+from app.core.identifiers import HIDDEN
 from app.imaging.pacs.query import FoundSeries, FoundStudy
 from app.imaging.series import Ignored, Listing
 from app.views.exercise.messages import MessageList
 from app.views.message_bar import MessageBar
-from app.views.names import HIDDEN, NAMES, Names
+from app.views.names import NAMES, Names
 from app.views.progress_strip import ProgressStrip
 from app.views.series.browser import SeriesBrowser
 from app.views.series.card import SeriesCard

@@ -9,12 +9,13 @@ from views_exercise_attempts import review
 from window_rig import plan
 
 from app.core.events import Event
+from app.core.identifiers import HIDDEN
 from app.exercises.reading import ReadingPart
 from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.window import PRESETS, WindowLevel
 from app.planning.placement import PatientOrientation
 from app.views import theme
-from app.views.names import HIDDEN, NAMES
+from app.views.names import NAMES
 from app.views.robot.health_panel import _Line
 from app.views.slices.looks import Look, Slab, Turn
 from app.views.slices.operator_side import Side, side_name, turns

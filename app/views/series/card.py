@@ -8,9 +8,10 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QImage, QMouseEvent, QPixmap
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from app.core.identifiers import HIDDEN
 from app.imaging.series import Remedy, Series
 from app.views import theme
-from app.views.names import HIDDEN, NAMES
+from app.views.names import NAMES
 from app.views.text import tr
 
 PICTURE_PX = 112
