@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from app.core.progress import Progress
     from app.tracking.calibration.boards import Board
     from app.tracking.calibration.checks import Check
-    from app.tracking.calibration.pairing import Pair
+    from app.tracking.calibration.pairing import Pair, Paired
     from app.tracking.calibration.sets import MonoSet, StereoSet
 
 DEFAULT = "charuco:9x6:20mm:15mm:DICT_5X5_100"
@@ -64,7 +66,7 @@ def mono(
     from app.tracking.calibration.sets import mono_set
 
     known = parse_board(board)
-    groups = cameras_of(list_pictures(_folder(images)))
+    groups, strays = cameras_of(list_pictures(_folder(images)))
 
     def work(progress: "Progress") -> "list[MonoSet]":
         share = 1.0 / len(groups)
@@ -75,6 +77,8 @@ def mono(
             for i, (name, paths) in enumerate(groups.items())
         ]
 
+    for path in strays:
+        typer.echo(f"skipped: {path.name}: its name says none of the two cameras", err=True)
     if out is not None and len(groups) != 1:
         raise ConfigurationError(
             f"--out takes the lens of one camera; these pictures are of {', '.join(groups)}: "
@@ -99,6 +103,15 @@ def stereo(
         str | None, typer.Option(metavar="DIR|GLOB", help="Left pictures, in place of --images.")
     ] = None,
     right: Annotated[str | None, typer.Option(metavar="DIR|GLOB", help="Right pictures.")] = None,
+    left_alone: Annotated[
+        str | None,
+        typer.Option(
+            metavar="DIR|GLOB", help="More left pictures, of no pair: they help the left lens."
+        ),
+    ] = None,
+    right_alone: Annotated[
+        str | None, typer.Option(metavar="DIR|GLOB", help="More right pictures, of no pair.")
+    ] = None,
     hold_back: HoldBack = None,
     names: Annotated[str, typer.Option(help="The cameras' names in the rig.")] = "left,right",
     baseline_mm: Annotated[
@@ -116,31 +129,45 @@ def stereo(
     keep: Annotated[
         bool, typer.Option("--keep", help="Keep it in the history and use it from now on.")
     ] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="Write and keep it even if it is not good enough.")
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Calibrate two cameras from pairs of pictures; validate on pairs held back.
 
     Pictures are paired by name (docs/calibration.md): left01.png with right01.png, camera0_3.png
-    with camera1_3.png. A known baseline or a second board contradicts a wrong board size.
+    with camera1_3.png; one without a partner helps its own lens. A known baseline or a second board
+    contradicts a wrong board size. Exit code 3: it is not good enough, nothing was written or kept.
     """
     from app.commands.calibrate import with_progress
     from app.commands.calibrate_report import stereo_document, stereo_lines
     from app.tracking.calibration.boards import parse_board
     from app.tracking.calibration.sets import stereo_set
+    from app.tracking.calibration.verdict import Grade, judge
 
     known = parse_board(board)
     second = _second(check_images, check_board)
-    pairs = _pairs(images, left, right)
+    paired = _paired(images, left, right)
     both = _names(names)
+    alone = _alone(paired, left_alone, right_alone)
     found = with_progress(
-        lambda progress: stereo_set(pairs, known, both, hold_back, window, progress), as_json
+        lambda progress: stereo_set(
+            paired.pairs, known, both, hold_back, window, progress, alone=alone
+        ),
+        as_json,
     )
     checks = _checks(found, baseline_mm, second)
+    verdict = judge(found.calibration, checks)
     if as_json:
-        typer.echo(json.dumps(stereo_document(found, checks), indent=2))
+        document = stereo_document(found, checks, verdict) | {"remarks": paired.remarks}
+        typer.echo(json.dumps(document, indent=2))
     else:
-        _print(stereo_lines(found, checks))
-    _require_passed(checks)
+        _print([*stereo_lines(found, checks, verdict), *(f"  {line}" for line in paired.remarks)])
+    if verdict.grade is Grade.NOT_GOOD_ENOUGH and not force:
+        if out is not None or keep:
+            typer.echo("not written and not kept; --force does it all the same", err=True)
+        raise typer.Exit(3)
     _write(found, out, keep)
 
 
@@ -152,7 +179,17 @@ def _folder(images: Path | None) -> Path:
     return images
 
 
-def _pairs(images: Path | None, left: str | None, right: str | None) -> "list[Pair]":
+def _alone(paired: "Paired", left: str | None, right: str | None) -> tuple[list[Path], list[Path]]:
+    from app.tracking.calibration.pictures import list_matching
+
+    first, second = (
+        [*lone, *(list_matching(text) if text is not None else ())]
+        for lone, text in zip(paired.alone, (left, right), strict=True)
+    )
+    return first, second
+
+
+def _paired(images: Path | None, left: str | None, right: str | None) -> "Paired":
     from app.core.errors import ConfigurationError
     from app.tracking.calibration.pairing import pair_folder, pair_folders
     from app.tracking.calibration.pictures import list_matching
@@ -164,14 +201,16 @@ def _pairs(images: Path | None, left: str | None, right: str | None) -> "list[Pa
     return pair_folder(_folder(images))
 
 
-def _second(images: Path | None, spec: str | None) -> "tuple[list[Pair], Board] | None":
+def _second(images: Path | None, spec: str | None) -> "tuple[Sequence[Pair], Board] | None":
     from app.core.errors import ConfigurationError
     from app.tracking.calibration.boards import parse_board
     from app.tracking.calibration.pairing import pair_folder
 
     if (images is None) != (spec is None):
         raise ConfigurationError("--check-images DIR and --check-board SPEC go together; give both")
-    return None if images is None or spec is None else (pair_folder(images), parse_board(spec))
+    return (
+        None if images is None or spec is None else (pair_folder(images).pairs, parse_board(spec))
+    )
 
 
 def _names(text: str) -> tuple[str, str]:
@@ -184,7 +223,7 @@ def _names(text: str) -> tuple[str, str]:
 
 
 def _checks(
-    found: "StereoSet", baseline_mm: float | None, second: "tuple[list[Pair], Board] | None"
+    found: "StereoSet", baseline_mm: float | None, second: "tuple[Sequence[Pair], Board] | None"
 ) -> "list[Check]":
     from app.tracking.calibration.checks import check_baseline, check_second_board
     from app.tracking.calibration.sets import seen_by_both
@@ -196,14 +235,6 @@ def _checks(
         pairs = seen_by_both(*second, found.result.estimate)
         checks.append(check_second_board(found.calibration, pairs))
     return checks
-
-
-def _require_passed(checks: "list[Check]") -> None:
-    from app.tracking.errors import CalibrationError
-
-    for check in checks:
-        if not check.passed:
-            raise CalibrationError(f"the calibration contradicts what is known: {check.text}")
 
 
 def _write(found: "StereoSet", out: Path | None, keep: bool) -> None:

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from app.tracking.calibration.mono import MonoResult
     from app.tracking.calibration.remarks import ViewResidual
     from app.tracking.calibration.sets import MonoSet, Seen, StereoSet
+    from app.tracking.calibration.verdict import Judgement
     from app.tracking.optics.calibration import CameraCalibration
 
 
@@ -33,7 +34,9 @@ def mono_document(found: "MonoSet") -> dict[str, Any]:
     }
 
 
-def stereo_document(found: "StereoSet", checks: "Sequence[Check]") -> dict[str, Any]:
+def stereo_document(
+    found: "StereoSet", checks: "Sequence[Check]", verdict: "Judgement"
+) -> dict[str, Any]:
     """Two cameras as JSON."""
     calibration, estimate = found.calibration, found.result.estimate
     pose = calibration.pose
@@ -41,7 +44,11 @@ def stereo_document(found: "StereoSet", checks: "Sequence[Check]") -> dict[str, 
         "id": calibration.id,
         "created": calibration.created.isoformat(),
         "board": calibration.board,
+        "verdict": verdict.grade.value,
+        "reason": verdict.why.value,
+        "text": verdict.text,
         "rms_px": calibration.rms_px,
+        "together": calibration.together.model_dump() if calibration.together else None,
         "opencv_rms_px": estimate.usual_rms_px,
         "cameras": [
             camera_document(camera) | _alone(mono)
@@ -100,7 +107,7 @@ def mono_lines(found: "MonoSet") -> list[str]:
     return lines + _refused(found.looked) + [f"  {note}" for note in result.notes]
 
 
-def stereo_lines(found: "StereoSet", checks: "Sequence[Check]") -> list[str]:
+def stereo_lines(found: "StereoSet", checks: "Sequence[Check]", verdict: "Judgement") -> list[str]:
     """Two cameras for people."""
     calibration, estimate = found.calibration, found.result.estimate
     lines = [f"calibration {calibration.id}, {calibration.board}"]
@@ -125,7 +132,8 @@ def stereo_lines(found: "StereoSet", checks: "Sequence[Check]") -> list[str]:
             "(--check-images, --check-board)"
         )
     lines += _residual_lines(found.result.residuals)
-    return lines + _refused(found.looked) + [f"  {note}" for note in calibration.notes]
+    lines += _refused(found.looked) + [f"  {note}" for note in calibration.notes]
+    return [*lines, f"verdict: {verdict.grade.value}: {verdict.text}"]
 
 
 def _plain_line(rms_px: float | None) -> list[str]:

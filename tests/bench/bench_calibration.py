@@ -31,7 +31,7 @@ def draw(rig: Rig, folder: Path) -> list[Pair]:
                 camera.T_camera_world @ T, 0.7, 3.0, rng
             )
             cv2.imwrite(str(folder / f"{camera.name}{i:02d}.png"), image)
-    return pair_folder(folder)
+    return list(pair_folder(folder).pairs)
 
 
 def ours(pairs: list[Pair], rig: Rig) -> RigidTransform:

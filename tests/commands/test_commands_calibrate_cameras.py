@@ -67,21 +67,46 @@ def test_stereo_says_what_json_docs_list_and_writes_its_file(folder: Path, tmp_p
     assert load_calibration(file).id == document["id"]
 
 
-def test_a_wrong_board_size_is_caught_by_the_baseline(folder: Path, tmp_path: Path) -> None:
+def test_a_calibration_that_is_contradicted_ends_with_3_and_is_kept_only_by_force(
+    folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ACUS_DATA", str(tmp_path / "data"))
     file = tmp_path / "cameras.yaml"
-    with pytest.raises(CalibrationError, match="squares of 25"):
-        run(
-            "stereo",
-            "--images",
-            str(folder),
-            "--board",
-            "checkerboard:9x6:20mm",
-            "--baseline-mm",
-            "83",
-            "--out",
-            str(file),
-        )
+    wrong = ["stereo", "--images", str(folder), "--board", "checkerboard:9x6:20mm"]
+    wrong += ["--baseline-mm", "83", "--out", str(file), "--keep"]
+    result = CliRunner().invoke(build(), ["calibrate", *wrong], catch_exceptions=False)
+    assert result.exit_code == 3
+    assert "verdict: not good enough: a length that is known contradicts it" in result.stdout
+    assert "squares of 25" in result.stdout
     assert not file.exists()
+    assert not (tmp_path / "data").exists()
+    result = CliRunner().invoke(build(), ["calibrate", *wrong, "--force"], catch_exceptions=False)
+    assert result.exit_code == 0
+    assert file.exists()
+
+
+def test_stray_files_are_named_and_pictures_of_one_camera_help_its_lens(
+    folder: Path, tmp_path: Path
+) -> None:
+    pairs, more = tmp_path / "pairs", tmp_path / "more"
+    for place in (pairs, more):
+        place.mkdir()
+    for path in folder.glob("*.png"):
+        place = more if path.stem in ("left06", "left07") else pairs
+        (place / path.name).write_bytes(path.read_bytes())
+    (pairs / "notes.txt").write_text("x")
+    (pairs / "desk.png").write_bytes((pairs / "left01.png").read_bytes())
+    plain = ["stereo", "--images", str(pairs), *BOARD, "--hold-back", "0", "--json"]
+    found = json.loads(run(*plain, "--left-alone", str(more)))
+    assert len(found["residuals"]) == 5
+    assert [part.split(":")[0] for part in found["remarks"]] == ["skipped", "no partner"]
+    assert "desk.png, notes.txt" in found["remarks"][0]
+    assert "right06.png, right07.png" in found["remarks"][1]
+    assert found["verdict"] == "usable"
+    assert found["reason"] == "unchecked"
+    without = json.loads(run(*plain))
+    assert found["cameras"][0]["sd"]["fx"] < without["cameras"][0]["sd"]["fx"]
+    assert {one["name"] for one in found["pictures"]} > {"left06.png", "right07.png"}
 
 
 def test_mono_calibrates_each_camera_that_the_names_speak_of(folder: Path) -> None:
@@ -111,9 +136,9 @@ def test_views_says_of_every_picture_what_it_is_good_for(folder: Path) -> None:
     assert all(view["used"] for view in document["views"])
 
 
-def test_a_picture_without_partner_is_refused_by_name(folder: Path, tmp_path: Path) -> None:
+def test_too_few_pairs_are_refused_whatever_has_no_partner(folder: Path, tmp_path: Path) -> None:
     for path in folder.glob("*0[1-3].png"):
         (tmp_path / path.name).write_bytes(path.read_bytes())
     (tmp_path / "right02.png").unlink()
-    with pytest.raises(CalibrationError, match=r"left02\.png"):
+    with pytest.raises(CalibrationError, match="2 of 2 pairs"):
         run("stereo", "--images", str(tmp_path), *BOARD)

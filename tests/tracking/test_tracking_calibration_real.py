@@ -22,7 +22,7 @@ def pairs(shared_data: Path) -> list[Pair]:
     folder = shared_data / "stereo_opencv"
     if not folder.is_dir():
         pytest.skip(f"no real pairs in {folder}: set ACUS_TEST_DATA")
-    return pair_folder(folder)
+    return list(pair_folder(folder).pairs)
 
 
 def seen(pairs: list[Pair], window: int | None = None) -> tuple[Views, Views]:

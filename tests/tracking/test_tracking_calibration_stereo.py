@@ -194,7 +194,7 @@ def test_small_blurred_pictures_are_calibrated_from_disk_to_within_what_is_state
                 model.T_camera_world @ T, 0.9, 4.0, rng
             )
             cv2.imwrite(str(tmp_path / f"{model.name}{i}.png"), picture)
-    found = stereo_set(pair_folder(tmp_path), rig.board, hold_back=0)
+    found = stereo_set(pair_folder(tmp_path).pairs, rig.board, hold_back=0)
     assert len(found.result.estimate.pairs) >= 7
     error, sd = twist_error(found.calibration, rig)
     assert (np.abs(error) < 4.0 * sd).all()
@@ -210,7 +210,7 @@ def test_too_few_pairs_are_refused_with_the_commonest_reason(tmp_path: Path) -> 
             cv2.imwrite(str(tmp_path / f"{model.name}{i}.png"), picture if seen else 0 * picture)
     reason = r"1 of 3 pairs show the board to both .* right1\.png: .*check the counts"
     with pytest.raises(CalibrationError, match=reason):
-        stereo_set(pair_folder(tmp_path), rig.board)
+        stereo_set(pair_folder(tmp_path).pairs, rig.board)
 
 
 def test_pictures_of_two_sizes_are_remarked(rig: Rig, pairs: tuple[Views, Views]) -> None:

@@ -8,16 +8,17 @@ also before a number). Case and leading zeros of numbers do not matter:
     left01.jpg + right01.jpg     camera0_3.png + camera1_3.png     0_12.png + 1_12.png
 
 In two folders (`left/` and `right/`, or `--left` and `--right`) the rest alone is compared, and the
-camera's word may be missing. A picture without partner is refused by name, and so is a second one
-of the same camera and number.
+camera's word may be missing. A picture of a camera without partner serves that camera alone; what
+says no camera is skipped; both are named. A second picture of the same camera and number is
+refused: which of them belongs to the pair cannot be told.
 """
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from app.tracking.calibration.pictures import has_pictures, list_pictures
+from app.tracking.calibration.pictures import has_pictures, list_pictures, strange_files
 from app.tracking.errors import CalibrationError
 
 _WORDS = (
@@ -45,21 +46,50 @@ class Pair:
     right: Path
 
 
-def pair_by_name(paths: Sequence[Path]) -> list[Pair]:
+@dataclass(frozen=True)
+class Paired:
+    """What a folder of pictures is.
+
+    Attributes:
+        pairs: in the order of their numbers; at least one.
+        alone: pictures of the left and of the right camera that have no partner.
+        skipped: files that are no pictures of these cameras.
+    """
+
+    pairs: tuple[Pair, ...]
+    alone: tuple[tuple[Path, ...], tuple[Path, ...]] = ((), ())
+    skipped: tuple[Path, ...] = ()
+
+    @property
+    def remarks(self) -> list[str]:
+        """What is not a pair, one line each."""
+        lines = []
+        if self.skipped:
+            names = _listed([path.name for path in self.skipped])
+            lines.append(f"skipped: {names}: not pictures whose names say one of the two cameras")
+        for side, paths in zip(("left", "right"), self.alone, strict=True):
+            if paths:
+                names = _listed([path.name for path in paths])
+                lines.append(f"no partner: {names}: used for the {side} camera alone")
+        return lines
+
+
+def pair_by_name(paths: Sequence[Path]) -> Paired:
     """Pair the pictures of one folder.
 
     Raises:
-        CalibrationError: naming the pictures without camera or partner.
+        CalibrationError: if no two pictures belong together, most names say no camera, or one
+            number was given twice; names them.
     """
-    left, right = split_by_camera(paths)
-    return _joined(left, right)
+    left, right, strays = split_by_camera(paths)
+    return _joined(left, right, strays)
 
 
-def pair_folder(folder: Path) -> list[Pair]:
+def pair_folder(folder: Path) -> Paired:
     """Pair the pictures of a folder, or of its two subfolders, one per camera.
 
     Raises:
-        CalibrationError: naming the pictures without camera or partner; or without pictures.
+        CalibrationError: as `pair_by_name`; or without pictures.
     """
     inside = sorted(path for path in folder.glob("*") if path.is_dir()) if folder.is_dir() else []
     words = [
@@ -67,35 +97,55 @@ def pair_folder(folder: Path) -> list[Pair]:
         for path in inside
     ]
     cameras = [(path, word) for path, word in zip(inside, words, strict=True) if word is not None]
-    if len(cameras) == 2 and not has_pictures(folder):
+    if len(cameras) == 2 and not has_pairs(folder):
         left, right = sorted(cameras, key=lambda item: int(_camera(item[1])))
-        return pair_folders(list_pictures(left[0]), list_pictures(right[0]))
-    return pair_by_name(list_pictures(folder))
+        found = pair_folders(list_pictures(left[0]), list_pictures(right[0]))
+        places = [folder, left[0], right[0]]
+        strays = [path for place in places for path in strange_files(place)]
+        beside = list_pictures(folder) if has_pictures(folder) else []
+        return replace(found, skipped=(*found.skipped, *beside, *strays))
+    found = pair_by_name(list_pictures(folder))
+    return replace(found, skipped=(*found.skipped, *strange_files(folder)))
 
 
-def cameras_of(paths: Sequence[Path]) -> dict[str, list[Path]]:
-    """Pictures by camera, where all names say one of two; else all of them as `camera`."""
+def has_pairs(folder: Path) -> bool:
+    """Whether the pictures that lie in a folder itself pair by their names."""
+    if not has_pictures(folder):
+        return False
     try:
-        left, right = split_by_camera(paths)
+        return bool(pair_by_name(list_pictures(folder)).pairs)
     except CalibrationError:
-        return {"camera": list(paths)}
+        return False
+
+
+def cameras_of(paths: Sequence[Path]) -> tuple[dict[str, list[Path]], list[Path]]:
+    """Pictures by camera, where the names say one of two, and strays; else all as `camera`."""
+    try:
+        left, right, strays = split_by_camera(paths)
+    except CalibrationError:
+        return {"camera": list(paths)}, []
     words = {"left", "right"} <= {w[0] for p in paths if (w := _WORDS[0].search(_stem(p)))}
     names = ("left", "right") if words else ("camera0", "camera1")
-    return dict(zip(names, ([path for _, path in left], [path for _, path in right]), strict=True))
+    groups = [path for _, path in left], [path for _, path in right]
+    return dict(zip(names, groups, strict=True)), strays
 
 
-def split_by_camera(paths: Sequence[Path]) -> tuple[list[tuple[Key, Path]], list[tuple[Key, Path]]]:
-    """Pictures of both cameras, each with what is left of its name.
+Keyed = list[tuple[Key, Path]]
+
+
+def split_by_camera(paths: Sequence[Path]) -> tuple[Keyed, Keyed, list[Path]]:
+    """Pictures of both cameras, each with what is left of its name; and those of neither.
 
     Raises:
-        CalibrationError: if a name says no camera, or there are not two of them.
+        CalibrationError: if half of the names or more say no camera, or there are not two of them.
     """
     word = max(_WORDS, key=lambda w: sum(w.search(_stem(path)) is not None for path in paths))
     found = [(path, word.search(_stem(path))) for path in paths]
-    if lost := [path.name for path, match in found if match is None]:
+    strays = [path for path, match in found if match is None]
+    if 2 * len(strays) >= len(paths):
         raise CalibrationError(
-            f"{_listed(lost)}: the name does not say the camera; name pictures e.g. left01.png and "
-            "right01.png, or camera0_1.png and camera1_1.png"
+            f"{_listed([path.name for path in strays])}: the name does not say the camera; name "
+            "pictures e.g. left01.png and right01.png, or camera0_1.png and camera1_1.png"
         )
     named = [(_camera(match), path, _rest(match)) for path, match in found if match is not None]
     cameras = sorted({camera for camera, _, _ in named}, key=int)
@@ -107,28 +157,38 @@ def split_by_camera(paths: Sequence[Path]) -> tuple[list[tuple[Key, Path]], list
     left, right = (
         [(key, path) for camera, path, key in named if camera == wanted] for wanted in cameras
     )
-    return left, right
+    return left, right, strays
 
 
-def pair_folders(left: Sequence[Path], right: Sequence[Path]) -> list[Pair]:
+def pair_folders(left: Sequence[Path], right: Sequence[Path]) -> Paired:
     """Pair the pictures of two folders.
 
     Raises:
-        CalibrationError: naming the pictures without partner.
+        CalibrationError: as `pair_by_name`.
     """
-    return _joined([(_key(path), path) for path in left], [(_key(path), path) for path in right])
+    return _joined(
+        [(_key(path), path) for path in left], [(_key(path), path) for path in right], []
+    )
 
 
-def _joined(left: Iterable[tuple[Key, Path]], right: Iterable[tuple[Key, Path]]) -> list[Pair]:
+def _joined(
+    left: Iterable[tuple[Key, Path]], right: Iterable[tuple[Key, Path]], strays: Sequence[Path]
+) -> Paired:
     lefts, rights = _unique(left), _unique(right)
-    lone = [lefts[key].name for key in lefts if key not in rights]
-    lone += [rights[key].name for key in rights if key not in lefts]
-    if lone:
+    lone = (
+        tuple(lefts[key] for key in sorted(lefts) if key not in rights),
+        tuple(rights[key] for key in sorted(rights) if key not in lefts),
+    )
+    pairs = tuple(
+        Pair(_text(key), lefts[key], rights[key]) for key in sorted(lefts) if key in rights
+    )
+    if not pairs:
+        names = [path.name for paths in lone for path in paths]
         raise CalibrationError(
-            f"{_listed(lone)}: no picture of the other camera has that number; add it, or take the "
-            "picture away (docs/calibration.md says how names are paired)"
+            f"{_listed(names)}: no picture of the other camera has that number; name those taken "
+            "together alike (docs/calibration.md says how names are paired)"
         )
-    return [Pair(_text(key), lefts[key], rights[key]) for key in sorted(lefts)]
+    return Paired(pairs, lone, tuple(strays))
 
 
 def _unique(found: Iterable[tuple[Key, Path]]) -> dict[Key, Path]:

@@ -52,6 +52,15 @@ def has_pictures(folder: Path) -> bool:
     return any(path.suffix.lower() in SUFFIXES for path in folder.glob("*") if path.is_file())
 
 
+def strange_files(folder: Path) -> list[Path]:
+    """Files in a folder that are no pictures by their names; hidden ones do not count."""
+    return sorted(
+        path
+        for path in folder.glob("*")
+        if path.is_file() and path.suffix.lower() not in SUFFIXES and path.name[0] != "."
+    )
+
+
 def look(
     path: Path, board: Board, thorough: bool = True, window: int | None = None
 ) -> BoardView | Rejection:

@@ -38,7 +38,7 @@ class StereoSet:
     """Two cameras' pictures.
 
     Attributes:
-        looked: every picture, left and right in turn.
+        looked: every picture, left and right of the pairs in turn, then those of one camera alone.
         result: the calibration.
     """
 
@@ -82,8 +82,18 @@ def stereo_set(
     hold_back: int | None = None,
     window: int | None = None,
     progress: Progress | None = None,
+    alone: tuple[Sequence[Path], Sequence[Path]] = ((), ()),
 ) -> StereoSet:
     """Calibrate two cameras from pairs of pictures.
+
+    Args:
+        pairs: taken together.
+        board: which board.
+        names: of the cameras in the rig.
+        hold_back: pairs that take no part; see `calibrate_pairs`.
+        window: half the sub-pixel window [px]; chosen if None.
+        progress: reports, and may cancel.
+        alone: pictures of the left and of the right camera by themselves; they help its own lens.
 
     Raises:
         CalibrationError: see `mono_set` and `calibrate_pairs`.
@@ -91,10 +101,13 @@ def stereo_set(
     """
     progress = progress or Progress()
     paths = [path for pair in pairs for path in (pair.left, pair.right)]
+    count = len(paths)
+    paths += [path for side in alone for path in side]
     looked = look_at_all(paths, board, progress.part(0.0, 0.6), window)
-    views = [view if isinstance(view, BoardView) else None for view in looked]
-    if not any(views):
+    found = [view if isinstance(view, BoardView) else None for view in looked]
+    if not any(found):
         raise CalibrationError(none_seen(looked))
+    views, lone = found[:count], found[count:]
     both = sum(
         a is not None and b is not None for a, b in zip(views[0::2], views[1::2], strict=True)
     )
@@ -103,7 +116,14 @@ def stereo_set(
             f"{both} of {len(pairs)} pairs show the board to both cameras; at least {LEAST_PAIRS} "
             f"are needed, 15 to 30 are good; {commonest(looked)}"
         )
-    result = calibrate_pairs(views[0::2], views[1::2], names, hold_back, progress.part(0.6, 1.0))
+    lefts, rights = lone[: len(alone[0])], lone[len(alone[0]) :]
+    result = calibrate_pairs(
+        [*views[0::2], *lefts, *(None for _ in rights)],
+        [*views[1::2], *(None for _ in lefts), *rights],
+        names,
+        hold_back,
+        progress.part(0.6, 1.0),
+    )
     return StereoSet(tuple(looked), result)
 
 

@@ -45,14 +45,14 @@ def placed_boards(
     boards, looked = [], []
     for i, (folder, place) in enumerate(zip(folders, places, strict=True)):
         part = progress.part(i / len(folders), (i + 1) / len(folders))
-        found = look_at_all([p for pair in pair_folder(folder) for p in (pair.left, pair.right)],
-                            board, part)  # fmt: skip
+        pairs = pair_folder(folder).pairs
+        found = look_at_all([p for pair in pairs for p in (pair.left, pair.right)], board, part)
         looked += found
         views = [view if isinstance(view, BoardView) else None for view in found]
-        pairs: list[Pair] = [
+        seen: list[Pair] = [
             pair for pair in zip(views[0::2], views[1::2], strict=True) if any(pair)
         ]
-        if not pairs:
+        if not seen:
             raise CalibrationError(f"{folder}: {none_seen(found)}")
-        boards.append(PlacedBoard(place, tuple(pairs)))
+        boards.append(PlacedBoard(place, tuple(seen)))
     return boards, looked

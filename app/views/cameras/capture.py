@@ -79,29 +79,44 @@ class LiveShots:
 
 
 class FolderShots:
-    """Pairs of pictures of a folder, in the order of their names.
+    """Pairs of pictures of a folder in the order of their names; then those without a partner.
+
+    Attributes:
+        paired: what the folder holds.
+        count: how many shots that makes.
 
     Raises:
         CalibrationError: if the names do not pair, or there are no pictures.
     """
 
     def __init__(self, folder: Path) -> None:
-        self.pairs = pair_folder(folder)
+        self.paired = pair_folder(folder)
+        self.count = len(self.paired.pairs) + sum(map(len, self.paired.alone))
 
     def shots(self, stop: threading.Event) -> Iterator[Shot]:
-        """Yield all pairs, until `stop` is set."""
-        for pair in self.pairs:
+        """Yield all pairs, then what serves one camera alone, until `stop` is set."""
+        lefts, rights = self.paired.alone
+        together: list[tuple[Path | None, Path | None]] = [
+            *((pair.left, pair.right) for pair in self.paired.pairs),
+            *((path, None) for path in lefts),
+            *((None, path) for path in rights),
+        ]
+        for both in together:
             if stop.is_set():
                 return
             images: list[Picture | None] = []
             unreadable = []
-            for path in (pair.left, pair.right):
+            for path in both:
+                if path is None:
+                    images.append(None)
+                    continue
                 try:
                     images.append(read_picture(path))
                 except AcusError as error:
                     images.append(None)
                     unreadable.append(Rejection(Reason.UNREADABLE, str(error), path.name))
-            yield Shot(tuple(images), (pair.left.name, pair.right.name), tuple(unreadable))
+            names = tuple(path.name if path is not None else "" for path in both)
+            yield Shot(tuple(images), names, tuple(unreadable))
 
 
 class Shots(Protocol):

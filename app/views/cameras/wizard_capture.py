@@ -104,7 +104,7 @@ class CapturePage(QWidget):
             tell(self.state, Verdict.BAD, str(error))
             return
         self._live = False
-        self.bar.setRange(0, len(shots.pairs))
+        self.bar.setRange(0, shots.count)
         self._begin(Search(shots, ViewCollector(self._job.board, self._job.names, live=False)))
 
     def end(self) -> None:

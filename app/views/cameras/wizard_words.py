@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Final
 
 import numpy as np
 
@@ -11,23 +10,12 @@ from app.core.units import MILLIMETRE
 from app.tracking.calibration.checks import check_baseline
 from app.tracking.calibration.mono import MonoResult
 from app.tracking.calibration.run import StereoResult
+from app.tracking.calibration.verdict import Grade, Why, judge
 from app.tracking.calibration.views import Rejection
 from app.tracking.calibration.world import WorldFrame
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration, StereoCalibration
 from app.views.exercise.status_items import Verdict
 from app.views.text import tr
-
-GOOD_PX: Final = 0.6
-WORST_PX: Final = 1.5
-"""Residuals of a pair [px]: above the first something is not flat or sharp, above the second the
-calibration is of no use."""
-
-GOOD_MM: Final = 0.3
-WORST_MM: Final = 1.0
-"""The same on pairs held back [mm]."""
-
-GOOD_SCALE: Final = 0.003
-"""Relative error of lengths on pairs held back."""
 
 Line = tuple[Verdict, str]
 
@@ -55,24 +43,32 @@ def pairs_words(pairs: int, different: int | None, refused: Sequence[Rejection])
 
 
 def verdict_of(calibration: StereoCalibration) -> Line:
-    """Whether a calibration is of use, and why not."""
-    rms, checked = calibration.rms_px, calibration.validation
-    if rms > WORST_PX or (checked is not None and checked.rms_mm > WORST_MM):
-        return Verdict.BAD, tr(
+    """Whether a calibration is of use, and why not; `calibration.verdict` decides."""
+    found = judge(calibration)
+    verdict = {
+        Grade.GOOD: Verdict.GOOD,
+        Grade.USABLE: Verdict.WARNING,
+        Grade.NOT_GOOD_ENOUGH: Verdict.BAD,
+    }[found.grade]
+    if found.grade is Grade.NOT_GOOD_ENOUGH:
+        return verdict, tr(
             "Not good enough to use: glue the board on something flat, take sharper pictures, and "
             "check the board's counts and sizes."
         )
-    if checked is None:
-        return Verdict.WARNING, tr(
+    if found.why is Why.UNCHECKED:
+        return verdict, tr(
             "It fits, but was not checked: there were too few pairs to hold some back. Take at "
             "least eight."
         )
-    wrong_scale = abs(checked.scale - 1.0) > max(GOOD_SCALE, 3.0 * checked.scale_sd)
-    if rms > GOOD_PX or checked.rms_mm > GOOD_MM or wrong_scale:
-        return Verdict.WARNING, tr(
-            "Usable, but worse than usual: more and sharper views will do better."
+    if found.why is Why.APART:
+        return verdict, tr(
+            "Usable, but the pairs do not belong together: the board or a camera moved between "
+            "the two pictures. What is stated is wider for it; hold the board still and take them "
+            "again."
         )
-    return Verdict.GOOD, tr("Good: pairs that took no part come out right.")
+    if found.grade is Grade.USABLE:
+        return verdict, tr("Usable, but worse than usual: more and sharper views will do better.")
+    return verdict, tr("Good: pairs that took no part come out right.")
 
 
 def ruler_line(calibration: StereoCalibration, known_mm: float) -> Line:
