@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QApplication
 
 from app.exchange.csv_export import score_table, trajectory_table
 from app.session.recording import read_recording
@@ -69,7 +70,7 @@ def test_old_records_are_listed_with_and_without_the_files_beside_them(old: Path
 
 
 def test_old_records_are_debriefed_and_reported(old: Path) -> None:
-    assert start(offscreen=True)
+    assert QApplication.instance() or start(offscreen=True)
     for path in records(old):
         shown = review(read_recording(path))
         assert shown.score is not None

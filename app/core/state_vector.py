@@ -134,7 +134,7 @@ HUB_Z: Final = next(_next)
 HUB_VX: Final = next(_next)  # [m/s] its velocity perpendicular to the needle
 HUB_VY: Final = next(_next)
 HUB_VZ: Final = next(_next)
-TIP_X: Final = next(_next)  # [m]
+TIP_X: Final = next(_next)  # [m] of the straight needle; the bent one's is TIP_OFFSET_* beside it
 TIP_Y: Final = next(_next)
 TIP_Z: Final = next(_next)
 ANGLE_ERROR: Final = next(_next)  # [rad] between needle and path
@@ -173,6 +173,18 @@ GUARD_DAMPING: Final = next(_next)  # [N·m·s/rad] damping that it adds
 GUARD_LOSS: Final = next(_next)  # [J] taken out by it since arming
 ARMING: Final = next(_next)  # [-] arming ramp, 0 disarmed ... 1 armed
 FAULT: Final = next(_next)  # [-] code of the fault that holds the force at zero, 0 = none
+
+# --- how the simulated tissue bends the needle, across the axis (see `core.bend`) -----------------
+TIP_OFFSET_X: Final = _sum()  # [m] from the straight needle's tip to the bent one's
+TIP_OFFSET_Y: Final = _sum()
+TIP_OFFSET_Z: Final = _sum()
+TIP_SLOPE_X: Final = _sum()  # [-] direction of the tip beyond the needle's own
+TIP_SLOPE_Y: Final = _sum()
+TIP_SLOPE_Z: Final = _sum()
+ROOT_CURVATURE_X: Final = _sum()  # [1/m] at the fulcrum
+ROOT_CURVATURE_Y: Final = _sum()
+ROOT_CURVATURE_Z: Final = _sum()
+BENT_LENGTH: Final = _sum()  # [m] depth of the tip that these belong to; 0 for a straight needle
 
 # --- the simulated world --------------------------------------------------------------------------
 TARGET_SHIFT_X: Final = next(_next)  # [m] displacement of the target now (breathing)
@@ -217,6 +229,9 @@ GUIDE: Final = _vector(GUIDE_X, GUIDE_Y, GUIDE_Z)
 JOINT: Final = _vector(JOINT_LEFT, JOINT_RIGHT)
 FELT: Final = _vector(FELT_X, FELT_Y, FELT_Z)
 TORQUE: Final = _vector(TORQUE_LEFT, TORQUE_RIGHT)
+TIP_OFFSET: Final = _vector(TIP_OFFSET_X, TIP_OFFSET_Y, TIP_OFFSET_Z)
+TIP_SLOPE: Final = _vector(TIP_SLOPE_X, TIP_SLOPE_Y, TIP_SLOPE_Z)
+ROOT_CURVATURE: Final = _vector(ROOT_CURVATURE_X, ROOT_CURVATURE_Y, ROOT_CURVATURE_Z)
 TARGET_SHIFT: Final = _vector(TARGET_SHIFT_X, TARGET_SHIFT_Y, TARGET_SHIFT_Z)
 PLANT_Q: Final = _vector(PLANT_Q_LEFT, PLANT_Q_RIGHT)
 PLANT_QD: Final = _vector(PLANT_QD_LEFT, PLANT_QD_RIGHT)

@@ -1,8 +1,10 @@
 """The needle's pose from both of its sources: direction from the robot, depth from the cameras.
 
-tip = P_I + depth·d̂. The robot gives d̂ every tick; the cameras give the tip, and `tracking.fusion`
-says how deep that is on the robot's line. Each source has its own clock, so the pose carries both
-ages.
+The straight needle ends at P_I + depth·d̂. The robot gives d̂ every tick; the cameras give the tip,
+and `tracking.fusion` says how deep that is on the robot's line. Where simulated tissue bends the
+needle, the tip is beside that line by what the same solution says that gives the force
+(`core.bend`): `p_tip` is where the tip is, bent or straight, for everybody. Each source has its own
+clock, so the pose carries both ages.
 """
 
 from dataclasses import dataclass
@@ -13,6 +15,7 @@ import numpy as np
 
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
+from app.core.bend import Bend, needle_curve
 from app.core.staleness import ENCODER_ZERO, TRACKER_FRESH, TRACKER_HOLD
 from app.session.measured import across_sigma, is_one_eyed, is_usable, tip_of
 from app.session.ports import DeviceStatePort, FixPort
@@ -50,8 +53,8 @@ class NeedlePose:
     """Pose of the needle in `world`, SI, always finite.
 
     Attributes:
-        p_tip: tip [m], shape (3,), read-only.
-        axis: unit direction from hub to tip, shape (3,), read-only.
+        p_tip: tip, of the bent needle where it bends [m], shape (3,), read-only.
+        axis: unit direction from hub to tip at the fulcrum, shape (3,), read-only.
         depth: tip beyond the fulcrum along the axis [m].
         time: moment the pose stands for [s].
         orientation_age: age of the encoder values [s].
@@ -63,11 +66,12 @@ class NeedlePose:
         rate: of the depth by the cameras [m/s]; 0 where it is not known.
         predicted: how far ahead of the capture of its depth the pose has been moved [s]; 0 for a
             measured pose. Only what is shown is predicted: record, score and force are not.
-        snapped: whether the tip stands on the robot's line; False where the cameras see it beside
-            that, as of a bent needle.
-        deflection: of the tip from the robot's line by both cameras [m]; 0 where it is not known.
+        snapped: whether the cameras see the tip where robot and simulated tissue say it is; False
+            where they see it beside that, as of a needle that bends in earnest: then theirs counts.
+        deflection: of the tip from there by both cameras [m]; 0 where it is not known.
         deflection_sigma: standard deviation of `deflection` [m]; 0 where it is not known.
         reason: why the pose is not valid, one line; empty if it is.
+        bend: how simulated tissue bends the needle; None for a straight one.
     """
 
     p_tip: FloatArray
@@ -85,6 +89,22 @@ class NeedlePose:
     snapped: bool = True
     deflection: float = 0.0
     deflection_sigma: float = 0.0
+    bend: Bend | None = None
+
+    @property
+    def p_straight(self) -> FloatArray:
+        """Where the tip would be if the tissue bent nothing [m], shape (3,)."""
+        return self.p_tip if self.bend is None else self.p_tip - self.bend.at(self.depth)
+
+    @property
+    def tip_axis(self) -> FloatArray:
+        """Direction in which the tip goes on, shape (3,); unit to the second order."""
+        return self.axis if self.bend is None else self.axis + self.bend.slope_at(self.depth)
+
+    @property
+    def curve(self) -> FloatArray:
+        """Points of the inserted part from the fulcrum to the tip [m], shape (n, 3)."""
+        return needle_curve(self.p_tip, self.axis, self.depth, self.bend)
 
     @property
     def radius(self) -> float:
@@ -127,8 +147,9 @@ def fuse(
     if fix is not None and is_usable(fix) and _age(fix.time, now) <= TRACKER_HOLD:
         return _measured(device, fix, fulcrum, axis, now)
     depth = float(device.depth)
+    bend = Bend.of_row(np.asarray(device.row))
     return NeedlePose(
-        p_tip=read_only(fulcrum + depth * axis),
+        p_tip=_bent(fulcrum + depth * axis, bend, depth),
         axis=read_only(axis),
         depth=depth,
         time=now,
@@ -136,7 +157,8 @@ def fuse(
         depth_age=_age(device.time, now),
         depth_source=DepthSource.MODEL,
         valid=True,
-        covariance=read_only(tip_covariance(axis, depth, MODEL_SIGMA**2)),
+        covariance=_bent_covariance(tip_covariance(axis, depth, MODEL_SIGMA**2), axis, bend, depth),
+        bend=bend,
     )
 
 
@@ -149,8 +171,9 @@ def _measured(
     fresh = DepthSource.ONE_CAMERA if is_one_eyed(fix) else DepthSource.TRACKED
     aged = (HAND_SPEED * age) ** 2 * np.outer(axis, axis)
     both = fix.line_variance is not None
+    bend = Bend.of_row(np.asarray(device.row))
     return NeedlePose(
-        p_tip=tip.p_tip,
+        p_tip=_bent(tip.p_tip, bend, tip.depth),
         axis=read_only(axis),
         depth=tip.depth,
         time=now,
@@ -158,11 +181,32 @@ def _measured(
         depth_age=age,
         depth_source=fresh if age <= TRACKER_FRESH else DepthSource.HELD,
         valid=True,
-        covariance=read_only(tip.covariance + aged),
+        covariance=_bent_covariance(tip.covariance + aged, axis, bend, tip.depth),
         snapped=tip.snapped,
         deflection=float(np.linalg.norm(tip.beside)) if both else 0.0,
         deflection_sigma=across_sigma(fix, axis, tip.depth),
+        bend=bend,
     )
+
+
+def _bent(p_straight: FloatArray, bend: Bend | None, depth: float) -> FloatArray:
+    """Where the tip is [m], beside the straight needle's."""
+    return read_only(p_straight if bend is None else p_straight + bend.at(depth))
+
+
+def _bent_covariance(
+    straight: FloatArray, axis: FloatArray, bend: Bend | None, depth: float
+) -> FloatArray:
+    """Covariance of the tip [m²]: what is unsure along the needle lies along its bent end.
+
+    A turn of the needle moves the bent tip less than the straight one; but an encoder's error is
+    the same where the channel was cut as it is now, and moves both together. So what lies across
+    stays as it is.
+    """
+    if bend is None:
+        return read_only(straight)
+    turn = np.eye(3) + np.outer(bend.slope_at(depth), axis)
+    return read_only(turn @ straight @ turn.T)
 
 
 def tip_covariance(axis: FloatArray, depth: float, depth_variance: float) -> FloatArray:
@@ -206,6 +250,7 @@ def _invalid(last: NeedlePose | None, now: float, reason: str, age: float) -> Ne
         valid=False,
         covariance=last.covariance if last else read_only(MODEL_SIGMA**2 * np.eye(3)),
         reason=reason,
+        bend=last.bend if last else None,
     )
 
 

@@ -143,5 +143,6 @@ def _no_device(placed: PlacedPlan, now: float, last: NeedlePose | None, missing:
         depth_source=DepthSource.NONE,
         valid=False,
         covariance=last.covariance if last else read_only(np.zeros((3, 3))),
+        bend=last.bend if last else None,
         reason=missing,
     )

@@ -37,14 +37,15 @@ def shown(pose: NeedlePose, motion: DepthMotion | None) -> NeedlePose:
     if motion is None or not by_cameras:
         return pose
     change = motion.depth - pose.depth
-    along = np.outer(pose.axis, pose.axis)
+    bend, moved = pose.bend, pose.p_straight + change * pose.axis
+    along = np.outer(pose.tip_axis, pose.tip_axis)
     present = float(pose.axis @ pose.covariance @ pose.axis)
     followed = min(pose.depth_age, FARTHEST)
     aged = HAND_SPEED**2 * (pose.depth_age**2 - (pose.depth_age - followed) ** 2)
     growth = max(motion.variance - present, -min(aged, present))
     return replace(
         pose,
-        p_tip=read_only(pose.p_tip + change * pose.axis),
+        p_tip=read_only(moved if bend is None else moved + bend.at(motion.depth)),
         depth=motion.depth,
         rate=motion.rate,
         predicted=max(0.0, motion.time - (pose.time - pose.depth_age)),

@@ -18,7 +18,7 @@ from app.views.workspace import Workspace
 DECLARATION: Final[dict[str, Any]] = {
     "view": "live_overlay",
     "title": "Needle on the slices",
-    "reads": (),
+    "reads": ("tip_offset_x", "tip_offset_y", "tip_offset_z"),
 }
 
 SCENE_DEAD_BAND_MM = 0.25
@@ -49,12 +49,15 @@ class LiveNeedle:
         # Without a measured depth only the line is known: it ends at the entry, grey.
         p_end = pose.p_tip if pose.measured else run.placed.p_entry
         spread = pose.covariance if pose.measured else None
-        needle = NeedleOverlay.of_world(p_end, pose.axis, length, transform, pose.measured, spread)
+        bent = pose.curve if pose.measured and pose.bend is not None and pose.depth > 0.0 else None
+        needle = NeedleOverlay.of_world(
+            p_end, pose.axis, length, transform, pose.measured, spread, bent
+        )
         self._workspace.viewing.set_needle(needle if run.shown.shows(View.LIVE_OVERLAY) else None)
         if not run.shown.shows(View.THREE_D):
             return
-        ends = np.concatenate([needle.start_mm, needle.tip_mm])
-        if self._drawn is None or np.abs(ends - self._drawn).max() > SCENE_DEAD_BAND_MM:
+        ends = needle.points_mm
+        if self._drawn is None or _apart(self._drawn, ends):
             self._drawn = ends
             self._workspace.scene.set_needle(needle)
             q = None if snapshot.device is None else snapshot.device.q
@@ -67,3 +70,8 @@ class LiveNeedle:
         self._workspace.viewing.set_needle(None)
         self._workspace.scene.set_needle(None)
         self._workspace.scene.set_robot(None, RigidTransform.identity())
+
+
+def _apart(one: FloatArray, other: FloatArray) -> bool:
+    """Whether two drawn shafts differ enough for another picture."""
+    return one.shape != other.shape or bool(np.abs(one - other).max() > SCENE_DEAD_BAND_MM)

@@ -20,7 +20,14 @@ if TYPE_CHECKING:
 DECLARATION: Final[dict[str, Any]] = {
     "view": "control_scan",
     "title": "Control scans",
-    "reads": ("target_shift_x", "target_shift_y", "target_shift_z"),
+    "reads": (
+        "target_shift_x",
+        "target_shift_y",
+        "target_shift_z",
+        "tip_offset_x",
+        "tip_offset_y",
+        "tip_offset_z",
+    ),
 }
 """The slices show the patient where breathing has him, the target too."""
 

@@ -10,7 +10,7 @@ from app.device.control.table import pantograph_stages
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile
 from app.simulation.compiler import compile
-from app.simulation.consumers import DevicePort
+from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.plan import Stage
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.scene import EffectRequest, Scene
@@ -27,7 +27,11 @@ START = 10.0  # [s]; the loop's clock never stands at zero
 def table(skill: str, seed: int) -> list[Stage]:
     effects = tuple(EffectRequest(n) for n in ("lateral_tissue", "shaft_friction", "breathing"))
     port = DevicePort(PROFILE.name, frozenset(a.value for a in PROFILE.renders), simulated=True)
-    plan = compile(Scene(effects=effects), port, views=("target_motion",))
+    plan = compile(
+        Scene(effects=effects),
+        port,
+        views=(Consumer("view target_motion shows it", ("target_shift_x",)),),
+    )
     link = simulated_link(PROFILE, [plant_stage(PROFILE)])
     stages = pantograph_stages(PROFILE, [VirtualFixture.of(PROFILE).stage()], plan.stages(), link)
     return [

@@ -1,4 +1,8 @@
-"""Angle between the needle and the path to the target, as it is at the end."""
+"""Angle between the needle and the path to the target, as it is at the end.
+
+It asks for no motion of the target by itself: where nobody shows or scores the way to a moving
+target, the path is the planned one.
+"""
 
 from app.core.arrays import angle_between
 from app.core.units import DEGREE
@@ -8,7 +12,6 @@ NAME = "angle_error"
 LABEL = "Angle error"
 UNIT = "°"
 HIGHER_IS_BETTER = False
-READS = ("target_shift_x", "target_shift_y", "target_shift_z")
 
 
 def compute(trajectory: Trajectory) -> float:

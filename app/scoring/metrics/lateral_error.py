@@ -7,7 +7,14 @@ NAME = "lateral_error"
 LABEL = "Off the path"
 UNIT = "mm"
 HIGHER_IS_BETTER = False
-READS = ("target_shift_x", "target_shift_y", "target_shift_z")
+READS = (
+    "target_shift_x",
+    "target_shift_y",
+    "target_shift_z",
+    "tip_offset_x",
+    "tip_offset_y",
+    "tip_offset_z",
+)
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -12,6 +12,7 @@ NAME = "path_length"
 LABEL = "Path length"
 UNIT = "mm"
 HIGHER_IS_BETTER = False
+READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -11,6 +11,7 @@ NAME = "path_length_raw"
 LABEL = "Path length, raw"
 UNIT = "mm"
 HIGHER_IS_BETTER = False
+READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -11,6 +11,7 @@ NAME = "path_ratio"
 LABEL = "Path ratio"
 UNIT = ""
 HIGHER_IS_BETTER = False
+READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
 SHORTEST = 1.0 * MILLIMETRE
 
 

@@ -13,6 +13,7 @@ NAME = "planned_target_error"
 LABEL = "Error to the planned target"
 UNIT = "mm"
 HIGHER_IS_BETTER = False
+READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -7,6 +7,7 @@ NAME = "risk_breach"
 LABEL = "Too near to risk"
 UNIT = "mm"
 HIGHER_IS_BETTER = False
+READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -9,7 +9,14 @@ NAME = "target_error"
 LABEL = "Target error"
 UNIT = "mm"
 HIGHER_IS_BETTER = False
-READS = ("target_shift_x", "target_shift_y", "target_shift_z")
+READS = (
+    "target_shift_x",
+    "target_shift_y",
+    "target_shift_z",
+    "tip_offset_x",
+    "tip_offset_y",
+    "tip_offset_z",
+)
 
 
 def compute(trajectory: Trajectory) -> float:

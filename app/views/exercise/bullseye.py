@@ -19,7 +19,7 @@ from app.views.text import tr
 DECLARATION: Final[dict[str, Any]] = {
     "view": "bullseye",
     "title": "Bull's-eye",
-    "reads": (),
+    "reads": ("tip_offset_x", "tip_offset_y", "tip_offset_z"),
 }
 
 INTENT_MS: Final = 10

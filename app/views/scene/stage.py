@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 from vtkmodules import vtkRenderingOpenGL2  # its import registers the OpenGL classes
@@ -53,7 +55,7 @@ class Stage:
         ]
         self._links = [Rod(self._renderer, theme.ROBOT, LINK_RADIUS_MM) for _ in range(5)]
         self._fulcrum = Ball(self._renderer, theme.ROBOT, FULCRUM_RADIUS_MM)
-        self._needle = Rod(self._renderer, theme.NEEDLE, NEEDLE_RADIUS_MM)
+        self._needle = [Rod(self._renderer, theme.NEEDLE, NEEDLE_RADIUS_MM)]
         self._tip = Ball(self._renderer, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM)
         self._error = Ellipsoid(self._renderer, theme.NEEDLE_TIP, opacity=0.35)
         self._path = Rod(self._renderer, theme.PATH, PATH_RADIUS_MM)
@@ -103,13 +105,18 @@ class Stage:
     def set_needle(self, needle: NeedleOverlay | None, scale: float = 1.0) -> None:
         """Show the needle, grey where its pose is not valid; its error `scale` times enlarged."""
         if needle is None:
-            self._needle.place(None, None)
+            for rod in self._needle:
+                rod.place(None, None)
             self._tip.place(None)
             self._error.place(None, None)
             return
-        self._needle.place(needle.start_mm, needle.tip_mm)
+        pieces = list(pairwise(needle.points_mm))
+        while len(self._needle) < len(pieces):
+            self._needle.append(Rod(self._renderer, theme.NEEDLE, NEEDLE_RADIUS_MM))
+        for number, rod in enumerate(self._needle):
+            rod.place(*(pieces[number] if number < len(pieces) else (None, None)))
+            rod.set_colour(theme.NEEDLE if needle.valid else theme.ROBOT)
         self._tip.place(needle.tip_mm)
-        self._needle.set_colour(theme.NEEDLE if needle.valid else theme.ROBOT)
         error = needle.error
         if error is None:
             self._error.place(None, None)

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 DECLARATION: Final[dict[str, Any]] = {
     "view": "three_d",
     "title": "3D view",
-    "reads": (),
+    "reads": ("tip_offset_x", "tip_offset_y", "tip_offset_z"),
 }
 
 HOME_TURN_PX = (-50.0, 30.0)

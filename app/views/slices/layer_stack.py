@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from collections.abc import Set as AbstractSet
 from enum import Enum, auto
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -146,7 +147,7 @@ class LayerStack:
     ) -> None:
         """Put the names of the marks where they cover nothing and nothing cuts them."""
         draft, needle = self._viewing.shown_draft, self._viewing.needle
-        lines = [] if needle is None else [(needle.start_mm, needle.tip_mm)]
+        lines = [] if needle is None else list(pairwise(needle.points_mm))
         if draft.entry_mm is not None and draft.target_mm is not None:
             lines.append((np.asarray(draft.entry_mm), np.asarray(draft.target_mm)))
         places = [[plane.point(point, index) for point in line] for line in lines]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 import numpy as np
 from PySide6.QtCore import QPointF
@@ -156,7 +157,8 @@ class NeedleLayer:
     """
 
     def __init__(self, scene: QGraphicsScene) -> None:
-        self._shaft = SegmentLayer(scene, theme.NEEDLE, 3)
+        self._scene = scene
+        self._shaft = [SegmentLayer(scene, theme.NEEDLE, 3)]
         self._doubtful = SegmentLayer(scene, Mark(theme.IMAGE_DIM, width=2.0), 3)
         self.tip = MarkItem(theme.NEEDLE_TIP, 5, optional=True)
         self.tip.setVisible(False)
@@ -169,19 +171,30 @@ class NeedleLayer:
         if needle is None:
             self.hide()
             return
-        start, tip = plane.point(needle.start_mm, index), plane.point(needle.tip_mm, index)
-        shaft, other = self._shaft, self._doubtful
-        if not needle.valid:
-            shaft, other = other, shaft
-        other.hide()
-        shaft.place(start, tip, plane.half_slab_mm, scale)
+        self._hide_shaft()
+        corners = [plane.point(corner, index) for corner in needle.points_mm]
+        tip = corners[-1]
+        if needle.valid:
+            self._reserve(len(corners) - 1)
+            for part, (start, end) in zip(self._shaft, pairwise(corners), strict=False):
+                part.place(start, end, plane.half_slab_mm, scale)
+        else:
+            self._doubtful.place(corners[0], tip, plane.half_slab_mm, scale)
         place_mark(self.tip, tip, "" if needle.valid else tr("not tracked"), plane)
 
     def hide(self) -> None:
         """Show nothing."""
-        self._shaft.hide()
-        self._doubtful.hide()
+        self._hide_shaft()
         self.tip.setVisible(False)
+
+    def _hide_shaft(self) -> None:
+        for part in (*self._shaft, self._doubtful):
+            part.hide()
+
+    def _reserve(self, parts: int) -> None:
+        """Have as many pieces as a bent shaft needs."""
+        while len(self._shaft) < parts:
+            self._shaft.append(SegmentLayer(self._scene, theme.NEEDLE, 3))
 
 
 class Labels:

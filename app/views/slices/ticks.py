@@ -156,7 +156,7 @@ class TickLayer:
         needle, draft = self._viewing.needle, self._viewing.shown_draft
         target = None if draft.target_mm is None else np.asarray(draft.target_mm)
         if needle is not None and needle.valid:
-            shaft = needle.tip_mm - needle.start_mm
+            shaft = needle.tip_direction
             length = float(np.linalg.norm(shaft))
             if length < 1e-6:
                 return None
