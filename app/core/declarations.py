@@ -42,7 +42,7 @@ def read_source(
         AcusError: made by `error`, naming the file and what is missing, unknown or not a literal.
     """
     try:
-        body = ast.parse(path.read_text(encoding="utf-8"), str(path)).body
+        body = read_statements(path)
     except (OSError, SyntaxError, ValueError) as reason:
         raise error(f"{kind.split(' ', 1)[1]} file {path} cannot be read: {reason}") from reason
     document = _literal(body, path, error)
@@ -54,6 +54,15 @@ def read_source(
             f" check {sorted(set(document) ^ set(keys))}"
         )
     return Source(document, body)
+
+
+def read_statements(path: Path) -> list[ast.stmt]:
+    """Read the statements of a file without running it.
+
+    Raises:
+        OSError, SyntaxError, ValueError: if it cannot be read as Python.
+    """
+    return ast.parse(path.read_text(encoding="utf-8"), str(path)).body
 
 
 def _literal(

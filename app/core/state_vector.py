@@ -6,9 +6,9 @@ the start of every tick from the inbox that other threads write, so they are als
 recording needs for a replay. All values are SI, in `world` unless said otherwise.
 
 A slot is added by adding a line; nothing else counts them. What a slot belongs to is said in its
-own line, never by its place: `_input`, `_sum`, or an ordinary slot. Vectors are slices that are
-named below their slots. Code loops over `SUMS` and slices by `AXIS`, never from one slot to
-another. Lines may therefore be moved: nothing changes by it, or this import fails and says why.
+own line, never by its place: `_input`, `_sum`, `_scene` or an ordinary slot. Vectors are slices
+that are named below their slots. Code loops over `SUMS` and slices by `AXIS`, never from one slot
+to another. Lines may therefore be moved: nothing changes by it, or this import fails and says why.
 """
 
 from itertools import count
@@ -21,6 +21,7 @@ from app.core.arrays import FloatArray
 _next = count()
 _inputs: list[int] = []
 _sums: list[int] = []
+_scene_slots: list[int] = []
 
 
 def _input() -> int:
@@ -39,6 +40,12 @@ def _sum() -> int:
     """Return the place of a new sum that force laws and effects add to in every tick."""
     _sums.append(next(_next))
     return _sums[-1]
+
+
+def _scene() -> int:
+    """Return the place of a new slot in which effects say what the simulated scene does."""
+    _scene_slots.append(next(_next))
+    return _scene_slots[-1]
 
 
 def _end_of_inputs() -> int:
@@ -187,9 +194,9 @@ ROOT_CURVATURE_Z: Final = _sum()
 BENT_LENGTH: Final = _sum()  # [m] depth of the tip that these belong to; 0 for a straight needle
 
 # --- the simulated world --------------------------------------------------------------------------
-TARGET_SHIFT_X: Final = next(_next)  # [m] displacement of the target now (breathing)
-TARGET_SHIFT_Y: Final = next(_next)
-TARGET_SHIFT_Z: Final = next(_next)
+TARGET_SHIFT_X: Final = _scene()  # [m] displacement of the target now (breathing)
+TARGET_SHIFT_Y: Final = _scene()
+TARGET_SHIFT_Z: Final = _scene()
 PLANT_Q_LEFT: Final = next(_next)  # [rad] true joint angles of the simulated robot
 PLANT_Q_RIGHT: Final = next(_next)
 PLANT_QD_LEFT: Final = next(_next)  # [rad/s]
@@ -211,6 +218,9 @@ SLOTS: Final = next(_next)
 # --- blocks ---------------------------------------------------------------------------------------
 SUMS: Final = tuple(_sums)
 """What force laws and effects add to: cleared before them in every tick, checked after them."""
+
+SCENE: Final = tuple(_scene_slots)
+"""What effects write beside them; nothing else can be written by a law or an effect."""
 
 PATH: Final = _vector(PATH_X, PATH_Y, PATH_Z)
 TARGET: Final = _vector(TARGET_X, TARGET_Y, TARGET_Z)

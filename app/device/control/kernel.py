@@ -24,9 +24,10 @@ STOP: Final = 1
 MISSED: Final = 2
 ASKED: Final = 3
 ANSWERED: Final = 4
-COUNTERS: Final = 5
+RUNNING: Final = 5
+COUNTERS: Final = 6
 """Entries of `counters` (int64): rows published, request to stop, deadlines missed, checkpoints
-asked for and taken."""
+asked for and taken, number of the stage that runs now (from 1; 0 between two ticks)."""
 
 _FLOATS = types.float64[::1]
 _INTEGERS = types.int64[::1]
@@ -141,6 +142,15 @@ def run_stages(state: Any, stages: Any, parameters: Any) -> None:
         function(state, values)
 
 
+@njit
+def run_tick(state: Any, stages: Any, parameters: Any, counters: Any) -> None:
+    """Call every stage of a table in order, and say before each which one it is."""
+    for function, values in zip(stages, parameters):  # noqa: B905  (numba's zip has no strict)
+        counters[RUNNING] += 1
+        function(state, values)
+    counters[RUNNING] = 0
+
+
 @compiled(types.void(*TICK_TYPES, types.float64, types.float64, types.int64))
 def step(
     state: Any,
@@ -163,7 +173,7 @@ def step(
         state[sv.TICK] = counters[HEAD] + 1
         state[sv.MISSED] = counters[MISSED]
         receive(state, inbox, scratch, sequence)
-        run_stages(state, stages, parameters)
+        run_tick(state, stages, parameters, counters)
         publish(state, ring, counters)
         answer(state, parameters, counters, checkpoint)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import threading
+import time
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -17,6 +18,7 @@ from app.device.control.history import History
 from app.device.control.host import THREAD_RATE_HZ, Host, Priority, default_host
 from app.device.control.inbox import Inbox
 from app.device.control.kernel import MISSED, STOP
+from app.device.control.stuck import TickWatch
 from app.device.control.table import Table
 from app.device.control.timing import Timing, measure
 from app.device.errors import LoopError
@@ -25,6 +27,7 @@ from app.device.links.link import DeviceLink
 from app.device.state import DeviceState
 
 _STOP_TIMEOUT = 5.0
+_LOOK = 0.02
 
 
 class Loop(Lifetime):
@@ -65,6 +68,7 @@ class Loop(Lifetime):
         self._state = sv.empty_state()
         self._scratch = sv.empty_state()
         self._desk = CheckpointDesk(self._history.counters, self.table)
+        self._watch = TickWatch(self._history.counters, self.table)
         for name, value in (initial or {}).items():
             self._state[_slot(name)] = value
         self._thread: threading.Thread | None = None
@@ -87,9 +91,12 @@ class Loop(Lifetime):
 
         Raises:
             LinkError: if the robot cannot be reached; the loop stays closed.
+            LoopError: if a tick of this loop never returned; its thread is still there.
         """
         if self._is_open:
             return
+        if self._thread is not None:
+            raise LoopError(self._watch.reason)
         if self.link is not None:
             self.link.open()
         self._failure = None
@@ -98,6 +105,7 @@ class Loop(Lifetime):
         self._packed = _pack(self.table)
         self._packed_write = _pack(self.table.write)
         self._desk = CheckpointDesk(self._history.counters, self.table)
+        self._watch = TickWatch(self._history.counters, self.table)
         self._is_open = True
         atexit.register(self.close)
         if self.host is not Host.STEPPED:
@@ -107,8 +115,11 @@ class Loop(Lifetime):
     def close(self) -> None:
         """Stop ticking and send zero torque. Does nothing if the loop is closed.
 
+        A thread whose tick does not return is left alone: `latest` has said so, the board's
+        watchdog has ended the torque, and nothing else can be done about compiled code.
+
         Raises:
-            LoopError: if the thread does not end, which means that a stage does not return.
+            LoopError: if the thread does not end and nobody knows why.
         """
         if not self._is_open:
             return
@@ -119,7 +130,11 @@ class Loop(Lifetime):
         if self._thread is None:
             self._release()
             return
-        self._thread.join(_STOP_TIMEOUT)
+        end = time.monotonic() + _STOP_TIMEOUT
+        while self._thread.is_alive() and time.monotonic() < end:
+            if self._watch.look(self._thread):
+                return
+            self._thread.join(_LOOK)
         if self._thread.is_alive():
             raise LoopError(
                 f"the loop did not stop in {_STOP_TIMEOUT:g} s: a stage does not return"
@@ -130,7 +145,8 @@ class Loop(Lifetime):
         """Return the newest tick; zeros with tick 0 before the first.
 
         Raises:
-            LoopError: if the loop has ended with an error.
+            LoopError: if the loop has ended with an error, or its tick does not return; then it
+                names the stage.
         """
         self._raise_failure()
         return DeviceState.from_row(self._history.last())
@@ -234,6 +250,8 @@ class Loop(Lifetime):
                 self.link.close()
 
     def _raise_failure(self) -> None:
+        if self._is_open and self._thread is not None and (stuck := self._watch.look(self._thread)):
+            raise LoopError(stuck)
         if self._failure is not None:
             raise LoopError(f"the loop has ended: {self._failure}") from self._failure
 

@@ -17,7 +17,7 @@ from app.device.control.kernel import (
     compiled,
     publish,
     receive,
-    run_stages,
+    run_tick,
 )
 
 import numpy as np  # isort: skip
@@ -87,7 +87,7 @@ def run(
         state[sv.LATENESS] = late * 1e-9
         state[sv.MISSED] = counters[MISSED]
         receive(state, inbox, scratch, sequence)
-        run_stages(state, stages, parameters)
+        run_tick(state, stages, parameters, counters)
         state[sv.TICK_COST] = (_now(timespec) - now) * 1e-9
         publish(state, ring, counters)
         answer(state, parameters, counters, checkpoint)

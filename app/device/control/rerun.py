@@ -78,13 +78,17 @@ def _slot(name: str) -> int:
 
 
 def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatArray]]:
-    """Pair every stage with a copy of its array in the checkpoint, by name, in order."""
+    """Pair every stage with a copy of its array in the checkpoint, by name, in order.
+
+    Stages that share one array share its copy.
+    """
     ends = np.cumsum((0, *checkpoint.sizes))
     left = [
         (name, checkpoint.parameters[start:end])
         for name, start, end in zip(checkpoint.names, ends[:-1], ends[1:], strict=True)
     ]
-    pairs = []
+    pairs: list[tuple[Stage, FloatArray]] = []
+    shared: dict[int, FloatArray] = {}
     for stage in table:
         while left and left[0][0] != stage.name:
             left.pop(0)
@@ -99,5 +103,5 @@ def _memories(table: Table, checkpoint: Checkpoint) -> list[tuple[Stage, FloatAr
                 f"stage {stage.name!r} has {len(values)} numbers in the record and "
                 f"{len(stage.parameters)} in this program: another version recorded it"
             )
-        pairs.append((stage, values))
+        pairs.append((stage, shared.setdefault(id(stage.parameters), values)))
     return pairs

@@ -9,6 +9,7 @@ from app.device.control.depth_interval import DepthInterval
 from app.device.control.governor import SpeedGovernor
 from app.device.control.kinematics import Kinematics
 from app.device.control.passivity import PassivityGuard
+from app.device.control.protection import protected
 from app.device.control.safety import Safety
 from app.device.control.transmission import Transmission
 from app.device.control.velocity import DEFAULT_VELOCITY, VelocityMethod, velocity_stage
@@ -71,6 +72,8 @@ def pantograph_stages(
     """Table of a needle pantograph: link read, velocity, depth, kinematics, force laws, effects,
     transmission, speed governor, passivity guard, safety, link write.
 
+    Laws and effects stand between two stages that keep all that is not theirs to write.
+
     Args:
         profile: the robot's numbers.
         laws: force laws such as the virtual fixture, as (name, function, parameters).
@@ -91,8 +94,7 @@ def pantograph_stages(
             velocity_stage(velocity, profile),
             DepthInterval.of(profile).stage(),
             Kinematics.of(profile).stage(),
-            *laws,
-            *effects,
+            *protected([*laws, *effects]),
             Transmission.of(profile, force_law).stage(),
             SpeedGovernor.of(profile).stage(),
             *guard,

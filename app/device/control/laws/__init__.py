@@ -2,7 +2,7 @@
 
 The folder is listed, then every folder appended to this package's `__path__`, then the user's own
 (`core.paths.laws`). What a law says about itself is read as text; only the laws that are asked for
-are imported.
+are imported. A law that is not the program's own is checked before (`control.law_check`).
 
 A request names a law and the parameters that differ from its defaults: `{"fixture": {}}`.
 """
@@ -18,9 +18,12 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
+
 from app.core import paths
 from app.core.arrays import FloatArray
 from app.core.compiled import STAGE_SIGNATURE
+from app.device.control import law_check
 from app.device.control.law import Law, read_law
 from app.device.errors import LawError
 from app.mechanisms.profile import DeviceProfile
@@ -93,7 +96,16 @@ def _stage(
 ) -> tuple[str, Any, FloatArray]:
     law = declaration(name)
     values, module = law.checked(given, profile), _implementation(law)
-    return name, module.step, module.parameters(values, profile)
+    try:
+        array = np.ascontiguousarray(module.parameters(values, profile), dtype=np.float64)
+    except (TypeError, ValueError, KeyError, IndexError) as error:
+        raise LawError(f"{law.path}: parameters() does not work: {error}") from error
+    if (needed := _needed(law)) > array.size or array.ndim != 1:
+        raise LawError(
+            f"{law.path}: step() uses {needed} parameters, and parameters() gives an array of the"
+            f" shape {array.shape}"
+        )
+    return name, module.step, array
 
 
 def _bound(name: str, given: Mapping[str, float], profile: DeviceProfile) -> float:
@@ -104,13 +116,43 @@ def _bound(name: str, given: Mapping[str, float], profile: DeviceProfile) -> flo
     return bound
 
 
+def is_own(law: Law) -> bool:
+    """Whether a law is one of the program's own."""
+    return law.path.parent == Path(__file__).parent
+
+
+def refused() -> dict[Path, str]:
+    """Files of force laws that cannot be used, and why; they are left where they are.
+
+    Only read, not tried: what a trial found before is known, what it would find is not.
+    """
+    found = {}
+    for path in _files():
+        try:
+            law = read_law(path)
+            if not is_own(law):
+                law_check.check_text(law)
+                if reason := law_check.known(path).get("reason"):
+                    found[path] = str(reason)
+        except LawError as error:
+            found[path] = str(error)
+    return found
+
+
+def _needed(law: Law) -> int:
+    """Parameters that a law's step uses at least; of the program's own laws tests know it."""
+    return 0 if is_own(law) else law_check.check_text(law).parameters
+
+
 def _implementation(law: Law) -> ModuleType:
-    """Import a law's file, once."""
+    """Import a law's file, once; one that is not the program's own is checked first."""
     name = f"{__name__}.{law.name}"
     with _IMPORTING:
         known = sys.modules.get(name)
         if known is not None and known.__file__ == str(law.path):
             return known
+        if not is_own(law):
+            law_check.check(law)
         specification = importlib.util.spec_from_file_location(name, law.path)
         if specification is None or specification.loader is None:
             raise LawError(f"law file {law.path} cannot be imported")
