@@ -14,7 +14,7 @@ import warnings
 from pathlib import Path
 
 SOURCE = Path(__file__).parents[2] / "app" / "core" / "state_vector.py"
-COUNTED = re.compile(r"^([A-Z][A-Z0-9_]*): Final = (?:next\(_next\)|_input\(\)|_sum\(\)).*$", re.M)
+COUNTED = re.compile(r"^([A-Z][A-Z0-9_]*): Final = (?:next\(_next\)|_(?:input|sum|scene)\(\)).*$", re.M)
 PART = re.compile(r"(?:(?<=J)_[XY][LR]|_?[XYZ]|_LEFT|_RIGHT)$")
 TICKS = 40
 

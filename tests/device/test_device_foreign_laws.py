@@ -31,6 +31,13 @@ def writes_anything(state, p):
     state[sv.FORCE_X] += 3.0
 
 
+@stage
+def keeps_alive(state, p):
+    """Say that the window is alive, and push."""
+    state[sv.HEARTBEAT] = state[sv.TIME]
+    state[sv.FORCE_X] += 3.0
+
+
 def writing(*pairs):
     return ("law", writes_anything, np.array([*(float(v) for pair in pairs for v in pair), 0.0]))
 
@@ -40,7 +47,7 @@ def torques(rig, ticks):
 
 
 def test_a_law_that_writes_enabled_keeps_no_torque_on():
-    with (rig := Rig(laws=[writing((sv.ENABLED, 1.0), (sv.HEARTBEAT, 1e9))])).loop:
+    with (rig := Rig(laws=[writing((sv.ENABLED, 1.0))])).loop:
         rig.arm()
         assert torques(rig, 10) > 0.01
         rig.write(enabled=0.0)
@@ -57,8 +64,9 @@ def test_a_law_that_writes_the_force_cap_lifts_no_limit():
 
 
 def test_a_law_that_writes_the_heartbeat_keeps_nothing_alive():
-    with (rig := Rig(laws=[writing((sv.HEARTBEAT, 1e9), (sv.TIME, 1e9))])).loop:
+    with (rig := Rig(laws=[("law", keeps_alive, np.zeros(1))])).loop:
         rig.arm()
+        assert torques(rig, 10) > 0.01
         rig.beating = False
         rig.step(1500)
         assert torques(rig, 100) == 0.0
