@@ -14,7 +14,9 @@ import warnings
 from pathlib import Path
 
 SOURCE = Path(__file__).parents[2] / "app" / "core" / "state_vector.py"
-COUNTED = re.compile(r"^([A-Z][A-Z0-9_]*): Final = (?:next\(_next\)|_(?:input|sum|scene)\(\)).*$", re.M)
+COUNTED = re.compile(
+    r"^([A-Z][A-Z0-9_]*): Final = (?:next\(_next\)|_(?:input|sum|scene)\(\)).*$", re.M
+)
 PART = re.compile(r"(?:(?<=J)_[XY][LR]|_?[XYZ]|_LEFT|_RIGHT)$")
 TICKS = 40
 
@@ -88,7 +90,7 @@ def _ticks(sv):
     from app.device.links.simulated import simulated_link
     from app.mechanisms.profile import load_profile
     from app.simulation.compiler import compile as compile_scene
-    from app.simulation.consumers import DevicePort
+    from app.simulation.consumers import Consumer, DevicePort
     from app.simulation.plant import initial_plant, plant_stage
     from app.simulation.scene import EffectRequest, Scene
     from app.simulation.trainee import trainee_stage
@@ -97,7 +99,9 @@ def _ticks(sv):
     profile, axis = load_profile("icube"), (0.25, -0.15, -0.9)
     effects = tuple(EffectRequest(n) for n in ("lateral_tissue", "shaft_friction", "breathing"))
     port = DevicePort(profile.name, frozenset(a.value for a in profile.renders), simulated=True)
-    plan = compile_scene(Scene(effects=effects), port, views=("target_motion",))
+    plan = compile_scene(
+        Scene(effects=effects), port, views=(Consumer("view of the target", ("target_shift_x",)),)
+    )
     requests = {"fixture": {}, "cone_wall": {}, "impedance": {}, "compensation": {}}
     stages = pantograph_stages(
         profile,
