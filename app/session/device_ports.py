@@ -1,9 +1,14 @@
 """What an attempt needs of the robot, and nothing more (`device.control.Loop` and its values)."""
 
-from typing import Any, Protocol
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
 
 from app.core.arrays import FloatArray
 from app.device.checkpoint import Checkpoint
+
+if TYPE_CHECKING:
+    from app.device.control.timing import Timing
 
 
 class DeviceStatePort(Protocol):
@@ -155,7 +160,7 @@ class LoopPort(Protocol):
         """Return all that the next tick depends on besides its inputs."""
         ...
 
-    def timing(self) -> Any:
+    def timing(self) -> Timing:
         """Lateness of the loop and deadlines missed."""
         ...
 

@@ -4,8 +4,10 @@
 satisfy them with small fakes.
 """
 
+from __future__ import annotations
+
 from collections.abc import Container, Mapping
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from app.core.arrays import FloatArray
 from app.core.events import EventQueue
@@ -15,6 +17,9 @@ from app.imaging.scan_order import ScanOrder
 from app.scoring.rows import Rules
 from app.scoring.tolerance import Tolerance
 from app.session.device_ports import ClearancePort, DeviceStatePort, InboxPort, LoopPort
+
+if TYPE_CHECKING:
+    from app.tracking.statistics import TrackerStatistics
 
 __all__ = [
     "ClearancePort",
@@ -101,7 +106,7 @@ class TrackerPort(Protocol):
         """Stop the thread and the cameras."""
         ...
 
-    def statistics(self) -> Any:
+    def statistics(self) -> TrackerStatistics:
         """Rates, latency and shares of the statuses."""
         ...
 

@@ -1,8 +1,10 @@
 """What the window shows: one frozen value per tick."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 from app.core.arrays import FloatArray
 from app.planning.off_path import Offset
@@ -16,6 +18,10 @@ from app.session.ports import ClearancePort, DeviceStatePort
 from app.session.recorder import RecordingStatus
 from app.session.running import Running
 from app.session.watch import Watch
+
+if TYPE_CHECKING:
+    from app.device.control.timing import Timing
+    from app.tracking.statistics import TrackerStatistics
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,7 +39,7 @@ class Snapshot:
         offset: from the tip to the target.
         p_target: target now, with its motion [m], shape (3,).
         device: newest state of the loop; None before its first tick.
-        timing: lateness of the loop, as it reports it.
+        timing: lateness of the loop, as it reports it; None before it was asked.
         tracker: statistics of the tracker, as it reports them; None without one.
         fix_status: newest status of the tracker; empty before the first fix.
         scans: control scans taken.
@@ -55,8 +61,8 @@ class Snapshot:
     offset: Offset
     p_target: FloatArray
     device: DeviceStatePort | None
-    timing: Any
-    tracker: Any
+    timing: Timing | None
+    tracker: TrackerStatistics | None
     fix_status: str
     scans: int
     assistance: float

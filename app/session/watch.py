@@ -1,7 +1,9 @@
 """The trainer's eyes: newest observation of robot and cameras, statistics, the tracker's news."""
 
+from __future__ import annotations
+
 from math import inf
-from typing import Any, Final
+from typing import TYPE_CHECKING, Final
 
 from app.core.events import EventQueue
 from app.planning.placement import PlacedPlan
@@ -11,6 +13,10 @@ from app.session.inputs import LoopInputs
 from app.session.observation import Observation, observe
 from app.session.ports import FixPort, LoopPort, TrackerPort
 from app.session.running import Running
+
+if TYPE_CHECKING:
+    from app.device.control.timing import Timing
+    from app.tracking.statistics import TrackerStatistics
 
 STATISTICS_PERIOD: Final = 0.25
 """Statistics of loop and tracker are taken this often [s]; they cost more than a look."""
@@ -27,8 +33,8 @@ class Watch:
 
     def __init__(self, loop: LoopPort, tracker: TrackerPort | None, inputs: LoopInputs) -> None:
         self.seen: Observation | None = None
-        self.timing: Any = None
-        self.statistics: Any = None
+        self.timing: Timing | None = None
+        self.statistics: TrackerStatistics | None = None
         self._loop = loop
         self._tracker = tracker
         self._fixes = Fixes(loop, inputs)

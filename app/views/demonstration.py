@@ -39,6 +39,12 @@ FRESH_S: Final = 0.1
 TRAINEE_DONE: Final = 9.0
 
 
+def has_fresh_fix(snapshot: Snapshot) -> bool:
+    """Whether the cameras' newest fix is no older than `FRESH_S`; not before the first."""
+    age = snapshot.tracker.age if snapshot.tracker is not None else None
+    return age is not None and age <= FRESH_S
+
+
 class Demonstration(QObject):
     """Leads a window through one attempt.
 
@@ -179,7 +185,7 @@ class Demonstration(QObject):
         run = self._window.conductor.controller.run
         if run is not None and not run.shown.live:
             return  # there is nothing of the needle to picture on the way
-        if not snapshot.pose.measured or snapshot.tracker.age > FRESH_S:
+        if not (snapshot.pose.measured and has_fresh_fix(snapshot)):
             return
         length = snapshot.pose.depth + snapshot.offset.remaining
         if snapshot.pose.depth > 0.7 * length and "3-inserting" in self._pictures:

@@ -112,3 +112,17 @@ def test_an_unknown_joint_names_the_valid_ones():
 def test_a_profile_that_is_not_there_is_said_to_be_missing(tmp_path):
     with pytest.raises(ConfigurationError, match="cannot read"):
         load_profile(tmp_path / "none.yaml")
+
+
+@pytest.mark.parametrize("link", ["proximal_mass", "distal_mass"])
+def test_a_link_that_weighs_next_to_nothing_is_refused(tmp_path, document, link):
+    document["inertia"][link] = 1e-8
+    with pytest.raises(ConfigurationError, match=rf"{link}.*0\.001"):
+        load_profile(written(tmp_path, document))
+
+
+@pytest.mark.parametrize("tilt", [79.0, 89.9])
+def test_a_tilt_at_which_no_link_reaches_the_tool_is_refused(tmp_path, document, tilt):
+    document["workspace"]["tilt_limit_deg"]["new"] = tilt
+    with pytest.raises(ConfigurationError, match=r"tilt_limit_deg.*links reach .* at most 78\.2"):
+        load_profile(written(tmp_path, document))

@@ -5,7 +5,7 @@ import pytest
 from window_rig import plan
 
 from app.exercises.parts import OwnPlan
-from app.views.demonstration import Demonstration
+from app.views.demonstration import FRESH_S, Demonstration, has_fresh_fix
 from app.views.demonstration_script import DemonstrationError, Script
 from app.views.exercise.shown import Shown
 
@@ -77,3 +77,13 @@ def show_slot() -> int:
     from app.core import state_vector as sv
 
     return sv.TRAINEE_PHASE
+
+
+@pytest.mark.parametrize(
+    ("age", "fresh"), [(None, False), (0.0, True), (FRESH_S, True), (2 * FRESH_S, False)]
+)
+def test_before_the_first_fix_pictures_on_the_way_wait(age, fresh) -> None:
+    from types import SimpleNamespace
+
+    assert has_fresh_fix(SimpleNamespace(tracker=SimpleNamespace(age=age))) is fresh
+    assert not has_fresh_fix(SimpleNamespace(tracker=None))

@@ -1,6 +1,6 @@
 """One robot: its sections, and what the other rooms ask of it."""
 
-from math import radians
+from math import atan2, degrees, hypot, radians, tan
 
 from pydantic import model_validator
 
@@ -57,6 +57,16 @@ class DeviceProfile(Strict):
                 f"workspace.depth_max {deepest:g} m must be below geometry.needle_length"
                 f" {length:g} m: the hub stays outside the fulcrum"
             )
+        section = self.geometry
+        x, y, height = section.fulcrum
+        reach = section.proximal + section.distal + hypot(abs(x) + 0.5 * section.base, y)
+        for name, tilt in self.workspace.tilt_limit_deg.items():
+            if (away := height * tan(radians(tilt))) > reach:
+                raise ValueError(
+                    f"workspace.tilt_limit_deg of joint {name!r} is {tilt:g}: there the tool would"
+                    f" be {away:.3g} m from under the fulcrum, and the links reach {reach:.3g} m at"
+                    f" most; give at most {degrees(atan2(reach, height)):.1f}"
+                )
         if self.inertia.needle_centre > length:
             raise ValueError(
                 f"inertia.needle_centre {self.inertia.needle_centre:g} m must lie on the needle of"

@@ -12,7 +12,7 @@ from app.mechanisms.profile.values import (
     Inertia,
     InertiaOrNone,
     Length,
-    Mass,
+    LinkMass,
     MassOrNone,
     Section,
 )
@@ -89,10 +89,10 @@ class WorkspaceSection(Section):
 class InertiaSection(Section):
     """Masses [kg], distances of the centres of mass [m], inertias about them [kg·m²]."""
 
-    proximal_mass: Mass
+    proximal_mass: LinkMass
     proximal_centre: Distance
     proximal_inertia: Inertia
-    distal_mass: Mass
+    distal_mass: LinkMass
     distal_centre: Distance
     distal_inertia: Inertia
     tool_mass: MassOrNone

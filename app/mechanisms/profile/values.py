@@ -19,6 +19,8 @@ Coordinate = Annotated[float, Field(ge=-2.0, le=2.0)]
 """[m], of either sign"""
 Mass = Annotated[float, Field(gt=0.0, le=20.0)]
 """[kg]"""
+LinkMass = Annotated[float, Field(ge=1e-3, le=20.0)]
+"""[kg] of a link; less than a gram holds no needle and breaks the equations"""
 MassOrNone = Annotated[float, Field(ge=0.0, le=20.0)]
 """[kg], may be zero"""
 Inertia = Annotated[float, Field(gt=0.0, le=5.0)]
