@@ -3,12 +3,14 @@
 import sys
 
 from app.commands import build
+from app.core import paths
 from app.core.errors import AcusError
 from app.core.exits import Exit
 
 
 def main() -> None:
     """Run the command line; a bad input is one line on stderr (`core.exits`)."""
+    paths.keep_private()
     try:
         code = build()(standalone_mode=False)
         sys.exit(code if isinstance(code, int) else Exit.DONE)

@@ -1,6 +1,7 @@
 """`acus ct`: what a folder of CT holds, and where a voxel lies in the patient."""
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -66,6 +67,9 @@ def point(
     pixel: Annotated[
         str | None, typer.Option(metavar="COL,ROW", help="Pixel of that file.")
     ] = None,
+    frame: Annotated[
+        int | None, typer.Option(help="Frame of a multi-frame file, from 1; goes with --sop.")
+    ] = None,
     remedy: Mend = None,
     as_json: AsJson = False,
 ) -> None:
@@ -74,25 +78,58 @@ def point(
         raise ConfigurationError(
             "name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW"
         )
+    if frame is not None and (sop is None or frame < 1):
+        raise ConfigurationError(f"--frame {frame}: frames count from 1 and go with --sop UID")
     _start_reader()
+    source: dict[str, Any] = {"sop_uid": sop, "frame": frame or 1}
     if voxel is not None:
-        lps_mm, hu = _voxel(folder, series, remedy, _integers(voxel, 3, "--voxel", "I,J,K"))
+        lps_mm, hu, source = _voxel(folder, series, remedy, _integers(voxel, 3, "--voxel", "I,J,K"))
     elif remedy is not None:
         raise ConfigurationError("--remedy goes with --voxel; a pixel lies where its file puts it")
     elif sop is None or pixel is None:
         raise ConfigurationError("--sop UID and --pixel COL,ROW go together; give both")
     else:
-        lps_mm, hu = _pixel(folder, sop, _integers(pixel, 2, "--pixel", "COL,ROW"))
+        lps_mm, hu = _pixel(
+            folder, sop, _integers(pixel, 2, "--pixel", "COL,ROW"), (frame or 1) - 1
+        )
     if as_json:
-        typer.echo(json.dumps({"lps_mm": lps_mm, "hu": hu}))
-    else:
-        x, y, z = lps_mm
-        typer.echo(f"LPS {x:.3f} {y:.3f} {z:.3f} mm, {hu:g} HU")
+        typer.echo(json.dumps({"lps_mm": lps_mm, "hu": hu, **source}))
+        return
+    x, y, z = lps_mm
+    typer.echo(f"LPS {x:.3f} {y:.3f} {z:.3f} mm, {hu:g} HU")
+    if source["sop_uid"] and voxel is not None:
+        typer.echo(f"SOPInstanceUID {source['sop_uid']}, frame {source['frame']}")
+
+
+@app.command()
+def digest(
+    folder: Folder,
+    series: Annotated[
+        str | None, typer.Option(help="SeriesInstanceUID, where several fit.")
+    ] = None,
+    remedy: Mend = None,
+    as_json: AsJson = False,
+) -> None:
+    """Digest of a volume's values and its geometry, to compare it with another program's."""
+    _start_reader()
+    from app.imaging.digest import digest_of
+
+    found = digest_of(_volume(folder, series, remedy))
+    if as_json:
+        typer.echo(json.dumps(asdict(found)))
+        return
+    rows = [
+        " ".join(f"{n:.9g}" for n in found.affine_mm[4 * row : 4 * row + 4]) for row in range(3)
+    ]
+    typer.echo(f"values  sha256 {found.values} of {'×'.join(map(str, found.size))} {found.kind}")
+    for name, row in zip("xyz", rows, strict=True):
+        typer.echo(f"{name} [mm]  {row}")
 
 
 def _voxel(
     folder: Path, series_uid: str | None, remedy: str | None, ijk: list[int]
-) -> tuple[list[float], float | int]:
+) -> tuple[list[float], float | int, dict[str, Any]]:
+    """Point and value of a voxel, and the picture that it stands in, where it stands in one."""
     from app.imaging.errors import OutsideImageError
 
     volume = _volume(folder, series_uid, remedy)
@@ -102,7 +139,13 @@ def _voxel(
         )
         raise OutsideImageError(f"voxel {tuple(ijk)} is outside the series: {limits}")
     i, j, k = ijk
-    return volume.lps_mm(ijk).tolist(), _plain(volume.hu[k, j, i].item())
+    slices = volume.series.slices if not volume.made else ()
+    header = slices[k] if len(slices) == volume.size[2] else None
+    source = {
+        "sop_uid": None if header is None else header.identity.sop_uid,
+        "frame": None if header is None else header.frame + 1,
+    }
+    return volume.lps_mm(ijk).tolist(), _plain(volume.hu[k, j, i].item()), source
 
 
 def _volume(folder: Path, series_uid: str | None, remedy: str | None) -> "Volume":
@@ -133,11 +176,11 @@ def _start_reader() -> None:
     shared_worker().warm()
 
 
-def _pixel(folder: Path, sop: str, place: list[int]) -> tuple[list[float], float | int]:
+def _pixel(folder: Path, sop: str, place: list[int], frame: int) -> tuple[list[float], float | int]:
     from app.imaging.pixel_place import pixel_lps_mm
 
     column, row = place
-    lps_mm, hu = pixel_lps_mm(folder, sop, column, row)
+    lps_mm, hu = pixel_lps_mm(folder, sop, column, row, frame=frame)
     return lps_mm.tolist(), _plain(hu)
 
 
@@ -185,6 +228,11 @@ def _series(series: "Series") -> dict[str, Any]:
         "notes": list(series.notes),
         "unit": series.unit,
         "tilt_deg": series.tilt_deg,
+        "frame_of_reference": series.frame_of_reference,
+        "slices": [
+            {"sop_uid": header.identity.sop_uid, "frame": header.frame + 1}
+            for header in series.slices
+        ],
     }
 
 

@@ -16,6 +16,7 @@ from app.planning.placement import PlacedPlan
 from app.planning.registration.record import Registrations
 from app.session.conditions import CONDITIONS
 from app.session.context import RunContext
+from app.session.ct_facts import CtFacts
 from app.session.header import Attachment
 
 
@@ -53,7 +54,7 @@ def run_context(
 
 
 def agreement_of(
-    calibration: str, rig: str, simulated: bool, ct: str
+    calibration: str, rig: str, simulated: bool, ct: CtFacts
 ) -> Callable[[PlacedPlan], Mapping[str, str]]:
     """Return what looks up how well screen and needle agree at a plan's target.
 
@@ -63,7 +64,9 @@ def agreement_of(
 
     def look(placed: PlacedPlan) -> Mapping[str, str]:
         try:
-            record = Registrations.own().newest(calibration, rig, simulated, ct)
+            record = Registrations.own().newest(
+                calibration, rig, simulated, ct.pseudonym, frame=ct.frame
+            )
             if record is None:
                 return {}
             used = placed.T_world_patient

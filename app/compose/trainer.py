@@ -270,5 +270,5 @@ def _context(
     }
     documents = {"device": profile, "cameras": cameras.rig}
     calibration, rig = cameras.metadata.get("calibration", ""), cameras.rig.name
-    agreement = agreement_of(calibration, rig, robot is None, setup.ct.pseudonym)
+    agreement = agreement_of(calibration, rig, robot is None, setup.ct)
     return run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents, agreement)

@@ -1,6 +1,7 @@
 """Where things live: resources in the package, everything written in per-user folders."""
 
 import os
+from contextlib import suppress
 from pathlib import Path
 
 _PACKAGE = Path(__file__).resolve().parents[1]
@@ -15,6 +16,20 @@ def resources() -> Path:
 def in_checkout() -> bool:
     """Whether the program runs from a source tree."""
     return (_PACKAGE.parent / "pyproject.toml").is_file()
+
+
+def keep_private() -> None:
+    """Keep what this program writes from other accounts of the computer (0700 and 0600).
+
+    Folders of earlier versions are closed too; one that was chosen by a variable of the environment
+    belongs to whoever chose it, and keeps the rights that it has.
+    """
+    os.umask(0o077)
+    own = {"ACUS_DATA": data, "ACUS_SETTINGS": settings, "ACUS_SESSIONS": sessions}
+    for variable, folder in own.items():
+        if not os.environ.get(variable) and folder().is_dir():
+            with suppress(OSError):
+                folder().chmod(0o700)
 
 
 def sessions() -> Path:

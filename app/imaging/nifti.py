@@ -5,7 +5,6 @@ units, else as values without a unit; both are said. Its axes count to the patie
 front, those of DICOM to the left and back: the affine is turned accordingly.
 """
 
-import hashlib
 from dataclasses import replace
 from pathlib import Path
 
@@ -72,7 +71,7 @@ def _series(path: Path, header: NiftiHeader) -> Series:
     spacing = np.linalg.norm(affine[:3, :3], axis=0)
     x, y, z = affine[:3, 3].tolist()
     return Series(
-        uid=f"nifti-{hashlib.sha256(path.name.encode()).hexdigest()[:8]}",
+        uid=f"nifti-{header.digest}",
         modality=MODALITY,
         label="NIfTI file",
         size=size,
@@ -82,7 +81,7 @@ def _series(path: Path, header: NiftiHeader) -> Series:
         usable=not reason,
         reason=reason,
         slices=(),
-        pseudonym="NIfTI",
+        pseudonym=f"NIfTI-{header.digest[:8]}",
         frame_of_reference="",
         windows=(),
         notes=(UNIT_UNKNOWN,),

@@ -1,6 +1,9 @@
 """A NIfTI file, read in the worker process: what its header says, and its values."""
 
+import gzip
+import hashlib
 import warnings
+import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,12 +32,15 @@ class NiftiHeader:
         affine_mm: voxel (i, j, k) -> LPS [mm], row by row, 16 numbers.
         misplaced: why it has no place in space; empty if it has.
         flaw: why it is no volume otherwise; empty if it is one.
+        digest: of header and values as they stand in the file, however it is compressed: two files
+            of one name are two series.
     """
 
     size: tuple[int, int, int]
     affine_mm: tuple[float, ...]
     misplaced: str
     flaw: str
+    digest: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,7 +69,24 @@ def nifti_header(path: Path, progress: Progress) -> NiftiHeader:
     affine, misplaced = _placed(image)
     size = [*(int(n) for n in image.shape[:3]), 1, 1, 1]
     numbers = tuple(float(number) for number in affine.ravel())
-    return NiftiHeader((size[0], size[1], size[2]), numbers, misplaced, _flaw(image))
+    grid = size[0], size[1], size[2]
+    return NiftiHeader(grid, numbers, misplaced, _flaw(image), _digest(path, progress))
+
+
+def _digest(path: Path, progress: Progress) -> str:
+    """Digest of the file's content [16 hexadecimal digits]."""
+    found, size = hashlib.blake2b(digest_size=8), max(path.stat().st_size, 1)
+    with path.open("rb") as file:
+        packed = file.read(2) == b"\x1f\x8b"
+        file.seek(0)
+        try:
+            with gzip.GzipFile(fileobj=file) if packed else file as stream:
+                while part := stream.read(_SLAB_BYTES):
+                    found.update(part)
+                    progress.report(min(file.tell() / size, 1.0), "reading")
+        except (EOFError, OSError, zlib.error) as error:
+            raise FileDamagedError("it is cut off or damaged") from error
+    return found.hexdigest()
 
 
 def nifti_values(path: Path, progress: Progress) -> NiftiValues:

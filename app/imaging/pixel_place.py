@@ -82,7 +82,7 @@ def _instance(listing: Listing, sop_uid: str, frame: int) -> SliceHeader:
         for header in series.slices:
             if header.identity.sop_uid == sop_uid and header.frame == frame:
                 return header
-    which = f" and frame {frame}" if frame else ""
+    which = f" and frame {frame + 1}" if frame else ""
     raise SeriesUnknownError(f"no file with SOPInstanceUID {sop_uid}{which} in {listing.path}")
 
 

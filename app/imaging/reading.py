@@ -72,7 +72,9 @@ def choose(listing: Listing, series_uid: str | None = None, remedy: Remedy = Rem
             f"{listing.path} holds {len(usable)} usable CT series; name one: {uids}", usable
         )
     if not usable:
-        reasons = "; ".join(f"{series.label}: {series.reason}" for series in listing.series[:4])
+        reasons = "; ".join(
+            f"{series.label}: {series.reason}{offer(series)}" for series in listing.series[:4]
+        )
         raise SeriesRefusedError(f"no usable CT series in {listing.path}. {reasons}")
     return usable[0]
 
@@ -110,10 +112,14 @@ def _named(listing: Listing, series_uid: str, remedy: Remedy) -> Series:
 
 def _refusal(series: Series) -> str:
     """Why a series is not read as it is, and what could be asked for instead."""
-    offer = (
-        "" if series.remedy is Remedy.NONE else f"; it can be read if you ask to {series.remedy}"
-    )
-    return f"series {series.key} cannot be used: {series.reason}{offer}"
+    return f"series {series.key} cannot be used: {series.reason}{offer(series)}"
+
+
+def offer(series: Series) -> str:
+    """Say with which `--remedy` a refused series can be read; nothing where there is none."""
+    if series.usable or series.remedy is Remedy.NONE:
+        return ""
+    return f"; it can be read if you ask to {series.remedy} (--remedy {series.remedy})"
 
 
 def read_series(series: Series, progress: Progress | None = None) -> Volume:

@@ -105,6 +105,11 @@ def _frame_notes(headers: list[SliceHeader]) -> tuple[str, ...]:
     frames = {header.identity.frame_of_reference for header in headers}
     if len(frames) < 2:
         return ()
+    if "" in frames:
+        return (
+            "some of its files name no frame of reference: they lie together only if whoever "
+            "wrote them left it out",
+        )
     return (
         f"its files name {len(frames)} frames of reference: they lie together only if whoever "
         "de-identified them gave each a number of its own",
@@ -123,10 +128,11 @@ class _Grid:
 def _grid(plane: Plane, slices: stack.Stack) -> _Grid:
     between = float(np.linalg.norm(slices.affine_mm[:3, 2]))
     spacing = (plane.pixel_spacing_mm[1], plane.pixel_spacing_mm[0], between)
+    at_one_place = slices.gaps_mm.sum() < stack.TOLERANCE_MM
     axes = (plane.orientation[:3], plane.orientation[3:], stack.normal(plane))
     x, y, z = slices.affine_mm[:3, 3].tolist()
     return _Grid(
-        spacing if len(slices.order) > 1 else None,
+        None if at_one_place else spacing,
         (x, y, z),
         tuple((np.stack(axes, axis=1).ravel() + 0.0).tolist()),  # + 0.0: no negative zeros
     )

@@ -1,5 +1,6 @@
 """What a folder holds: series, usable or not, and the files that belong to none."""
 
+import hashlib
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
@@ -78,6 +79,15 @@ class Series:
     def key(self) -> str:
         """Name of the series in its folder: its UID, with `#part` where it is one pass of it."""
         return f"{self.uid}#{self.part}" if self.part else self.uid
+
+    @property
+    def frame(self) -> str:
+        """Stands for the frame of reference where positions are compared; empty without one.
+
+        The UID itself can lead to the patient and is never written.
+        """
+        uid = self.frame_of_reference
+        return hashlib.sha256(uid.encode()).hexdigest()[:16] if uid else ""
 
     @property
     def files(self) -> tuple[Path, ...]:

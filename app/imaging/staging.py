@@ -53,7 +53,7 @@ def staging(library: Path, series: Series) -> Iterator[Path]:
 
 def publish(folder: Path, to: Path) -> None:
     """Rename to its place; the lock goes last, so that no sweep takes a living folder."""
-    folder.chmod(0o755)
+    folder.chmod(0o700)
     sync(folder)
     os.rename(folder, to)
     (to / LOCK).unlink(missing_ok=True)

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
+
 from app.imaging import memory, stack
 from app.imaging.acquisitions import SECONDARY_CAPTURE, Group
 from app.imaging.header import MULTI_FRAME, SliceHeader
@@ -15,6 +17,9 @@ _MR_IMAGE: Final = "1.2.840.10008.5.1.4.1.1.4"
 PRACTICE: Final = "MR, for practice only: its values are no Hounsfield units"
 
 _NOT_UNIT: Final = 1e-5
+
+SPARSE: Final = 2.0
+"""Distance of slices in thicknesses from which it is said that most was not scanned."""
 
 Headers = Sequence[SliceHeader]
 
@@ -52,7 +57,7 @@ def judge(group: Group, root: Path) -> Verdict:
     names = _Names(headers, slices.order, root)
     if reason := stack.doubled(slices, names) or stack.turned(slices, names):
         return Verdict(reason, notes=group.notes, tilt_deg=tilt)
-    notes = (*group.notes, *_notes(headers, tilt))
+    notes = (*group.notes, *_notes(headers, tilt), *_gap_notes(headers, slices))
     if reason := stack.irregular(slices, names):
         return Verdict(reason, Remedy.RESAMPLE, notes, tilt)
     if reason := memory.need(headers).reason:
@@ -109,6 +114,18 @@ def _notes(headers: Headers, tilt_deg: float) -> list[str]:
     return notes
 
 
+def _gap_notes(headers: Headers, slices: stack.Stack) -> list[str]:
+    """Say that most of the body between the slices was not scanned, where that is so."""
+    thickness = max((header.thickness_mm or 0.0 for header in headers), default=0.0)
+    between = float(np.median(slices.gaps_mm))
+    if not 0.0 < thickness * SPARSE <= between:
+        return []
+    return [
+        f"slices lie {between:.1f} mm apart and are {thickness:.3g} mm thick: what is shown "
+        "between them is interpolated, nothing there was scanned"
+    ]
+
+
 def _first(headers: Headers, root: Path, wrong: Callable[[SliceHeader], str]) -> str:
     """First complaint over all files, with the file and how many more there are."""
     found = [(header, reason) for header in headers if (reason := wrong(header))]
@@ -143,6 +160,8 @@ def _object(header: SliceHeader) -> str:
     if kind != (_MR_IMAGE if modality == "MR" else _CT_IMAGE):
         what = "not CT but MR, and not an MR image" if modality == "MR" else "not a CT image"
         return f"{what} (SOP class {kind or 'missing'})"
+    if "MOSAIC" in image_type:
+        return "a mosaic: many slices side by side in one picture, which says of none where it lies"
     if "LOCALIZER" in image_type:
         return "localizer (scout view), not a volume"
     return ""

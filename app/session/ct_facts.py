@@ -20,27 +20,31 @@ class CtFacts:
         pseudonym: stands for patient and study; empty if not known.
         made: what was done to the files' own values, in words; empty where nothing was.
         recipe: the same as values; None in records that do not say it.
+        frame: stands for its frame of reference, see `Series.frame`; empty if not known.
     """
 
     pseudonym: str = ""
     made: tuple[str, ...] = ()
     recipe: Recipe | None = None
+    frame: str = ""
 
     @classmethod
     def of_volume(cls, volume: Volume) -> CtFacts:
         """Facts of a volume."""
-        return cls(volume.series.pseudonym, volume.made, volume.recipe)
+        return cls(volume.series.pseudonym, volume.made, volume.recipe, volume.series.frame)
 
     @classmethod
     def of_metadata(cls, record: Mapping[str, str]) -> CtFacts:
         """Read the metadata record `ct`; what an old or damaged one does not say stays unknown."""
         made = _parsed(record.get("made", "[]"))
         words = tuple(word for word in made if isinstance(word, str)) if made else ()
-        return cls(record.get("pseudonym", ""), words, _recipe(record))
+        return cls(record.get("pseudonym", ""), words, _recipe(record), record.get("frame", ""))
 
     def metadata(self) -> dict[str, str]:
         """Return it as a metadata record, values as text."""
         facts = {"pseudonym": self.pseudonym}
+        if self.frame:
+            facts["frame"] = self.frame
         if self.recipe is None:
             return facts
         return facts | {

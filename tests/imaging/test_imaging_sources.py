@@ -198,6 +198,17 @@ def nifti(path, values, affine, unit="mm", code=1):
 VALUES = np.arange(4 * 5 * 6, dtype=np.int16).reshape(4, 5, 6) - 1000
 
 
+def test_two_nifti_files_of_one_name_are_two_series_and_copies_are_one(tmp_path):
+    for folder, values in (("one", VALUES), ("two", VALUES + 1), ("copy", VALUES)):
+        (tmp_path / folder).mkdir()
+        nifti(tmp_path / folder / "ct.nii.gz", values, np.eye(4))
+    one, two, copy = (
+        scan_folder(tmp_path / folder).series[0].key for folder in ("one", "two", "copy")
+    )
+    assert one != two
+    assert one == copy
+
+
 @pytest.mark.parametrize("mirrored", [1.0, -1.0])
 @pytest.mark.parametrize(("unit", "scale"), [("mm", 1.0), ("meter", 1e-3)])
 def test_a_nifti_volume_lies_where_its_affine_says(tmp_path, mirrored, unit, scale):

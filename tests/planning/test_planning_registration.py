@@ -304,6 +304,13 @@ def test_a_saved_check_gives_the_same_figures(tmp_path: Path) -> None:
     )
     assert folder.newest("c2", "wide", simulated=False) is None
     assert folder.newest("c1", "wide", simulated=True) is None
+    points = FoundPoint.all_of(found)
+    marked = record.model_copy(update={"picked": points, "series": "CT-1", "frame": "f1"})
+    folder.save(marked)
+    same = {"calibration": "c1", "rig": "wide", "simulated": False, "series": "CT-1"}
+    assert folder.newest(**same, frame="f1") == marked
+    assert folder.newest(**same) == marked  # a record of before that does not say it
+    assert folder.newest(**same, frame="f2") is None  # the same patient, other coordinates
 
 
 def test_an_unknown_plate_names_the_valid_ones() -> None:

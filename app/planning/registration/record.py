@@ -56,6 +56,7 @@ class RegistrationRecord(Strict):
         touched: in world.
         picked: in the CT (LPS); empty where none was used.
         series: pseudonym of that CT.
+        frame: stands for its frame of reference (`Series.frame`); empty where it was not noted.
         calibration: id of the cameras' calibration; empty for cameras by their profile.
         rig: name of the camera rig.
         simulated: whether the robot was simulated.
@@ -69,6 +70,7 @@ class RegistrationRecord(Strict):
     touched: tuple[FoundPoint, ...]
     picked: tuple[FoundPoint, ...] = ()
     series: str = ""
+    frame: str = ""
     calibration: str = ""
     rig: str = ""
     simulated: bool = False
@@ -140,18 +142,26 @@ class Registrations:
             yield load(path, RegistrationRecord)
 
     def newest(
-        self, calibration: str, rig: str, simulated: bool, series: str = "", former: str = ""
+        self,
+        calibration: str,
+        rig: str,
+        simulated: bool,
+        series: str = "",
+        former: str = "",
+        frame: str = "",
     ) -> RegistrationRecord | None:
         """Newest check that says something of these cameras, and of this CT where it used one.
 
         A check holds for the calibration it was made with: with another one the cameras' frame is
-        another, and nothing was checked. `former` is the CT's pseudonym by earlier versions.
+        another, and nothing was checked. `former` is the CT's pseudonym by earlier versions,
+        `frame` its frame of reference: points of another one lie elsewhere.
         """
         for record in self.records():
             same = (record.calibration, record.rig, record.simulated) == (
                 calibration, rig, simulated,
             )  # fmt: skip
             ours = record.series == series or (bool(former) and record.series == former)
+            ours = ours and (not record.frame or not frame or record.frame == frame)
             if same and (not record.picked or ours):
                 return record
         return None

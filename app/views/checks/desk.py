@@ -174,7 +174,8 @@ class ChecksDesk(QObject):
         if seen is None:
             return
         self._looked, volume, self._known = True, self.volume(), seen.uncertainty_known
-        names = (volume.series.pseudonym, volume.series.former) if volume is not None else ()
+        ct = volume.series if volume is not None else None
+        names = () if ct is None else (ct.pseudonym, ct.former, ct.frame)
         try:
             record = Registrations.own().newest(
                 seen.calibration, seen.rig, not run.is_real, *names

@@ -122,10 +122,12 @@ class RegistrationDialog(QDialog):
         if isinstance(found, str) or run is None or run.inspect is None:
             return
         seen, volume, now = run.inspect(False, False), self._around.volume(), datetime.now()
+        used = volume.series if volume is not None and self.draft.picked else None
         record = RegistrationRecord(
             id=new_id(now), created=now.astimezone(), plate=self.plate,
             touched=self.draft.touched, picked=self.draft.picked,
-            series=volume.series.pseudonym if volume is not None and self.draft.picked else "",
+            series=used.pseudonym if used is not None else "",
+            frame=used.frame if used is not None else "",
             calibration=seen.calibration, rig=seen.rig, simulated=not run.is_real,
         )  # fmt: skip
         try:
