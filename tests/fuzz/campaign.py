@@ -3,12 +3,15 @@
 import random
 import resource
 import shutil
+import signal
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import FrameType
 
 from app.core.errors import AcusError
 from app.imaging.worker.pool import shared_worker
@@ -19,6 +22,9 @@ from tests.fuzz.watch import Watch
 
 MOST_SECONDS = 2.0
 """Processor time that no file may cost, of the program and its children together [s]."""
+
+HANGS_SECONDS = 60
+"""Time on the clock after which a file counts as one that is never read [s]."""
 
 MOST_CHILD_BYTES = 3 << 30
 _LOST = "the process that read it "
@@ -115,9 +121,25 @@ def _lay(folder: Path, kind: Kind, data: bytes) -> None:
     kind.lay(folder, data)
 
 
+@contextmanager
+def _in_time() -> Iterator[None]:
+    """Interrupt what takes for ever, so that the file is named instead of waited for."""
+
+    def late(number: int, frame: FrameType | None) -> None:
+        raise TimeoutError(f"not read after {HANGS_SECONDS} s")
+
+    before = signal.signal(signal.SIGALRM, late)
+    signal.alarm(HANGS_SECONDS)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
 def _one(folder: Path, kind: Kind, number: int, seed: int, tally: Tally, watch: Watch) -> None:
     dice = random.Random(f"{seed} {number}")
-    data, how = mutate(kind.content, dice)
+    data, how = mutate(kind.content, dice, kind.text)
     if kind.name == "deflated" and number % 50 == 3:
         data, how = bomb(kind.content), "bomb"
     name = f"{number} ({kind.name}: {how})"
@@ -125,7 +147,8 @@ def _one(folder: Path, kind: Kind, number: int, seed: int, tally: Tally, watch: 
     watch.begin()
     begin = time.monotonic()
     try:
-        wrong = kind.read(folder)
+        with _in_time():
+            wrong = kind.read(folder)
     except AcusError as error:
         outcome, wrong = type(error).__name__, "" if str(error) else "an error without words"
         if _LOST in str(error):

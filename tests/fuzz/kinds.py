@@ -29,6 +29,7 @@ from app.imaging.structures.files import read_structures, write_structures
 from app.imaging.structures.structure import Kind as Meaning
 from app.imaging.structures.structure import Structure, StructureSet
 from app.imaging.volume import Volume
+from tests.fuzz.documents import documents
 from tests.fuzz.seeds import MIDDLE, OFFSETS, SHAPE, Seed, seeds
 from tests.imaging.dicom_factory import SERIES, Slices
 from tests.imaging.test_imaging_enhanced import write_enhanced
@@ -44,12 +45,14 @@ class Kind:
         content: what mutations start from.
         lay: writes a spoilt one, and what belongs to it, into an empty folder.
         read: reads it from there.
+        text: whether it is made of lines of text.
     """
 
     name: str
     content: bytes
     lay: Callable[[Path, bytes], None]
     read: Callable[[Path], str]
+    text: bool = False
 
 
 def kinds(folder: Path) -> Iterator[Kind]:
@@ -64,6 +67,8 @@ def kinds(folder: Path) -> Iterator[Kind]:
     yield from _structures(folder)
     yield _import(folder)
     yield _pacs(folder, plain)
+    for name, content, lay, read in documents(folder):
+        yield Kind(name, content, lay, read, text=name != "record")
 
 
 # --- series of three files, the middle one spoilt

@@ -1,6 +1,7 @@
 """Ways to spoil a file."""
 
 import random
+import re
 from collections.abc import Callable
 
 HOSTILE_LENGTHS = (0, 1, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFE, 0xFFFFFFFF)
@@ -88,15 +89,87 @@ MUTATIONS: tuple[Callable[[bytearray, random.Random], None], ...] = (
 )
 
 
-def mutate(data: bytes, dice: random.Random) -> tuple[bytes, str]:
-    """Spoil a file in one to three ways.
+# --- files of lines of text
+
+NUMBERS = (
+    b"nan", b".nan", b"inf", b"-.inf", b"-1", b"0", b"1e308", b"-1e-320", b"1e999", b"0x7fffffff",
+    b"99999999999999999999", b"9" * 5000, b"1:1:1.5", b"1_0", b"2026-99-99", b"[]", b"true",
+)  # fmt: skip
+WORDS = (
+    b"null", b"[]", b"{}", b'""', b"*a", b"&a a", b"!!python/object:os.system x", b"!!binary x",
+    b"!!int x", b"<<", b"../../etc/passwd", b"\xf0\x9f\x92\xa9", b"A" * 5000, b"yes", b"\0",
+    b"<!DOCTYPE a [<!ENTITY b 'c'>]>", b"&b;", b"%YAML 9.9",
+)  # fmt: skip
+OPENING = (b"[", b"{", b"{a: ", b"- ", b"<a>", b"((")
+
+
+def hostile_number(data: bytearray, dice: random.Random) -> None:
+    found = [match.span() for match in re.finditer(rb"-?\d+(\.\d*)?([eE][-+]?\d+)?", bytes(data))]
+    if found:
+        start, end = dice.choice(found)
+        data[start:end] = dice.choice(NUMBERS)
+
+
+def hostile_word(data: bytearray, dice: random.Random) -> None:
+    found = [match.span() for match in re.finditer(rb"[A-Za-z_]+", bytes(data))]
+    if found:
+        start, end = dice.choice(found)
+        data[start:end] = dice.choice(WORDS)
+
+
+def shuffled_lines(data: bytearray, dice: random.Random) -> None:
+    lines = bytes(data).split(b"\n")
+    for _ in range(dice.choice((1, 1, 3))):
+        a, b = dice.randrange(len(lines)), dice.randrange(len(lines))
+        way = dice.randrange(3)
+        if way == 0:
+            lines[a], lines[b] = lines[b], lines[a]
+        elif way == 1:
+            lines.insert(a, lines[b])
+        elif len(lines) > 1:
+            del lines[a]
+    data[:] = b"\n".join(lines)
+
+
+def deep_text(data: bytearray, dice: random.Random) -> None:
+    start = dice.randrange(len(data))
+    data[start:start] = dice.choice(OPENING) * dice.choice((3, 50, 1000, 20000))
+
+
+def many_aliases(data: bytearray, dice: random.Random) -> None:
+    """Ten lines of YAML that stand for 10^10 values, under the name of a field that is there."""
+    names = re.findall(rb"(?m)^([A-Za-z_]+):", bytes(data)) or [b"z"]
+    lines = [b"a0: &a0 [x, x, x, x, x, x, x, x, x, x]"]
+    for k in range(1, dice.choice((4, 10))):
+        lines.append(b"a%d: &a%d [%s]" % (k, k, b", ".join([b"*a%d" % (k - 1)] * 10)))
+    lines.append(dice.choice(names) + b": *a%d" % (len(lines) - 1))
+    data.extend(b"\n" + b"\n".join(lines) + b"\n")
+
+
+TEXT_MUTATIONS: tuple[Callable[[bytearray, random.Random], None], ...] = (
+    flip_bits,
+    truncate,
+    cut_out,
+    repeat,
+    noise,
+    hostile_number,
+    hostile_number,
+    hostile_word,
+    shuffled_lines,
+    deep_text,
+    many_aliases,
+)
+
+
+def mutate(data: bytes, dice: random.Random, text: bool = False) -> tuple[bytes, str]:
+    """Spoil a file in one to three ways; one of lines of text in those that suit it.
 
     Returns:
         What became of it, and the names of the ways.
     """
     spoilt, names = bytearray(data), []
     for _ in range(dice.choice((1, 1, 1, 2, 3))):
-        way = dice.choice(MUTATIONS)
+        way = dice.choice(TEXT_MUTATIONS if text else MUTATIONS)
         if spoilt:
             way(spoilt, dice)
             names.append(way.__name__)

@@ -13,6 +13,7 @@ from app.imaging.examining import examine
 from app.imaging.filling import filled
 from app.imaging.reading import load_ct
 from tests.fuzz.campaign import MOST_CHILD_BYTES, campaign
+from tests.fuzz.documents import documents
 from tests.fuzz.seeds import MIDDLE, Seed, bomb, seeds
 
 
@@ -23,11 +24,21 @@ def known(tmp_path_factory):
 
 @pytest.mark.filterwarnings("ignore")  # what pydicom says of a value while it writes the seeds
 def test_mutated_files_of_every_kind_end_in_a_named_error_or_something_right(tmp_path):
-    tally = campaign(tmp_path, 300, seed=2024)
+    tally = campaign(tmp_path, 420, seed=2024)
     assert tally.wrong == []
     assert tally.lost == []
     assert tally.outcomes["right"] > 60
     assert tally.child_bytes < MOST_CHILD_BYTES
+
+
+def test_every_kind_of_file_that_the_program_reads_itself_has_its_place(tmp_path):
+    names = {name for name, *_ in documents(tmp_path)}
+    assert names >= {
+        "calibration", "lens", "history", "ICube pair", "ROS pair", "OpenCV yml", "OpenCV xml",
+        "OpenCV json", "rig", "device", "plate", "exercise", "pen profile", "pen settings", "plan",
+        "transform", "URDF", "points.csv", "points.yaml", "record", "sidecar",
+    }  # fmt: skip
+    assert sum(name.startswith("TemugeB") for name in names) == 2
 
 
 def test_rle_that_makes_its_decoder_panic_is_refused_by_name(tmp_path, known):
