@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QVBoxLayout, QWidget
 
 from app.views import theme
 from app.views.background import Task
+from app.views.elided_label import ElidedLabel
 from app.views.names import NAMES
 from app.views.text import tr
 
@@ -49,11 +50,12 @@ class _Row(QWidget):
     def __init__(self, title: str, parent: QWidget) -> None:
         super().__init__(parent)
         self._title, self._line = title, title
-        self._text = QLabel(self)
+        self._text = ElidedLabel(parent=self)
         self._bar = QProgressBar(self)
         self._bar.setRange(0, 1000)
         self._bar.setTextVisible(False)
         self._bar.setFixedHeight(8)
+        self._bar.setMinimumWidth(80)
         self.cancel = QToolButton(self)
         self.cancel.setText(tr("Cancel"))
         row = QHBoxLayout(self)
@@ -72,4 +74,4 @@ class _Row(QWidget):
 
     def _write(self) -> None:
         """Write the title, without names while they are hidden."""
-        self._text.setText(NAMES.veiled(self._line))
+        self._text.set_whole(NAMES.veiled(self._line))

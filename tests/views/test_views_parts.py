@@ -13,6 +13,7 @@ from app.imaging.errors import ImagingError
 from app.imaging.series import Ignored, Listing, Remedy
 from app.views import theme
 from app.views.background import run_in_background
+from app.views.elided_label import ElidedLabel
 from app.views.grid import ViewGrid
 from app.views.layouts import BULLSEYE, CORONAL, FIVE, FOUR
 from app.views.message_bar import MessageBar
@@ -128,6 +129,24 @@ def test_the_strip_shows_a_task_and_its_cancel(application, settle):
     gate.set()
     assert settle(lambda: strip.count == 0, 5.0)
     assert strip.isHidden()
+
+
+def test_a_long_title_ends_in_an_ellipsis_and_its_tooltip_has_the_whole(application, settle):
+    strip, gate = ProgressStrip(), threading.Event()
+    strip.resize(420, 40)
+    title = "Starting robot and cameras: waiting for the program to be compiled, a minute or two"
+    run_in_background(strip, lambda _: gate.wait(5.0), print, print, title=title, indicator=strip)
+    strip.show()
+    settle(timeout=0.1)
+    (label,) = strip.findChildren(ElidedLabel)
+    assert label.text().endswith("…")
+    assert label.fontMetrics().horizontalAdvance(label.text()) <= label.width()
+    assert label.toolTip() == title
+    strip.resize(1200, 40)
+    settle(timeout=0.1)
+    assert (label.text(), label.toolTip()) == (title, "")
+    gate.set()
+    assert settle(lambda: strip.count == 0, 5.0)
 
 
 def test_the_message_bar_says_what_happened_and_keeps_the_details(application):
