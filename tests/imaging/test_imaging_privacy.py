@@ -226,6 +226,33 @@ def test_a_number_that_repeats_an_identifier_is_taken_out(tmp_path):
     assert imported.report.unfit["KVP"] == 5
 
 
+@pytest.mark.parametrize(
+    ("keyword", "value"),
+    [
+        ("SeriesNumber", 19531224),  # the birth date
+        ("SeriesNumber", 24121953),
+        ("AcquisitionNumber", 531224),
+        ("TableHeight", "24121953.0"),
+        ("InstanceNumber", 20030405),  # the study's own date, which is moved elsewhere
+        ("Exposure", 778899),  # digits of the patient's number
+        ("TableHeight", "1953.1224"),
+    ],
+)
+def test_a_number_that_is_a_date_or_the_digits_of_an_identifier_is_taken_out(
+    tmp_path, keyword, value
+):
+    tags = {"PatientBirthDate": "19531224", "StudyDate": "20030405", "PatientID": "P-77/88-99"}
+    series = series_of(tmp_path / "ct", **tags, **{keyword: value})
+    imported = CtLibrary(tmp_path / "library").import_series(series)
+    for file in written(imported.entry):
+        assert file.get(keyword) in (None, "")
+    kept = {"SeriesNumber": 531, "TableHeight": "195.3", "Exposure": 7788}
+    series = series_of(tmp_path / "plain", **tags, **kept)
+    imported = CtLibrary(tmp_path / "other").import_series(series)
+    for file in written(imported.entry):
+        assert (file.SeriesNumber, float(file.TableHeight), file.Exposure) == (531, 195.3, 7788)
+
+
 def test_writing_in_the_picture_is_refused_and_blackened_only_where_drawn(tmp_path):
     series = series_of(tmp_path / "in", BurnedInAnnotation="YES")
     with pytest.raises(BurnedInError, match="--mask"):

@@ -2,6 +2,7 @@
 
 import contextlib
 import hashlib
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -28,6 +29,9 @@ _ADDED = (
 )  # fmt: skip
 
 
+_NUMERIC = ("IS", "DS", "US", "UL", "UV", "SS", "SL", "SV", "FD", "FL")
+_DATE = re.compile(r"(\d{4})[.]?(\d{2})[.]?(\d{2})")
+_DIGITS = 5
 _NUMBERS = ("PatientID", "OtherPatientIDs", "AccessionNumber", "IssuerOfPatientID")
 _GEOMETRY = (
     "ImagePositionPatient", "ImageOrientationPatient", "PixelSpacing", "RescaleSlope",
@@ -44,15 +48,19 @@ class Secrets:
         texts: words and numbers of attributes that are not kept.
         names: those of them that are a person's name or number: not even the pixels may hold one,
             where a damaged or prepared file can have it.
+        digits: dates in the orders in which people write them, and the digits of the patient's
+            numbers, as one number: no kept number may be one of them.
     """
 
     profile: Profile
     texts: set[str] = field(default_factory=set)
     names: set[str] = field(default_factory=set)
+    digits: set[int] = field(default_factory=set)
 
     def gather(self, original: Dataset) -> None:
         """Collect what stands in attributes that are not kept, at any depth."""
         for element in _elements(original, 0):
+            self._gather_digits(element)
             listed = int(element.tag) in self.profile.kept
             if not listed and (element.VR in _TEXT or element.tag.is_private):
                 found = {
@@ -64,6 +72,17 @@ class Secrets:
                 if element.VR == "PN" or element.keyword in _NUMBERS:
                     self.names |= found
 
+    def _gather_digits(self, element: DataElement) -> None:
+        if element.VR in ("DA", "DT"):
+            for value in values(element.value):
+                found = _DATE.match(str(value))
+                if found is not None:
+                    self.digits |= set(_date_numbers(*found.groups()))
+        elif element.keyword in _NUMBERS:
+            for value in values(element.value):
+                runs = re.findall(r"\d+", str(value))
+                self.digits |= {int(run) for run in (*runs, "".join(runs)) if len(run) >= _DIGITS}
+
     def scrub(self, result: Dataset, tally: Tally) -> None:
         """Take out kept numbers that repeat an identifier, and texts that repeat anything."""
         for element in list(_elements(result, 0)):
@@ -73,11 +92,29 @@ class Secrets:
 
     def repeats(self, element: DataElement) -> bool:
         """Whether an element that may be kept says what a removed one said."""
-        if element.keyword in _GEOMETRY or element.VR not in _TEXT or element.keyword in _ADDED:
+        if element.keyword in _GEOMETRY or element.keyword in _ADDED:
+            return False
+        if element.VR in _NUMERIC and any(self._tells(value) for value in values(element.value)):
+            return True
+        if element.VR not in _TEXT:
             return False
         numeric = element.VR in ("IS", "DS")
         secrets = [text for text in self.texts if _numeric(text) or not numeric]
         return any(secret in str(value) for value in values(element.value) for secret in secrets)
+
+    def _tells(self, value: object) -> bool:
+        """Whether a number is a date or the digits of a number of the patient's."""
+        text = str(getattr(value, "original_string", value)).strip().lower()
+        whole = re.sub(r"\D", "", text.split("e")[0].split(".")[0])
+        all_of_it = re.sub(r"\D", "", text.split("e")[0])
+        return any(part and int(part) in self.digits for part in (whole, all_of_it))
+
+
+def _date_numbers(year: str, month: str, day: str) -> Iterator[int]:
+    """Yield a date as one number, in the orders in which people write it."""
+    for order in ((year, month, day), (day, month, year), (month, day, year)):
+        yield int("".join(order))
+        yield int("".join(part[-2:] for part in order))
 
 
 def pixel_digest(dataset: Dataset) -> str:
