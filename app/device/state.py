@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import IntEnum
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, read_only
 from app.device.faults import Fault
+
+
+class Limiter(IntEnum):
+    """What holds the guidance where it is: values of the slot GUIDANCE_LIMITED_BY.
+
+    `HAND`: nothing but the hand's limit of the profile. `TORQUE`: the motors cannot give more at
+    this lever. `LETTING_GO`: more could not be stopped in time if the needle were let go. `DEPTH`:
+    the hand's limit at the deepest place where the tip can be; felt is less further out.
+    """
+
+    HAND = 0
+    TORQUE = 1
+    LETTING_GO = 2
+    DEPTH = 3
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,5 +1,7 @@
 """The force path at its worst: fuzzed inputs, antipodes, huge forces, subnormals, dial changes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from device.device_rig import HAND_LIMIT, PROFILE, TORQUE_LIMIT, Rig
@@ -10,6 +12,7 @@ from app.core import state_vector as sv
 from app.device.control import Fault
 from app.device.control.governor import SpeedGovernor
 from app.device.control.law_kernels import across_kernel, spring_kernel
+from app.mechanisms.inertia import LumpedInertia
 
 
 def attraction(*vectors: float) -> tuple[float, ...]:
@@ -214,7 +217,7 @@ def test_a_torque_whose_acceleration_cannot_be_told_does_not_pass_the_governor(s
 
 
 def test_a_robot_without_inertia_gets_no_torque():
-    nothing = SpeedGovernor((0.15, 0.2, 0.1), (0.0, 0.0, 0.0, 0.0), 1e-4)
+    nothing = replace(SpeedGovernor.of(PROFILE), inertia=LumpedInertia(0.0, 0.0, 0.0, 0.0))
     rig = Rig()
     with rig.loop:
         rig.arm()

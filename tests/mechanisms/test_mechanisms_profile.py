@@ -7,7 +7,14 @@ import yaml
 
 from app.core import paths
 from app.core.errors import ConfigurationError
-from app.mechanisms.profile import Axis, Provenance, Section, load_profile, profile_names
+from app.mechanisms.profile import (
+    LET_GO_UNSTATED,
+    Axis,
+    Provenance,
+    Section,
+    load_profile,
+    profile_names,
+)
 
 
 @pytest.fixture
@@ -54,6 +61,29 @@ def test_a_value_without_its_origin_is_refused(tmp_path, document):
         load_profile(written(tmp_path, document))
 
 
+def test_a_profile_that_states_no_let_go_limit_keeps_a_quarter_of_a_metre_per_second(
+    tmp_path, document
+):
+    del document["limits"]["let_go"]
+    del document["limits"]["provenance"]["let_go"]
+    profile = load_profile(written(tmp_path, document))
+    assert profile.limits.let_go is None
+    assert profile.let_go == LET_GO_UNSTATED
+    assert profile.let_go.speed == 0.25
+
+
+def test_a_let_go_limit_needs_its_origin(tmp_path, document):
+    del document["limits"]["provenance"]["let_go"]
+    with pytest.raises(ConfigurationError, match="no provenance for let_go"):
+        load_profile(written(tmp_path, document))
+
+
+def test_an_origin_of_a_let_go_limit_that_is_not_stated_is_refused(tmp_path, document):
+    del document["limits"]["let_go"]
+    with pytest.raises(ConfigurationError, match="provenance of let_go"):
+        load_profile(written(tmp_path, document))
+
+
 def test_an_origin_without_a_value_is_refused(tmp_path, document):
     document["limits"]["provenance"]["power"] = "measured"
     with pytest.raises(ConfigurationError, match="provenance of power"):
@@ -70,6 +100,10 @@ def test_an_origin_without_a_value_is_refused(tmp_path, document):
         ("encoder", "counts_per_turn", 0, "greater than 0"),
         ("limits", "hand_force", float("nan"), "finite"),
         ("loop", "renders", ["sideways"], "lateral"),
+        ("limits", "let_go", {"energy_mj": 10.1, "speed": 0.4}, "less than or equal to 10"),
+        ("limits", "let_go", {"energy_mj": 5.0, "speed": 0.51}, r"less than or equal to 0\.5"),
+        ("limits", "let_go", {"energy_mj": 0.0, "speed": 0.4}, "greater than 0"),
+        ("limits", "let_go", {"speed": 0.4}, "energy_mj"),
         ("geometry", "proximal", 100.0, "less than or equal to 2"),  # millimetres
         ("inertia", "distal_mass", 60.0, "less than or equal to 20"),  # grams
         ("limits", "joint_torque", 600.0, "less than or equal to 20"),

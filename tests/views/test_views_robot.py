@@ -13,9 +13,10 @@ from app.device.faults import Fault
 from app.device.links.board_error import BoardError
 from app.device.links.link import BoardInfo, LinkStatus
 from app.device.readiness import Clearance, Readiness
+from app.mechanisms.profile import load_profile
 from app.views.exercise.energy_gauge import GaugeMode
 from app.views.exercise.status_items import Verdict
-from app.views.robot.health import health
+from app.views.robot.health import health, let_go_item
 from app.views.robot.health_panel import HealthPanel
 from app.views.robot.health_wire import Rates, link_item
 from app.views.robot.key_dialog import KeyDialog, refusal
@@ -103,6 +104,17 @@ def test_a_governor_and_an_error_of_the_board_are_told():
     assert items["Board's error"].verdict is Verdict.BAD
     assert items["Board's error"].text == f"{BoardError.AMPLIFIER.message} (code 4)"
     assert "does not know" in lines(BOARD, WIRE | {"board_error": 99.0})["Board's error"].text
+
+
+def test_the_limit_of_a_needle_let_go_is_told_and_whether_the_profile_states_it():
+    profile = load_profile("icube")
+    stated = let_go_item(profile)
+    assert (stated.verdict, stated.text) == (Verdict.GOOD, "0.45 m/s, 8 mJ")
+    limits = profile.limits.model_copy(update={"let_go": None})
+    default = let_go_item(profile.model_copy(update={"limits": limits}))
+    assert default.verdict is Verdict.WARNING
+    assert default.text == "0.25 m/s, 10 mJ (by default)"
+    assert "states none" in default.help
 
 
 def test_a_robot_that_says_nothing_is_told():

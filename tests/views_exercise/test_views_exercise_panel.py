@@ -5,15 +5,20 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QFont, QFontMetrics
 from PySide6.QtTest import QTest
 from views_exercise_fakes import snapshot, statistics
 
+from app.core import state_vector as sv
+from app.device.state import Limiter
 from app.exercises.guidance import GuidancePart
 from app.planning.plan import Plan
 from app.session.machine import State
 from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.fix import FixStatus
+from app.views import theme
 from app.views.exercise.depth_bar import DepthBar
+from app.views.exercise.felt import guidance_limit
 from app.views.exercise.hold_key import HOLD_MS
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.panel import ExercisePanel
@@ -127,6 +132,57 @@ def test_the_force_bar_takes_any_number(panel, force):
     panel.readouts.force.show_force(force, 5.0)
     assert not panel.readouts.force.grab().isNull()
     assert panel.readouts.force.verdict in ("good", "warning", "bad")
+
+
+def limited(panel, **slots):
+    """The bar at a moment of a robot whose loop says what holds the guidance back."""
+    row = sv.empty_state()
+    for name, value in slots.items():
+        row[sv.INDEX[name]] = value
+    device = SimpleNamespace(row=row)
+    here = guidance_limit(SimpleNamespace(device=device), 5.0)
+    panel.readouts.force.show_force(1.0, 5.0, False, here)
+    assert not panel.readouts.force.grab().isNull()
+    return panel.readouts.force
+
+
+@pytest.mark.parametrize(
+    ("by", "source", "reason"),
+    [
+        (Limiter.TORQUE, 1.0, "motors cannot push harder"),
+        (Limiter.LETTING_GO, 1.0, "could not be stopped in time if you let go"),
+        (Limiter.LETTING_GO, 0.0, "the depth is not measured"),
+        (Limiter.DEPTH, 0.0, "the depth is not measured"),
+        (Limiter.DEPTH, 1.0, "known only to ± 12 mm"),
+    ],
+)
+def test_the_force_bar_says_how_much_guidance_there_is_here_and_why(panel, by, source, reason):
+    bar = limited(
+        panel,
+        guidance_limit=1.76,
+        guidance_limited_by=by,
+        depth_source=source,
+        depth_least=0.020,
+        depth_most=0.044,
+    )
+    assert bar.guidance.startswith("Guidance limited to 1.8 N here: ")
+    assert reason in bar.guidance
+    assert bar.guidance in bar.toolTip()
+
+
+def test_a_force_bar_whose_guidance_is_whole_or_unknown_says_nothing_of_it(panel):
+    for limit in (5.0, 4.95, 0.0, nan):
+        assert limited(panel, guidance_limit=limit).guidance == ""
+    height = panel.readouts.force.sizeHint().height()
+    limited(panel, guidance_limit=1.0)
+    assert panel.readouts.force.sizeHint().height() == height  # nothing below it moves
+
+
+def test_the_line_on_guidance_is_not_cut_off_in_the_panel(panel):
+    bar = limited(panel, guidance_limit=1.76, guidance_limited_by=Limiter.TORQUE, depth_source=1.0)
+    font = QFont(bar.font())
+    font.setPixelSize(theme.SMALL_PX)
+    assert QFontMetrics(font).horizontalAdvance(bar.words_of_guidance) <= bar.sizeHint().width()
 
 
 def test_a_bar_without_a_limit_is_drawn(panel):

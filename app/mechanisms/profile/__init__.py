@@ -1,11 +1,13 @@
 """Device profiles: every number of one robot, with where it comes from."""
 
 from app.mechanisms.profile.control import (
+    LET_GO_UNSTATED,
     Axis,
     EncoderSection,
     FixtureSection,
     HandSection,
     HaplySection,
+    LetGoLimit,
     LimitSection,
     LoopSection,
     MotorSection,
@@ -24,6 +26,7 @@ from app.mechanisms.profile.mechanics import (
 from app.mechanisms.profile.values import Provenance, Section
 
 __all__ = [
+    "LET_GO_UNSTATED",
     "Axis",
     "DeviceProfile",
     "EncoderSection",
@@ -33,6 +36,7 @@ __all__ = [
     "HandSection",
     "HaplySection",
     "InertiaSection",
+    "LetGoLimit",
     "LimitSection",
     "LoopSection",
     "MotorSection",

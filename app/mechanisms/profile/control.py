@@ -1,10 +1,11 @@
 """Sections of a profile that describe sensing, motors, the wire and the loop."""
 
 from enum import StrEnum
-from typing import Annotated
+from typing import Annotated, Final
 
 from pydantic import Field
 
+from app.core.configuration import Strict
 from app.mechanisms.profile.values import Angle, Provenance, Section, Torque
 
 
@@ -22,11 +23,29 @@ class EncoderSection(Section):
     home_offsets: tuple[Angle, Angle]
 
 
+class LetGoLimit(Strict):
+    """What the program's forces may make of a needle that is let go, whoever holds it or not.
+
+    Kinetic energy of the free mechanism [mJ], never above 10, and speed of the hub [m/s], never
+    above 0.5, beyond what the same needle would do with the motors off.
+    """
+
+    energy_mj: Annotated[float, Field(gt=0.0, le=10.0)]
+    speed: Annotated[float, Field(gt=0.0, le=0.5)]
+
+
+LET_GO_UNSTATED: Final = LetGoLimit(energy_mj=10.0, speed=0.25)
+"""Limit of a profile that states none: the speed that every robot was held to before."""
+
+
 class LimitSection(Section):
-    """Largest joint torque [N·m] and largest force at the hand [N], never above 5 N."""
+    """Largest joint torque [N·m], largest force at the hand [N], never above 5 N, and the limit of
+    a needle that is let go; a profile without that one is held to `LET_GO_UNSTATED`.
+    """
 
     joint_torque: Torque
     hand_force: Annotated[float, Field(gt=0.0, le=5.0)]
+    let_go: LetGoLimit | None = None
 
 
 class FixtureSection(Section):

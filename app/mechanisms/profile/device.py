@@ -11,11 +11,13 @@ from app.mechanisms.dynamic_model import DynamicModel
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.inertia import LumpedInertia
 from app.mechanisms.profile.control import (
+    LET_GO_UNSTATED,
     Axis,
     EncoderSection,
     FixtureSection,
     HandSection,
     HaplySection,
+    LetGoLimit,
     LimitSection,
     LoopSection,
     MotorSection,
@@ -131,6 +133,14 @@ class DeviceProfile(Strict):
     def depth_range(self) -> tuple[float, float]:
         """Depths of the tip beyond the fulcrum that the device allows [m]."""
         return self.workspace.depth_min, self.workspace.depth_max
+
+    @property
+    def let_go(self) -> LetGoLimit:
+        """Limit of a needle that is let go: the profile's, or that of a profile which states none.
+
+        `limits.let_go` is None in the latter case.
+        """
+        return self.limits.let_go or LET_GO_UNSTATED
 
     @property
     def rate_hz(self) -> float:

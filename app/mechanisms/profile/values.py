@@ -49,13 +49,14 @@ class Provenance(StrEnum):
 
 
 class Section(Strict):
-    """Part of a profile; `provenance` names the origin of each of its values."""
+    """Part of a profile; `provenance` names the origin of each value that the file gives."""
 
     provenance: dict[str, Provenance]
 
     @model_validator(mode="after")
     def _every_value_has_one(self) -> "Section":
-        wanted = set(type(self).model_fields) - {"provenance"}
+        fields = set(type(self).model_fields) - {"provenance"}
+        wanted = {name for name in fields if getattr(self, name) is not None}
         if missing := sorted(wanted - set(self.provenance)):
             raise ValueError(f"no provenance for {', '.join(missing)}")
         if unknown := sorted(set(self.provenance) - wanted):

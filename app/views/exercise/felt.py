@@ -7,6 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
+from app.device.state import Limiter
 from app.session.snapshot import Snapshot
 from app.views.text import tr
 
@@ -43,6 +46,59 @@ def force_limit(snapshot: Snapshot, device_limit: float) -> float:
         return min(device_limit, float(snapshot.clearance.force_cap))
     cap = float(snapshot.device.row[sv.FORCE_CAP]) if snapshot.device is not None else 0.0
     return min(device_limit, cap) if cap > 0.0 else device_limit
+
+
+@dataclass(frozen=True, slots=True)
+class GuidanceLimit:
+    """Largest force that can be had where the needle is now, where that is less than the limit.
+
+    Attributes:
+        force: at the hand, along the force that is wanted [N].
+        reason: why it is not more, in the student's words.
+    """
+
+    force: float
+    reason: str
+
+    @property
+    def words(self) -> str:
+        """Say it under the force bar."""
+        return tr("guidance limited to {n:.1f} N here", n=self.force)
+
+
+def guidance_limit(snapshot: Snapshot, limit: float) -> GuidanceLimit | None:
+    """Return what holds the guidance below `limit` [N] here; None where nothing does, or where
+    the loop does not say.
+    """
+    if snapshot.device is None:
+        return None
+    row = snapshot.device.row
+    force = float(row[sv.GUIDANCE_LIMIT])
+    if not 0.0 < force < _NOTICED * limit:
+        return None
+    return GuidanceLimit(force, _limit_reason(row))
+
+
+_NOTICED = 0.98  # of the limit: anything nearer to it is not felt
+_UNMEASURED = 0.0  # DEPTH_SOURCE without a fix
+
+
+def _limit_reason(row: FloatArray) -> str:
+    by = int(row[sv.GUIDANCE_LIMITED_BY])
+    if by == Limiter.TORQUE:
+        return tr("the needle sticks out far, and the motors cannot push harder at so long a lever")
+    if row[sv.DEPTH_SOURCE] == _UNMEASURED:
+        return tr(
+            "the depth is not measured, so the needle may stick out further or less far than it "
+            "seems, and the robot keeps within its limits for all of that"
+        )
+    if by == Limiter.DEPTH:
+        doubt = 0.5 * float(row[sv.DEPTH_MOST] - row[sv.DEPTH_LEAST]) / MILLIMETRE
+        return tr(
+            "the depth is known only to ± {mm:.0f} mm, and the force stays within its limit for "
+            "all of that", mm=doubt,
+        )  # fmt: skip
+    return tr("the lever is light here: a stronger push could not be stopped in time if you let go")
 
 
 def origin_word(measured: bool) -> str:

@@ -1,45 +1,60 @@
-"""A bar for the force felt at the hand, with the device's limit marked."""
+"""A bar for the force felt at the hand, with the limit and what can be had here marked."""
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.views import theme
-from app.views.exercise.felt import origin_help, origin_word
+from app.views.exercise.felt import GuidanceLimit, origin_help, origin_word
 from app.views.text import tr
 
 _HEADROOM = 1.15
 """Length of the bar over the limit: the mark stands inside it."""
 
 
+_HEIGHT = 57
+"""Of bar, force and limit, and the line on guidance, whose room is kept where it is empty."""
+
+
 class ForceBar(QWidget):
-    """Force [N] as a bar and a number; the limit as a line with its value."""
+    """Force [N] as a bar and a number; the limit as a line with its value; below it how much
+    guidance can be had where the needle is, if that is less.
+    """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._force, self._limit, self._measured = 0.0, 5.0, False
+        self._guidance: GuidanceLimit | None = None
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setMinimumHeight(38)
+        self.setMinimumHeight(_HEIGHT)
         self._explain()
 
     def sizeHint(self) -> QSize:
         """Preferred size."""
-        return QSize(200, 38)
+        return QSize(200, _HEIGHT)
 
-    def show_force(self, force: float, limit: float, measured: bool = False) -> None:
+    def show_force(
+        self,
+        force: float,
+        limit: float,
+        measured: bool = False,
+        guidance: GuidanceLimit | None = None,
+    ) -> None:
         """Show a force and the limit [N]; not finite counts as zero.
 
         Args:
             force: at the hand [N].
             limit: largest that the device may give [N].
             measured: whether a gauge measured the force; else it is called estimated.
+            guidance: what holds it below the limit where the needle is; None if nothing.
         """
         force = force if 0.0 <= force < 1e6 else 0.0
-        if (force, limit, measured) == (self._force, self._limit, self._measured):
+        shown = (self._force, self._limit, self._measured, self._guidance)
+        if (force, limit, measured, guidance) == shown:
             return
         self._force, self._limit = force, limit
-        if measured is not self._measured:
-            self._measured = measured
+        if (measured, guidance) != (self._measured, self._guidance):
+            self._measured, self._guidance = measured, guidance
             self._explain()
         self.setAccessibleName(self.words)
         self.update()
@@ -51,7 +66,21 @@ class ForceBar(QWidget):
 
     def _explain(self) -> None:
         line = tr("The line is the largest force the device may give now.")
-        self.setToolTip(f"{origin_help(self._measured)} {line}")
+        here = f" {self.guidance}." if self._guidance is not None else ""
+        self.setToolTip(f"{origin_help(self._measured)} {line}{here}")
+
+    @property
+    def words_of_guidance(self) -> str:
+        """How much guidance there is here, as written below the force; empty if all of it."""
+        return self._guidance.words if self._guidance is not None else ""
+
+    @property
+    def guidance(self) -> str:
+        """What holds the force below the limit here, with the reason; empty if nothing."""
+        if self._guidance is None:
+            return ""
+        words = tr("{limit}: {reason}", limit=self._guidance.words, reason=self._guidance.reason)
+        return words[0].upper() + words[1:]
 
     @property
     def verdict(self) -> str:
@@ -77,6 +106,10 @@ class ForceBar(QWidget):
         limit_x = bar.left() + bar.width() * self._limit / full
         painter.setPen(QPen(QColor(theme.TEXT), 2.0))
         painter.drawLine(QPointF(limit_x, 0), QPointF(limit_x, 18))
+        if self._guidance is not None:
+            here_x = bar.left() + bar.width() * self._guidance.force / full
+            painter.setPen(QPen(QColor(theme.VERDICTS["warning"][0]), 2.0))
+            painter.drawLine(QPointF(here_x, 2), QPointF(here_x, 16))
         self._paint_texts(painter, symbol)
 
     def _paint_texts(self, painter: QPainter, symbol: str) -> None:
@@ -89,3 +122,9 @@ class ForceBar(QWidget):
         painter.setPen(QColor(theme.TEXT_DIM))
         limit = tr("limit {limit:g} N", limit=self._limit)
         painter.drawText(below, Qt.AlignmentFlag.AlignRight, limit)
+        if self._guidance is not None:
+            painter.setPen(QColor(theme.VERDICTS["warning"][0]))
+            words = painter.fontMetrics().elidedText(
+                self.words_of_guidance, Qt.TextElideMode.ElideRight, self.width()
+            )
+            painter.drawText(below.translated(0, 19), Qt.AlignmentFlag.AlignLeft, words)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from app.session.machine import State
+from app.views.exercise.felt import GuidanceLimit
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +26,7 @@ class LiveFigures:
         deflection: of the tip from the straight needle, as both cameras see it [m]; None where it
             is not known.
         deflection_sigma: its standard deviation [m].
+        guidance: what holds the force below `force_limit` where the needle is; None if nothing.
         hidden: whether nothing of the needle may be told: only time and scans count then.
     """
 
@@ -42,4 +44,5 @@ class LiveFigures:
     radius: float | None = None
     deflection: float | None = None
     deflection_sigma: float = 0.0
+    guidance: GuidanceLimit | None = None
     hidden: bool = False

@@ -13,7 +13,7 @@ from app.tracking.cameras.watch import CameraState
 from app.tracking.fix import FixStatus
 from app.tracking.statistics import TrackerStatistics
 from app.views.exercise.camera_view import camera_name
-from app.views.exercise.felt import felt
+from app.views.exercise.felt import felt, guidance_limit
 from app.views.exercise.hand import HandPose
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.pad_geometry import downward
@@ -52,6 +52,7 @@ def figures(snapshot: Snapshot, force_limit: float, hidden: bool = False) -> Liv
         radius=snapshot.pose.radius if snapshot.pose.measured else None,
         deflection=snapshot.pose.deflection if snapshot.pose.deflection_sigma > 0.0 else None,
         deflection_sigma=snapshot.pose.deflection_sigma,
+        guidance=guidance_limit(snapshot, force_limit),
         hidden=hidden,
     )
 

@@ -49,7 +49,9 @@ class Readouts(QWidget):
         if figures is None:
             self.force.show_force(0.0, 5.0)
         else:
-            self.force.show_force(figures.force, figures.force_limit, figures.force_measured)
+            self.force.show_force(
+                figures.force, figures.force_limit, figures.force_measured, figures.guidance
+            )
 
     def set_telling(self, keys: frozenset[str] | None) -> None:
         """Leave only these read-outs, None for all with the force: the rest would tell too much."""

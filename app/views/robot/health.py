@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.device.readiness import SCALE_TOLERANCE
+from app.mechanisms.profile import DeviceProfile
 from app.session.snapshot import Snapshot
 from app.views.exercise.energy import energy_figures, gauge_help, guard_words, millijoules
 from app.views.exercise.felt import force_limit, origin_help, origin_word
@@ -58,7 +59,10 @@ def force_items(run: ExerciseRun, snapshot: Snapshot) -> tuple[StatusItem, ...]:
         percent if snapshot.armed else tr("off"),
         tr("The force rises from 0 to 100 % within a second after arming, and is off at once."),
     )  # fmt: skip
-    return (fault_line, armed, cap_item(run, snapshot), governor_item(row), *energy_items(snapshot))
+    return (
+        fault_line, armed, cap_item(run, snapshot), governor_item(row), let_go_item(run.profile),
+        *energy_items(snapshot),
+    )  # fmt: skip
 
 
 def cap_item(run: ExerciseRun, snapshot: Snapshot) -> StatusItem:
@@ -88,6 +92,20 @@ def governor_item(row: FloatArray) -> StatusItem:
         tr("Speed governor"), text if known else NONE,
         tr("Weakens the force when the needle moves faster than a hand would move it, and ends it "
            "when the needle has been let go."),
+    )  # fmt: skip
+
+
+def let_go_item(profile: DeviceProfile) -> StatusItem:
+    """Say how far the robot's own forces may drive a needle that is let go."""
+    limit, stated = profile.let_go, profile.limits.let_go is not None
+    text = tr("{v:g} m/s, {e:g} mJ", v=limit.speed, e=limit.energy_mj)
+    return StatusItem(
+        Verdict.GOOD if stated else Verdict.WARNING,
+        tr("Limit when let go"), text if stated else tr("{limit} (by default)", limit=text),
+        tr("What the robot's forces may at most give a needle that is let go. ") + (
+            tr("It stands in the profile of the robot.") if stated else
+            tr("The robot's profile states none (limits.let_go), so it is held to 0.25 m/s.")
+        ),
     )  # fmt: skip
 
 
