@@ -14,6 +14,7 @@ from app.exercises.scene import device_of, draft_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.planning.draft import DraftPlan
+from app.planning.placement import Placement
 from app.session.ct_facts import CtFacts
 from app.session.machine import RUNNING
 from app.session.snapshot import Snapshot
@@ -46,12 +47,14 @@ class Conductor(QObject):
 
     Signals:
         failed(object): an error to show; nothing was lost.
+        patient_left(): the patient is about to be replaced: everything of it is to be forgotten.
         patient_changed(): another patient is shown.
         exercise_taken(str): identifier of the exercise that is being prepared.
         views_changed(): other views are on, or may be switched.
     """
 
     failed = Signal(object)
+    patient_left = Signal()
     patient_changed = Signal()
     exercise_taken = Signal(str)
     views_changed = Signal()
@@ -70,7 +73,7 @@ class Conductor(QObject):
         self.controller = ExerciseController(workspace.exercise_views, parent=self)
         self.patient: Patient | None = None
         self.exercise: Exercise | None = None
-        self._robot, self._released = RobotChoice(), False
+        self._robot, self._released, self._leaving = RobotChoice(), False, False
         self._cameras: CameraSettings | None = None
         self._profile: DeviceProfile | None = None
         self._surfaces = SurfaceExtraction(workspace.scene, self)
@@ -110,16 +113,38 @@ class Conductor(QObject):
 
     # --- patient and exercise -----------------------------------------------------------------
     def set_patient(self, patient: Patient) -> None:
-        """Show another patient with the plan that belongs to it, or with none."""
-        self._runs.want(None)
+        """Show another patient with the plan that belongs to it, or with none.
+
+        The run of the last one is ended, an attempt on it saved, and everything that was known of
+        it forgotten.
+        """
+        self.leave_patient()
         self.patient = patient
-        self._workspace.viewing.set_needle(None)
         self._workspace.viewing.set_volume(patient.volume)
         self._workspace.scene.set_volume(patient.volume)
         self._surfaces.start(patient)
         self._editor.set_body(patient.body)
         self._start_plan(patient)
         self.patient_changed.emit()
+
+    def leave_patient(self) -> None:
+        """End the run on the patient, and forget everything that was known of it; idempotent."""
+        if self.patient is None:
+            return
+        run = self.controller.run
+        if run is not None and self._editor.locked:
+            run.trainer.abort(tr("another patient was opened"))
+        self._leaving = True  # no run may be wanted for a plan that is about to go
+        try:
+            self._runs.want(None)
+            self.patient = None
+            self._editor.set_locked(False)
+            self._editor.set_keeps_target(False)
+            self._editor.start(None, Placement())
+            self.patient_left.emit()
+            self._as_the_exercise_says(reading=False)
+        finally:
+            self._leaving = False
 
     def set_exercise(self, exercise: Exercise) -> None:
         """Take an exercise's device, effects and tolerances; its plan, if its patient is shown.
@@ -214,11 +239,20 @@ class Conductor(QObject):
         self._released = False
         self._show_plan()
 
-    def fits(self, patient: Patient) -> bool:
-        """Whether the exercise is made for this patient."""
-        if self.exercise is None:
+    def check(self, exercise: Exercise) -> None:
+        """See whether an exercise can be taken.
+
+        Raises:
+            AcusError: if its device cannot be used.
+        """
+        device_of(exercise)
+
+    def fits(self, patient: Patient, exercise: Exercise | None = None) -> bool:
+        """Whether an exercise, by default the present one, is made for this patient."""
+        exercise = exercise or self.exercise
+        if exercise is None:
             return False
-        ct = self.exercise.ct
+        ct = exercise.ct
         if ct.phantom is not None:
             return patient.phantom_seed == ct.phantom.seed
         same_way = patient.volume.recipe.remedy is ct.remedy
@@ -247,7 +281,7 @@ class Conductor(QObject):
         placed = editor.verdict.placed
         note = "" if placed is not None else tr("Finish a plan that the robot can follow first.")
         workspace.exercise_panel.set_ready(placed is not None and self._runs.run is not None, note)
-        if editor.locked or self._released or placed is None:
+        if editor.locked or self._released or self._leaving or placed is None:
             return  # a run that is open stays with its plan until there is a better one
         if self.exercise is None or self.patient is None:
             return

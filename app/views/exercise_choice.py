@@ -18,6 +18,7 @@ class ExerciseChoice:
 
     def __init__(self, window: MainWindow) -> None:
         self._window = window
+        self._waiting: Exercise | None = None  # until its patient is there
 
     @property
     def titles(self) -> list[tuple[str, str]]:
@@ -38,28 +39,63 @@ class ExerciseChoice:
             names = ", ".join(window.exercises)
             window.message_bar.show_error(tr("There is no exercise {name}; there are: {names}",
                                              name=identifier, names=names))  # fmt: skip
-        elif window.plan_files.after_question(lambda: self._begin(exercise)):
-            window.workspace.exercise_panel.set_exercises(self.titles, identifier)
+        else:
+            self._begin(exercise)
 
     def _begin(self, exercise: Exercise) -> None:
+        """Take an exercise at once where its patient is shown, else once that one is there."""
         window = self._window
-        if not self._take(exercise):
-            return
         patient = window.conductor.patient
-        if patient is not None and window.conductor.fits(patient):
-            window.show_workspace()
-        elif exercise.ct.phantom is not None:
-            window.open_ct.open_phantom(exercise.ct.phantom.seed)
-        elif (ct := exercise.ct).folder is not None:
+        if patient is not None and window.conductor.fits(patient, exercise):
+            if window.editor.locked:
+                window.message_bar.show_error(
+                    tr("An attempt is running: end it before another exercise is chosen")
+                )
+                self.show_taken()
+                return
+            window.plan_files.after_question(lambda: self._take_here(exercise))
+            self.show_taken()
+            return
+        try:
+            window.conductor.check(exercise)
+        except AcusError as error:
+            window.message_bar.show_error(error)
+            self.show_taken()
+            return
+        self._waiting = exercise
+        ct = exercise.ct
+        if ct.phantom is not None:
+            window.open_ct.open_phantom(ct.phantom.seed)
+        elif ct.folder is not None:
             window.open_ct.open_folder(ct.folder, ct.series, ct.remedy)
+
+    def _take_here(self, exercise: Exercise) -> None:
+        if self._take(exercise):
+            self._window.show_workspace()
+
+    def give_up(self) -> None:
+        """Stay with the present exercise: the patient of the one that was chosen did not come."""
+        self._waiting = None
+        self.show_taken()
+
+    def show_taken(self) -> None:
+        """Let the list stand at the exercise that is taken."""
+        taken = self._window.conductor.exercise
+        chosen = None if taken is None else taken.id
+        self._window.workspace.exercise_panel.set_exercises(self.titles, chosen)
 
     def show_patient(self, patient: Patient) -> None:
         """Show a patient that was opened, in the first exercise where none is taken."""
         window = self._window
         window.message_bar.clear()  # what went wrong before is over
-        if window.conductor.exercise is None and window.exercises:
-            self._take(next(iter(window.exercises.values())))
+        waiting, self._waiting = self._waiting, None
+        if waiting is None and window.conductor.exercise is None and window.exercises:
+            waiting = next(iter(window.exercises.values()))
+        window.conductor.leave_patient()
+        if waiting is not None:
+            self._take(waiting)
         window.conductor.set_patient(patient)
+        self.show_taken()
         window.show_workspace()
 
     def _take(self, exercise: Exercise) -> bool:

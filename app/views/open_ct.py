@@ -30,16 +30,29 @@ class OpenCt(QObject):
     Signals:
         opened(Patient): ready to be shown.
         failed(object): the error that kept it from being opened.
+        given_up(): nothing will be opened: refused, cancelled, or nothing was chosen.
+        reading(bool): one is being looked for or read, or no more.
+
+    Attributes:
+        may_replace: asked before one is read, whether it may take the place of what is open.
     """
 
     opened = Signal(object)
     failed = Signal(object)
+    given_up = Signal()
+    reading = Signal(bool)
 
     def __init__(self, recents: Recents, indicator: Indicator, window: QWidget) -> None:
         super().__init__(window)
         self._recents, self._indicator, self._window = recents, indicator, window
         self._task: Task | None = None
         self._listing: Listing | None = None
+        self.may_replace: Callable[[], bool] = lambda: True
+
+    @property
+    def is_reading(self) -> bool:
+        """Whether a patient is being looked for or read."""
+        return self._task is not None
 
     def ask(self) -> None:
         """Ask for a folder and open it."""
@@ -88,6 +101,8 @@ class OpenCt(QObject):
 
     def open_phantom(self, seed: int = 1) -> None:
         """Open the procedural patient."""
+        if not self._ask_to_replace():
+            return
         self._start(
             tr("Preparing the phantom patient"),
             lambda progress: load_phantom(seed, progress),
@@ -96,6 +111,8 @@ class OpenCt(QObject):
 
     def open_series(self, listing: Listing, series: Series, remedy: Remedy = Remedy.NONE) -> None:
         """Read this series, as it is or in the way asked for."""
+        if not self._ask_to_replace():
+            return
         self._start(
             tr("Reading CT"),
             lambda progress: read_patient(series, listing.path, progress, remedy),
@@ -106,21 +123,38 @@ class OpenCt(QObject):
         """Stop reading; idempotent."""
         if self._task is not None:
             self._task.close()
-            self._task = None
+            self._set_task(None)
+
+    def _ask_to_replace(self) -> bool:
+        if self.may_replace():
+            return True
+        self.given_up.emit()
+        return False
+
+    def _set_task(self, task: Task | None) -> None:
+        was, self._task = self._task is not None, task
+        if was != (task is not None):
+            self.reading.emit(task is not None)
+
+    def _cancelled(self) -> None:
+        self._set_task(None)
+        self.given_up.emit()
 
     def _start(
         self, title: str, operation: Callable[[Progress], T], on_success: Callable[[T], object]
     ) -> None:
         if self._task is not None:
             self._task.drop()
-        self._task = run_in_background(
-            self, operation, on_success, self._fail, title=title, indicator=self._indicator
-        )
+        task = run_in_background(
+            self, operation, on_success, self._fail, self._cancelled, title=title,
+            indicator=self._indicator,
+        )  # fmt: skip
+        self._set_task(task)
 
     def _choose(
         self, listing: Listing, series: str | None = None, remedy: Remedy = Remedy.NONE
     ) -> None:
-        self._task = None
+        self._set_task(None)
         self._listing = listing
         openable = [s for s in listing.series if s.usable or s.remedy is not Remedy.NONE]
         unclear = len(openable) > 1 or not listing.usable
@@ -137,17 +171,18 @@ class OpenCt(QObject):
     def _browse(self, listing: Listing) -> None:
         browser = SeriesBrowser(listing, self._window)
         browser.chosen.connect(lambda series, way: self.open_series(listing, series, way))
+        browser.rejected.connect(self.given_up)
         browser.finished.connect(browser.deleteLater)
         browser.open()
 
     def _finish(self, patient: Patient) -> None:
-        self._task = None
+        self._set_task(None)
         if patient.folder is not None:
             self._recents.add(patient.folder)
         self.opened.emit(patient)
 
     def _fail(self, error: Exception) -> None:
-        self._task = None
+        self._set_task(None)
         offer = error.offer if isinstance(error, TooLargeError) else None
         if offer is None or self._listing is None:
             self.failed.emit(error)

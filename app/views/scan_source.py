@@ -76,7 +76,12 @@ class ScanSource(QObject):
             layer.set_order(self._panel.order if scanning else None)
             pane.canvas.refresh()
 
+    def forget(self) -> None:
+        """Let go of scans and their count; a picture that is still being made is not shown."""
+        self._begin()
+
     def _begin(self) -> None:
+        self._waiting = False
         self._newest, self._origin = None, None
         self._panel.begin()
         self._view.clear()

@@ -49,6 +49,11 @@ class UndoOrder(QObject):
             editor.stepped.connect(self._note)
             editor.changed.connect(self.changed)
 
+    def clear(self) -> None:
+        """Forget every step: what they changed is gone."""
+        self._past, self._future = [], []
+        self.changed.emit()
+
     @property
     def can_undo(self) -> bool:
         """Whether an editor has a step to take back."""

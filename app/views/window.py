@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 from app.session.result import AttemptResult
 from app.views.about import about
 from app.views.cameras.desk import CamerasDesk
+from app.views.change_of_patient import ChangeOfPatient, forget_patient
 from app.views.checks.desk import ChecksDesk
 from app.views.conductor import Conductor
 from app.views.debrief.controller import DebriefController
@@ -82,7 +83,7 @@ class MainWindow(QMainWindow):
             self.debrief_page, self.sessions_page, services.sessions(), parent=self
         )
         self.scan_pictures = ScanPictures(self.debrief_page, self.conductor, self.progress)
-        self.choice = ExerciseChoice(self)
+        self.choice, self.change = ExerciseChoice(self), ChangeOfPatient(self)
         self.exercises = {exercise.id: exercise for exercise in services.exercises()}
         self._lay_out()
         self.projector = Projector(self)
@@ -189,9 +190,13 @@ class MainWindow(QMainWindow):
         conductor = self.conductor
         self.topics = MessageTopics(self)
         self.runs.ready.connect(lambda _: self.checks.forget())
-        self.open_ct.opened.connect(
-            lambda patient: self.plan_files.after_question(lambda: self.show_patient(patient))
-        )
+        change, open_ct = self.change, self.open_ct
+        open_ct.may_replace = change.may_replace
+        open_ct.reading.connect(change.set_loading)
+        open_ct.opened.connect(lambda patient: change.take(patient, self.show_patient))
+        open_ct.failed.connect(lambda _: self.choice.give_up())
+        open_ct.given_up.connect(self.choice.give_up)
+        conductor.patient_left.connect(lambda: forget_patient(self))
         conductor.patient_changed.connect(self.refresh)
         self.undo.changed.connect(self.refresh)
         connect_pages(self)

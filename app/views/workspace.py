@@ -149,6 +149,11 @@ class Workspace(QWidget):
             self.layout_name = name if name in self.layouts else FOUR.name
         self._arrange()
 
+    def share_room(self) -> None:
+        """Let a pane that has the whole room share it again."""
+        if self.grid.maximised is not None:
+            self._arrange()
+
     def fix_layout(self, fixed: bool) -> None:
         """Keep the layout as it is for an exercise, or end that."""
         self.is_layout_fixed = fixed

@@ -29,6 +29,7 @@ from app.views.slices.viewing import Tool
 class FakeTrainer:
     def __init__(self, placed):
         self.placed, self.events, self.result, self.state = placed, EventQueue(), None, State.READY
+        self.dial = 1.0
 
     def snapshot(self):
         placed = self.placed
@@ -42,12 +43,15 @@ class FakeTrainer:
 
         away = offset(pose, placed.p_target, placed)
         return Snapshot(1.0, self.state, "", 0.0, MappingProxyType({}), pose, away,
-                        placed.p_target, device, timing, None, "valid", 0, 1.0, False, None,
+                        placed.p_target, device, timing, None, "valid", 0, self.dial, False, None,
                         ())  # fmt: skip
 
     def begin(self, student="", hand=""):
         self.state = State.ALIGNING
         return "session-1"
+
+    def abort(self, reason=""):
+        self.state = State.ABORTED
 
     def heartbeat(self): ...
     def assistance(self, value): ...
@@ -64,6 +68,7 @@ class FakeOpen:
             held_arming=setup.robot.held_arming, port=setup.robot.port,
             shown=Shown.of_exercise(setup.exercise),
         )  # fmt: skip
+        self.run.trainer.dial = setup.exercise.assistance
 
     def place(self, placed):
         self.run.trainer.placed = placed

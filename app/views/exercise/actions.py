@@ -23,7 +23,7 @@ class AttemptActions(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.start = _button(tr("Start attempt"), tr("Arm the robot and begin recording (F5)"))
+        self.start = _button(tr("Start attempt"), _starts())
         self.start.setProperty("role", "primary")
         self.scan = _button(tr("Control scan (S)"), _counts())
         self.end = _button(tr("End attempt (Enter)"), tr("The needle stays as it is and is scored"))
@@ -45,9 +45,16 @@ class AttemptActions(QWidget):
         """Listen for Esc held down anywhere in `window`."""
         window.installEventFilter(self._escape)
 
-    def show_state(self, state: State | None, can_start: bool) -> None:
-        """Enable what is legal: `can_start` says that everything is there for a new attempt."""
+    def show_state(self, state: State | None, can_start: bool, why: str = "") -> None:
+        """Enable what is legal.
+
+        Args:
+            state: of the attempt; None without one.
+            can_start: whether everything is there for a new attempt.
+            why: it cannot start now, if there is more to say than that something is missing.
+        """
         running = state in RUNNING
+        self.start.setToolTip(why or _starts())
         for button, legal in (
             (self.start, can_start and not running),
             (self.scan, running),
@@ -79,6 +86,10 @@ class AttemptActions(QWidget):
                 shortcut.setAutoRepeat(False)
                 shortcut.activated.connect(button.click)
                 self._keys.append((shortcut, button))
+
+
+def _starts() -> str:
+    return tr("Arm the robot and begin recording (F5)")
 
 
 def _counts() -> str:

@@ -57,7 +57,7 @@ class ExerciseController(QObject):
         self._run: ExerciseRun | None = None
         self._seen: AttemptResult | None = None
         self._ending = False
-        self._beat, self._blind = 0.0, ""
+        self._beat, self._blind, self._waiting = 0.0, "", ""
         self._display = ExerciseDisplay(views)
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.look)
@@ -93,6 +93,11 @@ class ExerciseController(QObject):
         """Take another plan of the same trainer: the pad is drawn anew, the rest goes on."""
         self._run = run
         self._display.show_run(run)
+
+    def set_waiting(self, why: str) -> None:
+        """Let no attempt begin, because of `why`; empty ends that. One that runs goes on."""
+        self._waiting = why
+        self._views.panel.set_waiting(why)
 
     @property
     def run(self) -> ExerciseRun | None:
@@ -159,6 +164,9 @@ class ExerciseController(QObject):
         """Begin an attempt."""
         run = self._run
         if run is None:
+            return
+        if self._waiting:
+            self._fail(self._waiting)
             return
         self.beginning.emit()
         self._views.messages.clear()

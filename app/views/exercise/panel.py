@@ -55,7 +55,7 @@ class ExercisePanel(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._ready = False
+        self._ready, self._not_ready, self._waiting = False, "", ""
         self._state: State | None = None
         self.exercise = QComboBox(self)
         self.student = QLineEdit(self)
@@ -104,12 +104,11 @@ class ExercisePanel(QWidget):
 
     def set_ready(self, ready: bool, note: str = "") -> None:
         """Say whether an attempt can start, and if not, why not."""
-        self._ready = ready
-        self._note.setText(note)
-        self._note.setVisible(bool(note))
+        self._ready, self._not_ready = ready, note
+        self._show_note()
         self._enable()
 
-    def set_guidance(self, guidance: GuidancePart | None, plan: Plan) -> None:
+    def set_guidance(self, guidance: GuidancePart | None, plan: Plan | None) -> None:
         """Let control scans guide, with the table about the plan's middle; None shows all live."""
         self.scan.set_guidance(guidance, plan)
         self.steps.set_blind(guidance is not None)
@@ -134,12 +133,31 @@ class ExercisePanel(QWidget):
             self._state = state
             self._enable()
 
+    def forget(self) -> None:
+        """Say nothing of the patient who leaves."""
+        self.show_figures(None)
+        self.set_guidance(None, None)
+        self.set_offsets(True)
+        self.scan.forget()
+        self.energy.show_energy(None)
+
+    def set_waiting(self, why: str) -> None:
+        """Let Start wait, and say why; empty ends that."""
+        self._waiting = why
+        self._show_note()
+        self._enable()
+
+    def _show_note(self) -> None:
+        words = self._waiting or self._not_ready
+        self._note.setText(words)
+        self._note.setVisible(bool(words))
+
     # --- inside -----------------------------------------------------------------------------------
     def _enable(self) -> None:
         running = self._state in RUNNING
         self.exercise.setEnabled(not running)
         self.student.setEnabled(not running)
-        self.buttons.show_state(self._state, self._ready)
+        self.buttons.show_state(self._state, self._ready and not self._waiting, self._waiting)
 
     def _prepare_inputs(self) -> None:
         pattern = QRegularExpression(f"^{PSEUDONYM}$")

@@ -49,10 +49,10 @@ class ScanPanel(QWidget):
         self.hide()
 
     # --- what the panel around it calls -----------------------------------------------------------
-    def set_guidance(self, guidance: GuidancePart | None, plan: Plan) -> None:
+    def set_guidance(self, guidance: GuidancePart | None, plan: Plan | None) -> None:
         """Propose what the exercise does; the table stays where it is for the plan it knows."""
         self.setVisible(guidance is not None)
-        if guidance is None:
+        if guidance is None or plan is None:
             return
         if plan == self._plan and guidance == self._guidance:
             return
@@ -77,6 +77,14 @@ class ScanPanel(QWidget):
         """Begin to count anew."""
         self._dose = 0.0
         self._show_count(0)
+
+    def forget(self) -> None:
+        """Count anew, the table where no patient has put it."""
+        self.begin()
+        self._plan = None
+        with QSignalBlocker(self.table):
+            self.table.setValue(0.0)
+        self._show_order()
 
     def add(self, scan: ControlScan) -> None:
         """Count a scan that was taken."""

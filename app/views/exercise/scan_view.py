@@ -56,8 +56,10 @@ class ScanView(QWidget):
         self.clear()
 
     def clear(self) -> None:
-        """Show that there is no scan yet."""
+        """Show that there is no scan yet; nothing of the last one is kept."""
         self.scan = None
+        self._caption.clear()
+        self._drop_thumbs()
         self._stack.setCurrentIndex(0)
 
     def show_scan(self, picture: Volume, scan: ControlScan, origin: float) -> None:
@@ -87,11 +89,15 @@ class ScanView(QWidget):
             x, y, _ = self._planning.cursor_mm
             self.viewing.set_cursor((x, y, self.viewing.cursor_mm[2]))
 
-    def _make_thumbs(self, picture: Volume) -> None:
+    def _drop_thumbs(self) -> None:
         for button in self._thumbs.buttons():
             self._thumbs.removeButton(button)
             self._strip.removeWidget(button)
+            button.setParent(None)
             button.deleteLater()
+
+    def _make_thumbs(self, picture: Volume) -> None:
+        self._drop_thumbs()
         for number in reversed(range(picture.size[2])):  # the head is up
             button = QToolButton(self)
             button.setCheckable(True)

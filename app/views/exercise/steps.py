@@ -34,6 +34,7 @@ class Steps(QWidget):
         self._reached = 0
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setMinimumSize(300, 48)
+        self.setAccessibleName(tr("No attempt"))
 
     def sizeHint(self) -> QSize:
         """Preferred size."""

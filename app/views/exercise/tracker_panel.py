@@ -85,6 +85,15 @@ class TrackerPanel(QWidget):
         for camera in self.cameras:
             camera.show_picture(None, words)
 
+    def forget(self) -> None:
+        """Show no pictures and say nothing: nobody watches now."""
+        for camera in self.cameras:
+            camera.show_picture(None, self.off)
+        self._verdict.clear()
+        self._verdict.setToolTip("")
+        self._figures.clear()
+        self._shown = -1e9
+
     @property
     def overlays(self) -> Overlays:
         """What is drawn over the pictures."""
@@ -214,6 +223,11 @@ class _Figures(QWidget):
         }
         for name, text in texts.items():
             self._values[name].setText(text)
+
+    def clear(self) -> None:
+        """Write dashes."""
+        for value in self._values.values():
+            value.setText("–")
 
     def text(self, name: str) -> str:
         """Shown value."""

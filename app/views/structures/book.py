@@ -99,8 +99,8 @@ class StructureBook(QObject):
             self.measured.emit()
 
     # --- changes ------------------------------------------------------------------------------
-    def set_volume(self, volume: Volume) -> None:
-        """Begin anew with another CT."""
+    def set_volume(self, volume: Volume | None) -> None:
+        """Begin anew with another CT, or with none."""
         self.volume = volume
         self._history, self._hidden, self._fields = History(StructureSet()), set(), {}
         self.chosen = ""

@@ -10,6 +10,7 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.structures.structure import Index, Mask, Structure, free_name
 from app.planning.clearance import Clearance
+from app.planning.draft import DraftPlan
 from app.views.background import Indicator, Task, run_in_background
 from app.views.conductor import Conductor
 from app.views.plan.editor import PlanEditor
@@ -95,6 +96,13 @@ class StructuresDesk(QObject):
             self._meshes = {}
             self.book.set_volume(patient.volume)
         self._take_exercise()
+
+    def forget(self) -> None:
+        """Let go of the structures of the patient who leaves."""
+        self._stop()
+        self._meshes, self._belongs = {}, ()
+        self.book.set_volume(None)
+        self.watch.set_draft(DraftPlan())
 
     def _take_exercise(self) -> None:
         """Load the structures that belong to the exercise, once for each exercise and CT."""
