@@ -90,7 +90,7 @@ def test_a_broken_file_is_named(own: Path, code: str, message: str) -> None:
         ('(5.0, "N/rad"', '([5.0], "N/rad"', "parameter 'stiffness' is"),
         ('(5.0, "N/rad"', '("fixture.hardness", "N/rad"', "'fixture.hardness' .* no such field"),
         ("@stage\n", "", "step is not compiled"),
-        ("import numpy as np", "import numpie as np", "No module named 'numpie'"),
+        ("from math import cos", "from maths import cos", "No module named 'maths'"),
         ("return longest_lever", "return -longest_lever", "energy_bound is -.* J"),
     ],
 )

@@ -20,7 +20,7 @@ from app.device.control.history import History
 from app.device.errors import LawError, LoopError
 
 NAME, CODE = from_the_page("How to add a force law")
-LAST = "    p[1] = state[sv.L_OUT]\n"
+LAST = "    p[_AT.last_l_out] = state[sv.L_OUT]\n"
 
 
 @stage

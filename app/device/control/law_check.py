@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -106,12 +107,9 @@ def _run(path: Path) -> dict[str, Any]:
     except subprocess.TimeoutExpired:
         return {"reason": f"in the trial it was not done after {PATIENCE:g} s"}
     if done.returncode != 0:
-        signals = {-14: _ENDED}
-        return {
-            "reason": signals.get(
-                done.returncode, f"in the trial its process ended with code {done.returncode}"
-            )
-        }
+        ended = done.returncode == -getattr(signal, "SIGPROF", 0)
+        why = f"in the trial its process ended with code {done.returncode}"
+        return {"reason": _ENDED if ended else why}
     try:
         verdict: dict[str, Any] = json.loads(done.stdout.rsplit("\n", 1)[-1])
     except ValueError:

@@ -28,7 +28,7 @@ STATES: Final = 10_000
 """States that the trial gives."""
 
 SECONDS: Final = 10
-"""Time that they may take together, once the law is compiled [s]."""
+"""Processor time that they may take together, once the law is compiled [s]."""
 
 _PROFILES: Final = ("icube", "haply-2diy")
 _ODD: Final = (np.nan, np.inf, -np.inf, 0.0, -0.0, 1.0, -1.0, 1e308, -1e308, 1e-308, 0.5, 1e6)
@@ -49,7 +49,7 @@ def _main(path: Path) -> dict[str, object]:
     if not tables:
         return {"reason": "its parameters() answers for no values within the declared ranges"}
     if hasattr(signal, "setitimer"):
-        signal.setitimer(signal.ITIMER_REAL, SECONDS)
+        signal.setitimer(signal.ITIMER_PROF, SECONDS)
     began, reason = time.monotonic(), _try(law, module.step, tables)
     return {"reason": reason, "states": STATES, "seconds": round(time.monotonic() - began, 3)}
 

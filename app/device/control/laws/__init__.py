@@ -36,7 +36,7 @@ _IMPORTING = threading.RLock()
 
 def law_names() -> tuple[str, ...]:
     """Names of all laws, sorted."""
-    return tuple(sorted({path.stem for path in _files()}))
+    return tuple(sorted({path.stem for path in files()}))
 
 
 def declaration(name: str) -> Law:
@@ -46,7 +46,7 @@ def declaration(name: str) -> Law:
         LawError: for an unknown name, listing the known ones; for a name that two files have; for
             a broken file, naming it and what is wrong.
     """
-    found = [path for path in _files() if path.stem == name]
+    found = [path for path in files() if path.stem == name]
     if not found:
         raise LawError(f"there is no force law {name!r}; there are {', '.join(law_names())}")
     if len(found) > 1:
@@ -81,7 +81,8 @@ def energy_bound(requests: Requests, profile: DeviceProfile) -> float:
     return sum(energy_bounds(requests, profile).values())
 
 
-def _files() -> list[Path]:
+def files() -> list[Path]:
+    """Files of all laws: the program's own, appended folders', then the user's."""
     folders = [*map(Path, __path__), paths.laws()]
     return [
         path
@@ -127,7 +128,7 @@ def refused() -> dict[Path, str]:
     Only read, not tried: what a trial found before is known, what it would find is not.
     """
     found = {}
-    for path in _files():
+    for path in files():
         try:
             law = read_law(path)
             if not is_own(law):
