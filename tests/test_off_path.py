@@ -21,7 +21,6 @@ from app.session.curves import curves
 from app.session.recording import read_recording
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
-from app.views.application import start
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.pad_view import depth_tolerance, rings
 from app.views.exercise.readings import figures, pad_view
@@ -92,7 +91,7 @@ def attempt(exercise, sessions, seconds=9.0, steer=None):
 
 @pytest.fixture(scope="module")
 def application():
-    return QApplication.instance() or start(offscreen=True)
+    return QApplication.instance() or QApplication([])
 
 
 def said(text):

@@ -12,7 +12,6 @@ from app.exchange.csv_export import score_table, trajectory_table
 from app.session.recording import read_recording
 from app.session.replay_contents import contents
 from app.session.store import list_sessions
-from app.views.application import start
 from app.views.debrief.report import report_bytes
 from app.views.debrief.review import review
 
@@ -70,7 +69,7 @@ def test_old_records_are_listed_with_and_without_the_files_beside_them(old: Path
 
 
 def test_old_records_are_debriefed_and_reported(old: Path) -> None:
-    assert QApplication.instance() or start(offscreen=True)
+    assert QApplication.instance() or QApplication([])
     for path in records(old):
         shown = review(read_recording(path))
         assert shown.score is not None

@@ -12,6 +12,7 @@ from app.core.units import MILLIMETRE
 from app.imaging.series import Remedy
 from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
+from app.simulation.needles import OUTER_DIAMETER
 
 Triple = tuple[float, float, float]
 NotNegative = Annotated[float, Field(ge=0.0)]
@@ -185,6 +186,26 @@ class LawPart(Strict):
     """
 
     parameters: dict[str, Annotated[float, Field(strict=True)]] = Field(default_factory=dict)
+
+
+class NeedlePart(Strict):
+    """The needle that is held, in the hand and in the simulated tissue.
+
+    Attributes:
+        gauge: of the needle; how thick it is says how it bends.
+        length_mm: hub to tip; None for the one in the device's profile.
+    """
+
+    gauge: int = 18
+    length_mm: Annotated[float, Field(gt=0.0)] | None = None
+
+    @field_validator("gauge")
+    @classmethod
+    def _known(cls, gauge: int) -> int:
+        if gauge not in OUTER_DIAMETER:
+            known = ", ".join(map(str, OUTER_DIAMETER))
+            raise ValueError(f"no needle of {gauge} G; there are {known}")
+        return gauge
 
 
 class LayerPart(Strict):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from app.core.units import MILLIMETRE
 from app.exercises.errors import ExerciseError
 from app.exercises.guidance import GuidanceMode
 from app.exercises.parts import OwnPlan, PlanPoints
@@ -18,6 +19,7 @@ from app.planning.plan import Plan
 from app.scoring import metrics
 from app.simulation.compiler import compile as compile_scene
 from app.simulation.consumers import Consumer, DevicePort
+from app.simulation.needles import OUTER_DIAMETER
 from app.simulation.plan import SimulationPlan
 from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Layer, Needle, Scene
 
@@ -61,13 +63,17 @@ def _phantom_of(exercise: Exercise) -> Anatomy:
 
 
 def device_of(exercise: Exercise) -> DeviceProfile:
-    """Return the exercise's device profile with the ball joint that it asks for.
+    """Return the exercise's device profile with the ball joint and needle that it asks for.
 
     Raises:
-        ConfigurationError: if profile or joint do not exist; lists the valid names.
+        ConfigurationError: if profile or joint do not exist, or the device cannot hold the needle;
+            names what is valid.
     """
     profile = load_profile(exercise.device)
-    return profile.with_joint(exercise.joint) if exercise.joint else profile
+    if exercise.joint:
+        profile = profile.with_joint(exercise.joint)
+    length_mm = exercise.needle.length_mm
+    return profile if length_mm is None else profile.with_needle(length_mm * MILLIMETRE)
 
 
 def placed_plan_of(
@@ -97,7 +103,7 @@ def scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
             for name, part in exercise.effects.items()
         ),
         layers=layers or DEFAULT_LAYERS,
-        needle=Needle(length=profile.geometry.needle_length),
+        needle=Needle(profile.geometry.needle_length, OUTER_DIAMETER[exercise.needle.gauge]),
         R_world_patient=exercise.placement.placement().rotation,
         target_organ=exercise.target_organ,
     )

@@ -16,6 +16,7 @@ from app.exercises.parts import (
     EffectPart,
     LawPart,
     LayerPart,
+    NeedlePart,
     OwnPlan,
     PhantomCt,
     PlacementPart,
@@ -54,6 +55,7 @@ class Exercise(Strict):
         effects: name -> parameters of what is asked for; the scene compiler keeps what somebody
             consumes.
         layers: tissue along the path, from the skin inwards; empty for the simulation's own.
+        needle: gauge, and length where it is not the device's own.
         target_organ: where the target lies; an effect on another organ is dropped.
         tolerances: metric -> bands and weight.
         rules: pass mark, and when a score is void.
@@ -84,6 +86,7 @@ class Exercise(Strict):
     laws: Mapping[str, LawPart] = Field(default_factory=lambda: {"fixture": LawPart()})
     effects: Mapping[str, EffectPart] = Field(default_factory=dict)
     layers: tuple[LayerPart, ...] = ()
+    needle: NeedlePart = NeedlePart()
     target_organ: str = ""
     tolerances: Mapping[str, Tolerance] = Field(default_factory=lambda: dict(DEFAULT_TOLERANCES))
     rules: Rules = Rules()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from itertools import pairwise
 from math import isfinite
 
 import numpy as np
@@ -17,6 +18,9 @@ FEWEST, MOST = 3, 5
 
 THINNEST_MM, THICKEST_MM = 0.5, 10.0
 """Thickness of a slice."""
+
+SHORTEST_MM = 1e-5
+"""Pieces of a bent needle below this have no direction."""
 
 NEEDLE_RADIUS_MM = 0.635
 """Half the outer diameter of an 18 gauge needle (ISO 9626: 1.27 mm)."""
@@ -68,12 +72,14 @@ class ScanOrder:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScanNeedle:
-    """The metal in the scanner: a straight cylinder with flat ends, DICOM LPS [mm].
+    """The metal in the scanner: a cylinder with flat ends, straight or bent, DICOM LPS [mm].
 
     Attributes:
         hub_mm: end of the shaft in the hand, shape (3,).
         tip_mm: tip, shape (3,).
         radius_mm: of the shaft.
+        corners_mm: of a bent shaft from hub to tip, both among them, shape (n, 3); None for a
+            straight one.
 
     Raises:
         NumericalError: if a coordinate is not finite, the shaft has no length, or no radius.
@@ -82,14 +88,29 @@ class ScanNeedle:
     hub_mm: FloatArray
     tip_mm: FloatArray
     radius_mm: float = NEEDLE_RADIUS_MM
+    corners_mm: FloatArray | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "hub_mm", frozen(self.hub_mm, (3,), "hub_mm"))
         object.__setattr__(self, "tip_mm", frozen(self.tip_mm, (3,), "tip_mm"))
+        if self.corners_mm is not None:
+            shape = (len(self.corners_mm), 3)
+            object.__setattr__(self, "corners_mm", frozen(self.corners_mm, shape, "corners_mm"))
         if not self.length_mm > 1e-6:
             raise NumericalError(f"the needle's hub and tip are both at {self.tip_mm.tolist()}")
         if not 0.0 < self.radius_mm < 1e3:
             raise NumericalError(f"a needle of radius {self.radius_mm} mm cannot be drawn")
+
+    @property
+    def pieces(self) -> tuple[ScanNeedle, ...]:
+        """Straight pieces from hub to tip: itself, where it is straight."""
+        if self.corners_mm is None:
+            return (self,)
+        return tuple(
+            ScanNeedle(start, end, self.radius_mm)
+            for start, end in pairwise(self.corners_mm)
+            if np.linalg.norm(end - start) > SHORTEST_MM
+        )
 
     @property
     def length_mm(self) -> float:
@@ -107,6 +128,9 @@ class ScanNeedle:
 
         None if it does not come between them.
         """
+        if self.corners_mm is not None:
+            ends = [part for piece in self.pieces if (part := piece.within(low_mm, high_mm))]
+            return (ends[0][0], ends[-1][1]) if ends else None
         start, end = float(self.hub_mm[2]), float(self.tip_mm[2])
         if max(start, end) < low_mm or min(start, end) > high_mm:
             return None

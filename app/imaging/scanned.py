@@ -134,11 +134,15 @@ def _add_metal(
     layers = max(FINE, ceil(order.slice_mm / FINE_MM))
     for k, middle in enumerate(order.middles_mm):
         half = order.slice_mm / 2
-        rows, columns = _candidates(hu.shape[1:], needle, grid, (middle - half, middle + half))
-        if not len(rows):
-            continue
-        share = _share(rows, columns, float(middle), layers, order, needle, grid)
-        tissue = hu[k, rows, columns]
+        total = np.zeros(hu.shape[1:])
+        for piece in needle.pieces:
+            rows, columns = _candidates(hu.shape[1:], piece, grid, (middle - half, middle + half))
+            if len(rows):
+                total[rows, columns] += _share(
+                    rows, columns, float(middle), layers, order, piece, grid
+                )
+        rows, columns = np.nonzero(total)
+        share, tissue = np.minimum(total[rows, columns], 1.0), hu[k, rows, columns]
         hu[k, rows, columns] = tissue + share * (METAL_HU - tissue)
 
 

@@ -62,7 +62,7 @@ class ControlScan:
 
     def data(self) -> dict[str, object]:
         """JSON-ready values for the event; `of` reads them back to the last bit."""
-        order = self.order
+        order, bent = self.order, self.needle.corners_mm
         return {
             "version": VERSION,
             "order": {"centre_mm": order.centre_mm, "slices": order.slices,
@@ -75,7 +75,7 @@ class ControlScan:
             "hub_lps_mm": self.needle.hub_mm.tolist(),
             "tip_lps_mm": self.needle.tip_mm.tolist(),
             "shift_lps_mm": self.shift_mm.tolist(),
-        }  # fmt: skip
+        } | ({} if bent is None else {"bent_lps_mm": bent.tolist()})  # fmt: skip
 
     @classmethod
     def of(cls, event: Event) -> ControlScan | None:
@@ -90,7 +90,9 @@ class ControlScan:
                 event.time,
                 ScanOrder(float(order["centre_mm"]), int(order["slices"]),
                           float(order["slice_mm"])),
-                ScanNeedle(data["hub_lps_mm"], data["tip_lps_mm"]),
+                ScanNeedle(
+                    data["hub_lps_mm"], data["tip_lps_mm"], corners_mm=data.get("bent_lps_mm")
+                ),
                 frozen(data["shift_lps_mm"], (3,), "shift_lps_mm"),
                 float(data["dose_mgy_cm"]),
                 streak if isinstance(streak := data.get("streak"), bool) else None,
@@ -144,14 +146,18 @@ def take(
             "a guess; nothing was counted. Let both cameras see the marker and press again"
         )
     length = float(np.linalg.norm(device.tip - device.hub))
-    tip = look.pose.p_tip
-    hub_mm, tip_mm = placed.T_world_patient.inverse() @ [tip - length * look.pose.axis, tip]
+    pose, to_patient = look.pose, placed.T_world_patient.inverse()
+    hub = pose.p_straight - length * pose.axis
+    hub_mm, tip_mm = to_patient @ [hub, pose.p_tip]
+    bent = None
+    if pose.bend is not None and pose.depth > 0.0:
+        bent = to_patient @ np.vstack([hub, pose.curve]) / MILLIMETRE
     moved = placed.T_world_patient.inverse().rotate(look.p_target - placed.p_target)
     return ControlScan(
         number,
         now,
         order,
-        ScanNeedle(hub_mm / MILLIMETRE, tip_mm / MILLIMETRE),
+        ScanNeedle(hub_mm / MILLIMETRE, tip_mm / MILLIMETRE, corners_mm=bent),
         frozen(moved / MILLIMETRE, (3,), "shift"),
         dose,
         streak,

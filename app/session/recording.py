@@ -18,7 +18,7 @@ from app.session.ct_facts import CtFacts
 from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
 from app.session.risks import risk_marks
-from app.session.samples import Samples, floats, vectors, words
+from app.session.samples import Samples, bends, floats, vectors, words
 from app.session.scan import Scan, scan
 from app.session.schemas import CHANNELS, conforms
 from app.session.scored import renders_force, trajectory
@@ -179,6 +179,7 @@ def _samples(content: Scan, problems: list[str]) -> Samples:
         felt=vectors([wrench.get("felt") for wrench in wrenches]),
         measured=floats([wrench.get("measured") for wrench in wrenches]),
         radius=floats([quality.get("radius_95") for quality in qualities]),
+        bend=bends([row.get("bend") for row in rows]),
         assistance=floats([wrench.get("assistance") for wrench in wrenches]),
     )
 

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.bend import CURVE_POINTS, Bend, needle_curve
 from app.core.events import Event
 from app.core.units import MILLIMETRE
 from app.planning.placement import PlacedPlan
@@ -63,14 +65,14 @@ def risk_marks_of(
     samples: Samples, placed: PlacedPlan, risks: Iterable[Risk]
 ) -> tuple[RiskMark, ...]:
     """How near the needle came to each structure; none if it was never seen in the body."""
-    rows, entries, tips = _needles(samples, placed)
+    rows, lines = _needles(samples, placed)
     if not len(rows):
         return ()
     found = []
     for risk in risks:
-        rough = _roughly(entries, tips, risk.field)
+        rough = _roughly(lines, risk.field)
         best = min(
-            (risk.field.along(entries[n], tips[n]).distance_mm, n)
+            (_exactly(lines[n], risk.field), n)
             for n in np.argsort(rough, kind="stable")[:CLOSEST].tolist()
         )
         closest, row = best[0], rows[best[1]]
@@ -121,30 +123,54 @@ def sentence(mark: RiskMark) -> str:
     return f"needle {place} at the closest; limit {mark.limit_mm:g} mm: {kept}"
 
 
-def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray, FloatArray]:
-    """Find the needles that differ: number of their sample, entry and tip in LPS [mm]."""
+def _needles(samples: Samples, placed: PlacedPlan) -> tuple[Any, FloatArray]:
+    """Find the needles that differ: number of their sample, and their corners in LPS [mm].
+
+    Two corners each, entry and tip; as many as a bent needle has where one of them is bent.
+    """
     seen = samples.valid & np.isin(samples.depth_source, FROM_CAMERAS)
     seen &= np.isin(samples.state, IN_BODY) & (samples.depth > 0.0)
     seen &= np.isfinite(samples.tip).all(axis=1) & np.isfinite(samples.axis).all(axis=1)
     rows = np.flatnonzero(seen)
     if not len(rows):
-        return rows, np.empty((0, 3)), np.empty((0, 3))
+        return rows, np.empty((0, 2, 3))
     shift = samples.target[rows] - placed.p_target
     shift = np.where(np.isfinite(shift), shift, 0.0)
     tips = samples.tip[rows] - shift
-    entries = tips - samples.depth[rows, None] * samples.axis[rows]
-    to_patient = placed.T_world_patient.inverse()
-    ends = np.concatenate([to_patient @ entries, to_patient @ tips], axis=1) / MILLIMETRE
-    _, kept = np.unique(np.rint(ends / SAME_MM), axis=0, return_index=True)
+    lines = np.stack([tips - samples.depth[rows, None] * samples.axis[rows], tips], axis=1)
+    if samples.bend is not None:
+        lines = _bent(lines, samples.axis[rows], samples.depth[rows], samples.bend[rows])
+    corners = placed.T_world_patient.inverse() @ lines.reshape(-1, 3) / MILLIMETRE
+    lines = corners.reshape(lines.shape)
+    _, kept = np.unique(np.rint(lines.reshape(len(rows), -1) / SAME_MM), axis=0, return_index=True)
     kept.sort()
-    return rows[kept], ends[kept, :3], ends[kept, 3:]
+    return rows[kept], lines[kept]
 
 
-def _roughly(entries: FloatArray, tips: FloatArray, field: SignedDistance) -> FloatArray:
+def _bent(lines: FloatArray, axes: FloatArray, depths: FloatArray, bends: FloatArray) -> FloatArray:
+    """Corners of needles [m], shape (n, CURVE_POINTS, 3), of those that may be bent."""
+    shares = np.linspace(0.0, 1.0, CURVE_POINTS)
+    result = np.empty((len(lines), CURVE_POINTS, 3))
+    for n, line in enumerate(lines):
+        bend = Bend.of_numbers(bends[n])
+        if bend is None:
+            result[n] = line[0] + shares[:, None] * (line[1] - line[0])
+        else:
+            result[n] = needle_curve(line[1], axes[n], float(depths[n]), bend)
+    return result
+
+
+def _exactly(line: FloatArray, field: SignedDistance) -> float:
+    """Smallest distance of a needle's pieces [mm]."""
+    return min(field.along(start, end).distance_mm for start, end in pairwise(line))
+
+
+def _roughly(lines: FloatArray, field: SignedDistance) -> FloatArray:
     """Distance of each needle by the grid of distances [mm], shape (n,)."""
-    lengths = np.linalg.norm(tips - entries, axis=1)
-    shares = np.linspace(0.0, 1.0, int(np.ceil(lengths.max() / STEP_MM)) + 2)
-    points = entries[:, None] + shares[:, None] * (tips - entries)[:, None]
-    distances = field.at(points.reshape(-1, 3)).reshape(len(entries), -1)
+    pieces = np.diff(lines, axis=1)
+    longest = float(np.linalg.norm(pieces, axis=2).max())
+    shares = np.linspace(0.0, 1.0, int(np.ceil(longest / STEP_MM)) + 2)
+    points = lines[:, :-1, None] + shares[:, None] * pieces[:, :, None]
+    distances = field.at(points.reshape(-1, 3)).reshape(len(lines), -1)
     result: FloatArray = distances.min(axis=1)
     return result

@@ -184,6 +184,7 @@ def _tip(pose: NeedlePose, stamp: dict[str, int]) -> dict[str, Any]:
 
 def _attempt(sample: Sample, stamp: dict[str, int]) -> dict[str, Any]:
     pose, valid = sample.pose, sample.pose_valid
+    bent = {} if pose.bend is None or not valid else {"bend": pose.bend.numbers().tolist()}
     return {
         "timestamp": stamp,
         "time": sample.time,
@@ -195,7 +196,7 @@ def _attempt(sample: Sample, stamp: dict[str, int]) -> dict[str, Any]:
         "axis": _vector(pose.axis) if valid else None,
         "hub": _vector(sample.device.hub) if sample.device else None,
         "target": _vector(sample.p_target),
-    }
+    } | bent
 
 
 def _quality(sample: Sample, stamp: dict[str, int]) -> dict[str, Any]:

@@ -6,9 +6,10 @@ from math import isfinite
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, read_only
+from app.core.bend import SIZE
 from app.session.sample import Sample, radius_95
 
 SAMPLE_PERIOD: Final = 0.01
@@ -37,6 +38,8 @@ class Samples:
         measured: force across the needle that a gauge measured [N], shape (n,); NaN without one.
         radius: round the tip that holds the true one with 95 % [m], shape (n,); NaN where no camera
             vouches for the tip. None in records of versions that did not keep it.
+        bend: numbers of `core.bend.Bend`, shape (n, 10), NaN where the needle is straight; None
+            where it always is.
         assistance: the dial, -1...1, shape (n,); NaN where the robot said nothing. None where it is
             not known.
     """
@@ -54,6 +57,7 @@ class Samples:
     felt: FloatArray
     measured: FloatArray
     radius: FloatArray | None = None
+    bend: FloatArray | None = None
     assistance: FloatArray | None = None
 
     def tip_radius(self) -> float | None:
@@ -95,6 +99,7 @@ class History:
             felt=vectors([xyz(s.device.felt) if s.device else None for s in kept]),
             measured=floats([_measured(s) for s in kept]),
             radius=floats([radius_95(s) for s in kept]),
+            bend=bends([p.bend.numbers() if p and p.bend else None for p in poses]),
             assistance=floats([s.assistance if s.device else None for s in kept]),
         )
 
@@ -113,6 +118,17 @@ def xyz(values: FloatArray) -> dict[str, float]:
 def floats(values: Sequence[float | None]) -> FloatArray:
     """Read-only array, shape (n,), NaN for None."""
     return read_only(np.array([np.nan if v is None else v for v in values], dtype=np.float64))
+
+
+def bends(values: Sequence[ArrayLike | None]) -> FloatArray | None:
+    """Read-only array, shape (n, 10), NaN for None; None if all are."""
+    if all(v is None for v in values):
+        return None
+    rows = np.full((len(values), SIZE), np.nan)
+    for row, value in zip(rows, values, strict=True):
+        if value is not None and np.shape(value) == (SIZE,):
+            row[:] = value
+    return read_only(rows)
 
 
 def words(values: Sequence[str]) -> NDArray[np.str_]:

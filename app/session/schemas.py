@@ -88,7 +88,9 @@ ATTEMPT: Final = _object(
         "axis": _VECTOR_OR_NULL,
         "hub": _VECTOR_OR_NULL,
         "target": _VECTOR_OR_NULL,
+        "bend": _array(_NUMBER),
     },
+    optional=("bend",),
 )
 WRENCH: Final = _object(
     "acus.Wrench",

@@ -1,6 +1,7 @@
 """One robot: its sections, and what the other rooms ask of it."""
 
 from math import atan2, degrees, hypot, radians, tan
+from typing import Final
 
 from pydantic import model_validator
 
@@ -30,6 +31,9 @@ from app.mechanisms.profile.mechanics import (
     MountingSection,
     WorkspaceSection,
 )
+
+LONGEST_NEEDLE: Final = 0.5
+"""No needle for this work is longer [m]."""
 
 
 class DeviceProfile(Strict):
@@ -165,3 +169,18 @@ class DeviceProfile(Strict):
             )
         workspace = self.workspace.model_copy(update={"joint": joint})
         return self.model_copy(update={"workspace": workspace})
+
+    def with_needle(self, length: float) -> "DeviceProfile":
+        """Return the profile with a needle of another length mounted [m].
+
+        Raises:
+            ConfigurationError: if the device cannot hold or use it; says what would be valid.
+        """
+        least = max(self.geometry.fulcrum[2], self.workspace.depth_max, self.inertia.needle_centre)
+        if not least < length < LONGEST_NEEDLE:
+            raise ConfigurationError(
+                f"device {self.name}: a needle of {length:g} m; it holds needles longer than"
+                f" {least:g} m and shorter than {LONGEST_NEEDLE:g} m"
+            )
+        geometry = self.geometry.model_copy(update={"needle_length": length})
+        return self.model_copy(update={"geometry": geometry})

@@ -66,7 +66,10 @@ class ScanPictures(QObject):
         view = ScanView(self._conductor.planning, dialog)
         view.show_scan(picture, scan, review.origin)
         view.viewing.set_draft(DraftPlan.of(review.placed.plan))
-        view.viewing.set_needle(NeedleOverlay(scan.needle.hub_mm, scan.needle.tip_mm))
+        needle = scan.needle
+        view.viewing.set_needle(
+            NeedleOverlay(needle.hub_mm, needle.tip_mm, curve_mm=needle.corners_mm)
+        )
         column = QVBoxLayout(dialog)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(view)

@@ -113,7 +113,9 @@ def paint_needle(painter: QPainter, area: PadArea, scene: PadScene, view: PadVie
     painter.drawLine(tip, aim)
     _cross_mark(painter, aim)
     painter.setPen(theme.NEEDLE.pen(4.0))
-    painter.drawLine(hub, tip)
+    between = () if view.curve_across is None else view.curve_across[:-1]
+    bent = [area.point(view.place(scene, across)) for across in between]
+    painter.drawPolyline(QPolygonF([hub, *bent, tip]))
     _hub_mark(painter, hub)
     _tip_mark(painter, tip, view.measured)
 

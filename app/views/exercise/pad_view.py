@@ -57,6 +57,8 @@ class PadView:
         measured: whether the depth is a fresh measurement (else held or from the model).
         force: force felt at the hand [N], estimated.
         force_limit: largest force that the device may give [N].
+        curve_across: from the path to points of the bent part, entry to tip [m], shape (n, 3);
+            None for a straight needle.
     """
 
     direction: FloatArray
@@ -67,6 +69,7 @@ class PadView:
     measured: bool
     force: float
     force_limit: float
+    curve_across: FloatArray | None = None
 
     def frame(self, scene: PadScene) -> PathFrame:
         """Frame of the path to the target as it is now: the scene's while that is at rest."""

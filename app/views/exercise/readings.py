@@ -74,6 +74,9 @@ def pad_view(snapshot: Snapshot, needle_length: float, force_limit: float) -> Pa
         measured=pose.measured,
         force=felt(snapshot).force,
         force_limit=force_limit,
+        curve_across=None
+        if pose.bend is None
+        else split(pose.curve - snapshot.p_target, snapshot.offset.path)[0],
     )
 
 
