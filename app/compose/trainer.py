@@ -22,6 +22,7 @@ from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.context import RunContext
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
+from app.session.fixes import DepthTrust
 from app.session.hands import TRAINEE
 from app.session.risks import Risk
 from app.session.trainer import Trainer
@@ -30,6 +31,7 @@ from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.trainee import trainee_stage
 from app.tracking.cameras.settings import CameraSettings
 from app.tracking.errors import TrackingError
+from app.tracking.motion.depth_filter import FASTEST
 from app.tracking.optics.rig import load_rig
 from app.tracking.pen.settings import PenSettings
 from app.tracking.pen.tracker import PenTracker
@@ -194,6 +196,7 @@ def _build_rig(
         clearance=robot.clearance if robot is not None else None,
         held_arming=setup.held_arming or robot is not None,
         risks=setup.risks,
+        trust=DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None),
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)
 
@@ -209,7 +212,7 @@ def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
     context = run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents)
     trainer = Trainer(
         loop, tracker, setup.placed, setup.exercise, context, setup.clock, risks=setup.risks,
-        dial=0.0,
+        dial=0.0, trust=DepthTrust(FASTEST),  # a pen in the air is no needle in its tube
     )  # fmt: skip
     tracker.listen(trainer.on_fix)
     return Rig(setup, pen.profile, loop, tracker, trainer, pen=pen)

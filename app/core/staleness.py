@@ -16,7 +16,8 @@ TRACKER_FRESH: Final = 0.1
 """Age of a fix [s] up to which the depth counts as tracked: three frames at 30 Hz."""
 
 TRACKER_HOLD: Final = 0.2
-"""Age of a fix [s] up to which its depth is held; then the model's depth takes over."""
+"""Age of a fix [s] up to which its depth is held; then it may be anywhere in the profile's
+range, as far as force and let-go go, and the model's depth is drawn only as such."""
 
 HEARTBEAT: Final = 1.0
 """Silence of the window [s] after which there is no force."""

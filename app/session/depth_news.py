@@ -31,8 +31,11 @@ class DepthNews:
         was_measured, self._since = self._since is not None, None
         if pose.depth_source is DepthSource.MODEL and was_measured and not self._lost:
             self._lost = True
+            why = pose.doubt or (
+                f"the cameras have not seen the needle for {TRACKER_HOLD * 1e3:.0f} ms"
+            )
             return (
-                f"the cameras have not seen the needle for {TRACKER_HOLD * 1e3:.0f} ms: from now "
-                "on the depth is the model's, not measured"
+                f"{why}: from now on the depth is not measured, and the force is held back as if "
+                "the needle could be anywhere"
             )
         return ""

@@ -78,6 +78,10 @@ class LoopInputs:
             tracked_depth=checked[0], tracked_time=checked[1], tracked_variance=checked[2]
         )
 
+    def untracked(self) -> None:
+        """Say that no depth is measured: from the next tick on it may be anywhere."""
+        self._inbox.write(tracked_time=0.0)
+
     def heartbeat(self, now: float) -> None:
         """Tell the loop that the window lives [s]."""
         self._inbox.write(heartbeat=now)

@@ -9,6 +9,7 @@ clock, so the pose carries both ages.
 
 from dataclasses import dataclass
 from enum import StrEnum
+from math import inf, isfinite
 from typing import Final
 
 import numpy as np
@@ -63,6 +64,10 @@ class NeedlePose:
         valid: whether direction and depth may be used; the depth is measured only if
             `measured` says so too.
         covariance: of the tip [m²], shape (3, 3), read-only.
+        depth_least: least depth that the needle can have [m], see `device.control.depth_interval`;
+            minus infinity where nothing is known.
+        depth_most: largest depth that it can have [m]; infinity where nothing is known.
+        doubt: why depths of the cameras are not believed now; empty if they are.
         rate: of the depth by the cameras [m/s]; 0 where it is not known.
         predicted: how far ahead of the capture of its depth the pose has been moved [s]; 0 for a
             measured pose. Only what is shown is predicted: record, score and force are not.
@@ -84,6 +89,9 @@ class NeedlePose:
     valid: bool
     covariance: FloatArray
     reason: str = ""
+    depth_least: float = -inf
+    depth_most: float = inf
+    doubt: str = ""
     rate: float = 0.0
     predicted: float = 0.0
     snapped: bool = True
@@ -127,16 +135,23 @@ class NeedlePose:
 
 
 def fuse(
-    device: DeviceStatePort, fix: FixPort | None, now: float, last: NeedlePose | None = None
+    device: DeviceStatePort,
+    fix: FixPort | None,
+    now: float,
+    last: NeedlePose | None = None,
+    doubt: str = "",
 ) -> NeedlePose:
     """Fuse the robot's direction and the cameras' depth into one pose; never NaN.
 
+    The interval that holds the depth is the loop's own: force and let-go are limited by it.
+
     Args:
         device: newest state of the loop.
-        fix: newest *usable* fix of the tracker, or None before the first. Another is not used.
+        fix: newest *believed* fix of the tracker, or None without one. Another is not used.
         now: present time [s].
         last: pose before this one; its numbers are repeated, marked invalid, where the robot
             gives nothing usable.
+        doubt: why fixes of the cameras are not believed now.
     """
     axis = np.asarray(device.axis, dtype=np.float64)
     fault = _device_fault(device, axis, now)
@@ -148,6 +163,7 @@ def fuse(
         return _measured(device, fix, fulcrum, axis, now)
     depth = float(device.depth)
     bend = Bend.of_row(np.asarray(device.row))
+    least, most = _interval(device, depth)
     return NeedlePose(
         p_tip=_bent(fulcrum + depth * axis, bend, depth),
         axis=read_only(axis),
@@ -159,6 +175,9 @@ def fuse(
         valid=True,
         covariance=_bent_covariance(tip_covariance(axis, depth, MODEL_SIGMA**2), axis, bend, depth),
         bend=bend,
+        depth_least=least,
+        depth_most=most,
+        doubt=doubt,
     )
 
 
@@ -172,6 +191,7 @@ def _measured(
     aged = (HAND_SPEED * age) ** 2 * np.outer(axis, axis)
     both = fix.line_variance is not None
     bend = Bend.of_row(np.asarray(device.row))
+    least, most = _interval(device, tip.depth)
     return NeedlePose(
         p_tip=_bent(tip.p_tip, bend, tip.depth),
         axis=read_only(axis),
@@ -186,6 +206,8 @@ def _measured(
         deflection=float(np.linalg.norm(tip.beside)) if both else 0.0,
         deflection_sigma=across_sigma(fix, axis, tip.depth),
         bend=bend,
+        depth_least=least,
+        depth_most=most,
     )
 
 
@@ -207,6 +229,14 @@ def _bent_covariance(
         return read_only(straight)
     turn = np.eye(3) + np.outer(bend.slope_at(depth), axis)
     return read_only(turn @ straight @ turn.T)
+
+
+def _interval(device: DeviceStatePort, depth: float) -> tuple[float, float]:
+    """Interval of the loop, which may be a tick behind a fix: with the `depth` [m] in it."""
+    least, most = (float(device.row[slot]) for slot in (slots.DEPTH_LEAST, slots.DEPTH_MOST))
+    if not (isfinite(least) and isfinite(most)):
+        return -inf, inf
+    return min(least, depth), max(most, depth)
 
 
 def tip_covariance(axis: FloatArray, depth: float, depth_variance: float) -> FloatArray:

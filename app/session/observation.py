@@ -120,7 +120,7 @@ def observe(
     if device is None:
         pose = _no_device(placed, now, last, missing)
     else:
-        pose = fuse(device, fixes.usable(), now, last)
+        pose = fuse(device, fixes.usable(), now, last, fixes.doubt)
         shift = device.row[slots.TARGET_SHIFT]
         if np.isfinite(shift).all():
             p_target = read_only(placed.p_target + shift)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import isfinite
 from typing import TYPE_CHECKING
 
 from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
 from app.planning.off_path import Offset
 from app.session.arming import Arming
 from app.session.inputs import LoopInputs
@@ -84,6 +86,18 @@ _FIX_TEXT = {
 }
 
 
+def unmeasured(pose: NeedlePose) -> str:
+    """Say that nobody measures the depth now, why, and what follows from it."""
+    why = f" ({pose.doubt})" if pose.doubt else ""
+    if not (isfinite(pose.depth_least) and isfinite(pose.depth_most)):
+        return f"depth not measured{why}"
+    low, high = pose.depth_least / MILLIMETRE, pose.depth_most / MILLIMETRE
+    return (
+        f"depth not measured{why}: it may be anywhere from {low:.0f} to {high:.0f} mm, and the "
+        "force is held back for the worst of it"
+    )
+
+
 def advice(
     pose: NeedlePose,
     fix_status: str,
@@ -126,7 +140,7 @@ def advice(
     elif pose.depth_source is DepthSource.HELD:
         found.append(f"depth held for {pose.depth_age * 1e3:.0f} ms")
     elif pose.depth_source is DepthSource.MODEL:
-        found.append("depth not measured: the model's depth is shown")
+        found.append(unmeasured(pose))
     if recording is not None and recording.lost_rows:
         found.append(f"{recording.lost_rows} ticks of the loop were not recorded")
     return tuple(found)

@@ -13,6 +13,7 @@ from app.session.arming import Arming, ClearanceOf
 from app.session.attempt_log import AttemptLog
 from app.session.context import RunContext
 from app.session.errors import ControlLockedError
+from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import LoopInputs
 from app.session.machine import Event
 from app.session.ports import ExercisePort, FixPort, LoopPort, TrackerPort
@@ -57,6 +58,7 @@ class Trainer:
         held_arming: bool = False,
         risks: tuple[Risk, ...] = (),
         dial: float | None = None,
+        trust: DepthTrust = TRUST,
     ) -> None:
         """Keep the parts.
 
@@ -64,7 +66,8 @@ class Trainer:
         device is cleared for; without it, whoever built the loop has written it. With
         `held_arming`, forces are on only between `arm` and `disarm` during an attempt.
         `risks` are measured and recorded when an attempt ends. `dial` is the assistance that every
-        attempt begins with; None for the exercise's.
+        attempt begins with; None for the exercise's. `trust` says how far a depth by the cameras is
+        believed.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -79,7 +82,7 @@ class Trainer:
         self._risks = risks
         self._inputs = LoopInputs(loop.inbox)
         self._arming = Arming(self._inputs, held_arming, clearance)
-        self._watch = Watch(loop, tracker, self._inputs)
+        self._watch = Watch(loop, tracker, self._inputs, trust)
         self._running = Running(self.events)
         self._sight = Sight(self._inputs, self._arming, self._watch, self._running, self.events)
         self._lock = threading.RLock()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 from app.core.events import EventQueue
 from app.planning.placement import PlacedPlan
 from app.session.errors import NotReadyError
-from app.session.fixes import Fixes
+from app.session.fixes import TRUST, DepthTrust, Fixes
 from app.session.inputs import LoopInputs
 from app.session.observation import Observation, observe
 from app.session.ports import FixPort, LoopPort, TrackerPort
@@ -31,13 +31,19 @@ class Watch:
         statistics: of the tracker, as it reported them last; None without one.
     """
 
-    def __init__(self, loop: LoopPort, tracker: TrackerPort | None, inputs: LoopInputs) -> None:
+    def __init__(
+        self,
+        loop: LoopPort,
+        tracker: TrackerPort | None,
+        inputs: LoopInputs,
+        trust: DepthTrust = TRUST,
+    ) -> None:
         self.seen: Observation | None = None
         self.timing: Timing | None = None
         self.statistics: TrackerStatistics | None = None
         self._loop = loop
         self._tracker = tracker
-        self._fixes = Fixes(loop, inputs)
+        self._fixes = Fixes(loop, inputs, trust)
         self._measured = -inf
 
     def open(self) -> None:

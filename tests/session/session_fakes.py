@@ -61,6 +61,7 @@ def row(
     state[sv.DT] = 0.001
     state[sv.AXIS] = axis
     state[sv.DEPTH] = depth
+    state[sv.DEPTH_LEAST], state[sv.DEPTH_MOST] = -0.03, 0.12
     state[sv.TIP] = FULCRUM + depth * axis
     state[sv.HUB] = FULCRUM - (0.2 - depth) * axis
     state[sv.LIMIT_SCALE] = state[sv.SAFETY_SCALE] = 1.0

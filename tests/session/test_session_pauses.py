@@ -60,7 +60,7 @@ def test_without_a_measured_depth_in_the_body_the_attempt_pauses_and_goes_on_by_
     elapsed = snapshot.elapsed
     assert bench.run(3.0).elapsed == pytest.approx(elapsed)
     bench.tracker.status = "valid"
-    assert bench.run(0.4).state is State.PAUSED
+    assert bench.run(0.8).state is State.PAUSED, "ten pictures agree, then half a second"
     snapshot = bench.run(0.3)
     assert snapshot.state is State.INSERTING
     assert snapshot.armed

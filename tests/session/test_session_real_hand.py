@@ -236,7 +236,7 @@ def test_the_loss_of_the_needle_is_said_once_and_its_return_once(make: Make) -> 
     bench.run(2.0)
     (lost,) = depth_news(bench)
     assert "200 ms" in lost
-    assert "model" in lost
+    assert "not measured" in lost
     bench.tracker.status = "valid"
     bench.run(0.5)
     assert depth_news(bench) == []
@@ -265,7 +265,9 @@ def test_a_needle_that_was_never_seen_is_not_lost(make: Make) -> None:
     bench.trainer.begin()
     snapshot = bench.run(1.0)
     assert depth_news(bench) == []
-    assert "depth not measured: the model's depth is shown" in snapshot.messages
+    (said,) = [m for m in snapshot.messages if m.startswith("depth not measured")]
+    assert "from -30 to 120 mm" in said
+    assert (snapshot.pose.depth_least, snapshot.pose.depth_most) == (-0.03, 0.12)
 
 
 # --- where the force comes from -----------------------------------------------------------------

@@ -119,14 +119,15 @@ def depth_item(source: str, age: float) -> StatusItem:
         "tracked": (Verdict.GOOD, tr("from the cameras")),
         "one_camera": (Verdict.WARNING, tr("from one camera")),
         "held": (Verdict.WARNING, tr("held, {age} old", age=age_text(age))),
-        "model": (Verdict.BAD, tr("model only, not measured")),
+        "model": (Verdict.BAD, tr("not measured")),
         "none": (Verdict.BAD, tr("unknown")),
     }
     verdict, text = known.get(source, known["none"])
     return StatusItem(verdict, tr("Depth"), text, tr(
         "The depth is measured by the cameras; by one of them and the needle's line, less exactly, "
-        "while the other does not see the marker. Without a fix it is held for 200 ms; after that "
-        "the model's depth is shown, which is a guess: wait until the cameras see the marker again."
+        "while the other does not see the marker. Without a fix it is held for 200 ms. After that, "
+        "and until ten pictures in a row agree, nobody knows it: the force is held back for the "
+        "worst depth that the needle can have. Wait until the cameras see the marker again."
     ))  # fmt: skip
 
 
