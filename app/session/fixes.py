@@ -32,7 +32,7 @@ class DepthTrust:
             depth is a rehearsal, and the loop is told that it may be anywhere.
     """
 
-    hand_speed: float = 0.15
+    hand_speed: float = 0.12
     seen: bool = True
 
 

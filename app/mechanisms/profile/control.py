@@ -102,7 +102,7 @@ class HandSection(Section):
     faster hand is not believed.
     """
 
-    depth_speed: Annotated[float, Field(ge=0.05, le=1.0)] = 0.15
+    depth_speed: Annotated[float, Field(ge=0.05, le=1.0)] = 0.12
     provenance: dict[str, Provenance] = Field(default={"depth_speed": Provenance.ESTIMATED})
 
 
