@@ -8,6 +8,7 @@ angles and depth, and from them the force at the hand and the speed of the hub.
 
 from collections import deque
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -153,7 +154,7 @@ class DepthRig:
         geometry = self.profile.pantograph
         a1, a2, base = geometry.links
         force, speed, within = [], [], []
-        for before, row in zip(rows[:-1], rows[1:], strict=True):
+        for before, row in pairwise(rows):
             q1, q2 = before[sv.PLANT_Q]
             depth = before[sv.PLANT_DEPTH]
             _, x, y = forward_kernel(q1, q2, a1, a2, base, 1.0)

@@ -41,7 +41,7 @@ def test_with_the_band_hidden_no_hand_feels_more_than_its_limit(name, depth, cap
     assert any("-30 to 120 mm" in message for message in snapshot.messages)
 
 
-@settings(derandomize=True, deadline=None, max_examples=25)
+@settings(derandomize=True, deadline=None, max_examples=12)
 @given(
     name=st.sampled_from(RIGS),
     depth=st.floats(-0.02, 0.12),
