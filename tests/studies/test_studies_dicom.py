@@ -178,3 +178,35 @@ def test_the_places_are_judged_over_the_whole_picture(tmp_path, peer):
     affine = volume.affine_mm @ np.diag([1.001, 1.0, 1.0, 1.0])
     found = compare(volume.series, read(volume.series), PeerImage(volume.hu, affine), peer)
     assert 0.02 < found.peer_mm < 0.04
+
+
+def test_refusals_of_nifti_files_are_confirmed_by_the_bytes_of_their_headers(tmp_path, peer):
+    nibabel = pytest.importorskip("nibabel")
+    values = np.arange(120, dtype=np.int16).reshape(4, 5, 6)
+    sheared = np.eye(4)
+    sheared[0, 1] = 0.5
+    cases = {
+        "nowhere": (values, np.eye(4), 0), "sheared": (values, sheared, 1),
+        "times": (np.zeros((4, 5, 6, 3), np.int16), np.eye(4), 1),
+        "single": (values[:, :, :1], np.eye(4), 1),
+        "complex": (values.astype(np.complex64), np.eye(4), 1),
+    }  # fmt: skip
+    for name, (some, affine, code) in cases.items():
+        image = nibabel.Nifti1Image(some, affine)
+        image.set_sform(affine, code)
+        image.set_qform(None, 0)
+        (tmp_path / name).mkdir()
+        nibabel.save(image, tmp_path / name / "a.nii.gz")
+    (tmp_path / "text").mkdir()
+    (tmp_path / "text" / "a.nii").write_text("nothing of the kind")
+    reasons = {}
+    for name in (*cases, "text"):
+        listing = scan_folder(tmp_path / name)
+        (found,) = (*listing.series, *listing.ignored)
+        (file,) = (tmp_path / name).iterdir()
+        reasons[name] = found.reason, peer.facts((file,))
+        assert justified(*reasons[name]), (name, found.reason)
+        assert meaning(found.reason)
+    for name, (reason, _) in reasons.items():
+        for other, (_, facts) in reasons.items():
+            assert (name == other) == justified(reason, facts), (reason, other)

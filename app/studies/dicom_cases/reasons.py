@@ -145,7 +145,56 @@ def _any(holds: Callable[[Fact], bool]) -> Holds:
     return lambda reason, facts: any(holds(fact) for fact in facts)
 
 
+def _nifti(holds: Callable[[Fact], bool]) -> Holds:
+    """Return a rule of NIfTI files, by the fixed places of their headers."""
+    return lambda reason, facts: any(bool(f.get("nifti")) and holds(f["nifti"]) for f in facts)
+
+
+def _no_nifti(reason: str, facts: Sequence[Fact]) -> bool:
+    """Whether a file has no header of NIfTI, a size that cannot be, or less than it promises."""
+    return any(
+        "nifti" in fact
+        and (
+            not fact["nifti"]
+            or min(fact["nifti"]["sizes"], default=0) < 1
+            or fact["nifti"]["bytes"] < np.prod(fact["nifti"]["sizes"])
+        )
+        for fact in facts
+    )
+
+
+_COLOURED = (128, 2304)
+_COMPLEX = (32, 1792, 2048)
+
 _RULES: tuple[tuple[str, Holds, str], ...] = (
+    ("not a NIfTI file", _no_nifti, "another format under that name, or a file cut short"),
+    (
+        "does not say where it lies",
+        _nifti(lambda fact: not fact["placed"]),
+        "neither sform nor qform is set",
+    ),
+    ("span no volume", _nifti(lambda fact: not fact["volume"]), "an affine without an inverse"),
+    ("sheared:", _nifti(lambda fact: not fact["square"]), "an affine that is no grid of boxes"),
+    (
+        "one volume is read",
+        _nifti(lambda fact: len(fact["sizes"]) not in (3, 4) or fact["sizes"][3:] not in ([], [1])),
+        "times or vectors beside the three axes",
+    ),
+    (
+        "slices; a volume needs at least two",
+        _nifti(lambda fact: len(fact["sizes"]) < 3 or fact["sizes"][2] < 2),
+        "a single slice",
+    ),
+    (
+        "not one number for each voxel",
+        _nifti(lambda fact: fact["type"] in (*_COLOURED, *_COMPLEX)),
+        "colours or complex numbers",
+    ),
+    (
+        "mosaic",
+        _any(lambda fact: "MOSAIC" in fact["image_type"]),
+        "many slices side by side in one picture",
+    ),
     ("not CT", _modality, "another kind of picture"),
     ("not a DICOM file", _no_dicom, "text, JSON, a colour profile, a header too damaged to tell"),
     ("of no series", _no_series, "belongs to no series, as every CT image must"),
