@@ -78,8 +78,11 @@ class Desktop:
         """Folder of the recorded attempts."""
         return self._sessions
 
-    def prepare(self, progress: Progress) -> None:
-        """Load what an exercise needs; called beside the window as soon as it is painted."""
+    def prepare(self, progress: Progress) -> tuple[str, ...]:
+        """Load what an exercise needs; called beside the window as soon as it is painted.
+
+        Returns why force laws of the user's own cannot be used, one line each.
+        """
         from app.core.passing import sweep_passing
         from app.imaging.errors import WorkerError, WorkerLostError
         from app.imaging.worker.pool import shared_worker
@@ -92,6 +95,9 @@ class Desktop:
 
         with contextlib.suppress(WorkerError, WorkerLostError):
             load_decoders(Progress())  # a moment, of which nobody need be told
+        from app.device.control import laws
+
+        return tuple(laws.refused().values())
 
     def robots(self) -> tuple[RobotPort, ...]:
         """Ports at which a robot may be plugged in now."""

@@ -9,7 +9,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.simulation.declaration import Declaration, class_name
 from app.simulation.errors import SimulationError
-from app.simulation.registry import implementation
+from app.simulation.registry import implementation, parameters_needed
 from app.simulation.scene import Binding, Scene
 
 Stage = tuple[str, Any, FloatArray]
@@ -93,8 +93,10 @@ class SimulationPlan:
     def _stage(self, kept: Kept) -> Stage:
         module = implementation(kept.name)
         effect = getattr(module, class_name(kept.name))(**kept.parameters)
-        return (
-            kept.name,
-            module.step,
-            effect.parameters(Binding(self.scene, self.depth_slot, kept.model)),
-        )
+        array = effect.parameters(Binding(self.scene, self.depth_slot, kept.model))
+        if (needed := parameters_needed(kept.name)) > len(array):
+            raise SimulationError(
+                f"effect {kept.name}: step() uses {needed} parameters, parameters() gives"
+                f" {len(array)}"
+            )
+        return kept.name, module.step, array

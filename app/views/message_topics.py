@@ -55,6 +55,11 @@ class MessageTopics:
         window.editor.refused.connect(lambda error: bar.show_until(REFUSAL, error))
         window.editor.changed.connect(lambda: bar.forget(REFUSAL))
         runs.failed.connect(lambda error: bar.show_until(ROBOT, error))
+        runs.unusable.connect(
+            lambda why: bar.show_until(
+                "laws", tr("A force law of your own cannot be used: {why}", why=why)
+            )
+        )
         for signal in (runs.ready, window.robot.accepted, window.cameras.accepted):
             signal.connect(lambda *_: bar.forget(ROBOT))
         runs.starting.connect(lambda begun: bar.forget(ROBOT) if begun else None)

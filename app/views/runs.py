@@ -25,6 +25,7 @@ class Runs(QObject):
         gone(): there is no trainer now.
         failed(object): the error that kept one from running.
         starting(bool): one is being built, or no more.
+        unusable(str): which of the user's own files cannot be used, and why.
     """
 
     ready = Signal(object)
@@ -32,6 +33,7 @@ class Runs(QObject):
     gone = Signal()
     failed = Signal(object)
     starting = Signal(bool)
+    unusable = Signal(str)
 
     def __init__(self, services: Services, indicator: Indicator, parent: QObject) -> None:
         super().__init__(parent)
@@ -52,8 +54,13 @@ class Runs(QObject):
         """Load beside the window what an exercise needs, so that the first one begins soon."""
         if self._preparation is None:
             self._preparation = run_in_background(
-                self, self._services.prepare, lambda _: self._prepared(None), self._prepared
+                self, self._services.prepare, self._loaded, self._prepared
             )
+
+    def _loaded(self, unusable: tuple[str, ...]) -> None:
+        self._prepared(None)
+        if unusable:
+            self.unusable.emit("; ".join(unusable))
 
     def _prepared(self, error: Exception | None) -> None:
         self._preparation = None

@@ -110,8 +110,10 @@ class Services(Protocol):
         """Folder of the recorded attempts."""
         ...
 
-    def prepare(self, progress: Progress) -> None:
+    def prepare(self, progress: Progress) -> tuple[str, ...]:
         """Load what an exercise needs; called beside the window once it is painted.
+
+        Returns what cannot be used of the user's own files, one line each.
 
         Raises:
             ImportError: if a part of the program cannot be loaded; says which.

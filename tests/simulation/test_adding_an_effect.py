@@ -76,3 +76,22 @@ def test_a_wrong_declaration_is_named(folder: Path, old: str, new: str, message:
     (folder / name).write_text(code.replace(old, new), encoding="utf-8")
     with pytest.raises(SimulationError, match=message):
         declaration("hand_tremor")
+
+
+@pytest.mark.parametrize(
+    ("added", "message"),
+    [
+        ("    state[sv.ENABLED] = 1.0\n", "it writes enabled, which it does not declare"),
+        ("    while True:\n        pass\n", "a while loop may never end"),
+        ("    parameters[int(state[sv.TIME])] = 1.0\n", "neither a constant nor counted"),
+        ("    parameters[7] = 1.0\n", "uses 8 parameters, parameters.. gives 2"),
+    ],
+)
+def test_an_effect_of_somebody_else_that_could_do_harm_is_refused(
+    folder: Path, added: str, message: str
+) -> None:
+    name, code = from_the_page("How to add an effect")
+    (folder / name).write_text(code + added, encoding="utf-8")
+    scene = Scene(effects=(EffectRequest("hand_tremor", {"amplitude": 0.3}),))
+    with pytest.raises(SimulationError, match=message):
+        compile(scene, DevicePort("icube")).stages()

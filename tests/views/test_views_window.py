@@ -199,6 +199,12 @@ def test_a_part_that_cannot_be_loaded_is_told(window, services, settle):
     assert settle(lambda: "vtkmodules" in window.message_bar.text, 5.0)
 
 
+def test_a_force_law_that_is_refused_is_listed_with_the_reason(window, services, settle):
+    services.unusable = ("mine.py, line 7: a while loop may never end",)
+    window.show()
+    assert settle(lambda: "mine.py, line 7: a while loop" in window.message_bar.text, 5.0)
+
+
 def test_every_key_of_the_menus_is_used_once(window):
     keys = [
         key.toString()

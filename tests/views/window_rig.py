@@ -137,7 +137,7 @@ class FakePen(FakeLive):
 class FakeServices:
     def __init__(self, folder):
         self.folder, self.opened, self.refuses = folder, [], ""
-        self.prepared, self.missing = threading.Event(), ""
+        self.prepared, self.missing, self.unusable = threading.Event(), "", ()
         self.sources, self.lives = (RobotPort("usb:1-1", "Webcam (usb:1-1)"),), []
         self.pens, self.seen = [], None
         self.ports, self.benches = (RobotPort("/dev/ttyACM0", "icube A17 on /dev/ttyACM0"),), []
@@ -188,6 +188,7 @@ class FakeServices:
         self.prepared.set()
         if self.missing:
             raise ImportError(self.missing)
+        return self.unusable
 
     def open_run(self, setup, progress):
         if self.refuses:
