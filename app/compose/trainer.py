@@ -26,6 +26,7 @@ from app.session.fixes import DepthTrust
 from app.session.hands import TRAINEE
 from app.session.risks import Risk
 from app.session.trainer import Trainer
+from app.session.withdrawal import Start
 from app.simulation.hand_motion import hand_stage
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.trainee import trainee_stage
@@ -197,6 +198,7 @@ def _build_rig(
         held_arming=setup.held_arming or robot is not None,
         risks=setup.risks,
         trust=DepthTrust(profile.hand.depth_speed, seen=robot is None or real is not None),
+        start=Start.SIMULATED if robot is None else Start.REAL,
     )
     return Rig(setup, profile, loop, tracker, trainer, robot)
 
@@ -213,6 +215,7 @@ def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
     trainer = Trainer(
         loop, tracker, setup.placed, setup.exercise, context, setup.clock, risks=setup.risks,
         dial=0.0, trust=DepthTrust(FASTEST),  # a pen in the air is no needle in its tube
+        start=Start.SIMULATED if pen.settings.simulated else Start.REAL,
     )  # fmt: skip
     tracker.listen(trainer.on_fix)
     return Rig(setup, pen.profile, loop, tracker, trainer, pen=pen)

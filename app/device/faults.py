@@ -40,7 +40,8 @@ _MESSAGES: Final = {
     Fault.FORCE_NOT_FINITE: "a force law or an effect gave no number; leave out the effect",
     Fault.ENCODERS_STALE: "the encoders have not been read for 100 ms; check the link to the robot",
     Fault.HEARTBEAT_LOST: "the window has given no sign of life for 1 s; it is busy or has ended",
-    Fault.LET_GO: "the needle ran away faster than a hand moves it; hold it and arm again",
+    Fault.LET_GO: "the needle moved as if nobody held it, so its force was cut; hold it, then arm"
+    " or begin again",
     Fault.NOT_HOMED: "the robot is not homed, or its signs are not checked, since it was switched"
     " on; run the commissioning wizard or `acus device calibrate`",
     Fault.LINK_LOST: "the robot does not answer; check cable and power, it is looked for again",

@@ -80,10 +80,12 @@ def _attempt_void(trajectory: Trajectory, rules: Rules) -> str:
     if trajectory.was_aborted:
         return f"the attempt was aborted: {trajectory.aborted or 'no reason recorded'}"
     if not trajectory.running.any():
-        return "the attempt was never begun"
+        return "the attempt was never begun: it ended before the needle was out of the skin"
+    if not trajectory.depth_valid[trajectory.running].any():
+        return "nothing measured how deep the needle was"
     if not trajectory.inserted.any():
-        return "the needle was never inserted"
-    paused = trajectory.duration(trajectory.paused)
+        return "the needle never crossed the skin: it was never inserted"
+    paused = trajectory.waited
     if paused > rules.maximum_pause:
         return (
             f"the attempt waited {paused:.0f} s for the cameras; {rules.maximum_pause:g} s are "

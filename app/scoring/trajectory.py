@@ -61,6 +61,7 @@ class Trajectory:
         aborted: why the attempt was aborted; empty if it was not.
         scans: control scans, in order.
         risks: structures that the needle had to keep away from, and how near it came.
+        excused: time of pauses that the program itself caused, which cost nothing [s].
 
     Raises:
         TrajectoryError: naming the array and the first bad sample.
@@ -80,6 +81,7 @@ class Trajectory:
     aborted: str = ""
     scans: tuple[ScanMark, ...] = ()
     risks: tuple[RiskMark, ...] = ()
+    excused: float = 0.0
 
     def __post_init__(self) -> None:
         time = _samples(self.time, "time", None, ())
@@ -110,8 +112,13 @@ class Trajectory:
 
     @property
     def paused(self) -> NDArray[np.bool_]:
-        """Samples while the attempt waited for the cameras, in the body, shape (n,)."""
+        """Samples while the attempt waited, for the cameras or the window, shape (n,)."""
         return self.phase == Phase.PAUSED
+
+    @property
+    def waited(self) -> float:
+        """How long it waited for the cameras [s]."""
+        return max(0.0, self.duration(self.paused) - self.excused)
 
     @property
     def was_aborted(self) -> bool:
@@ -163,7 +170,7 @@ class Trajectory:
                 more than `LAST_SEEN` before it.
         """
         self.insertions()
-        body = self.inserted | self.paused  # an attempt may end while it waits for the cameras
+        body = self._in_body()
         end = int(np.flatnonzero(self.running | self.paused)[-1])
         if not body[end]:
             raise MetricUnavailableError("the needle was out of the body at the end")
@@ -174,6 +181,12 @@ class Trajectory:
         if age > LAST_SEEN:
             raise MetricUnavailableError(f"the tip was last seen {age:.1f} s before the end")
         return int(seen[-1])
+
+    def _in_body(self) -> NDArray[np.bool_]:
+        """Find the samples in the body; a pause counts as what it interrupted."""
+        last = np.maximum.accumulate(np.where(self.paused, -1, np.arange(len(self))))
+        body: NDArray[np.bool_] = (last >= 0) & self.inserted[last]
+        return body
 
     def target(self, index: int) -> FloatArray:
         """Where the target is at a sample [m], shape (3,): at rest plus its displacement."""

@@ -16,6 +16,7 @@ from app.session.curves import curves
 from app.session.errors import RecordingError
 from app.session.header import Attachment
 from app.session.machine import Attempt
+from app.session.pauses import excused
 from app.session.recorder import Recorder
 from app.session.result import AttemptResult
 from app.session.risks import Risk, event_of, risk_marks_of
@@ -82,7 +83,9 @@ class AttemptLog:
             near = risk_marks_of(samples, self.placed, self.risks)
             for mark in near:
                 self.event(event_of(mark))
-            path = trajectory(samples, self.placed, attempt.reason, renders, scans, near)
+            path = trajectory(
+                samples, self.placed, attempt.reason, renders, scans, near, excused(self.events)
+            )
             score = self.scorer(path)
         except AcusError as error:
             unscored = str(error)

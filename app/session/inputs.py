@@ -1,5 +1,7 @@
 """What the trainer writes into the loop's inbox, by meaning instead of by slot."""
 
+from math import inf
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -20,6 +22,7 @@ class LoopInputs:
         self._inbox = inbox
         self.assistance = 0.0
         self.armed = False
+        self._beat = -inf
         self._prepared = False
 
     def prepare(self, placed: PlacedPlan, assistance: float) -> None:
@@ -84,4 +87,9 @@ class LoopInputs:
 
     def heartbeat(self, now: float) -> None:
         """Tell the loop that the window lives [s]."""
+        self._beat = now
         self._inbox.write(heartbeat=now)
+
+    def silence(self, now: float) -> float:
+        """Time since the window's last sign of life [s]; infinite before the first."""
+        return now - self._beat

@@ -15,6 +15,7 @@ class State(StrEnum):
     """Where an attempt is."""
 
     READY = "ready"
+    WITHDRAWING = "withdrawing"
     ALIGNING = "aligning"
     INSERTING = "inserting"
     HOLDING = "holding"
@@ -26,6 +27,7 @@ class State(StrEnum):
 class Event(StrEnum):
     """What moves an attempt."""
 
+    PREPARE = "prepare"
     BEGIN = "begin"
     INSERT = "insert"
     HOLD = "hold"
@@ -38,9 +40,14 @@ class Event(StrEnum):
 
 TABLE: Final[Mapping[tuple[State, Event], State]] = MappingProxyType(
     {
+        (State.READY, Event.PREPARE): State.WITHDRAWING,
         (State.READY, Event.BEGIN): State.ALIGNING,
         (State.READY, Event.ABORT): State.ABORTED,
+        (State.WITHDRAWING, Event.BEGIN): State.ALIGNING,
+        (State.WITHDRAWING, Event.END): State.ENDED,
+        (State.WITHDRAWING, Event.ABORT): State.ABORTED,
         (State.ALIGNING, Event.INSERT): State.INSERTING,
+        (State.ALIGNING, Event.PAUSE): State.PAUSED,
         (State.ALIGNING, Event.END): State.ENDED,
         (State.ALIGNING, Event.ABORT): State.ABORTED,
         (State.INSERTING, Event.HOLD): State.HOLDING,
@@ -54,14 +61,17 @@ TABLE: Final[Mapping[tuple[State, Event], State]] = MappingProxyType(
         (State.HOLDING, Event.END): State.ENDED,
         (State.HOLDING, Event.ABORT): State.ABORTED,
         (State.PAUSED, Event.RESUME): State.INSERTING,
+        (State.PAUSED, Event.WITHDRAW): State.ALIGNING,
         (State.PAUSED, Event.END): State.ENDED,
         (State.PAUSED, Event.ABORT): State.ABORTED,
     }
 )
 """Every legal transition; nothing else is legal."""
 
-RUNNING: Final = frozenset({State.ALIGNING, State.INSERTING, State.HOLDING, State.PAUSED})
-"""States in which the attempt is being recorded."""
+RUNNING: Final = frozenset(
+    {State.WITHDRAWING, State.ALIGNING, State.INSERTING, State.HOLDING, State.PAUSED}
+)
+"""States in which the attempt is being recorded; it counts from `aligning` on."""
 
 FINAL: Final = frozenset({State.ENDED, State.ABORTED})
 """States that nothing leaves."""
@@ -74,7 +84,7 @@ class Attempt:
     Attributes:
         state: where it is.
         since: when it came into this state [s].
-        began: when it began [s]; None while ready.
+        began: when it began [s]; None while ready, and while the needle is brought out before.
         elapsed: completed time per state [s]; the present visit is not in it yet.
         reason: why it was aborted; empty otherwise.
     """

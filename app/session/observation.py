@@ -86,6 +86,8 @@ class Observation:
             return ""
         if held_arming and self._can_be_armed_again(self.device):
             return ""
+        if int(self.device.fault) == Fault.HEARTBEAT_LOST:
+            return ""  # the attempt pauses until the window answers, see `pauses`
         return self.device_fault
 
     def sample(self, state: State, inputs: LoopInputs) -> Sample:

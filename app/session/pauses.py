@@ -1,58 +1,140 @@
-"""When an attempt pauses because no camera sees the needle, and when it goes on.
+"""When an attempt pauses, why, and when it goes on by itself.
 
-Inside the body, a depth that no camera has measured for `LOST` seconds pauses the attempt: forces
-off, the clock stands still. It goes on by itself once the depth has been measured for `BACK`
-seconds without a break. Outside the body nothing pauses, nor while the marker is still inside the
-tube.
+Two things pause an attempt. *Cameras*: inside the body no picture has told the depth for `LOST`
+seconds; outside the body nothing pauses for it, nor while the marker is still inside the tube.
+*Window*: the window has given no sign of life for as long as the loop allows (`HEARTBEAT`): it is
+busy or blocked, and nobody sees what the needle does. Forces are off and the clock stands still;
+the attempt goes on where it was once the cause has been gone for `BACK` seconds without a break.
+
+What the cameras cost the student may void a score (`Rules.maximum_pause`); a busy window is the
+program's own trouble and costs nothing.
 """
 
+from collections.abc import Iterable
+from enum import StrEnum
 from typing import Final
 
+from app.core.events import Event as Told
+from app.core.staleness import HEARTBEAT
 from app.session.machine import Event, State
 from app.session.needle import NeedlePose
 from app.tracking.fix import FixStatus
+
+KIND: Final = "pause"
+"""Kind of the events that tell of a pause: its beginning, and its end with how long it lasted."""
 
 LOST: Final = 1.0
 """Time without a measured depth in the body until the attempt pauses [s]; the 0.2 s for which a
 depth is held are not yet without."""
 
 BACK: Final = 0.5
-"""Time of measured depth until it goes on [s]."""
+"""Time for which the cause must be gone until it goes on [s]."""
 
-PAUSED_WORDS: Final = (
-    "paused: for a second no picture has told how deep the needle is in the body; forces are off "
-    "and the clock stands still; show the marker to the cameras, or let the computer catch up"
-)
-RESUMED_WORDS: Final = (
-    "the cameras see the marker again: the attempt goes on, forces come back; a switch that must "
-    "be held has to be pressed again"
-)
+
+class Cause(StrEnum):
+    """Why an attempt waits."""
+
+    CAMERAS = "cameras"
+    WINDOW = "window"
+
+
+PAUSED_WORDS: Final = {
+    Cause.CAMERAS: (
+        "paused: for a second no picture has told how deep the needle is in the body; forces are "
+        "off and the clock stands still; show the marker to the cameras, or let the computer catch "
+        "up"
+    ),
+    Cause.WINDOW: (
+        "paused: the window was busy for a second; forces are off and the clock stands still; the "
+        "attempt goes on by itself"
+    ),
+}
+RESUMED_WORDS: Final = {
+    Cause.CAMERAS: (
+        "the cameras see the marker again: the attempt goes on, forces come back; a switch that "
+        "must be held has to be pressed again"
+    ),
+    Cause.WINDOW: (
+        "the window answers again: the attempt goes on, forces come back; a switch that must be "
+        "held has to be pressed again"
+    ),
+}
+
+
+class _Watched:
+    """One cause: since when it has been there, and since when it has been gone."""
+
+    def __init__(self) -> None:
+        self._there: float | None = None
+        self._gone: float | None = None
+
+    def look(self, there: bool, gone: bool, now: float) -> None:
+        self._there = (now if self._there is None else self._there) if there else None
+        self._gone = (now if self._gone is None else self._gone) if gone else None
+
+    def lasts(self, now: float, time: float) -> bool:
+        return self._there is not None and now - self._there >= time
+
+    def over(self, now: float) -> bool:
+        return self._gone is not None and now - self._gone >= BACK
 
 
 class Pauses:
-    """Watches the depth of one attempt."""
+    """Watches one attempt.
+
+    Attributes:
+        cause: of the present pause, or of the last one; None before the first.
+    """
 
     def __init__(self) -> None:
-        self._lost: float | None = None
-        self._back: float | None = None
+        self.cause: Cause | None = None
+        self._cameras, self._window = _Watched(), _Watched()
+        self._inside = True
+        self._began = 0.0
 
-    def look(self, state: State, pose: NeedlePose, fix_status: str) -> Event | None:
-        """Return what a pose means for the attempt, if anything.
+    def look(
+        self, state: State, pose: NeedlePose, fix_status: str, silence: float = 0.0
+    ) -> Event | None:
+        """Return what a moment means for the attempt, if anything.
 
         A pose that is not valid is the robot's trouble, and no reason to blame the cameras.
+        `silence`: since the window's last sign of life [s].
         """
-        if pose.measured:
-            self._lost = None
-            self._back = pose.time if self._back is None else self._back
-        else:
-            self._back = None
-            if pose.valid and fix_status != FixStatus.NOT_YET_VISIBLE:
-                self._lost = pose.time if self._lost is None else self._lost
-            else:
-                self._lost = None
+        now = pose.time
+        blamed = pose.valid and fix_status != FixStatus.NOT_YET_VISIBLE
+        self._cameras.look(not pose.measured and blamed, pose.measured, now)
+        busy = silence > HEARTBEAT
+        self._window.look(busy, not busy, now)
         if state is State.PAUSED:
-            back = self._back is not None and pose.time - self._back >= BACK
-            return Event.RESUME if back else None
-        in_body = state in (State.INSERTING, State.HOLDING)
-        lost = self._lost is not None and pose.time - self._lost >= LOST
-        return Event.PAUSE if in_body and lost else None
+            watched = self._window if self.cause is Cause.WINDOW else self._cameras
+            if not watched.over(now):
+                return None
+            return Event.RESUME if self._inside else Event.WITHDRAW
+        inside = state in (State.INSERTING, State.HOLDING)
+        if busy and (inside or state is State.ALIGNING):
+            return self._pause(Cause.WINDOW, inside, now)
+        return self._pause(Cause.CAMERAS, inside, now) if (
+            inside and self._cameras.lasts(now, LOST)
+        ) else None  # fmt: skip
+
+    def lasted(self, now: float) -> float:
+        """How long the present pause has lasted [s]."""
+        return max(0.0, now - self._began)
+
+    def _pause(self, cause: Cause, inside: bool, now: float) -> Event:
+        self.cause, self._inside, self._began = cause, inside, now
+        return Event.PAUSE
+
+
+def excused(events: Iterable[Told]) -> float:
+    """Time that an attempt waited for the program itself [s], from its events."""
+    total = 0.0
+    for event in events:
+        duration = event.data.get("duration_s")
+        if (
+            event.kind == KIND
+            and event.data.get("cause") == Cause.WINDOW
+            and isinstance(duration, int | float)
+        ):
+            total += max(0.0, float(duration))
+    return total

@@ -17,6 +17,7 @@ from app.session.control_scan import ControlScan, scan_marks, scans_of
 from app.session.ct_facts import CtFacts
 from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
+from app.session.pauses import excused
 from app.session.risks import risk_marks
 from app.session.samples import Samples, bends, floats, vectors, words
 from app.session.scan import Scan, scan
@@ -91,7 +92,9 @@ class Recording:
         renders = renders_force(self.metadata)
         scans = scan_marks(self.events)
         risks = risk_marks(self.events)
-        return trajectory(self.samples, self.placed_plan(), reason, renders, scans, risks)
+        return trajectory(
+            self.samples, self.placed_plan(), reason, renders, scans, risks, excused(self.events)
+        )
 
     def placed_plan(self) -> PlacedPlan:
         """Plan in the robot's frame.

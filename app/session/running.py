@@ -9,9 +9,18 @@ from app.session.errors import IllegalTransitionError
 from app.session.inputs import LoopInputs
 from app.session.machine import Attempt
 from app.session.observation import Observation
-from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS, Pauses
+from app.session.pauses import KIND, PAUSED_WORDS, RESUMED_WORDS, Cause, Pauses
 from app.session.phases import DEFAULT, Classifier, Thresholds, classify
 from app.session.result import AttemptResult
+from app.session.withdrawal import Known
+
+_OUT_WORDS = {
+    Known.SIMULATED: "the needle is out of the skin: the attempt begins",
+    Known.MEASURED: "the needle is out of the skin, as measured: the attempt begins",
+    Known.CONFIRMED: (
+        "the needle is out of the skin, as the student says and nothing measures: it begins"
+    ),
+}
 
 
 class Running:
@@ -34,8 +43,23 @@ class Running:
 
     @property
     def paused(self) -> bool:
-        """Whether the attempt waits for the cameras."""
+        """Whether the attempt waits."""
         return self.attempt.state is machine.State.PAUSED
+
+    @property
+    def withdrawing(self) -> bool:
+        """Whether the needle is being brought out before the attempt."""
+        return self.attempt.state is machine.State.WITHDRAWING
+
+    @property
+    def counts(self) -> bool:
+        """Whether an attempt has begun and not ended."""
+        return self.attempt.running and not self.withdrawing
+
+    @property
+    def pause_words(self) -> str:
+        """Why the attempt waits; empty if it does not."""
+        return PAUSED_WORDS[self._pauses.cause or Cause.CAMERAS] if self.paused else ""
 
     def require_idle(self, what: str) -> None:
         """Refuse what is not possible during an attempt.
@@ -48,14 +72,17 @@ class Running:
                 f"{what} while {self.attempt.state}: end the attempt first"
             )
 
-    def begin(self, log: AttemptLog, now: float, threaded: bool) -> None:
-        """Begin a new attempt at `now` [s].
+    def begin(
+        self, log: AttemptLog, now: float, threaded: bool, out: Known | None = Known.SIMULATED
+    ) -> None:
+        """Begin a new attempt at `now` [s], or, while the needle is not out, what goes before it.
 
         Raises:
             IllegalTransitionError: if one is running.
         """
         self.require_idle("an attempt cannot begin")
-        self.attempt = machine.advance(Attempt(), machine.Event.BEGIN, now)
+        event = machine.Event.PREPARE if out is None else machine.Event.BEGIN
+        self.attempt = machine.advance(Attempt(), event, now)
         self._classifier, self._depth, self.log = Classifier(), DepthNews(), log
         self._pauses = Pauses()
         failure = log.open(threaded)
@@ -63,21 +90,30 @@ class Running:
             self.say("recorder", f"this attempt is not recorded: {failure}", now)
         self._say_state(now)
 
+    def release(self, known: Known, now: float) -> None:
+        """Begin the attempt, with the needle out of the skin; `known` says how that is known."""
+        waited = now - self.attempt.since
+        self._advance(machine.Event.BEGIN, now)
+        data: dict[str, object] = {"how": known.value, "duration_s": waited}
+        self.say("withdrawal", _OUT_WORDS[known], now, data)
+
     def look(self, seen: Observation, inputs: LoopInputs, held_arming: bool = False) -> str:
         """Classify and record one observation; returns why the attempt cannot go on, or nothing.
 
         `held_arming`: whether a person can arm again after a fault.
         """
         log, attempt = self.log, self.attempt
-        if log is None or not attempt.running or attempt.began is None:
+        if log is None or not attempt.running:
             return ""
-        reason = seen.fatal(attempt.began, held_arming)
+        began = attempt.since if attempt.began is None else attempt.began
+        reason = seen.fatal(began, held_arming)
         if reason:
             return reason
         self._classifier, event = classify(
             self._classifier, attempt.state, seen.pose, seen.offset.distance, self._thresholds
         )
-        event = self._pauses.look(attempt.state, seen.pose, seen.fix_status) or event
+        silence = inputs.silence(seen.time)
+        event = self._pauses.look(attempt.state, seen.pose, seen.fix_status, silence) or event
         if event is not None:
             self._change(event, seen.time)
         news = self._depth.look(seen.pose)
@@ -98,7 +134,7 @@ class Running:
             IllegalTransitionError: if no attempt is running.
             ScanNotPossibleError: if nobody knows where the needle is.
         """
-        if self.log is None or not self.attempt.running:
+        if self.log is None or not self.attempt.running or self.withdrawing:
             raise IllegalTransitionError(
                 f"a control scan is not possible while {self.attempt.state}: begin an attempt first"
             )
@@ -127,7 +163,10 @@ class Running:
         Raises:
             IllegalTransitionError: if no attempt is running.
         """
+        paused = self.paused
         self._advance(event, now, reason)
+        if paused:
+            self._tell_pause("the attempt ended while it was paused", now, over=True)
         if self.log is None:
             raise IllegalTransitionError("no attempt has begun")
         if seen is not None and seen.time >= (self.attempt.began or 0.0):
@@ -144,12 +183,19 @@ class Running:
             self.log.event(event)
 
     def _change(self, event: machine.Event, now: float) -> None:
+        paused, cause = self.paused, self._pauses.cause or Cause.CAMERAS
         self._advance(event, now)
-        if event is machine.Event.PAUSE:
-            self.say("pause", PAUSED_WORDS, now)
-        elif event is machine.Event.RESUME:
+        if self.paused:
+            self._tell_pause(PAUSED_WORDS[cause], now, over=False)
+        elif paused:
             self._classifier = Classifier()
-            self.say("pause", RESUMED_WORDS, now)
+            self._tell_pause(RESUMED_WORDS[cause], now, over=True)
+
+    def _tell_pause(self, words: str, now: float, over: bool) -> None:
+        data: dict[str, object] = {"cause": str(self._pauses.cause or Cause.CAMERAS)}
+        if over:
+            data["duration_s"] = self._pauses.lasted(now)
+        self.say(KIND, words, now, data)
 
     def _advance(self, event: machine.Event, now: float, reason: str = "") -> None:
         # The caller's time may have been read just before another thread's last transition.

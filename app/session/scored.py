@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
@@ -13,6 +14,7 @@ from app.scoring.scans import ScanMark
 from app.scoring.score import score
 from app.scoring.trajectory import Trajectory
 from app.session.errors import SessionError
+from app.session.machine import State
 from app.session.needle import FROM_CAMERAS
 from app.session.ports import ExercisePort
 from app.session.samples import Samples
@@ -25,7 +27,7 @@ def renders_force(metadata: Mapping[str, Mapping[str, str]]) -> bool:
 
 def trajectory(
     samples: Samples, placed: PlacedPlan, aborted: str = "", renders: bool = True,
-    scans: tuple[ScanMark, ...] = (), risks: tuple[RiskMark, ...] = (),
+    scans: tuple[ScanMark, ...] = (), risks: tuple[RiskMark, ...] = (), excused: float = 0.0,
 ) -> Trajectory:  # fmt: skip
     """Turn samples into what scoring wants: those without a valid pose are left out.
 
@@ -39,6 +41,7 @@ def trajectory(
         renders: whether something could push the hand; see `renders_force`.
         scans: control scans, in order.
         risks: structures of risk, and how near the needle came.
+        excused: time of pauses that cost nothing [s], see `pauses.excused`.
 
     Raises:
         SessionError: if no sample has a valid pose.
@@ -55,7 +58,7 @@ def trajectory(
         axis=samples.axis[keep],
         depth=samples.depth[keep],
         felt=np.nan_to_num(samples.felt[keep], nan=0.0) if renders else None,
-        phase=samples.state[keep],  # type: ignore[arg-type]  # names are taken as well as codes
+        phase=_phases(samples.state[keep]),  # type: ignore[arg-type]  # names are taken as well as codes
         depth_valid=np.isin(samples.depth_source[keep], FROM_CAMERAS),
         hub=hub if np.isfinite(hub).all() else None,
         guide=guide if np.isfinite(guide).all() else None,
@@ -63,7 +66,13 @@ def trajectory(
         aborted=aborted,
         scans=scans,
         risks=risks,
+        excused=excused,
     )
+
+
+def _phases(states: NDArray[np.str_]) -> NDArray[np.str_]:
+    """States as scoring knows them: what went before the attempt is no part of it."""
+    return np.where(states == State.WITHDRAWING.value, State.READY.value, states)
 
 
 def scorer(exercise: ExercisePort) -> Callable[[Trajectory], Score]:

@@ -6,9 +6,11 @@ from app.core.latest import Latest
 from app.planning.placement import PlacedPlan
 from app.session.arming import Arming
 from app.session.inputs import LoopInputs
+from app.session.observation import Observation
 from app.session.running import Running
 from app.session.snapshot import Snapshot, take
 from app.session.watch import Watch
+from app.session.withdrawal import Withdrawal
 
 
 class Sight:
@@ -20,6 +22,7 @@ class Sight:
         watch: of loop and tracker.
         running: the attempt.
         events: where the tracker's news go.
+        withdrawal: brings the needle out before an attempt.
     """
 
     def __init__(
@@ -29,9 +32,11 @@ class Sight:
         watch: Watch,
         running: Running,
         events: EventQueue,
+        withdrawal: Withdrawal,
     ) -> None:
         self._inputs, self._arming, self._watch = inputs, arming, watch
         self._running, self._events = running, events
+        self._withdrawal = withdrawal
         self._latest: Latest[Snapshot] = Latest()
 
     @property
@@ -53,14 +58,29 @@ class Sight:
             was_paused = self._running.paused
             reason = self._running.look(seen, self._inputs, self._arming.held)
             self._arming.pause(was_paused, self._running.paused)
+            reason = reason or self._bring_out(seen)
             return reason or self._watch.news(self._running, self._events)
         except AcusError as error:
             self._watch.blind(placed, now, str(error))
             return str(error)
 
+    def _bring_out(self, seen: Observation) -> str:
+        """Begin an attempt once the needle is out; returns why it must be ended, or nothing."""
+        running, withdrawal = self._running, self._withdrawal
+        if running.withdrawing:
+            step = withdrawal.look(seen.device, seen.pose, seen.time)
+            if step.known is not None:
+                running.release(step.known, seen.time)
+                self._arming.begin()
+            return step.failure
+        withdrawal.stop()
+        return withdrawal.refuted(seen.pose, seen.time) if running.counts else ""
+
     def publish(self, placed: PlacedPlan, now: float) -> Snapshot:
         """Publish what the last look saw, with the attempt as it is now."""
         seen = self._watch.newest(placed, now)
-        snapshot = take(now, seen, self._running, self._inputs, self._arming, self._watch)
+        snapshot = take(
+            now, seen, self._running, self._inputs, self._arming, self._watch, self._withdrawal
+        )
         self._latest.publish(snapshot, now)
         return snapshot

@@ -15,11 +15,11 @@ from app.session.inputs import LoopInputs
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.observation import Observation
-from app.session.pauses import PAUSED_WORDS
 from app.session.ports import ClearancePort, DeviceStatePort
 from app.session.recorder import RecordingStatus
 from app.session.running import Running
 from app.session.watch import Watch
+from app.session.withdrawal import Withdrawal
 
 if TYPE_CHECKING:
     from app.device.control.timing import Timing
@@ -51,6 +51,9 @@ class Snapshot:
         messages: what the student should know, one line each, most urgent first.
         held_arming: whether the forces are on only while a key or pedal is held.
         clearance: how much force the device is cleared for; None where nobody is asked.
+        withdrawal: what happens, or is to be done, before the attempt can begin with the needle out
+            of the skin; empty otherwise.
+        may_confirm: whether the student may say that the needle is out.
         measured_pose: the pose as measured, behind by its age; None in snapshots made by hand.
     """
 
@@ -74,6 +77,8 @@ class Snapshot:
     held_arming: bool = False
     clearance: ClearancePort | None = None
     measured_pose: NeedlePose | None = None
+    withdrawal: str = ""
+    may_confirm: bool = False
 
 
 _FIX_TEXT = {
@@ -105,7 +110,7 @@ def advice(
     reason: str,
     recording: RecordingStatus | None,
     held_back: str = "",
-    paused: bool = False,
+    waits: str = "",
 ) -> tuple[str, ...]:
     """Messages for the student, most urgent first.
 
@@ -116,13 +121,13 @@ def advice(
         reason: why the attempt was aborted; empty otherwise.
         recording: how the record stands.
         held_back: why the device is not cleared for full force; empty if it is.
-        paused: whether the attempt waits for the cameras.
+        waits: why the attempt waits; empty if it does not.
     """
     found = []
     if reason:
         found.append(f"attempt aborted: {reason}")
-    if paused:
-        found.append(PAUSED_WORDS)
+    if waits:
+        found.append(waits)
     if fault:
         found.append(f"no force: {fault}")
     if held_back:
@@ -153,6 +158,7 @@ def take(
     inputs: LoopInputs,
     arming: Arming,
     watch: Watch,
+    withdrawal: Withdrawal,
 ) -> Snapshot:
     """Put a snapshot together at `now` [s]."""
     attempt, log, fault = running.attempt, running.log, seen.device_fault
@@ -176,9 +182,17 @@ def take(
         armed=inputs.armed,
         recording=recording,
         messages=advice(
-            seen.pose, seen.fix_status, fault, attempt.reason, recording, held_back, running.paused
+            seen.pose,
+            seen.fix_status,
+            fault,
+            attempt.reason,
+            recording,
+            held_back,
+            withdrawal.words or running.pause_words,
         ),
         held_arming=arming.held,
         clearance=arming.clearance,
         measured_pose=seen.pose,
+        withdrawal=withdrawal.words,
+        may_confirm=withdrawal.asks,
     )

@@ -25,6 +25,8 @@ from app.session.sight import Sight
 from app.session.snapshot import Snapshot
 from app.session.ticker import Ticker
 from app.session.watch import Watch
+from app.session.withdrawal import KIND as WITHDRAWAL
+from app.session.withdrawal import Start, Withdrawal
 
 TICK_PERIOD: Final = 0.02
 """The trainer looks at everything this often [s]."""
@@ -59,6 +61,7 @@ class Trainer:
         risks: tuple[Risk, ...] = (),
         dial: float | None = None,
         trust: DepthTrust = TRUST,
+        start: Start = Start.ANYWHERE,
     ) -> None:
         """Keep the parts.
 
@@ -67,7 +70,7 @@ class Trainer:
         `held_arming`, forces are on only between `arm` and `disarm` during an attempt.
         `risks` are measured and recorded when an attempt ends. `dial` is the assistance that every
         attempt begins with; None for the exercise's. `trust` says how far a depth by the cameras is
-        believed.
+        believed, `start` how the needle comes out of the skin before an attempt.
         """
         self.events = EventQueue()
         self.result: AttemptResult | None = None
@@ -84,7 +87,10 @@ class Trainer:
         self._arming = Arming(self._inputs, held_arming, clearance)
         self._watch = Watch(loop, tracker, self._inputs, trust)
         self._running = Running(self.events)
-        self._sight = Sight(self._inputs, self._arming, self._watch, self._running, self.events)
+        self._withdrawal = Withdrawal(self._inputs, start)
+        self._sight = Sight(
+            self._inputs, self._arming, self._watch, self._running, self.events, self._withdrawal
+        )
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
 
@@ -129,6 +135,9 @@ class Trainer:
     def begin(self, student: str = "", hand: str = "") -> str:
         """Begin an attempt: everything recorded, forces armed; returns the session id.
 
+        While the tip is inside the skin the attempt is only prepared: recorded, without force and
+        without its clock, until the needle is out (state `withdrawing`).
+
         With `held_arming` the forces stay off until `arm`. A record that cannot be written is told
         in an event, in the messages and in the summary; the attempt goes on.
 
@@ -154,9 +163,14 @@ class Trainer:
             header = self._context.header(self._exercise, self._placed, student, now, hand)
             recorder = self._context.recorder(header, self._loop, self._placed, self._clock)
             log = AttemptLog(recorder, self._placed, self._scorer, risks=self._risks)
-            self._running.begin(log, now, threaded=self._ticker is not None)
+            seen = self._watch.newest(self._placed, now)
+            out = self._withdrawal.begin(seen.device, seen.pose, now)
+            self._running.begin(log, now, self._ticker is not None, out)
             self.heartbeat()
-            self._arming.begin()
+            if out is None:
+                self._running.say(WITHDRAWAL, self._withdrawal.words, now)
+            else:
+                self._arming.begin()
             self._sight.publish(self._placed, now)
             return header.id
 
@@ -176,6 +190,11 @@ class Trainer:
                 return None
             return self._finish(Event.ABORT, reason)
 
+    def confirm_outside(self) -> None:
+        """Take the student's word that the needle is out of the skin; see `session.withdrawal`."""
+        with self._lock:
+            self._withdrawal.confirm()
+
     def scan(self, order: ScanOrder | None = None) -> int:
         """Take a control scan; returns how many were taken. Without an order it is only counted.
 
@@ -191,8 +210,12 @@ class Trainer:
 
     # --- intents ----------------------------------------------------------------------------------
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
-        """Move the simulated hand: needle direction (x, y), depth [m], whether it holds."""
-        self._inputs.hand(x, y, depth, holds)
+        """Move the simulated hand: needle direction (x, y), depth [m], whether it holds.
+
+        It obeys nobody while it brings the needle out before an attempt.
+        """
+        if not self._withdrawal.moves_hand:
+            self._inputs.hand(x, y, depth, holds)
 
     def assistance(self, value: float) -> None:
         """Set the assistance: 1 full guidance, 0 nothing, -1 full repulsion.
@@ -214,7 +237,7 @@ class Trainer:
 
     def arm(self) -> None:
         """Arm the forces; `begin` does, unless a held key or pedal must. Never waits."""
-        self._arming.arm(lambda: self._running.attempt.running and not self._running.paused)
+        self._arming.arm(lambda: self._running.counts and not self._running.paused)
 
     def disarm(self) -> None:
         """Switch the forces off; `end` and `abort` do. Never waits."""
@@ -256,6 +279,7 @@ class Trainer:
 
     def _finish(self, event: Event, reason: str = "") -> AttemptResult:
         self.disarm()
+        self._withdrawal.stop()
         now = self._clock.now()
         result = self._running.finish(event, self._watch.seen, self._inputs, now, reason)
         self.disarm()  # a key that was pressed while the attempt was ending

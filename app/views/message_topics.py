@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from app.core.events import Event
-from app.session.pauses import PAUSED_WORDS
 from app.views.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar
 from app.views.text import tr
 
@@ -80,7 +79,7 @@ class MessageTopics:
 
 def tell_pause(bar: MessageBar, event: Event) -> None:
     """Say on every page that the attempt waits, until it goes on or ends."""
-    if event.kind == "pause" and event.message == PAUSED_WORDS:
+    if event.kind in ("pause", "withdrawal") and "duration_s" not in event.data:
         bar.show_until(PAUSE, event.message)
     elif event.kind in ("pause", "state", "abort"):
         bar.forget(PAUSE)

@@ -116,9 +116,9 @@ def test_an_aborted_attempt_is_void() -> None:
 
 def test_an_attempt_without_insertion_is_void() -> None:
     result = score(PERFECT.trajectory(phase=np.full(2251, "aligning")))
-    assert result.void_reason == "the needle was never inserted"
+    assert result.void_reason == "the needle never crossed the skin: it was never inserted"
     assert score(PERFECT.trajectory(phase=np.full(2251, "ready"))).void_reason == (
-        "the attempt was never begun"
+        "the attempt was never begun: it ended before the needle was out of the skin"
     )
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -163,6 +164,67 @@ def test_a_flickering_marker_neither_pauses_nor_resumes() -> None:
     for k in range(400):
         seen = DepthSource.MODEL if k % 20 == 0 else DepthSource.TRACKED
         assert pauses.look(State.PAUSED, pose(8.0 + 0.02 * k, seen), "") is None
+
+
+# --- a busy window --------------------------------------------------------------------------------
+def _blocked(bench: Bench, seconds: float) -> Any:
+    """Let time pass in which the window gives no sign of life."""
+    snapshot = None
+    for _ in range(round(seconds / 0.02)):
+        bench.loop.step(20)
+        now = bench.clock.now()
+        bench.tracker.advance(now)
+        if now - bench.loop.inbox.values["heartbeat"] > 1.0:
+            bench.loop.extra["fault"] = 9.0 * bench.loop.inbox.values["enabled"]
+        snapshot = bench.trainer.tick(now)
+    bench.loop.extra["fault"] = 0.0
+    return snapshot
+
+
+@pytest.mark.parametrize(("depth", "state"), [(-0.02, State.ALIGNING), (0.04, State.INSERTING)])
+def test_a_busy_window_pauses_and_the_attempt_goes_on_where_it_was(
+    bench: Bench, depth: float, state: State
+) -> None:
+    bench.trainer.begin()
+    before = bench.run(2.0, depth)
+    assert before.state is state
+    snapshot = _blocked(bench, 3.0)
+    assert snapshot.state is State.PAUSED
+    assert not snapshot.armed
+    assert any("window was busy" in message for message in snapshot.messages)
+    assert snapshot.elapsed - before.elapsed == pytest.approx(1.0, abs=0.05)
+    assert bench.run(0.4).state is State.PAUSED
+    snapshot = bench.run(0.3)
+    assert snapshot.state is state
+    assert snapshot.armed
+    result = bench.trainer.end()
+    assert result.record is not None
+    told = [dict(e.data) for e in read_recording(result.record).events if e.kind == "pause"]
+    assert [data["cause"] for data in told] == ["window", "window"]
+    assert told[1]["duration_s"] == pytest.approx(2.0 + BACK, abs=0.1)
+
+
+def test_a_window_that_was_busy_for_long_voids_nothing(bench: Bench) -> None:
+    bench.trainer.begin()
+    bench.insertion()
+    _blocked(bench, 40.0)
+    bench.run(3.0, 0.06)
+    result = bench.trainer.end()
+    assert result.phases[State.PAUSED] > 38.0
+    assert result.duration < 15.0
+    assert result.score is not None
+    assert result.score.void_reason == ""
+    assert result.record is not None
+    assert read_recording(result.record).trajectory().waited == pytest.approx(0.0, abs=0.1)
+
+
+def test_an_attempt_that_ends_in_a_pause_says_how_long_it_was(bench: Bench) -> None:
+    bench.trainer.begin()
+    bench.run(2.0, 0.04)
+    _blocked(bench, 5.0)
+    result = bench.trainer.end()
+    told = [e for e in result.events if e.kind == "pause"]
+    assert told[-1].data["duration_s"] == pytest.approx(4.0, abs=0.1)
 
 
 # --- shown ----------------------------------------------------------------------------------------

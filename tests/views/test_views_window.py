@@ -12,7 +12,7 @@ from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
 from app.imaging import scanning
 from app.imaging.series import Listing
-from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS
+from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS, Cause
 from app.views.layouts import FIVE
 from app.views.needle_overlay import NeedleOverlay
 from app.views.series.browser import SeriesBrowser
@@ -143,10 +143,10 @@ def test_a_click_beside_the_patient_in_3d_is_told(window, patient):
 def test_a_pause_is_said_on_every_page_until_the_attempt_goes_on(window):
     seen = window.conductor.controller.event_seen
     seen.emit(Event(1.0, "state", "paused", {}))
-    seen.emit(Event(1.0, "pause", PAUSED_WORDS, {}))
-    assert window.message_bar.text == PAUSED_WORDS
+    seen.emit(Event(1.0, "pause", PAUSED_WORDS[Cause.CAMERAS], {"cause": "cameras"}))
+    assert window.message_bar.text == PAUSED_WORDS[Cause.CAMERAS]
     assert not window.message_bar.isHidden()
-    seen.emit(Event(2.0, "pause", RESUMED_WORDS, {}))
+    seen.emit(Event(2.0, "pause", RESUMED_WORDS[Cause.CAMERAS], {"duration_s": 1.0}))
     assert window.message_bar.isHidden()
 
 

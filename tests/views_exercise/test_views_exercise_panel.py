@@ -60,9 +60,11 @@ def live(state, **changes):
 @pytest.mark.parametrize("state", list(State))
 def test_only_what_the_state_allows_is_enabled(panel, state):
     panel.show_figures(live(state))
-    running = state in (State.ALIGNING, State.INSERTING, State.HOLDING, State.PAUSED)
+    counts = state in (State.ALIGNING, State.INSERTING, State.HOLDING, State.PAUSED)
+    running = counts or state is State.WITHDRAWING
     assert panel.buttons.start.isEnabled() is not running
-    for button in (panel.buttons.scan, panel.buttons.end, panel.buttons.abort):
+    assert panel.buttons.scan.isEnabled() is counts
+    for button in (panel.buttons.end, panel.buttons.abort):
         assert button.isEnabled() is running
 
 
@@ -331,3 +333,18 @@ def test_without_a_robot_there_is_neither_dial_nor_force(panel):
     assert not bar.isVisible()
     panel.set_forceful(True)
     assert not bar.isVisible()
+
+
+def test_what_is_to_be_done_before_an_attempt_stands_there_with_its_button(panel):
+    asked = []
+    panel.withdrawal.confirmed.connect(lambda: asked.append(True))
+    assert panel.withdrawal.isHidden()
+    panel.withdrawal.show_snapshot(snapshot(withdrawal="take it out", may_confirm=True))
+    assert not panel.withdrawal.isHidden()
+    assert not panel.withdrawal.button.isHidden()
+    panel.withdrawal.button.click()
+    assert asked == [True]
+    panel.withdrawal.show_snapshot(snapshot(withdrawal="it comes out by itself"))
+    assert panel.withdrawal.button.isHidden()
+    panel.withdrawal.show_snapshot(snapshot())
+    assert panel.withdrawal.isHidden()

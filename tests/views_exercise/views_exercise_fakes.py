@@ -92,6 +92,9 @@ class FakeTrainer:
         self.events.put(Event(1.0, "state", "aligning"))
         return "20261121-101500-ab12"
 
+    def confirm_outside(self) -> None:
+        self.calls.append(("confirm_outside",))
+
     def end(self) -> Any:
         self.calls.append(("end",))
         self.now = replace(self.now, state=State.ENDED)

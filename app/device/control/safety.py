@@ -72,6 +72,9 @@ class _Places(NamedTuple):
 _AT: Final = numbered(_Places)
 
 
+_SILENT = 0.6  # share of the heartbeat's limit from which the force fades
+
+
 @njit
 def _data_fault(state: FloatArray) -> int:
     # Adding finite numbers times zero gives zero; one NaN or infinite among them gives NaN.
@@ -187,6 +190,9 @@ def safety_stage(state: FloatArray, p: FloatArray) -> None:
     arming = ramp(state[sv.ARMING], state[sv.DT], p[_AT.arming], armed and fault == 0)
     state[sv.ARMING] = arming
     scale = freshness * arming
+    if armed:  # a window that goes silent loses the force bit by bit, not in one tick
+        silence = state[sv.TIME] - state[sv.HEARTBEAT]
+        scale *= fade(silence, _SILENT * p[_AT.heartbeat], p[_AT.heartbeat])
     state[sv.FAULT] = fault
     state[sv.SAFETY_SCALE] = scale
     if scale > 0.0:
@@ -212,7 +218,8 @@ class Safety:
         slew: fastest growth of a torque [N·m/s]; by default the limit in 20 ms.
         fade_from: age of the encoder reading at which the force starts to fade [s].
         fade_to: age at which it is zero [s].
-        heartbeat: largest silence of the window while armed [s].
+        heartbeat: largest silence of the window while armed [s]; the force fades from six tenths of
+            it on.
         arming: time over which the force comes up after arming or after a fault [s].
         tilt_margin: range beyond the tilt limit over which the outward part goes to zero [rad].
         check_force, check_torque: limits while the signs are being checked [N], [N·m].

@@ -17,6 +17,7 @@ from app.views.themes import DARK
 
 PHASE_SHADES: Final = {
     "ready": "#1b1f23",
+    "withdrawing": "#1b1f23",
     "aligning": "#1d2a38",
     "inserting": "#33291b",
     "holding": "#1d3127",

@@ -57,7 +57,7 @@ class AttemptActions(QWidget):
         self.start.setToolTip(why or _starts())
         for button, legal in (
             (self.start, can_start and not running),
-            (self.scan, running),
+            (self.scan, running and state is not State.WITHDRAWING),
             (self.end, running),
             (self.abort, running),
         ):

@@ -183,6 +183,11 @@ class ExerciseController(QObject):
         self.began.emit(session)
         self._views.bullseye.pad.setFocus()
 
+    def confirm_outside(self) -> None:
+        """Pass on that the student says the needle is out of the skin."""
+        if self._run is not None:
+            self._run.trainer.confirm_outside()
+
     def scan(self) -> None:
         """Take a control scan: of the slices that are set, where scans guide; else count one."""
         run = self._run
@@ -263,6 +268,7 @@ class ExerciseController(QObject):
         panel.start_requested.connect(self.begin)
         panel.assistance_changed.connect(self.set_assistance)
         panel.enable.held.connect(self.set_held)
+        panel.withdrawal.confirmed.connect(self.confirm_outside)
         panel.buttons.scan_requested.connect(self.scan)
         panel.buttons.end_requested.connect(self.end)
         panel.buttons.abort_requested.connect(self.abort)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from app.exercises.parts import View
-from app.session.machine import RUNNING
+from app.session.machine import RUNNING, State
 from app.session.snapshot import Snapshot
 from app.views.exercise.axial_gauge import AxialGauge, axial_force
 from app.views.exercise.bullseye import Bullseye
@@ -72,9 +72,13 @@ class ExerciseDisplay:
         self._views.panel.set_offsets(shows(View.BULLSEYE))
 
     def take_hand(self, snapshot: Snapshot) -> None:
-        """Let the simulated hand go on from where the loop has it; draws nothing."""
+        """Let the simulated hand go on from where the loop has it; draws nothing.
+
+        While the needle is being brought out, the hand of the window goes with it.
+        """
         bullseye = self._views.bullseye
-        hand = hand_pose(snapshot) if bullseye.hand is None else None
+        led = snapshot.state is State.WITHDRAWING
+        hand = hand_pose(snapshot) if led or bullseye.hand is None else None
         if hand is not None:
             bullseye.take_hand(hand)
 
@@ -101,6 +105,7 @@ class ExerciseDisplay:
     def _show_panel(self, snapshot: Snapshot, limit: float, hidden: bool, now: float) -> None:
         views = self._views
         views.bullseye.source.set_locked(snapshot.state in RUNNING)
+        views.panel.withdrawal.show_snapshot(snapshot)
         views.panel.enable.show_enabling(enabling(snapshot, views.panel.enable.is_held))
         figured = snapshot.state, hidden
         if figured == self._figured and 0.0 <= now - self._figures_time < FIGURES_PERIOD:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from app.core import state_vector as sv
-from app.session.machine import RUNNING
+from app.session.machine import RUNNING, State
 from app.session.snapshot import Snapshot
 from app.views.exercise.readings import fault_text
 from app.views.exercise.status_items import Verdict
@@ -36,7 +36,8 @@ def enabling(snapshot: Snapshot, held: bool) -> Enabling:
     fault = fault_text(int(device.fault)) if device is not None else ""
     clearance = snapshot.clearance
     ready = clearance is None or clearance.homed > 0.5
-    return Enabling(snapshot.state in RUNNING, held, min(1.0, max(0.0, ramp)), fault, ready)
+    running = snapshot.state in RUNNING and snapshot.state is not State.WITHDRAWING
+    return Enabling(running, held, min(1.0, max(0.0, ramp)), fault, ready)
 
 
 def enable_words(now: Enabling, key: str) -> tuple[Verdict, str, str]:

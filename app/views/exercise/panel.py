@@ -28,6 +28,7 @@ from app.views.exercise.live import LiveFigures
 from app.views.exercise.readouts import Readouts
 from app.views.exercise.scan_panel import ScanPanel
 from app.views.exercise.steps import Steps
+from app.views.exercise.withdrawal_note import WithdrawalNote
 from app.views.text import tr
 
 PSEUDONYM: Final = r"([A-Za-z0-9][A-Za-z0-9._-]{0,31})?"
@@ -64,6 +65,7 @@ class ExercisePanel(QWidget):
         self._note = QLabel(self)
         self.steps = Steps(self)
         self.buttons = AttemptActions(self)
+        self.withdrawal = WithdrawalNote(self)
         self.enable = EnableSwitch(self)
         self.scan = ScanPanel(self)
         self.readouts = Readouts(self)
@@ -182,8 +184,8 @@ class ExercisePanel(QWidget):
         column.setSpacing(theme.SPACING - 2)  # with every part shown it still fits 768 lines
         column.addLayout(form)
         for widget in (
-            self.steps, self._note, self.buttons, self.enable, self.scan, _line(), self.readouts,
-            self.energy,
+            self.steps, self._note, self.withdrawal, self.buttons, self.enable, self.scan, _line(),
+            self.readouts, self.energy,
         ):  # fmt: skip
             column.addWidget(widget)
         column.addStretch(1)

@@ -43,6 +43,10 @@ class TrainerPort(Protocol):
         """Break it off."""
         ...
 
+    def confirm_outside(self) -> None:
+        """Take the student's word that the needle is out of the skin."""
+        ...
+
     def scan(self, order: ScanOrder | None = None) -> int:
         """Take a control scan; without an order it is only counted."""
         ...

@@ -7,10 +7,11 @@ def state_word(state: str) -> str:
     """Name of a recorded state; unknown ones as they stand."""
     return {
         "ready": tr("Ready"),
+        "withdrawing": tr("Withdrawing"),
         "aligning": tr("Aligning"),
         "inserting": tr("Inserting"),
         "holding": tr("Holding"),
-        "paused": tr("Paused: cameras"),
+        "paused": tr("Paused"),
         "ended": tr("Ended"),
         "aborted": tr("Aborted"),
         "unfinished": tr("Unfinished"),

@@ -54,7 +54,7 @@ class Steps(QWidget):
             return
         if state in self._order:
             self._reached = self._order.index(state)
-        elif state is None:
+        elif state is None or state is State.WITHDRAWING:
             self._reached = 0
         self._state = state
         blind = self._order is BLIND and state is State.INSERTING
@@ -95,6 +95,8 @@ class Steps(QWidget):
         if self._order is BLIND and state is State.INSERTING:
             name = tr("Under way")
         name = tr("Paused") if paused else name
+        if here and self._state is State.WITHDRAWING:
+            name = state_word(State.WITHDRAWING)
         top = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
         painter.drawText(box.adjusted(0, 26, 0, 0), top, name)
 

@@ -1,0 +1,196 @@
+"""Every attempt begins with the tip outside the skin: who brings it out, and how that is known.
+
+A simulated needle goes back by itself, through the same simulated hand and at a hand's speed, until
+the simulated robot itself has it outside. A real one the student withdraws: the attempt begins once
+the whole interval that holds the depth lies outside; where nothing measures it there, once the
+student says that the needle is out. What was said and not measured is recorded so, and a depth
+inside the skin within `REFUTES` seconds refutes it.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import isfinite
+from typing import Final
+
+from app.core import state_vector as sv
+from app.core.units import MILLIMETRE
+from app.session.inputs import LoopInputs
+from app.session.needle import NeedlePose
+from app.session.ports import DeviceStatePort
+
+KIND: Final = "withdrawal"
+"""Kind of the events that tell of it; `how` in their data is a `Known`."""
+
+INSIDE: Final = -0.002
+"""Depth from which a simulated needle is brought out before an attempt [m]."""
+
+OUT: Final = -0.010
+"""Depth at which it is out [m]."""
+
+WAITS: Final = -0.015
+"""Depth to which its hand goes: where a needle waits for its first attempt [m]."""
+
+PATIENCE: Final = 30.0
+"""Time after which a simulated needle that does not come out ends the attempt [s]."""
+
+WELL: Final = 0.03
+"""Width of the interval [m] up to which a depth is measured well enough to be called inside."""
+
+REFUTES: Final = 2.0
+"""A depth inside the skin refutes what was confirmed up to this long after the beginning [s]."""
+
+
+class Start(StrEnum):
+    """How a trainer sees to it that the tip is outside."""
+
+    ANYWHERE = "anywhere"  # not at all: for parts that have no skin
+    SIMULATED = "simulated"
+    REAL = "real"
+
+
+class Known(StrEnum):
+    """How it is known that the tip is outside."""
+
+    SIMULATED = "simulated"
+    MEASURED = "measured"
+    CONFIRMED = "confirmed"
+
+
+class Outside(StrEnum):
+    """Whether the tip is outside the skin."""
+
+    YES = "yes"
+    NO = "no"
+    UNKNOWN = "unknown"
+
+
+WORDS: Final = {
+    Start.SIMULATED: "the needle is being withdrawn: the attempt begins once it is out of the skin",
+    Outside.NO: "withdraw the needle first: the attempt begins once its tip is out of the skin",
+    Outside.UNKNOWN: (
+        "nothing measures how deep the needle is: take it out of the skin, then press "
+        "“The needle is out”"
+    ),
+}
+
+
+def tip_outside(pose: NeedlePose) -> Outside:
+    """Say whether the tip is outside the skin, with all that its depth may be.
+
+    A depth that is measured well and not wholly outside counts as inside.
+    """
+    least, most = pose.depth_least, pose.depth_most
+    if not (pose.valid and isfinite(least) and isfinite(most)):
+        return Outside.UNKNOWN
+    if most < 0.0:
+        return Outside.YES
+    measured = pose.measured and most - least < WELL
+    return Outside.NO if least > 0.0 or measured else Outside.UNKNOWN
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What a look came to: not yet out, out (`known`), or given up (`failure`)."""
+
+    known: Known | None = None
+    failure: str = ""
+
+
+class Withdrawal:
+    """Brings the tip out before an attempt, or waits until it is out; the trainer holds the lock.
+
+    Attributes:
+        active: whether the tip is being brought out.
+        words: what the student should know; empty while nothing is to be done.
+        asks: whether the student may say that the needle is out.
+    """
+
+    def __init__(self, inputs: LoopInputs, start: Start = Start.ANYWHERE) -> None:
+        self._inputs, self._start = inputs, start
+        self._since = 0.0
+        self._confirmed: float | None = None
+        self._said = False
+        self.active, self.asks, self.words = False, False, ""
+
+    @property
+    def moves_hand(self) -> bool:
+        """Whether it is moving the simulated hand."""
+        return self.active and self._start is Start.SIMULATED
+
+    def begin(self, device: DeviceStatePort | None, pose: NeedlePose, now: float) -> Known | None:
+        """Begin before an attempt: how it is known that the tip is out already, or None."""
+        self._since, self._confirmed, self._said = now, None, False
+        self.active, self.asks, self.words = False, False, ""
+        if self._start is Start.SIMULATED:
+            if device is None or not _depth(device) > INSIDE:
+                return Known.SIMULATED
+            self.active = True  # before the hand moves: nobody else may move it from now on
+            self._bring_out(device)
+        elif self._start is Start.REAL:
+            if tip_outside(pose) is Outside.YES:
+                return Known.MEASURED
+            self.active = True
+            self._ask(tip_outside(pose))
+        else:
+            return Known.SIMULATED
+        return None
+
+    def look(self, device: DeviceStatePort | None, pose: NeedlePose, now: float) -> Step:
+        """Look once more while the tip is being brought out."""
+        if self._start is Start.SIMULATED:
+            if device is not None and _depth(device) <= OUT:
+                return self._out(Known.SIMULATED)
+            if now - self._since > PATIENCE:
+                self.stop()
+                return Step(failure="the simulated needle did not come out of the skin")
+            return Step()
+        outside = tip_outside(pose)
+        if outside is Outside.YES:
+            return self._out(Known.MEASURED)
+        if self._said and outside is Outside.UNKNOWN:
+            self._confirmed = now
+            return self._out(Known.CONFIRMED)
+        self._ask(outside)
+        return Step()
+
+    def confirm(self) -> None:
+        """Take the student's word that the needle is out; counts only where nothing measures it."""
+        self._said = self.active and self.asks
+
+    def refuted(self, pose: NeedlePose, now: float) -> str:
+        """Why an attempt that began on the student's word cannot count; empty if it can."""
+        if self._confirmed is None:
+            return ""
+        if now - self._confirmed > REFUTES:
+            self._confirmed = None
+            return ""
+        if not (pose.measured and pose.depth > 0.0 and tip_outside(pose) is Outside.NO):
+            return ""
+        return (
+            f"the cameras saw the tip {pose.depth / MILLIMETRE:.0f} mm inside the skin "
+            f"{now - self._confirmed:.1f} s after you said that the needle is out; withdraw it and "
+            "begin again"
+        )
+
+    def stop(self) -> None:
+        """Stop waiting; the hand obeys its window again."""
+        self.active, self.asks, self.words, self._said = False, False, "", False
+
+    def _out(self, known: Known) -> Step:
+        self.stop()
+        return Step(known)
+
+    def _ask(self, outside: Outside) -> None:
+        self.asks = outside is Outside.UNKNOWN
+        self.words = WORDS[Outside.UNKNOWN if self.asks else Outside.NO]
+        self._said = self._said and self.asks
+
+    def _bring_out(self, device: DeviceStatePort) -> None:
+        """Let the simulated hand draw the needle back along itself."""
+        x, y = device.row[[sv.GRIP_X, sv.GRIP_Y]].tolist()
+        self._inputs.hand(x, y, WAITS, True)
+        self.words = WORDS[Start.SIMULATED]
+
+
+def _depth(device: DeviceStatePort) -> float:
+    return float(device.row[sv.PLANT_DEPTH])
