@@ -10,6 +10,8 @@ from hard.depth_rig import DepthRig
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from app.views.exercise.felt import felt, force_words
+
 RIGS = ["thesis", "wide"]
 DEPTHS = [-0.020, -0.015, 0.0, 0.03, 0.06, 0.09, 0.119]
 HAND = 1e-3  # relative: the encoders' last count
@@ -39,6 +41,10 @@ def test_with_the_band_hidden_no_hand_feels_more_than_its_limit(name, depth, cap
     assert not snapshot.pose.measured
     assert (snapshot.pose.depth_least, snapshot.pose.depth_most) == (-0.03, 0.12)
     assert any("-30 to 120 mm" in message for message in snapshot.messages)
+    said = felt(snapshot)
+    assert said.at_most
+    assert said.force >= rig.of("force", 1)[0]
+    assert "at most" in force_words(said)
 
 
 @settings(derandomize=True, deadline=None, max_examples=12)
@@ -115,3 +121,30 @@ def test_force_does_not_hum_with_the_age_of_the_pictures():
     rig.close()
     force = rig.of("force", 500)
     assert np.ptp(force) < 0.03 * force.mean()
+
+
+@pytest.mark.parametrize("name", RIGS)
+@pytest.mark.parametrize("depth", DEPTHS)
+def test_a_needle_let_go_with_its_band_hidden_stays_within_the_bound(name, depth):
+    rig = DepthRig(name, depth, hidden=True)
+    rig.step(0.1)
+    rig.begin()
+    rig.step(1.3)
+    rig.hold(False)
+    rig.step(0.3)
+    rig.close()
+    assert rig.of("speed", 300).max() <= rig.profile.let_go.speed
+
+
+@pytest.mark.parametrize("jump", [-0.1, 0.1])
+def test_a_needle_let_go_while_the_cameras_see_something_else_stays_within_the_bound(jump):
+    rig = DepthRig("wide", 0.02 if jump > 0.0 else 0.1)
+    rig.step(0.7)
+    rig.begin()
+    rig.step(1.3)
+    rig.jump = jump
+    rig.step(0.06)
+    rig.hold(False)
+    rig.step(0.3)
+    rig.close()
+    assert rig.of("speed", 300).max() <= rig.profile.let_go.speed

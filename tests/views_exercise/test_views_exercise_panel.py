@@ -136,6 +136,16 @@ def test_the_force_bar_takes_any_number(panel, force):
     assert panel.readouts.force.verdict in ("good", "warning", "bad")
 
 
+def test_a_force_at_a_depth_that_nobody_measures_is_said_as_a_bound(panel):
+    bar = panel.readouts.force
+    panel.show_figures(live(State.ALIGNING, measured=False, force_at_most=True))
+    assert bar.words == "at most 4.3 N"
+    assert "depth is not measured" in bar.toolTip()
+    assert not bar.grab().isNull()
+    panel.show_figures(live(State.ALIGNING))
+    assert bar.words == "4.3 N estimated"
+
+
 def limited(panel, **slots):
     """The bar at a moment of a robot whose loop says what holds the guidance back."""
     row = sv.empty_state()

@@ -13,6 +13,10 @@ from app.device.state import Limiter
 from app.session.snapshot import Snapshot
 from app.views.text import tr
 
+_UNKNOWN = 0.06
+"""Length of the interval [m] from which a depth says nothing of the force: simulated cameras that
+do not see a real robot's needle, or one camera that hardly does."""
+
 
 @dataclass(frozen=True, slots=True)
 class Felt:
@@ -21,20 +25,29 @@ class Felt:
     Attributes:
         force: magnitude [N]; 0 where the robot says nothing.
         measured: whether the board's gauge measured it; else it is estimated from the torques.
+        at_most: whether it is only the largest that it can be, because nobody measures the depth.
     """
 
     force: float
     measured: bool
+    at_most: bool = False
 
 
 def felt(snapshot: Snapshot) -> Felt:
-    """Take the gauge's force where the board has one, else the estimate from the torques sent."""
+    """Take the gauge's force where the board has one, else the estimate from the torques sent.
+
+    The same torques are another force at every depth: where none is measured, the force is the
+    largest that it can be.
+    """
     device = snapshot.device
     if device is None:
         return Felt(0.0, False)
     measured = bool(device.row[sv.GAUGE] > 0.0)
+    doubt = float(device.row[sv.DEPTH_MOST] - device.row[sv.DEPTH_LEAST])
+    at_most = not measured and (not snapshot.pose.measured or doubt > _UNKNOWN)
     force = abs(float(device.row[sv.GAUGE_FORCE])) if measured else _norm(device.felt)
-    return Felt(force if isfinite(force) else 0.0, measured)
+    force = max(force, float(device.row[sv.FELT_MOST])) if at_most else force
+    return Felt(force if isfinite(force) else 0.0, measured, at_most)
 
 
 def force_limit(snapshot: Snapshot, device_limit: float) -> float:
@@ -101,13 +114,25 @@ def _limit_reason(row: FloatArray) -> str:
     return tr("the lever is light here: a stronger push could not be stopped in time if you let go")
 
 
+def force_words(force: Felt) -> str:
+    """Say a force and where it comes from, or that it is only a bound."""
+    if force.at_most:
+        return tr("at most {force:.1f} N", force=force.force)
+    return tr("{force:.1f} N {origin}", force=force.force, origin=origin_word(force.measured))
+
+
 def origin_word(measured: bool) -> str:
     """Say in one word where a force comes from."""
     return tr("measured") if measured else tr("estimated")
 
 
-def origin_help(measured: bool) -> str:
-    """Say what that word means."""
+def origin_help(measured: bool, at_most: bool = False) -> str:
+    """Say what the words mean."""
+    if at_most:
+        return tr(
+            "The depth is not measured, and the force at the hand depends on it: this is the "
+            "largest that it can be, estimated from the motor torques; what you feel may be less."
+        )
     if measured:
         return tr("Force at the hand, measured by the robot's own gauge, across the needle.")
     return tr(

@@ -5,7 +5,7 @@ from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.views import theme
-from app.views.exercise.felt import GuidanceLimit, origin_help, origin_word
+from app.views.exercise.felt import Felt, GuidanceLimit, force_words, origin_help
 from app.views.text import tr
 
 _HEADROOM = 1.15
@@ -23,7 +23,7 @@ class ForceBar(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._force, self._limit, self._measured = 0.0, 5.0, False
+        self._force, self._limit, self._measured, self._at_most = 0.0, 5.0, False, False
         self._guidance: GuidanceLimit | None = None
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setMinimumHeight(_HEIGHT)
@@ -39,6 +39,7 @@ class ForceBar(QWidget):
         limit: float,
         measured: bool = False,
         guidance: GuidanceLimit | None = None,
+        at_most: bool = False,
     ) -> None:
         """Show a force and the limit [N]; not finite counts as zero.
 
@@ -47,27 +48,29 @@ class ForceBar(QWidget):
             limit: largest that the device may give [N].
             measured: whether a gauge measured the force; else it is called estimated.
             guidance: what holds it below the limit where the needle is; None if nothing.
+            at_most: whether `force` is only a bound, because nobody measures the depth; it is then
+                drawn as an outline.
         """
         force = force if 0.0 <= force < 1e6 else 0.0
-        shown = (self._force, self._limit, self._measured, self._guidance)
-        if (force, limit, measured, guidance) == shown:
+        shown = (self._force, self._limit, self._measured, self._guidance, self._at_most)
+        if (force, limit, measured, guidance, at_most) == shown:
             return
         self._force, self._limit = force, limit
-        if (measured, guidance) != (self._measured, self._guidance):
-            self._measured, self._guidance = measured, guidance
+        if (measured, guidance, at_most) != (self._measured, self._guidance, self._at_most):
+            self._measured, self._guidance, self._at_most = measured, guidance, at_most
             self._explain()
         self.setAccessibleName(self.words)
         self.update()
 
     @property
     def words(self) -> str:
-        """Force and where it comes from, as written under the bar."""
-        return tr("{force:.1f} N {origin}", force=self._force, origin=origin_word(self._measured))
+        """Force and where it comes from, or that it is a bound, as written under the bar."""
+        return force_words(Felt(self._force, self._measured, self._at_most))
 
     def _explain(self) -> None:
         line = tr("The line is the largest force the device may give now.")
         here = f" {self.guidance}." if self._guidance is not None else ""
-        self.setToolTip(f"{origin_help(self._measured)} {line}{here}")
+        self.setToolTip(f"{origin_help(self._measured, self._at_most)} {line}{here}")
 
     @property
     def words_of_guidance(self) -> str:
@@ -98,8 +101,8 @@ class ForceBar(QWidget):
         painter.setBrush(QColor("#0e1114"))
         painter.drawRoundedRect(bar, 3, 3)
         full = _HEADROOM * self._limit if self._limit > 0.0 else 1.0
-        painter.setPen(Qt.PenStyle.NoPen)
-        painter.setBrush(QColor(colour))
+        painter.setPen(QPen(QColor(colour), 1.5) if self._at_most else Qt.PenStyle.NoPen)
+        painter.setBrush(Qt.BrushStyle.NoBrush if self._at_most else QColor(colour))
         filled = bar.adjusted(1, 1, -1, -1)
         filled.setWidth(filled.width() * min(1.0, self._force / full))
         painter.drawRoundedRect(filled, 2, 2)

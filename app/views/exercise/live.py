@@ -21,6 +21,8 @@ class LiveFigures:
         force: felt at the hand [N].
         force_measured: whether a gauge measured it; else it is estimated from the torques.
         force_limit: the device's [N].
+        force_at_most: whether `force` is only the largest that it can be, as nobody measures the
+            depth.
         scans: control scans so far.
         radius: round the tip that holds the true one with 95 % [m]; None while it is not measured.
         deflection: of the tip from the straight needle, as both cameras see it [m]; None where it
@@ -45,4 +47,5 @@ class LiveFigures:
     deflection: float | None = None
     deflection_sigma: float = 0.0
     guidance: GuidanceLimit | None = None
+    force_at_most: bool = False
     hidden: bool = False

@@ -47,6 +47,7 @@ def figures(snapshot: Snapshot, force_limit: float, hidden: bool = False) -> Liv
         to_target=snapshot.offset.remaining,
         force=force.force,
         force_measured=force.measured,
+        force_at_most=force.at_most,
         force_limit=force_limit,
         scans=snapshot.scans,
         radius=snapshot.pose.radius if snapshot.pose.measured else None,

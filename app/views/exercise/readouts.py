@@ -50,7 +50,11 @@ class Readouts(QWidget):
             self.force.show_force(0.0, 5.0)
         else:
             self.force.show_force(
-                figures.force, figures.force_limit, figures.force_measured, figures.guidance
+                figures.force,
+                figures.force_limit,
+                figures.force_measured,
+                figures.guidance,
+                figures.force_at_most,
             )
 
     def set_telling(self, keys: frozenset[str] | None) -> None:

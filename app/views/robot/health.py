@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
 from app.device.readiness import SCALE_TOLERANCE
 from app.mechanisms.profile import DeviceProfile
 from app.session.snapshot import Snapshot
@@ -61,6 +62,7 @@ def force_items(run: ExerciseRun, snapshot: Snapshot) -> tuple[StatusItem, ...]:
     )  # fmt: skip
     return (
         fault_line, armed, cap_item(run, snapshot), governor_item(row), let_go_item(run.profile),
+        depth_item(run, row),
         *energy_items(snapshot),
     )  # fmt: skip
 
@@ -106,6 +108,23 @@ def let_go_item(profile: DeviceProfile) -> StatusItem:
             tr("It stands in the profile of the robot.") if stated else
             tr("The robot's profile states none (limits.let_go), so it is held to 0.25 m/s.")
         ),
+    )  # fmt: skip
+
+
+def depth_item(run: ExerciseRun, row: FloatArray) -> StatusItem:
+    """Say between which depths the tip is, and what no picture can tell of it."""
+    least, most = float(row[sv.DEPTH_LEAST]), float(row[sv.DEPTH_MOST])
+    low, high = run.profile.depth_range
+    whole = not most - least < 0.9 * (high - low)
+    shortest = run.profile.geometry.needle_length - max(most, least)
+    share = 100.0 * MILLIMETRE / max(shortest, MILLIMETRE)
+    return StatusItem(
+        Verdict.WARNING if whole else Verdict.GOOD, tr("Depth is between"),
+        tr("{low:.0f} and {high:.0f} mm", low=least / MILLIMETRE, high=most / MILLIMETRE),
+        tr("Force and let-go are limited for every depth in it. An error that is the same in every "
+           "picture (a needle of another length, a band that has slipped, cameras that were moved) "
+           "cannot be seen: each millimetre of it makes the force wrong by up to {share:.1f} % "
+           "here. Measure needle and band with calipers.", share=share),
     )  # fmt: skip
 
 
