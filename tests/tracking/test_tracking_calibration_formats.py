@@ -455,3 +455,25 @@ def test_what_is_no_matrix_in_a_file_of_opencv_is_named(tmp_path: Path, text: st
 def test_yaml_that_stands_for_more_than_it_says_is_refused_by_name(text: str) -> None:
     with pytest.raises(ConfigurationError, match="bomb is not valid YAML"):
         parse_yaml(text, "bomb")
+
+
+@pytest.mark.parametrize("lens", [[0.0, 0.0, 0.0, 0.0, -1e-320], [1e300, 0.0, 0.0, 0.0, 0.0]])
+def test_coefficients_that_vanish_or_no_lens_has_are_read_or_named(
+    tmp_path: Path, opencv: tuple[Path, Path], lens: list[float]
+) -> None:
+    matrix = np.array([[600.0, 0.0, 320.0], [0.0, 600.0, 240.0], [0.0, 0.0, 1.0]])
+    file = storage(tmp_path / "both.yml", M1=matrix, M2=matrix, D1=[lens], D2=[[0.0] * 5])
+    if abs(lens[0]) > 1.0:
+        with pytest.raises(CalibrationError, match="no lens has a coefficient beyond"):
+            read_calibration([file, opencv[1]], unit=0.01, image_size=(640, 480))
+    else:
+        found = read_calibration([file, opencv[1]], unit=0.01, image_size=(640, 480))
+        assert found.models()[0].fold > 1e6
+
+
+def test_cameras_that_stand_beyond_any_room_are_named(temuge: Path) -> None:
+    (temuge / "camera1_rot_trans.dat").write_text(
+        SECOND_POSE.replace("-30.11817812152031", "1e308")
+    )
+    with pytest.raises(CalibrationError, match=r"camera1_rot_trans.dat.*translation"):
+        read_calibration([temuge], unit=0.01, image_size=(1280, 720))

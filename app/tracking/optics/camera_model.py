@@ -19,6 +19,10 @@ _NEAREST = 1e-6
 """Depth [m] in front of the camera below which a point counts as not in front of it."""
 
 
+WILDEST = 1e6
+"""Magnitude that no coefficient of distortion has; long lenses come to some tens."""
+
+
 @dataclass(frozen=True, eq=False)
 class CameraModel:
     """One calibrated camera. Camera frame as in OpenCV: x right, y down, z into the scene.
@@ -44,6 +48,11 @@ class CameraModel:
     def __post_init__(self) -> None:
         object.__setattr__(self, "intrinsics", frozen(self.intrinsics, (4,), "intrinsics"))
         object.__setattr__(self, "distortion", frozen(self.distortion, (5,), "distortion"))
+        if np.abs(self.distortion).max() > WILDEST:
+            raise RigError(
+                f"camera {self.name}: distortion {self.distortion.tolist()}: no lens has a "
+                f"coefficient beyond {WILDEST:g}; calibrate the camera again"
+            )
         object.__setattr__(self, "fold", fold_radius(self.distortion))
         object.__setattr__(self, "T_camera_world", self.T_world_camera.inverse())
         if self.intrinsics[:2].min() <= 0.0 or min(self.image_size) < 16:

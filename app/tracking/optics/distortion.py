@@ -24,13 +24,15 @@ _TOLERANCE = 1e-13
 def fold_radius(coefficients: FloatArray) -> float:
     """Undistorted radius at which the radial map stops growing; infinite if it never does.
 
-    The smallest positive root of d(r·g)/dr = 1 + 3·k1·r² + 5·k2·r⁴ + 7·k3·r⁶.
+    The smallest positive root of d(r·g)/dr = 1 + 3·k1·r² + 5·k2·r⁴ + 7·k3·r⁶, found as the largest
+    of s³ + 3·k1·s² + 5·k2·s + 7·k3 with s = 1/r²: there the leading coefficient is 1, whatever
+    vanishes.
     """
     k1, k2, _, _, k3 = coefficients
-    roots = np.roots([7.0 * k3, 5.0 * k2, 3.0 * k1, 1.0])
-    real = roots[np.abs(roots.imag) < 1e-9 * np.maximum(1.0, np.abs(roots))].real
+    roots = np.roots([1.0, 3.0 * k1, 5.0 * k2, 7.0 * k3])
+    real = roots[np.abs(roots.imag) < 1e-9 * np.abs(roots) + 1e-300].real
     positive = real[real > 0.0]
-    return float(np.sqrt(positive.min())) if positive.size else float("inf")
+    return float(1.0 / np.sqrt(positive.max())) if positive.size else float("inf")
 
 
 @njit

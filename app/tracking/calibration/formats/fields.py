@@ -16,6 +16,9 @@ from app.tracking.errors import CalibrationError
 _ROUNDED: Final = 2e-3
 """How far a rotation matrix may be from orthonormal: files give four or five decimals."""
 
+FARTHEST: Final = 1e3
+"""Distance [m] that no camera of a pair has from the other."""
+
 LARGEST_SIZE: Final = 20_000
 """Pixels; a larger picture is a mistake in the file."""
 
@@ -134,7 +137,13 @@ def pose(matrix: FloatArray, unit: float, where: str) -> RigidTransform:
             f"{where}: the first three columns are no rotation matrix: they differ from one by "
             f"{error:.3g} (at most {_ROUNDED:g}) or mirror; got {matrix[:, :3].tolist()}"
         )
-    return RigidTransform(rotation, matrix[:, 3] * unit)
+    translation = matrix[:, 3] * unit
+    if np.abs(translation).max() > FARTHEST:
+        raise CalibrationError(
+            f"{where}: its translation is {matrix[:, 3].tolist()} in units of {unit:g} m; cameras "
+            f"up to {FARTHEST:g} m apart are read"
+        )
+    return RigidTransform(rotation, translation)
 
 
 def _is_number(value: Any) -> bool:

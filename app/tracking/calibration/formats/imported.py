@@ -6,7 +6,7 @@ from pathlib import Path
 
 from app.core.transform import RigidTransform
 from app.tracking.calibration.identity import new_id
-from app.tracking.errors import CalibrationError
+from app.tracking.errors import CalibrationError, TrackingError
 from app.tracking.optics.calibration import (
     CameraCalibration,
     PoseCalibration,
@@ -65,7 +65,7 @@ def stereo_of(
         "the files hold no uncertainty: the covariance is unknown and stands as zero",
         "no world frame: lay the board at its known place and run `acus calibrate world`",
     )
-    return StereoCalibration(
+    found = StereoCalibration(
         id=new_id(created),
         created=created,
         cameras=(_camera(left, names[0]), _camera(right, names[1])),
@@ -73,6 +73,11 @@ def stereo_of(
         rms_px=rms_px,
         notes=notes,
     )
+    try:
+        found.models()  # an impossible camera or pose is refused here, not later
+    except (TrackingError, ArithmeticError) as error:
+        raise CalibrationError(f"{left.source} and {right.source}: {error}") from error
+    return found
 
 
 def _camera(camera: ImportedCamera, name: str) -> CameraCalibration:
