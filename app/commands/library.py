@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from app.commands.ct import AsJson, Folder
+from app.commands.ct import AsJson, Folder, Mend
 from app.commands.ct import app as ct
 from app.core.errors import ConfigurationError
 
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.imaging.library import Entry, Imported
     from app.imaging.privacy.burned_in import Box
+    from app.imaging.series import Remedy
 
 MASK_HELP = "Pixels to blacken, in every picture or in one (from 1); may be repeated."
 
@@ -34,6 +35,7 @@ def import_ct(
         list[str] | None,
         typer.Option(metavar="COL,ROW,WIDTH,HEIGHT[,PICTURE]", help=MASK_HELP),
     ] = None,
+    remedy: Mend = None,
     as_json: AsJson = False,
 ) -> None:
     """Take a series into the library, de-identified (DICOM PS3.15), whole or not at all."""
@@ -42,12 +44,12 @@ def import_ct(
     from app.imaging.reading import choose
     from app.imaging.scanning import scan_folder
 
-    boxes = boxes_of(mask)
+    boxes, asked = boxes_of(mask), remedy_of(remedy)
 
     def work(progress: "Progress") -> "Imported":
         listing = scan_folder(folder, progress.part(0.0, 0.2))
-        chosen = choose(listing, series)
-        return CtLibrary().import_series(chosen, boxes, progress.part(0.2, 1.0))
+        chosen = choose(listing, series, asked)
+        return CtLibrary().import_series(chosen, boxes, progress.part(0.2, 1.0), asked)
 
     imported = with_progress(work, as_json)
     show_imported(imported, as_json)
@@ -68,7 +70,8 @@ def library(
         typer.echo(json.dumps({"entries": [_entry(entry) for entry in entries]}, indent=2))
         return
     for entry in entries:
-        typer.echo(f"{entry.name}  {entry.label}  {entry.files} files  {entry.folder}")
+        opens = "" if entry.remedy == "none" else f"  opens with --remedy {entry.remedy}"
+        typer.echo(f"{entry.name}  {entry.label}  {entry.files} files{opens}  {entry.folder}")
     if not entries:
         typer.echo("the library is empty; `acus ct import DIR` takes a CT in")
 
@@ -86,14 +89,17 @@ def _document(imported: "Imported") -> dict[str, Any]:
     return {
         **_entry(imported.entry),
         "again": imported.again,
+        "before": imported.before,
+        "given": imported.given,
         "report": imported.report.document(),
     }
 
 
 def _lines(imported: "Imported") -> list[str]:
     entry = imported.entry
-    what = "was in the library already" if imported.again else "taken into the library"
-    head = f"{entry.name}: {entry.label}, {entry.files} files {what}"
+    head = f"{entry.name}: {entry.label}, {entry.files} files: {imported.words}"
+    if entry.remedy != "none":
+        head += f"; it opens with --remedy {entry.remedy}"
     return [head, *(f"  {line}" for line in imported.report.lines()), f"  {entry.folder}"]
 
 
@@ -102,8 +108,23 @@ def _entry(entry: "Entry") -> dict[str, Any]:
         "name": entry.name,
         "label": entry.label,
         "files": entry.files,
+        "remedy": entry.remedy.value,
         "folder": str(entry.folder),
     }
+
+
+def remedy_of(text: str | None) -> "Remedy":
+    """Read `--remedy`.
+
+    Raises:
+        ConfigurationError: listing what there is.
+    """
+    from app.imaging.series import Remedy
+
+    valid = [one.value for one in Remedy if one is not Remedy.NONE]
+    if text is not None and text not in valid:
+        raise ConfigurationError(f"--remedy {text!r} is none of {', '.join(valid)}")
+    return Remedy.NONE if text is None else Remedy(text)
 
 
 def boxes_of(masks: list[str] | None) -> list["Box"]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.commands.ct import Mend
 from app.commands.library import MASK_HELP
 
 if TYPE_CHECKING:
@@ -147,36 +148,42 @@ def find(
 @app.command()
 def get(
     study: StudyUid, series: SeriesUid, pacs: Server = None, mask: Mask = None,
-    as_json: AsJson = False,
+    remedy: Mend = None, as_json: AsJson = False,
 ) -> None:  # fmt: skip
     """Take a series into the library, de-identified (C-GET); repeated, it fetches the rest."""
-    _take(study, series, pacs, "get", mask, as_json)
+    _take(study, series, pacs, "get", mask, remedy, as_json)
 
 
 @app.command()
 def move(
     study: StudyUid, series: SeriesUid, pacs: Server = None, mask: Mask = None,
-    as_json: AsJson = False,
+    remedy: Mend = None, as_json: AsJson = False,
 ) -> None:  # fmt: skip
     """Do the same by C-MOVE: the PACS sends to our own port and must know our AE title."""
-    _take(study, series, pacs, "move", mask, as_json)
+    _take(study, series, pacs, "move", mask, remedy, as_json)
 
 
 def _take(
-    study: str, series: str, name: str | None, way: str, mask: list[str] | None, as_json: bool
+    study: str,
+    series: str,
+    name: str | None,
+    way: str,
+    mask: list[str] | None,
+    remedy: str | None,
+    as_json: bool,
 ) -> None:
     from app.commands.calibrate import with_progress
-    from app.commands.library import boxes_of, show_imported
+    from app.commands.library import boxes_of, remedy_of, show_imported
     from app.imaging.library import CtLibrary
     from app.imaging.pacs.client import Pacs
     from app.imaging.pacs.settings import chosen
     from app.imaging.pacs.taking import take
 
-    boxes = boxes_of(mask)
+    boxes, asked = boxes_of(mask), remedy_of(remedy)
     settings: PacsSettings = chosen(name).model_copy(update={"retrieve": way})
 
     def work(progress: "Progress") -> "Imported":
-        return take(Pacs(settings), study, series, CtLibrary(), progress, boxes)
+        return take(Pacs(settings), study, series, CtLibrary(), progress, boxes, asked)
 
     imported = with_progress(work, as_json)
     show_imported(imported, as_json)

@@ -18,8 +18,9 @@ from app.imaging.errors import FileDamagedError, SeriesRefusedError, SeriesUnkno
 from app.imaging.privacy.burned_in import Box
 from app.imaging.privacy.deidentified import Deidentified
 from app.imaging.privacy.report import Report
+from app.imaging.reading import offer
 from app.imaging.scanning import scan_folder
-from app.imaging.series import Series
+from app.imaging.series import Remedy, Series
 from app.imaging.staging import ImportFailedError as ImportFailedError  # named here for others
 from app.imaging.staging import discard, publish, staging, sweep
 from app.imaging.worker.jobs import DEIDENTIFY
@@ -41,6 +42,7 @@ class Entry:
         label: series number, body part, kernel.
         files: how many.
         report: what was removed, as `Report.document` gives it.
+        remedy: what must be asked for to open it; NONE for one that opens as it is.
     """
 
     name: str
@@ -48,15 +50,43 @@ class Entry:
     label: str
     files: int
     report: dict[str, Any]
+    remedy: Remedy = Remedy.NONE
 
 
 @dataclass(frozen=True, slots=True)
 class Imported:
-    """What an import gave: the entry, the report, and whether it had been there before."""
+    """What an import gave.
+
+    Attributes:
+        entry: what lies in the library now.
+        report: what was removed.
+        again: it lay there before and was kept.
+        before: images of this series that lay there before.
+        given: images of this series that were given.
+    """
 
     entry: Entry
     report: Report
     again: bool
+    before: int = 0
+    given: int = 0
+
+    @property
+    def words(self) -> str:
+        """What became of it, for people."""
+        if self.again and self.given < self.before:
+            return (
+                f"all {self.before} images of this series are in the library already; the "
+                f"{self.given} given are a part of them"
+            )
+        if self.again:
+            return "was in the library already, image for image"
+        if 0 < self.before < self.given:
+            return (
+                f"taken into the library, in place of {self.before} of its {self.given} images "
+                "that lay there"
+            )
+        return "taken into the library"
 
 
 class CtLibrary:
@@ -103,40 +133,91 @@ class CtLibrary:
         return sweep(self.folder)
 
     def import_series(
-        self, series: Series, boxes: Sequence[Box] = (), progress: Progress | None = None
+        self,
+        series: Series,
+        boxes: Sequence[Box] = (),
+        progress: Progress | None = None,
+        remedy: Remedy = Remedy.NONE,
     ) -> Imported:
         """De-identify a series into the library.
+
+        What lies there of the same series is compared image by image: the same are kept, a part is
+        replaced by all, and of all a part changes nothing.
 
         Args:
             series: as the scan of a folder gave it.
             boxes: pixels to blacken; with them a copy that is there already is replaced.
             progress: told how far it is; cancels, leaving nothing.
+            remedy: what will be asked for to open it, for a series that cannot be opened as it is.
 
         Raises:
-            SeriesRefusedError: if the series is not usable as a volume.
+            SeriesRefusedError: if the series is not usable as a volume, not even with the remedy.
             PrivacyError: if its pictures carry writing, or a written file is not clean.
-            ImportFailedError: if a file cannot be read or written; the disk is full.
+            ImportFailedError: if a file cannot be read or written; the disk is full; or the library
+                holds other images of this series, which the ones given do not contain.
             Cancelled: if `progress` was cancelled.
         """
-        if not series.usable:
-            raise SeriesRefusedError(f"this series cannot be used: {series.reason}")
-        if not series.slices:
-            raise SeriesRefusedError("only DICOM series are taken into the library; open this file")
+        _require_openable(series, remedy)
         progress = progress or Progress()
         with staging(self.folder, series) as folder:
-            made = _fill(folder, series, boxes, progress)
+            made, given = _fill(folder, series, boxes, remedy, progress)
             place = self.folder / made.name
-            again = place.is_dir() and not boxes
+            before = _images(place) if place.is_dir() else frozenset()
+            _require_comparable(made.name, before, given, masked=bool(boxes))
+            again = place.is_dir() and not boxes and given <= before
             if not again:
                 if place.is_dir():
                     discard(place)
                 publish(folder, place)
         entry = self.find(made.name)
         progress.report(1.0, f"{made.report.files} files taken into the library")
-        return Imported(entry, made.report, again)
+        return Imported(entry, made.report, again, len(before), len(given))
 
 
-def _fill(folder: Path, series: Series, boxes: Sequence[Box], progress: Progress) -> Deidentified:
+def _require_openable(series: Series, remedy: Remedy) -> None:
+    if not series.slices:
+        why = "only DICOM series are taken into the library; open this file"
+        raise SeriesRefusedError(why if series.usable else f"{series.reason}; {why}")
+    if series.usable or (remedy is not Remedy.NONE and series.remedy is remedy):
+        return
+    raise SeriesRefusedError(f"this series cannot be used: {series.reason}{offer(series)}")
+
+
+Images = frozenset[str]
+"""New SOPInstanceUIDs of a series' images."""
+
+
+def _require_comparable(name: str, before: Images, given: Images, masked: bool) -> None:
+    """Refuse images that neither contain what lies there nor are a part of it."""
+    if given >= before or (given < before and not masked):
+        return
+    raise ImportFailedError(
+        f"the library holds {len(before)} images of this series as {name}; of the {len(given)} "
+        f"given {len(given & before)} are among them and {len(before - given)} of those there are "
+        "not given: give all images of the series at once, or remove what lies there first "
+        f"(acus ct library --remove {name}); nothing was changed"
+    )
+
+
+def _images(folder: Path) -> Images:
+    """Images of an entry; those of one that does not list them are looked at."""
+    try:
+        about = json.loads((folder / _ABOUT).read_text(encoding="utf-8"))
+        return frozenset(str(uid) for uid in about["images"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return _found_in(folder)[0]
+
+
+def _found_in(folder: Path) -> tuple[Images, str]:
+    """Images of a folder of de-identified files, and the label of their series."""
+    found = scan_folder(folder).series
+    uids = frozenset(header.identity.sop_uid for one in found for header in one.slices)
+    return uids, found[0].label if found else ""
+
+
+def _fill(
+    folder: Path, series: Series, boxes: Sequence[Box], remedy: Remedy, progress: Progress
+) -> tuple[Deidentified, Images]:
     """Have every file written and verified by the worker process, and say what it is about."""
     headers = {header.path: header for header in series.slices}.values()
     there = tuple(replace(header, path=header.path.absolute()) for header in headers)
@@ -149,16 +230,23 @@ def _fill(folder: Path, series: Series, boxes: Sequence[Box], progress: Progress
     except FileDamagedError as error:
         raise ImportFailedError(f"{error}; nothing was kept") from None
     progress.report(0.98, "looking at what was written")
-    label = scan_folder(folder).series[0].label  # of the new files: the old ones may say more
-    about = {"label": label, "pseudonym": made.study, "report": made.report.document()}
+    images, label = _found_in(folder)  # of the new files: the old ones may say more
+    about = {
+        "label": label,
+        "pseudonym": made.study,
+        "images": sorted(images),
+        "remedy": remedy.value if not series.usable else Remedy.NONE.value,
+        "report": made.report.document(),
+    }
     write_atomically(folder / _ABOUT, json.dumps(about, indent=1) + "\n")
-    return made
+    return made, images
 
 
 def _entry(folder: Path) -> Entry | None:
     try:
         about = json.loads((folder / _ABOUT).read_text(encoding="utf-8"))
         count = sum(1 for _ in folder.glob("*.dcm"))
-        return Entry(folder.name, folder, str(about["label"]), count, dict(about["report"]))
-    except (OSError, ValueError, KeyError, TypeError):
+        remedy = Remedy(about.get("remedy", Remedy.NONE.value))
+        return Entry(folder.name, folder, str(about["label"]), count, dict(about["report"]), remedy)
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None

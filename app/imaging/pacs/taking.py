@@ -11,8 +11,13 @@ from app.imaging.pacs.errors import PacsDataError
 from app.imaging.pacs.incoming import Incoming
 from app.imaging.privacy.burned_in import Box
 from app.imaging.privacy.errors import AnnotatedError, PrivacyError
+from app.imaging.reading import offer
 from app.imaging.scanning import scan_folder
-from app.imaging.series import Series
+from app.imaging.series import Remedy, Series
+
+
+class RemedyWantedError(SeriesRefusedError):
+    """What came opens only with a remedy that was not asked for; it is kept aside."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,14 +37,30 @@ class Fetched:
         self.incoming.forget()
 
 
-def fetch(pacs: Pacs, study_uid: str, series_uid: str, progress: Progress) -> Fetched:
+def fetch(
+    pacs: Pacs,
+    study_uid: str,
+    series_uid: str,
+    progress: Progress,
+    remedy: Remedy | None = Remedy.NONE,
+) -> Fetched:
     """Retrieve a series and set it aside.
 
     After an error of the network or a cancel, what has come is kept aside for a day and not
-    fetched again; after one of the data it is deleted.
+    fetched again, and so is a series that opens with a remedy that was not asked for; after an
+    error of the data it is deleted.
+
+    Args:
+        pacs: from where.
+        study_uid: of the study.
+        series_uid: of the series.
+        progress: told how far it is; cancels.
+        remedy: with which it may be taken, if it cannot be opened as it is; None: whichever it
+            takes.
 
     Raises:
         PacsError: it cannot be retrieved.
+        RemedyWantedError: it can, but opens only with a remedy that was not asked for.
         SeriesRefusedError: it can, but not be used.
         Cancelled: if `progress` was cancelled.
     """
@@ -50,9 +71,10 @@ def fetch(pacs: Pacs, study_uid: str, series_uid: str, progress: Progress) -> Fe
         if not series:
             incoming.forget()
             raise PacsDataError(f"{pacs.settings.name} sent nothing that can be read")
-        best = max(series, key=lambda one: (one.usable, len(one.slices)))
-        if not best.usable:
-            raise SeriesRefusedError(f"this series cannot be used: {best.reason}")
+        best = max(series, key=lambda one: _worth(one, remedy))
+        _require_remedy(best, remedy)
+    except RemedyWantedError:
+        raise
     except (PacsDataError, SeriesRefusedError) as error:
         if not isinstance(error, PacsDataError) or incoming.problems:
             incoming.forget()
@@ -60,8 +82,30 @@ def fetch(pacs: Pacs, study_uid: str, series_uid: str, progress: Progress) -> Fe
     return Fetched(best, incoming)
 
 
+def _worth(series: Series, remedy: Remedy | None) -> tuple[bool, bool, int]:
+    """Return what counts in choosing among the series that came under one UID."""
+    mended = series.remedy is not Remedy.NONE and remedy in (None, series.remedy)
+    return series.usable, mended, len(series.slices)
+
+
+def _require_remedy(series: Series, remedy: Remedy | None) -> None:
+    if series.usable:
+        return
+    if series.remedy is Remedy.NONE:
+        raise SeriesRefusedError(f"this series cannot be used: {series.reason}")
+    if remedy not in (None, series.remedy):
+        raise RemedyWantedError(
+            f"this series cannot be used as it is: {series.reason}{offer(series)}; what has come "
+            "is kept aside for a day and not fetched again"
+        )
+
+
 def keep(
-    fetched: Fetched, library: CtLibrary, progress: Progress, boxes: Sequence[Box] = ()
+    fetched: Fetched,
+    library: CtLibrary,
+    progress: Progress,
+    boxes: Sequence[Box] = (),
+    remedy: Remedy = Remedy.NONE,
 ) -> Imported:
     """De-identify what was fetched into the library and delete the originals.
 
@@ -74,7 +118,7 @@ def keep(
         Cancelled: if `progress` was cancelled.
     """
     try:
-        imported = library.import_series(fetched.series, boxes, progress)
+        imported = library.import_series(fetched.series, boxes, progress, remedy)
     except AnnotatedError:
         raise
     except ImportFailedError as error:
@@ -90,8 +134,8 @@ def keep(
 
 def take(
     pacs: Pacs, study_uid: str, series_uid: str, library: CtLibrary, progress: Progress,
-    boxes: Sequence[Box] = (),
+    boxes: Sequence[Box] = (), remedy: Remedy = Remedy.NONE,
 ) -> Imported:  # fmt: skip
     """Retrieve a series into the library, de-identified; see `fetch` and `keep` for the errors."""
-    fetched = fetch(pacs, study_uid, series_uid, progress.part(0.0, 0.65))
-    return keep(fetched, library, progress.part(0.65, 1.0), boxes)
+    fetched = fetch(pacs, study_uid, series_uid, progress.part(0.0, 0.65), remedy)
+    return keep(fetched, library, progress.part(0.65, 1.0), boxes, remedy)

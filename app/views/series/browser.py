@@ -29,7 +29,7 @@ SIZE = 980, 620
 class SeriesBrowser(QDialog):
     """Lets choose among the series of a folder, those that can be used first.
 
-    With `taking` the one chosen goes into the library: as it is, no other way is offered.
+    With `taking` the one chosen goes into the library: its own images, whatever opens them later.
 
     Signals:
         chosen(Series, Remedy): open it, as it is or in the way asked for.

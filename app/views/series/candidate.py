@@ -22,7 +22,7 @@ class Candidate:
     """What is to be taken in.
 
     Attributes:
-        series: a usable one.
+        series: a usable one, or one that opens on request.
         take: `take(boxes, progress)` brings it into the library.
         give_up: deletes what was set aside for it, if anything was.
         keeper: holds its files (an unpacked archive) as long as the candidate lives.
@@ -42,7 +42,7 @@ def of_folder(series: Series, keeper: object) -> Candidate:
     def take(boxes: Sequence[Box], progress: Progress) -> Any:
         with ONE_AT_A_TIME:
             from app.imaging.library import CtLibrary
-        return CtLibrary().import_series(series, boxes, progress)
+        return CtLibrary().import_series(series, boxes, progress, series.remedy)
 
     return Candidate(series, take, lambda: None, keeper)
 
@@ -54,6 +54,6 @@ def of_pacs(fetched: Fetched) -> Candidate:
         with ONE_AT_A_TIME:
             from app.imaging.library import CtLibrary
             from app.imaging.pacs.taking import keep
-        return keep(fetched, CtLibrary(), progress, boxes)
+        return keep(fetched, CtLibrary(), progress, boxes, fetched.series.remedy)
 
     return Candidate(fetched.series, take, fetched.forget)

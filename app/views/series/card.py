@@ -125,7 +125,7 @@ def _remedy_tip(remedy: Remedy) -> str:
 
 def _buttons(series: Series, parent: QWidget, taking: bool) -> list[tuple[QPushButton, Remedy]]:
     ways = [Remedy.NONE] if series.usable else []
-    if series.remedy is not Remedy.NONE and not taking:
+    if series.remedy is not Remedy.NONE and not (taking and series.usable):
         ways.append(series.remedy)
     found = []
     for remedy in ways:

@@ -36,12 +36,7 @@ class ImportReport(QDialog):
         self.setWindowTitle(tr("Taken into the library"))
         self.resize(760, 460)
         entry, report = imported.entry, imported.report
-        words = (
-            tr("{label}: it was in the library already", label=entry.label)
-            if imported.again
-            else tr("{label}: {count} files, de-identified and checked", label=entry.label,
-                    count=entry.files)
-        )  # fmt: skip
+        words = _words(imported)
         heading = QLabel(f"{NAMES.shown(entry.name)}\n{NAMES.veiled(words)}", self)
         heading.setProperty("role", "heading")
         self.warning = QLabel("\n".join(f"⚠  {text}" for text in report.warnings), self)
@@ -59,3 +54,20 @@ class ImportReport(QDialog):
         column.setSpacing(theme.SPACING)
         for widget in (heading, self.warning, self.text, self.buttons):
             column.addWidget(widget)
+
+
+def _words(imported: Imported) -> str:
+    """Say what became of it."""
+    label, before, given = imported.entry.label, imported.before, imported.given
+    if imported.again and given < before:
+        return tr(
+            "{label}: all {before} images are in the library already; the {given} given are a part",
+            label=label, before=before, given=given,
+        )  # fmt: skip
+    if imported.again:
+        return tr("{label}: it was in the library already", label=label)
+    words = tr("{label}: {count} files, de-identified and checked", label=label,
+               count=imported.entry.files)  # fmt: skip
+    if 0 < before < given:
+        words += tr("; they replace the {before} of them that lay there", before=before)
+    return words

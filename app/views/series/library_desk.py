@@ -102,7 +102,8 @@ class LibraryDesk(QObject):
         return [(f"{one.name}  {one.label}", one.folder) for one in CtLibrary().entries()]
 
     def _choose(self, listing: Listing) -> None:
-        if len(listing.usable) > 1:
+        mended = [one for one in listing.series if not one.usable and one.remedy != "none"]
+        if len(listing.usable) + len(mended) > 1:
             browser = SeriesBrowser(listing, self._window, taking=True)
             browser.chosen.connect(lambda series, _: self._begin(series, listing))
             browser.finished.connect(browser.deleteLater)
@@ -112,7 +113,8 @@ class LibraryDesk(QObject):
         from app.imaging.reading import choose
 
         try:
-            self._begin(choose(listing), listing)
+            series = mended[0] if mended else choose(listing)
+            self._begin(series, listing)
         except ImagingError as error:
             self.failed.emit(error)
 
@@ -137,4 +139,4 @@ def _fetch(settings: PacsSettings, series: FoundSeries, progress: Progress) -> F
     with ONE_AT_A_TIME:
         from app.imaging.pacs.client import Pacs
         from app.imaging.pacs.taking import fetch
-    return fetch(Pacs(settings), series.study.uid, series.uid, progress)
+    return fetch(Pacs(settings), series.study.uid, series.uid, progress, remedy=None)
