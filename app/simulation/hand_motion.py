@@ -14,19 +14,33 @@ within v τ, and what the wanted point does meanwhile changes the way, never the
 A hand that takes hold does so where the needle is, at rest.
 """
 
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.simulation.plan import Stage
 
-# Offsets into a stage's parameters: bounds, then what the hand remembers between ticks.
-SPEED, ACCELERATION, AXIAL_SPEED, AXIAL_ACCELERATION = range(4)
-HELD, VX, VY, VZ, RATE = range(4, 9)
-SIZE: Final = 9
+
+class Places(NamedTuple):
+    """Bounds, then what the hand remembers between ticks; offsets into a stage's parameters."""
+
+    speed: int
+    acceleration: int
+    axial_speed: int
+    axial_acceleration: int
+    held: int = 0
+    vx: int = 0
+    vy: int = 0
+    vz: int = 0
+    rate: int = 0
+
+
+AT: Final = numbered(Places)
+SIZE: Final = len(AT)
 
 FASTEST: Final = 0.08
 """Speed of the hub across the needle [m/s]: the one up to which the speed governor of the robot
@@ -74,10 +88,10 @@ def take_hold(
 
     Returns whether it has held since before this tick. `at`: where its part of `p` begins.
     """
-    if holds and p[at + HELD] > 0.5 and np.isfinite(state[sv.GRIP_X] + state[sv.GRIP_DEPTH]):
+    if holds and p[at + AT.held] > 0.5 and np.isfinite(state[sv.GRIP_X] + state[sv.GRIP_DEPTH]):
         return True
-    p[at + HELD] = 1.0 if holds else 0.0
-    p[at + VX] = p[at + VY] = p[at + VZ] = p[at + RATE] = 0.0
+    p[at + AT.held] = 1.0 if holds else 0.0
+    p[at + AT.vx] = p[at + AT.vy] = p[at + AT.vz] = p[at + AT.rate] = 0.0
     state[sv.GRIP_X], state[sv.GRIP_Y], state[sv.GRIP_DEPTH] = x, y, depth
     return False
 
@@ -106,14 +120,14 @@ def turn(
     tx, ty, tz = wx - along * gx, wy - along * gy, wz - along * gz
     sine = np.sqrt(tx * tx + ty * ty + tz * tz)
     distance = lever * np.arctan2(sine, along)
-    vx, vy, vz = p[at + VX], p[at + VY], p[at + VZ]
+    vx, vy, vz = p[at + AT.vx], p[at + AT.vy], p[at + AT.vz]
     if distance < _NEAR and abs(vx) + abs(vy) + abs(vz) < _SLOW:
         state[sv.GRIP_X], state[sv.GRIP_Y] = wx, wy
-        p[at + VX] = p[at + VY] = p[at + VZ] = 0.0
+        p[at + AT.vx] = p[at + AT.vy] = p[at + AT.vz] = 0.0
         return
-    share = aimed(distance, p[at + SPEED], p[at + ACCELERATION]) / sine if sine > 0.0 else 0.0
+    share = aimed(distance, p[at + AT.speed], p[at + AT.acceleration]) / sine if sine > 0.0 else 0.0
     ax, ay, az = share * tx - vx, share * ty - vy, share * tz - vz
-    size, most = np.sqrt(ax * ax + ay * ay + az * az), p[at + ACCELERATION] * h
+    size, most = np.sqrt(ax * ax + ay * ay + az * az), p[at + AT.acceleration] * h
     share = most / size if size > most else 1.0
     vx, vy, vz = vx + share * ax, vy + share * ay, vz + share * az
     nx, ny, nz = gx + vx * h / lever, gy + vy * h / lever, gz + vz * h / lever
@@ -124,21 +138,21 @@ def turn(
         nx, ny, vx, vy, vz = nx * _FLATTEST / sine, ny * _FLATTEST / sine, 0.0, 0.0, 0.0
     away = vx * nx + vy * ny + vz * nz
     state[sv.GRIP_X], state[sv.GRIP_Y] = nx, ny
-    p[at + VX], p[at + VY], p[at + VZ] = vx - away * nx, vy - away * ny, vz - away * nz
+    p[at + AT.vx], p[at + AT.vy], p[at + AT.vz] = vx - away * nx, vy - away * ny, vz - away * nz
 
 
 @njit
 def advance(state: FloatArray, p: FloatArray, at: int, h: float) -> None:
     """Move the hand along the needle for a step `h` [s] towards HAND_DEPTH."""
-    way, rate = state[sv.HAND_DEPTH] - state[sv.GRIP_DEPTH], p[at + RATE]
+    way, rate = state[sv.HAND_DEPTH] - state[sv.GRIP_DEPTH], p[at + AT.rate]
     if abs(way) < _NEAR and abs(rate) < _SLOW:
-        state[sv.GRIP_DEPTH], p[at + RATE] = state[sv.HAND_DEPTH], 0.0
+        state[sv.GRIP_DEPTH], p[at + AT.rate] = state[sv.HAND_DEPTH], 0.0
         return
-    speed = aimed(abs(way), p[at + AXIAL_SPEED], p[at + AXIAL_ACCELERATION])
-    most = p[at + AXIAL_ACCELERATION] * h
+    speed = aimed(abs(way), p[at + AT.axial_speed], p[at + AT.axial_acceleration])
+    most = p[at + AT.axial_acceleration] * h
     rate += min(max((speed if way > 0.0 else -speed) - rate, -most), most)
     state[sv.GRIP_DEPTH] += rate * h
-    p[at + RATE] = rate
+    p[at + AT.rate] = rate
 
 
 @stage
@@ -146,7 +160,7 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     """Move GRIP_* where no simulated robot does: from the first wish on, at a hand's speed."""
     holds, wx, wy, wz = wanted(state)
     if not holds:
-        parameters[HELD] = 0.0
+        parameters[AT.held] = 0.0
         return
     if take_hold(state, parameters, 0, holds, wx, wy, state[sv.HAND_DEPTH]) and state[sv.DT] > 0.0:
         h = min(state[sv.DT], _LONGEST)
@@ -160,5 +174,12 @@ def hand_stage(lever: float) -> Stage:
     Args:
         lever: from the fulcrum to the hub, where the bounds hold [m].
     """
-    bounds = (FASTEST, STRONGEST, FASTEST_ALONG, STRONGEST)
-    return "hand", step, np.array([*bounds, *np.zeros(SIZE - len(bounds)), lever])
+    parameters = packed(
+        AT,
+        (lever,),
+        speed=FASTEST,
+        acceleration=STRONGEST,
+        axial_speed=FASTEST_ALONG,
+        axial_acceleration=STRONGEST,
+    )
+    return "hand", step, parameters

@@ -27,12 +27,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import unit
+from app.core.parameters import packed
 from app.mechanisms.pantograph.kernels import inverse_kernel
 from app.mechanisms.profile import DeviceProfile
 from app.simulation import hand_motion
 from app.simulation.errors import SimulationError
 from app.simulation.plan import Stage
 from app.simulation.plant_kernels import step
+from app.simulation.plant_layout import AT
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,17 +137,33 @@ def plant_stage(
     start = initial_plant(profile, axis, depth)
     geometry, fulcrum = profile.pantograph, profile.pantograph.fulcrum
     radius = fulcrum[2] * np.tan(profile.tilt_limit)
-    parameters = np.array(
-        [
-            *profile.dynamic_model.values,
-            geometry.needle_length,
-            *(radius, rig.stop_stiffness, rig.stop_damping, *profile.depth_range),
-            *(rig.moving_mass, rig.seal_friction, rig.seal_viscous),
-            *(hand.stiffness, hand.damping, hand.axial_stiffness, hand.axial_damping),
-            hand.strongest,
-            *(start["plant_q_left"], start["plant_q_right"], start["plant_depth"]),
-            *(hand.speed, hand.acceleration, hand.axial_speed, hand.axial_acceleration),
-            *np.zeros(hand_motion.SIZE - 4),  # it holds nothing yet
-        ]
+    depth_min, depth_max = profile.depth_range
+    own = packed(
+        AT,
+        length=geometry.needle_length,
+        radius=radius,
+        stop_k=rig.stop_stiffness,
+        stop_b=rig.stop_damping,
+        depth_min=depth_min,
+        depth_max=depth_max,
+        mass=rig.moving_mass,
+        seal=rig.seal_friction,
+        seal_viscous=rig.seal_viscous,
+        hand_k=hand.stiffness,
+        hand_b=hand.damping,
+        hand_axial_k=hand.axial_stiffness,
+        hand_axial_b=hand.axial_damping,
+        hand_most=hand.strongest,
+        start_left=start["plant_q_left"],
+        start_right=start["plant_q_right"],
+        start_depth=start["plant_depth"],
     )
+    motion = packed(
+        hand_motion.AT,
+        speed=hand.speed,
+        acceleration=hand.acceleration,
+        axial_speed=hand.axial_speed,
+        axial_acceleration=hand.axial_acceleration,
+    )
+    parameters = np.concatenate([profile.dynamic_model.values, own, motion])
     return "plant", step, parameters

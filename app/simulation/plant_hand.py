@@ -7,16 +7,7 @@ from app.core.arrays import FloatArray
 from app.core.compiled import njit
 from app.mechanisms.dynamic_model import FX, FY
 from app.mechanisms.pantograph.kernels import force_map_kernel
-from app.simulation.plant_layout import (
-    HAND_AXIAL_K,
-    HAND_B,
-    HAND_K,
-    HAND_MOST,
-    RADIUS,
-    STOP_B,
-    STOP_K,
-    System,
-)
+from app.simulation.plant_layout import AT, System
 
 
 @njit
@@ -28,9 +19,9 @@ def spring(
     along = sx * dx + sy * dy + sz * dz
     sx, sy, sz = sx - along * dx, sy - along * dy, sz - along * dz
     stretch = np.sqrt(sx * sx + sy * sy + sz * sz)
-    k = p[HAND_K]
-    if k * stretch > p[HAND_MOST]:
-        k = p[HAND_MOST] / stretch
+    k = p[AT.hand_k]
+    if k * stretch > p[AT.hand_most]:
+        k = p[AT.hand_most] / stretch
     return k, k * sx, k * sy, k * sz
 
 
@@ -38,9 +29,9 @@ def spring(
 def axial_spring(state: FloatArray, p: FloatArray) -> tuple[float, float]:
     """Hand spring along the needle: (stiffness in effect [N/m], force inwards [N])."""
     stretch = state[sv.GRIP_DEPTH] - state[sv.PLANT_DEPTH]
-    k = p[HAND_AXIAL_K]
-    if k * abs(stretch) > p[HAND_MOST]:
-        k = p[HAND_MOST] / abs(stretch)
+    k = p[AT.hand_axial_k]
+    if k * abs(stretch) > p[AT.hand_most]:
+        k = p[AT.hand_most] / abs(stretch)
     return k, k * stretch
 
 
@@ -60,7 +51,7 @@ def hand_at_tool(
     """Hand force at the tool and its part of the system matrix: (gx, gy, xx, xy, yy)."""
     k, fx, fy, fz = spring(p, hx, hy, hz, dx, dy, dz, l_out)
     gx, gy = force_map_kernel(fx, fy, fz, dx, dy, dz, l_in, l_out)
-    c = (h * p[HAND_B] + h * h * k) * (l_out / l_in) ** 2
+    c = (h * p[AT.hand_b] + h * h * k) * (l_out / l_in) ** 2
     return gx, gy, c * (1.0 - dx * dx), -c * dx * dy, c * (1.0 - dy * dy)
 
 
@@ -69,11 +60,11 @@ def stop_at_tool(p: FloatArray, h: float, x: float, y: float, vx: float, vy: flo
     """Force of the tilt stop at the tool, likewise; it only pushes inwards."""
     ex, ey = x - p[FX], y - p[FY]
     radius = np.sqrt(ex * ex + ey * ey)
-    beyond = radius - p[RADIUS]
+    beyond = radius - p[AT.radius]
     if not beyond > 0.0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
     ex, ey = ex / radius, ey / radius
-    damping = p[STOP_B] if ex * vx + ey * vy > 0.0 else 0.0
-    c = h * damping + h * h * p[STOP_K]
-    push = -p[STOP_K] * beyond
+    damping = p[AT.stop_b] if ex * vx + ey * vy > 0.0 else 0.0
+    c = h * damping + h * h * p[AT.stop_k]
+    push = -p[AT.stop_k] * beyond
     return push * ex, push * ey, c * ex * ex, c * ex * ey, c * ey * ey

@@ -11,17 +11,7 @@ from app.mechanisms.dynamic_model import FX, FY, FZ
 from app.mechanisms.pantograph.kernels import axis_kernel, hub_velocity_kernel
 from app.simulation.hand_motion import advance, grip_direction, take_hold, turn, wanted
 from app.simulation.plant_hand import axial_spring, spring
-from app.simulation.plant_layout import (
-    HAND_AXIAL_B,
-    HAND_B,
-    LENGTH,
-    MOTION,
-    SHORTEST_LEVER,
-    START_DEPTH,
-    START_LEFT,
-    START_RIGHT,
-    Pose,
-)
+from app.simulation.plant_layout import AT, MOTION, SHORTEST_LEVER, Pose
 from app.simulation.plant_motion import pose_of, slide, swing
 
 SUBSTEP: Final = 0.5e-3  # [s]
@@ -46,11 +36,11 @@ def _recover(state: FloatArray, p: FloatArray) -> Pose:
     v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
     pose = pose_of(p, q1, q2)
     if not (np.isfinite(q1 + q2 + v1 + v2) and pose[0]):
-        state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT] = p[START_LEFT], p[START_RIGHT]
+        state[sv.PLANT_Q_LEFT], state[sv.PLANT_Q_RIGHT] = p[AT.start_left], p[AT.start_right]
         state[sv.PLANT_QD_LEFT] = state[sv.PLANT_QD_RIGHT] = 0.0
-        pose = pose_of(p, p[START_LEFT], p[START_RIGHT])
+        pose = pose_of(p, p[AT.start_left], p[AT.start_right])
     if not np.isfinite(state[sv.PLANT_DEPTH] + state[sv.PLANT_DEPTH_RATE]):
-        state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE] = p[START_DEPTH], 0.0
+        state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE] = p[AT.start_depth], 0.0
     return pose
 
 
@@ -63,16 +53,16 @@ def _report(state: FloatArray, p: FloatArray, holds: bool, pose: Pose) -> None:
         return
     v1, v2 = state[sv.PLANT_QD_LEFT], state[sv.PLANT_QD_RIGHT]
     dx, dy, dz, l_in = axis_kernel(x, y, p[FX], p[FY], p[FZ])
-    l_out = max(p[LENGTH] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
+    l_out = max(p[AT.length] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
     gx, gy, gz = grip_direction(state)
     _, fx, fy, fz = spring(p, gx, gy, gz, dx, dy, dz, l_out)
     ux, uy, uz = hub_velocity_kernel(
         jxl * v1 + jxr * v2, jyl * v1 + jyr * v2, dx, dy, dz, l_in, l_out
     )
-    state[sv.PULL_X] = fx - p[HAND_B] * ux
-    state[sv.PULL_Y] = fy - p[HAND_B] * uy
-    state[sv.PULL_Z] = fz - p[HAND_B] * uz
-    state[sv.PUSH] = axial_spring(state, p)[1] - p[HAND_AXIAL_B] * state[sv.PLANT_DEPTH_RATE]
+    state[sv.PULL_X] = fx - p[AT.hand_b] * ux
+    state[sv.PULL_Y] = fy - p[AT.hand_b] * uy
+    state[sv.PULL_Z] = fz - p[AT.hand_b] * uz
+    state[sv.PUSH] = axial_spring(state, p)[1] - p[AT.hand_axial_b] * state[sv.PLANT_DEPTH_RATE]
 
 
 @njit
@@ -84,7 +74,7 @@ def _move_hand(state: FloatArray, p: FloatArray, dt: float, pose: Pose) -> bool:
     if not ok:
         dx, dy = 0.0, 0.0
     if take_hold(state, p, MOTION, holds, dx, dy, state[sv.PLANT_DEPTH]) and dt > 0.0:
-        lever = max(p[LENGTH] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
+        lever = max(p[AT.length] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
         turn(state, p, MOTION, dt, wx, wy, wz, lever)
         advance(state, p, MOTION, dt)
     return holds

@@ -1,16 +1,38 @@
 """Parameters and types that the kernels of the simulated robot share."""
 
-from typing import Final
+from typing import Final, NamedTuple
 
+from app.core.parameters import numbered
 from app.mechanisms.dynamic_model import MODEL_SIZE
 
-# Parameters array: the model of the dynamics first, see `mechanisms.dynamic_model`.
 MODEL: Final = 0
-LENGTH, RADIUS, STOP_K, STOP_B, DEPTH_MIN, DEPTH_MAX = range(MODEL_SIZE, MODEL_SIZE + 6)
-MASS, SEAL, SEAL_VISCOUS = range(MODEL_SIZE + 6, MODEL_SIZE + 9)
-HAND_K, HAND_B, HAND_AXIAL_K, HAND_AXIAL_B, HAND_MOST = range(MODEL_SIZE + 9, MODEL_SIZE + 14)
-START_LEFT, START_RIGHT, START_DEPTH = range(MODEL_SIZE + 14, MODEL_SIZE + 17)
-MOTION: Final = MODEL_SIZE + 17  # of the hand, see `hand_motion`
+"""Place of the model of the dynamics, see `mechanisms.dynamic_model`; the others follow it."""
+
+
+class Places(NamedTuple):
+    """Needle, stops, what slides along the needle, hand, and the starting pose."""
+
+    length: int
+    radius: int
+    stop_k: int
+    stop_b: int
+    depth_min: int
+    depth_max: int
+    mass: int
+    seal: int
+    seal_viscous: int
+    hand_k: int
+    hand_b: int
+    hand_axial_k: int
+    hand_axial_b: int
+    hand_most: int
+    start_left: int
+    start_right: int
+    start_depth: int
+
+
+AT: Final = numbered(Places, MODEL_SIZE)
+MOTION: Final = MODEL_SIZE + len(AT)  # of the hand, see `hand_motion`
 
 SHORTEST_LEVER: Final = 0.01  # [m] of needle outside the fulcrum
 

@@ -11,18 +11,7 @@ from app.mechanisms.dynamic_model import A1, A2, BASE, COULOMB, FX, FY, FZ, VISC
 from app.mechanisms.pantograph.dynamics import axial_load_kernel, dynamics_kernel
 from app.mechanisms.pantograph.kernels import axis_kernel, forward_kernel, jacobian_kernel
 from app.simulation.plant_hand import axial_spring, hand_at_tool, stop_at_tool
-from app.simulation.plant_layout import (
-    DEPTH_MAX,
-    DEPTH_MIN,
-    HAND_AXIAL_B,
-    LENGTH,
-    MASS,
-    MODEL,
-    SEAL,
-    SEAL_VISCOUS,
-    SHORTEST_LEVER,
-    Pose,
-)
+from app.simulation.plant_layout import AT, MODEL, SHORTEST_LEVER, Pose
 
 _SPEED: Final = 50.0  # [rad/s]
 _SNAP: Final = 1e-12  # slower than this is at rest: subnormal numbers cost 20 times more
@@ -97,7 +86,7 @@ def swing(
     gx, gy, xx, xy, yy = stop_at_tool(p, h, x, y, vx, vy)
     if holds:
         dx, dy, dz, l_in = axis_kernel(x, y, p[FX], p[FY], p[FZ])
-        l_out = max(p[LENGTH] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
+        l_out = max(p[AT.length] - state[sv.PLANT_DEPTH], SHORTEST_LEVER)
         hx, hy, hxx, hxy, hyy = hand_at_tool(p, h, wx, wy, wz, dx, dy, dz, l_in, l_out)
         gx, gy, xx, xy, yy = gx + hx, gy + hy, xx + hxx, xy + hxy, yy + hyy
     b1 = m11 * v1 + m12 * v2 + h * (t1 - c1 - g1 + jxl * gx + jyl * gy)
@@ -132,20 +121,20 @@ def slide(
 ) -> None:
     """One substep along the needle; the seal's Coulomb friction is solved exactly (it can hold)."""
     depth, v = state[sv.PLANT_DEPTH], state[sv.PLANT_DEPTH_RATE]
-    mass = p[MASS] + h * p[SEAL_VISCOUS]
-    impulse = p[MASS] * v + h * _load(state, p, pose)
+    mass = p[AT.mass] + h * p[AT.seal_viscous]
+    impulse = p[AT.mass] * v + h * _load(state, p, pose)
     if tissue * v > 0.0:  # opposes the motion: implicit, as the damper F / v
         mass += h * tissue / v
     else:
         impulse -= h * tissue
     if holds:
         k, spring = axial_spring(state, p)
-        mass += h * p[HAND_AXIAL_B] + h * h * k
+        mass += h * p[AT.hand_axial_b] + h * h * k
         impulse += h * spring
-    held = h * p[SEAL]
+    held = h * p[AT.seal]
     v = 0.0 if abs(impulse) <= held else (impulse - np.sign(impulse) * held) / mass
     v = _rest(v)
-    moved = min(max(depth + h * v, p[DEPTH_MIN]), p[DEPTH_MAX])
+    moved = min(max(depth + h * v, p[AT.depth_min]), p[AT.depth_max])
     state[sv.PLANT_DEPTH_RATE] = v if moved == depth + h * v else 0.0
     state[sv.PLANT_DEPTH] = moved
 

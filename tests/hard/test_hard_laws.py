@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from app.core import state_vector as sv
 from app.device.control import laws
 from app.device.control.law_kernels import damper_share, hill_kernel, spring_kernel
+from app.device.control.laws.impedance import _AT as IMPEDANCE
 
 PLACE = {
     f"{e}_{i}": v for e in ("from", "to") for i, v in zip("xyz", (0.0, 0.17, 0.04), strict=True)
@@ -167,7 +168,7 @@ def test_a_needle_that_rests_leaves_no_subnormal_numbers_in_the_impedance():
         law.run(away)
     for _ in range(20_000):
         law.run(rest)
-    moving = law.memory[11:13]
+    moving = law.memory[[IMPEDANCE.wx, IMPEDANCE.wy]]
     assert np.all((moving == 0.0) | (np.abs(moving) > 1e-150))
 
 

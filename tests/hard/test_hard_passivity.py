@@ -9,6 +9,7 @@ from app.core.clock import VirtualClock
 from app.core.compiled import stage
 from app.device.control import Loop, Table, pantograph_stages
 from app.device.control.passivity import PassivityGuard
+from app.device.control.safety import _AT as SAFETY
 from app.device.links.simulated import simulated_link
 from app.simulation.plant import initial_plant, plant_stage
 
@@ -110,7 +111,7 @@ def swing(stiffness: float, delay: int, guarded: bool, ticks: int = 3000):
     clock = VirtualClock(10.0)
     stages = [s for s in table.compute if s.name != "governor"]
     safety = stages[-1].parameters
-    safety[5] = 1e-3  # no arming ramp: let go under full force
+    safety[SAFETY.arming] = 1e-3  # no arming ramp: let go under full force
     with Loop(Table.of(stages, table.write), profile.rate_hz, clock, initial=start) as loop:
         loop.inbox.write(homed=1.0, force_cap=5.0, enabled=1.0)
         for _ in range(ticks // 100):

@@ -6,16 +6,31 @@ the robot, so that no record can turn a force round.
 """
 
 from math import isfinite
-from typing import Any
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
+from app.core.parameters import numbered, packed
 from app.device.errors import DeviceError
 
-_LEFT, _RIGHT, _ZERO, _SCALE, _TIME, _OUT_LEFT, _OUT_RIGHT, _OUT_GAUGE, _SIZE = range(9)
+
+class _Places(NamedTuple):
+    """Offsets [rad], zero [N] and factor of the gauge, and what was written last."""
+
+    left: int
+    right: int
+    zero: int
+    scale: int
+    time: int = 0
+    out_left: int = 0
+    out_right: int = 0
+    out_gauge: int = 0
+
+
+_AT: Final = numbered(_Places)
 
 
 @stage
@@ -25,16 +40,16 @@ def corrections_stage(state: FloatArray, p: FloatArray) -> None:
     A link without news leaves the slots as they are: what this stage wrote is not corrected a
     second time. (Joint angles are whole counts, so an equal one may be new: Q_TIME tells.)
     """
-    old = state[sv.Q_TIME] == p[_TIME]
-    joints = state[sv.Q_LEFT] == p[_OUT_LEFT] and state[sv.Q_RIGHT] == p[_OUT_RIGHT]
+    old = state[sv.Q_TIME] == p[_AT.time]
+    joints = state[sv.Q_LEFT] == p[_AT.out_left] and state[sv.Q_RIGHT] == p[_AT.out_right]
     if not (old and joints):
-        state[sv.Q_LEFT] += p[_LEFT]
-        state[sv.Q_RIGHT] += p[_RIGHT]
-    if state[sv.GAUGE] != 0.0 and not (old and state[sv.GAUGE_FORCE] == p[_OUT_GAUGE]):
-        state[sv.GAUGE_FORCE] = (state[sv.GAUGE_FORCE] - p[_ZERO]) * p[_SCALE]
-    p[_OUT_LEFT], p[_OUT_RIGHT] = state[sv.Q_LEFT], state[sv.Q_RIGHT]
-    p[_OUT_GAUGE] = state[sv.GAUGE_FORCE]
-    p[_TIME] = state[sv.Q_TIME]
+        state[sv.Q_LEFT] += p[_AT.left]
+        state[sv.Q_RIGHT] += p[_AT.right]
+    if state[sv.GAUGE] != 0.0 and not (old and state[sv.GAUGE_FORCE] == p[_AT.out_gauge]):
+        state[sv.GAUGE_FORCE] = (state[sv.GAUGE_FORCE] - p[_AT.zero]) * p[_AT.scale]
+    p[_AT.out_left], p[_AT.out_right] = state[sv.Q_LEFT], state[sv.Q_RIGHT]
+    p[_AT.out_gauge] = state[sv.GAUGE_FORCE]
+    p[_AT.time] = state[sv.Q_TIME]
 
 
 class Corrections:
@@ -50,20 +65,21 @@ class Corrections:
         offsets: tuple[float, float] = (0.0, 0.0),
         gauge: tuple[float, float] = (0.0, 1.0),
     ) -> None:
-        self._parameters = np.zeros(_SIZE)
-        self._parameters[_TIME] = self._parameters[_OUT_GAUGE] = np.nan
+        self._parameters = packed(
+            _AT, left=0.0, right=0.0, zero=0.0, scale=1.0, time=np.nan, out_gauge=np.nan
+        )
         self.set_offsets(*offsets)
         self.set_gauge(*gauge)
 
     @property
     def offsets(self) -> tuple[float, float]:
         """Offsets in use (left, right) [rad]."""
-        return float(self._parameters[_LEFT]), float(self._parameters[_RIGHT])
+        return float(self._parameters[_AT.left]), float(self._parameters[_AT.right])
 
     @property
     def gauge(self) -> tuple[float, float]:
         """Zero [N] and factor of the gauge in use."""
-        return float(self._parameters[_ZERO]), float(self._parameters[_SCALE])
+        return float(self._parameters[_AT.zero]), float(self._parameters[_AT.scale])
 
     def set_offsets(self, left: float, right: float) -> None:
         """Use other offsets [rad] from the next reading on; do so at zero force only.
@@ -71,7 +87,9 @@ class Corrections:
         Raises:
             DeviceError: if one is not finite; those in use stay.
         """
-        self._parameters[_LEFT : _RIGHT + 1] = _finite("encoder offsets [rad]", left, right)
+        self._parameters[_AT.left], self._parameters[_AT.right] = _finite(
+            "encoder offsets [rad]", left, right
+        )
 
     def set_gauge(self, zero: float, scale: float) -> None:
         """Use another zero [N] and factor of the gauge from the next reading on.
@@ -79,7 +97,9 @@ class Corrections:
         Raises:
             DeviceError: if one is not finite; those in use stay.
         """
-        self._parameters[_ZERO : _SCALE + 1] = _finite("zero and factor of the gauge", zero, scale)
+        self._parameters[_AT.zero], self._parameters[_AT.scale] = _finite(
+            "zero and factor of the gauge", zero, scale
+        )
 
     def stage(self) -> tuple[str, Any, FloatArray]:
         """Return the stage for a loop's table; it belongs right after the link's read stages."""

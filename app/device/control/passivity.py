@@ -30,7 +30,9 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import packed
 from app.device.control import energy_account as account
+from app.device.control.energy_account import AT
 from app.device.control.law_kernels import STOP_GIVES, longest_lever
 from app.device.control.vectors import snapped
 from app.device.errors import DeviceError
@@ -58,31 +60,29 @@ def damping_for(debt: float, speed2: float, step: float, most: float) -> float:
 def _brake(state: FloatArray, p: FloatArray) -> None:
     """Set the controller's damping torques for the debt of the account."""
     v1, v2 = state[sv.QD_LEFT], state[sv.QD_RIGHT]
-    p[account.BRAKE_LEFT] = p[account.BRAKE_RIGHT] = 0.0
+    p[AT.brake_left] = p[AT.brake_right] = 0.0
     state[sv.GUARD_DAMPING] = 0.0
     if isfinite(v1 + v2):
-        step = max(state[sv.DT], p[account.PERIOD])
-        b = damping_for(-p[account.BALANCE], v1 * v1 + v2 * v2, step, p[account.DAMPING])
+        step = max(state[sv.DT], p[AT.period])
+        b = damping_for(-p[AT.balance], v1 * v1 + v2 * v2, step, p[AT.damping])
         state[sv.GUARD_DAMPING] = b
-        p[account.BRAKE_LEFT], p[account.BRAKE_RIGHT] = snapped(-b * v1), snapped(-b * v2)
+        p[AT.brake_left], p[AT.brake_right] = snapped(-b * v1), snapped(-b * v2)
 
 
 @njit
 def _fade(state: FloatArray, p: FloatArray) -> float:
     """Factor on the force for a large debt; a debt is forgotten slowly."""
-    if p[account.BALANCE] < 0.0:
-        p[account.BALANCE] = snapped(
-            p[account.BALANCE] * (1.0 - min(state[sv.DT] / p[account.FORGET], 1.0))
-        )
-    debt = -p[account.BALANCE] - p[account.FADE_FROM]
-    return 1.0 - min(max(debt / (p[account.FADE_TO] - p[account.FADE_FROM]), 0.0), 1.0)
+    if p[AT.balance] < 0.0:
+        p[AT.balance] = snapped(p[AT.balance] * (1.0 - min(state[sv.DT] / p[AT.forget], 1.0)))
+    debt = -p[AT.balance] - p[AT.fade_from]
+    return 1.0 - min(max(debt / (p[AT.fade_to] - p[AT.fade_from]), 0.0), 1.0)
 
 
 @njit
 def _affordable(state: FloatArray, p: FloatArray, left: float, right: float) -> float:
     """Factor in [0, 1] with which the next tick cannot overdraw the tank."""
-    reach = account.reach(state, p, p[account.TICKS] + p[account.OLD] + 1.0)
-    room = max(p[account.TANK] - (p[account.HELD_LEFT] + p[account.HELD_RIGHT]) * reach, 0.0)
+    reach = account.reach(state, p, p[AT.ticks] + p[AT.old] + 1.0)
+    room = max(p[AT.tank] - (p[AT.held_left] + p[AT.held_right]) * reach, 0.0)
     most = (abs(left) + abs(right)) * reach
     return room / most if most > room else 1.0
 
@@ -97,30 +97,30 @@ def guard_stage(state: FloatArray, p: FloatArray) -> None:
         account.observe(state, p)
     else:
         account.lose_track(state, p)
-    p[account.BEFORE_LEFT], p[account.BEFORE_RIGHT] = state[sv.SENT_LEFT], state[sv.SENT_RIGHT]
+    p[AT.before_left], p[AT.before_right] = state[sv.SENT_LEFT], state[sv.SENT_RIGHT]
     if not state[sv.ENABLED] > 0.5:
         account.start(p)
     if state[sv.KINEMATICS] == OK and isfinite(left + right):  # else safety holds it at zero
         _brake(state, p)
         fade = _fade(state, p)
         braked_left, braked_right = (
-            fade * left + p[account.BRAKE_LEFT],
-            fade * right + p[account.BRAKE_RIGHT],
+            fade * left + p[AT.brake_left],
+            fade * right + p[AT.brake_right],
         )
         afford = _affordable(state, p, braked_left, braked_right)
         scale = fade * afford
-        p[account.BRAKE_LEFT], p[account.BRAKE_RIGHT] = (
-            afford * p[account.BRAKE_LEFT],
-            afford * p[account.BRAKE_RIGHT],
+        p[AT.brake_left], p[AT.brake_right] = (
+            afford * p[AT.brake_left],
+            afford * p[AT.brake_right],
         )
-        p[account.CUT_LEFT], p[account.CUT_RIGHT] = (1.0 - scale) * left, (1.0 - scale) * right
+        p[AT.cut_left], p[AT.cut_right] = (1.0 - scale) * left, (1.0 - scale) * right
         left, right = afford * braked_left, afford * braked_right
-        p[account.ASKED_LEFT], p[account.ASKED_RIGHT] = left, right
+        p[AT.asked_left], p[AT.asked_right] = left, right
         state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = left, right
-    p[account.SHARE] = state[sv.LIMIT_SCALE] * state[sv.LET_GO_SCALE] * scale
+    p[AT.share] = state[sv.LIMIT_SCALE] * state[sv.LET_GO_SCALE] * scale
     state[sv.GUARD_SCALE] = scale
-    state[sv.ENERGY_OUT], state[sv.ENERGY_TANK] = p[account.OUT], p[account.TANK]
-    state[sv.ENERGY_BOUND], state[sv.GUARD_LOSS] = p[account.BOUND], p[account.LOSS]
+    state[sv.ENERGY_OUT], state[sv.ENERGY_TANK] = p[AT.out], p[AT.tank]
+    state[sv.ENERGY_BOUND], state[sv.GUARD_LOSS] = p[AT.bound], p[AT.loss]
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,18 +178,20 @@ class PassivityGuard:
             raise DeviceError(
                 f"the declared energy is {self.bound} J; give a finite number of 0 or more"
             )
-        parameters = np.zeros(account.SIZE)
-        parameters[: account.LEFT] = (
-            self.bound,
-            self.fastest,
-            self.count,
-            self.period,
-            self.credit,
-            self.fade_from,
-            self.fade_to,
-            self.forget,
-            self.damping,
+        coulomb, viscous = self.friction
+        parameters = packed(
+            AT,
+            bound=self.bound,
+            fastest=self.fastest,
+            one_count=self.count,
+            period=self.period,
+            credit=self.credit,
+            fade_from=self.fade_from,
+            fade_to=self.fade_to,
+            forget=self.forget,
+            damping=self.damping,
+            tank=self.bound,
+            coulomb=coulomb,
+            viscous=viscous,
         )
-        parameters[account.TANK] = self.bound
-        parameters[account.COULOMB], parameters[account.VISCOUS] = self.friction
         return "guard", guard_stage, parameters

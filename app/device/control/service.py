@@ -2,13 +2,12 @@
 
 from dataclasses import dataclass
 from math import isfinite
-from typing import Any, Final
-
-import numpy as np
+from typing import Any, Final, NamedTuple
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.device.control.vectors import shrink_kernel
 
 LARGEST_FORCE: Final = 1.0
@@ -17,7 +16,19 @@ LARGEST_FORCE: Final = 1.0
 LARGEST_TORQUE: Final = 0.03
 """Largest test torque of a joint [N·m]: about 0.3 N at the hand."""
 
-_FORCE, _TORQUE, _RATE, _X, _Y, _Z, _SIZE = range(7)
+
+class _Places(NamedTuple):
+    """Bounds of `Service`, and the force now."""
+
+    force: int
+    torque: int
+    rate: int
+    x: int = 0
+    y: int = 0
+    z: int = 0
+
+
+_AT: Final = numbered(_Places)
 
 
 @njit
@@ -29,32 +40,32 @@ def _bounded(value: float, limit: float) -> float:
 def _follow(state: FloatArray, p: FloatArray, x: float, y: float, z: float) -> None:
     """Move the force towards (x, y, z) at a limited rate; towards zero at once."""
     if x == 0.0 and y == 0.0 and z == 0.0:
-        p[_X], p[_Y], p[_Z] = 0.0, 0.0, 0.0
+        p[_AT.x], p[_AT.y], p[_AT.z] = 0.0, 0.0, 0.0
         return
-    step = p[_RATE] * max(state[sv.DT], 0.0)
-    dx, dy, dz = x - p[_X], y - p[_Y], z - p[_Z]
+    step = p[_AT.rate] * max(state[sv.DT], 0.0)
+    dx, dy, dz = x - p[_AT.x], y - p[_AT.y], z - p[_AT.z]
     scale = shrink_kernel(dx, dy, dz, step)
-    p[_X] += scale * dx
-    p[_Y] += scale * dy
-    p[_Z] += scale * dz
+    p[_AT.x] += scale * dx
+    p[_AT.y] += scale * dy
+    p[_AT.z] += scale * dz
 
 
 @stage
 def service_stage(state: FloatArray, p: FloatArray) -> None:
     """Add TEST_X, TEST_Y, TEST_Z to FORCE_* and TEST_LEFT, TEST_RIGHT to JOINT_*, all bounded."""
     if not state[sv.ENABLED] > 0.5:
-        p[_X], p[_Y], p[_Z] = 0.0, 0.0, 0.0
+        p[_AT.x], p[_AT.y], p[_AT.z] = 0.0, 0.0, 0.0
         return
     x, y, z = state[sv.TEST_X], state[sv.TEST_Y], state[sv.TEST_Z]
     if not (isfinite(x) and isfinite(y) and isfinite(z)):
         x, y, z = 0.0, 0.0, 0.0
-    scale = shrink_kernel(x, y, z, p[_FORCE])
+    scale = shrink_kernel(x, y, z, p[_AT.force])
     _follow(state, p, scale * x, scale * y, scale * z)
-    state[sv.FORCE_X] += p[_X]
-    state[sv.FORCE_Y] += p[_Y]
-    state[sv.FORCE_Z] += p[_Z]
-    state[sv.JOINT_LEFT] += _bounded(state[sv.TEST_LEFT], p[_TORQUE])
-    state[sv.JOINT_RIGHT] += _bounded(state[sv.TEST_RIGHT], p[_TORQUE])
+    state[sv.FORCE_X] += p[_AT.x]
+    state[sv.FORCE_Y] += p[_AT.y]
+    state[sv.FORCE_Z] += p[_AT.z]
+    state[sv.JOINT_LEFT] += _bounded(state[sv.TEST_LEFT], p[_AT.torque])
+    state[sv.JOINT_RIGHT] += _bounded(state[sv.TEST_RIGHT], p[_AT.torque])
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +84,5 @@ class Service:
 
     def stage(self) -> tuple[str, Any, FloatArray]:
         """Return the stage for a loop's table, with memory of its own."""
-        parameters = np.zeros(_SIZE)
-        parameters[:_X] = self.force, self.torque, self.rate
+        parameters = packed(_AT, force=self.force, torque=self.torque, rate=self.rate)
         return "service", service_stage, parameters

@@ -3,28 +3,38 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import pi
-from typing import Any
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
+from app.core.parameters import numbered, packed
 from app.device.links.link import BoardInfo, DeviceLink, Link, Triple
 from app.mechanisms.profile import DeviceProfile
 
-_COUNT, _HOME_LEFT, _HOME_RIGHT = range(3)
+
+class _Places(NamedTuple):
+    """One count of the encoders, and the joint angles at zero counts [rad]."""
+
+    one_count: int
+    home_left: int
+    home_right: int
+
+
+_AT: Final = numbered(_Places)
 
 
 @stage
 def encoder_stage(state: FloatArray, p: FloatArray) -> None:
     """Copy PLANT_Q_* into Q_*, as whole counts from the home offsets, and stamp Q_TIME."""
-    count = p[_COUNT]
+    count = p[_AT.one_count]
     # numpy's floor stays a float: a NaN stays NaN and is seen by safety, not turned into a count.
-    left = np.floor((state[sv.PLANT_Q_LEFT] - p[_HOME_LEFT]) / count + 0.5)
-    right = np.floor((state[sv.PLANT_Q_RIGHT] - p[_HOME_RIGHT]) / count + 0.5)
-    state[sv.Q_LEFT] = p[_HOME_LEFT] + left * count
-    state[sv.Q_RIGHT] = p[_HOME_RIGHT] + right * count
+    left = np.floor((state[sv.PLANT_Q_LEFT] - p[_AT.home_left]) / count + 0.5)
+    right = np.floor((state[sv.PLANT_Q_RIGHT] - p[_AT.home_right]) / count + 0.5)
+    state[sv.Q_LEFT] = p[_AT.home_left] + left * count
+    state[sv.Q_RIGHT] = p[_AT.home_right] + right * count
     state[sv.Q_TIME] = state[sv.TIME]
 
 
@@ -42,7 +52,9 @@ class SimulatedEncoders:
 
     def stage(self) -> tuple[str, Any, FloatArray]:
         """Return the stage for a loop's table."""
-        parameters = np.array([2.0 * pi / self.counts_per_turn, *self.home_offsets])
+        left, right = self.home_offsets
+        count = 2.0 * pi / self.counts_per_turn
+        parameters = packed(_AT, one_count=count, home_left=left, home_right=right)
         return "encoders", encoder_stage, parameters
 
 

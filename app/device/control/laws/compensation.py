@@ -11,13 +11,12 @@ gives; what it gives is counted in FRICTION_WORK.
 
 from collections.abc import Mapping
 from math import isfinite, sqrt
-from typing import Any, Final
-
-import numpy as np
+from typing import Any, Final, NamedTuple
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.device.control.law_kernels import no_pose, store
 from app.mechanisms import dynamic_model as dm
 from app.mechanisms.pantograph.dynamics import dynamics_kernel
@@ -54,17 +53,34 @@ DECLARATION: Final[dict[str, Any]] = {
     },
 }
 
-_GRAVITY, _FRICTION, _STILL, _FASTEST, _LEVEL, _LAST_DEPTH, _LAST_SHARE, _MODEL = range(8)
+
+class _Places(NamedTuple):
+    """Shares and speeds, and memory; the model of the dynamics follows."""
+
+    gravity: int
+    friction: int
+    still: int
+    fastest: int
+    level: int
+    last_depth: int = 0
+    last_share: int = 0
+
+
+_AT: Final = numbered(_Places)
+_MODEL: Final = len(_AT)
 
 
 def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArray:
     """Return a fresh parameters array, its memory included."""
-    model = profile.dynamic_model.values
-    head = np.zeros(_MODEL)
-    head[_GRAVITY], head[_FRICTION] = values["gravity"], values["friction"]
-    head[_STILL], head[_FASTEST] = values["still"], values["fastest"]
-    head[_LEVEL] = _level(profile)
-    return np.concatenate([head, model])
+    return packed(
+        _AT,
+        profile.dynamic_model.values,
+        gravity=values["gravity"],
+        friction=values["friction"],
+        still=values["still"],
+        fastest=values["fastest"],
+        level=_level(profile),
+    )
 
 
 def energy_bound(values: Mapping[str, float], profile: DeviceProfile) -> float:
@@ -130,16 +146,16 @@ def step(state: FloatArray, p: FloatArray) -> None:
     if not isfinite(g1 + g2):
         return  # the distal links are in line
     axis = (state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z])
-    level, share = p[_LEVEL], p[_GRAVITY]
+    level, share = p[_AT.level], p[_AT.gravity]
     now = share * (level - gravity_potential(q1, q2, x, y, axis, depth, p, _MODEL))
-    last = p[_LAST_SHARE] * (
-        level - gravity_potential(q1, q2, x, y, axis, p[_LAST_DEPTH], p, _MODEL)
+    last = p[_AT.last_share] * (
+        level - gravity_potential(q1, q2, x, y, axis, p[_AT.last_depth], p, _MODEL)
     )
     store(state, now, last)
-    p[_LAST_DEPTH], p[_LAST_SHARE] = depth, share
+    p[_AT.last_depth], p[_AT.last_share] = depth, share
     coulomb, viscous = p[_MODEL + dm.COULOMB], p[_MODEL + dm.VISCOUS]
-    f1 = p[_FRICTION] * friction_share(v1, coulomb, viscous, p[_STILL], p[_FASTEST])
-    f2 = p[_FRICTION] * friction_share(v2, coulomb, viscous, p[_STILL], p[_FASTEST])
+    f1 = p[_AT.friction] * friction_share(v1, coulomb, viscous, p[_AT.still], p[_AT.fastest])
+    f2 = p[_AT.friction] * friction_share(v2, coulomb, viscous, p[_AT.still], p[_AT.fastest])
     state[sv.FRICTION_WORK] += (f1 * v1 + f2 * v2) * max(state[sv.DT], 0.0)
     state[sv.JOINT_LEFT] += share * g1 + f1
     state[sv.JOINT_RIGHT] += share * g2 + f2

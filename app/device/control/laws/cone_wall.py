@@ -7,13 +7,12 @@ have no wall in depth.
 """
 
 from collections.abc import Mapping
-from typing import Any, Final
-
-import numpy as np
+from typing import Any, Final, NamedTuple
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
+from app.core.parameters import numbered, packed
 from app.device.control.law_kernels import (
     HALF_PI,
     STOP_GIVES,
@@ -44,16 +43,31 @@ DECLARATION: Final[dict[str, Any]] = {
     },
 }
 
-_STIFFNESS, _DAMPING, _MARGIN, _LIMIT, _FACE, _LAST_L_OUT, _SIZE = range(7)
+
+class _Places(NamedTuple):
+    """Strength and place of the wall, and L_out of the last tick."""
+
+    stiffness: int
+    damping: int
+    margin: int
+    limit: int
+    face: int
+    last_l_out: int = 0
+
+
+_AT: Final = numbered(_Places)
 
 
 def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArray:
     """Return a fresh parameters array, its memory included."""
-    array = np.zeros(_SIZE)
-    array[_STIFFNESS], array[_DAMPING] = values["stiffness"], values["damping"]
-    array[_MARGIN], array[_LIMIT] = values["margin"], values["limit"]
-    array[_FACE] = profile.tilt_limit - values["margin"]
-    return array
+    return packed(
+        _AT,
+        stiffness=values["stiffness"],
+        damping=values["damping"],
+        margin=values["margin"],
+        limit=values["limit"],
+        face=profile.tilt_limit - values["margin"],
+    )
 
 
 def energy_bound(values: Mapping[str, float], profile: DeviceProfile) -> float:
@@ -70,20 +84,20 @@ def step(state: FloatArray, p: FloatArray) -> None:
         return
     dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
     ax, ay, az, tilt = across_kernel(dx, dy, dz, 0.0, 0.0, -1.0)
-    depth = tilt - p[_FACE]
+    depth = tilt - p[_AT.face]
     size = (ax * ax + ay * ay + az * az) ** 0.5
     if not (depth > 0.0 and size > 0.0):
-        p[_LAST_L_OUT] = 0.0
+        p[_AT.last_l_out] = 0.0
         return
     depth = min(depth, HALF_PI)
-    stored = spring_kernel(depth, p[_STIFFNESS], p[_LIMIT])[1]
-    store(state, stored * state[sv.L_OUT], stored * p[_LAST_L_OUT])
-    p[_LAST_L_OUT] = state[sv.L_OUT]
+    stored = spring_kernel(depth, p[_AT.stiffness], p[_AT.limit])[1]
+    store(state, stored * state[sv.L_OUT], stored * p[_AT.last_l_out])
+    p[_AT.last_l_out] = state[sv.L_OUT]
     # The hub leans the other way than the tip: minus the vertical's part across is inwards.
     nx, ny, nz = -ax / size, -ay / size, -az / size
     vx, vy, vz = hub_velocity(state)
     outwards = -(vx * nx + vy * ny + vz * nz)
-    damper = p[_DAMPING] * min(1.0, depth / p[_MARGIN])
-    force = min(p[_STIFFNESS] * depth, p[_LIMIT]) + damper * outwards
-    force = min(max(force, 0.0), p[_LIMIT])
+    damper = p[_AT.damping] * min(1.0, depth / p[_AT.margin])
+    force = min(p[_AT.stiffness] * depth, p[_AT.limit]) + damper * outwards
+    force = min(max(force, 0.0), p[_AT.limit])
     push(state, force * nx, force * ny, force * nz)

@@ -18,13 +18,12 @@ device cannot render; that share is counted in GAIN_WORK.
 
 from collections.abc import Mapping
 from math import acos, isfinite, pi
-from typing import Any, Final
-
-import numpy as np
+from typing import Any, Final, NamedTuple
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.device.control.law_kernels import (
     HILL,
     STOP_GIVES,
@@ -66,8 +65,28 @@ DECLARATION: Final[dict[str, Any]] = {
 DEAD_ZONE: Final = 0.05
 """Within ± this much of the dial the force is exactly zero."""
 
-_STIFFNESS, _DAMPING, _LIMIT, _SLOPE, _REACH, _FADE_FROM, _FADE_TO, _DIAL_RATE, _TILT = range(9)
-_DIAL, _LAST_GAIN, _LAST_L_OUT, _LAST_X, _LAST_Y, _LAST_Z, _SIZE = range(9, 16)
+
+class _Places(NamedTuple):
+    """Strength and shape of the law, and memory of the last tick."""
+
+    stiffness: int
+    damping: int
+    limit: int
+    slope: int
+    reach: int
+    fade_from: int
+    fade_to: int
+    dial_rate: int
+    tilt: int
+    dial: int = 0
+    last_gain: int = 0
+    last_l_out: int = 0
+    last_x: int = 0
+    last_y: int = 0
+    last_z: int = 0
+
+
+_AT: Final = numbered(_Places)
 
 
 def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArray:
@@ -77,14 +96,18 @@ def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArra
 
 def pack(values: Mapping[str, float], tilt_limit: float) -> FloatArray:
     """Return a fresh parameters array for a tilt limit [rad] that no path may come near."""
-    array = np.zeros(_SIZE)
-    array[_STIFFNESS], array[_DAMPING] = values["stiffness"], values["damping"]
-    array[_LIMIT] = values["limit"]
-    array[_SLOPE] = HILL * min(values["repulsion"], values["limit"]) / values["reach"]
-    array[_REACH], array[_TILT] = values["reach"], tilt_limit
-    array[_FADE_FROM], array[_FADE_TO] = values["fade_from"], values["fade_to"]
-    array[_DIAL_RATE] = values["dial_rate"]
-    return array
+    return packed(
+        _AT,
+        stiffness=values["stiffness"],
+        damping=values["damping"],
+        limit=values["limit"],
+        slope=HILL * min(values["repulsion"], values["limit"]) / values["reach"],
+        reach=values["reach"],
+        tilt=tilt_limit,
+        fade_from=values["fade_from"],
+        fade_to=values["fade_to"],
+        dial_rate=values["dial_rate"],
+    )
 
 
 def energy_bound(values: Mapping[str, float], profile: DeviceProfile) -> float:
@@ -112,11 +135,11 @@ def _dial(state: FloatArray, p: FloatArray) -> float:
     """Return the dial in use: it follows its input, at a limited rate while force is on."""
     wanted = min(max(state[sv.ASSISTANCE], -1.0), 1.0) if isfinite(state[sv.ASSISTANCE]) else 0.0
     if state[sv.ARMING] == 0.0:
-        p[_DIAL] = wanted
+        p[_AT.dial] = wanted
         return wanted
-    step = p[_DIAL_RATE] * max(state[sv.DT], 0.0)
-    p[_DIAL] = min(max(wanted, p[_DIAL] - step), p[_DIAL] + step)
-    return p[_DIAL]
+    step = p[_AT.dial_rate] * max(state[sv.DT], 0.0)
+    p[_AT.dial] = min(max(wanted, p[_AT.dial] - step), p[_AT.dial] + step)
+    return p[_AT.dial]
 
 
 @njit
@@ -132,12 +155,12 @@ def fixture_kernel(
         p: the law's parameters.
     """
     if gain > 0.0:
-        force, stored = spring_kernel(angle, p[_STIFFNESS], p[_LIMIT])
+        force, stored = spring_kernel(angle, p[_AT.stiffness], p[_AT.limit])
         return gain * force, 0.0, gain * stored
-    reach = min(p[_REACH], p[_TILT] - tilt)
+    reach = min(p[_AT.reach], p[_AT.tilt] - tilt)
     if not (gain < 0.0 and reach > 0.0):
         return 0.0, 0.0, 0.0
-    force, stored = hill_kernel(angle, reach, p[_SLOPE])
+    force, stored = hill_kernel(angle, reach, p[_AT.slope])
     return 0.0, -gain * force, -gain * stored
 
 
@@ -149,15 +172,15 @@ def _tilt(px: float, py: float, pz: float) -> float:
 @njit
 def _stored_before(p: FloatArray, dx: float, dy: float, dz: float) -> float:
     """Energy [J] that the last tick's dial, lever and path would store in this direction."""
-    px, py, pz = p[_LAST_X], p[_LAST_Y], p[_LAST_Z]
+    px, py, pz = p[_AT.last_x], p[_AT.last_y], p[_AT.last_z]
     angle = across_kernel(dx, dy, dz, px, py, pz)[3]
-    return p[_LAST_L_OUT] * fixture_kernel(p[_LAST_GAIN], angle, _tilt(px, py, pz), p)[2]
+    return p[_AT.last_l_out] * fixture_kernel(p[_AT.last_gain], angle, _tilt(px, py, pz), p)[2]
 
 
 @njit
 def _remember(p: FloatArray, gain: float, l_out: float, px: float, py: float, pz: float) -> None:
-    p[_LAST_GAIN], p[_LAST_L_OUT] = gain, l_out
-    p[_LAST_X], p[_LAST_Y], p[_LAST_Z] = px, py, pz
+    p[_AT.last_gain], p[_AT.last_l_out] = gain, l_out
+    p[_AT.last_x], p[_AT.last_y], p[_AT.last_z] = px, py, pz
 
 
 @stage
@@ -167,24 +190,29 @@ def step(state: FloatArray, p: FloatArray) -> None:
     px, py, pz = unit_kernel(state[sv.PATH_X], state[sv.PATH_Y], state[sv.PATH_Z])
     if px == 0.0 and py == 0.0 and pz == 0.0:
         gain = 0.0  # no path: nothing to guide to, and nothing to damp
-    if (gain == 0.0 and p[_LAST_GAIN] == 0.0) or no_pose(state):
+    if (gain == 0.0 and p[_AT.last_gain] == 0.0) or no_pose(state):
         return
     dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
     vx, vy, vz = hub_velocity(state)
     ax, ay, az, angle = across_kernel(dx, dy, dz, px, py, pz)
     guides, repels, stored = fixture_kernel(gain, angle, _tilt(px, py, pz), p)
-    before = stored * p[_LAST_L_OUT]
-    if gain != p[_LAST_GAIN] or px != p[_LAST_X] or py != p[_LAST_Y] or pz != p[_LAST_Z]:
+    before = stored * p[_AT.last_l_out]
+    if (
+        gain != p[_AT.last_gain]
+        or px != p[_AT.last_x]
+        or py != p[_AT.last_y]
+        or pz != p[_AT.last_z]
+    ):
         before = _stored_before(p, dx, dy, dz)
     store(state, stored * state[sv.L_OUT], before)
     _remember(p, gain, state[sv.L_OUT], px, py, pz)
     size = (ax * ax + ay * ay + az * az) ** 0.5
     if repels > 0.0 and size > 0.0:  # the hub moves with p's perpendicular part: the tip flees
         along = (vx * ax + vy * ay + vz * az) / size
-        repels *= speed_fade(along, p[_FADE_FROM], p[_FADE_TO])
+        repels *= speed_fade(along, p[_AT.fade_from], p[_AT.fade_to])
     pull = repels - guides
     fx, fy, fz = pull * ax, pull * ay, pull * az
-    damper = -abs(gain) * p[_DAMPING]
+    damper = -abs(gain) * p[_AT.damping]
     bx, by, bz = damper * vx, damper * vy, damper * vz
-    share = damper_share(fx, fy, fz, bx, by, bz, p[_LIMIT])
+    share = damper_share(fx, fy, fz, bx, by, bz, p[_AT.limit])
     push(state, fx + share * bx, fy + share * by, fz + share * bz)

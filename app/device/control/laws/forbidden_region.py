@@ -15,13 +15,14 @@ the needle: a shaft that points at the axis is not held back.
 
 from collections.abc import Mapping
 from math import sqrt
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.device.control.law_kernels import (
     damper_share,
     hub_velocity,
@@ -61,8 +62,28 @@ DECLARATION: Final[dict[str, Any]] = {
     },
 }
 
-_SX, _SY, _SZ, _BX, _BY, _BZ, _REACH, _SCALE, _AHEAD, _LIMIT, _DAMPING, _FROM, _TO = range(13)
-_LAST_L_OUT, _LAST_DEPTH, _SIZE = range(13, 16)
+
+class _Places(NamedTuple):
+    """Capsule seen from the fulcrum (start s, axis b), strength, and memory."""
+
+    sx: int
+    sy: int
+    sz: int
+    bx: int
+    by: int
+    bz: int
+    reach: int
+    scale: int
+    ahead: int
+    limit: int
+    damping: int
+    fade_from: int
+    fade_to: int
+    last_l_out: int = 0
+    last_depth: int = 0
+
+
+_AT: Final = numbered(_Places)
 
 _STEEPEST: Final = 96.0 / (25.0 * sqrt(5.0))
 """Largest slope of (1 - x²)³, at x = 1/sqrt(5)."""
@@ -75,13 +96,22 @@ def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArra
         LawError: if the region lies on the entry, or its axis points at it.
     """
     start, axis = _placed(values, profile)
-    array = np.zeros(_SIZE)
-    array[_SX : _SZ + 1], array[_BX : _BZ + 1] = start, axis
-    array[_REACH], array[_AHEAD] = values["radius"] + values["margin"], values["ahead"]
-    array[_SCALE], array[_LIMIT] = _scale(values, start, axis), values["force"]
-    array[_DAMPING] = values["damping"]
-    array[_FROM], array[_TO] = values["fade_from"], values["fade_to"]
-    return array
+    return packed(
+        _AT,
+        sx=start[0],
+        sy=start[1],
+        sz=start[2],
+        bx=axis[0],
+        by=axis[1],
+        bz=axis[2],
+        reach=values["radius"] + values["margin"],
+        scale=_scale(values, start, axis),
+        ahead=values["ahead"],
+        limit=values["force"],
+        damping=values["damping"],
+        fade_from=values["fade_from"],
+        fade_to=values["fade_to"],
+    )
 
 
 def energy_bound(values: Mapping[str, float], profile: DeviceProfile) -> float:
@@ -122,22 +152,24 @@ def region_kernel(
     dx: float, dy: float, dz: float, depth: float, p: FloatArray
 ) -> tuple[float, float, float, float, float]:
     """Force at the hub [N] and potential per lever [J/m], damper's share: (fx, fy, fz, V, w)."""
-    length = max(0.0, depth + p[_AHEAD])
-    t, u = nearest_kernel(p[_SX], p[_SY], p[_SZ], dx, dy, dz, length, p[_BX], p[_BY], p[_BZ])
-    x = t * dx - p[_SX] - u * p[_BX]
-    y = t * dy - p[_SY] - u * p[_BY]
-    z = t * dz - p[_SZ] - u * p[_BZ]
-    square = p[_REACH] * p[_REACH]
+    length = max(0.0, depth + p[_AT.ahead])
+    t, u = nearest_kernel(
+        p[_AT.sx], p[_AT.sy], p[_AT.sz], dx, dy, dz, length, p[_AT.bx], p[_AT.by], p[_AT.bz]
+    )
+    x = t * dx - p[_AT.sx] - u * p[_AT.bx]
+    y = t * dy - p[_AT.sy] - u * p[_AT.by]
+    z = t * dz - p[_AT.sz] - u * p[_AT.bz]
+    square = p[_AT.reach] * p[_AT.reach]
     rest = 1.0 - (x * x + y * y + z * z) / square
     if not rest > 0.0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
     along = x * dx + y * dy + z * dz
-    pull = -6.0 * p[_SCALE] * t / square * rest * rest
+    pull = -6.0 * p[_AT.scale] * t / square * rest * rest
     return (
         pull * (x - along * dx),
         pull * (y - along * dy),
         pull * (z - along * dz),
-        p[_SCALE] * rest * rest * rest,
+        p[_AT.scale] * rest * rest * rest,
         rest * rest,
     )
 
@@ -151,18 +183,18 @@ def step(state: FloatArray, p: FloatArray) -> None:
     l_out, depth = state[sv.L_OUT], state[sv.DEPTH]
     fx, fy, fz, stored, inside = region_kernel(dx, dy, dz, depth, p)
     before = stored
-    if depth != p[_LAST_DEPTH]:
-        before = region_kernel(dx, dy, dz, p[_LAST_DEPTH], p)[3]
-    store(state, stored * l_out, before * p[_LAST_L_OUT])
-    p[_LAST_L_OUT], p[_LAST_DEPTH] = l_out, depth
+    if depth != p[_AT.last_depth]:
+        before = region_kernel(dx, dy, dz, p[_AT.last_depth], p)[3]
+    store(state, stored * l_out, before * p[_AT.last_l_out])
+    p[_AT.last_l_out], p[_AT.last_depth] = l_out, depth
     if inside == 0.0:
         return
     vx, vy, vz = hub_velocity(state)
     size = sqrt(fx * fx + fy * fy + fz * fz)
     if size > 0.0:
-        fade = speed_fade((vx * fx + vy * fy + vz * fz) / size, p[_FROM], p[_TO])
+        fade = speed_fade((vx * fx + vy * fy + vz * fz) / size, p[_AT.fade_from], p[_AT.fade_to])
         fx, fy, fz = fade * fx, fade * fy, fade * fz
-    damper = -inside * p[_DAMPING]
+    damper = -inside * p[_AT.damping]
     bx, by, bz = damper * vx, damper * vy, damper * vz
-    share = damper_share(fx, fy, fz, bx, by, bz, p[_LIMIT])
+    share = damper_share(fx, fy, fz, bx, by, bz, p[_AT.limit])
     push(state, fx + share * bx, fy + share * by, fz + share * bz)

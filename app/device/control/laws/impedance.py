@@ -18,13 +18,14 @@ the mass's speed at 1 m/s. What is stored is both springs and ½ m z'².
 
 from collections.abc import Mapping
 from math import isfinite, sqrt
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.device.control.law_kernels import STOP_GIVES, no_pose, push, store
 from app.device.control.operational_space import velocity_torques
 from app.mechanisms import dynamic_model as dm
@@ -79,19 +80,45 @@ FASTEST: Final = 1.0
 _COUPLING_DAMPS: Final = 0.4  # of 2 sqrt(K_c m)
 _FLATTEST: Final = 0.1  # -z of a path below which its P3 is too far away
 
-_K, _B, _M, _KC, _BC, _LIMIT, _SHARE, _TORQUE = range(8)
-_STARTED, _ZX, _ZY, _WX, _WY, _GOAL_X, _GOAL_Y, _MODEL = range(8, 16)
+
+class _Places(NamedTuple):
+    """Springs, dampers and mass, limits, and memory; the model of the dynamics follows."""
+
+    k: int
+    b: int
+    m: int
+    kc: int
+    bc: int
+    limit: int
+    share: int
+    torque: int
+    started: int = 0
+    zx: int = 0
+    zy: int = 0
+    wx: int = 0
+    wy: int = 0
+    goal_x: int = 0
+    goal_y: int = 0
+
+
+_AT: Final = numbered(_Places)
+_MODEL: Final = len(_AT)
 
 
 def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArray:
     """Return a fresh parameters array, its memory included."""
-    head = np.zeros(_MODEL)
-    head[_K], head[_B], head[_M] = values["stiffness"], values["damping"], values["inertia"]
-    head[_KC] = values["coupling"]
-    head[_BC] = _COUPLING_DAMPS * 2.0 * sqrt(values["coupling"] * values["inertia"])
-    head[_LIMIT], head[_SHARE] = values["limit"], values["coriolis"]
-    head[_TORQUE] = values["torque"]
-    return np.concatenate([head, profile.dynamic_model.values])
+    return packed(
+        _AT,
+        profile.dynamic_model.values,
+        k=values["stiffness"],
+        b=values["damping"],
+        m=values["inertia"],
+        kc=values["coupling"],
+        bc=_COUPLING_DAMPS * 2.0 * sqrt(values["coupling"] * values["inertia"]),
+        limit=values["limit"],
+        share=values["coriolis"],
+        torque=values["torque"],
+    )
 
 
 def energy_bound(values: Mapping[str, float], profile: DeviceProfile) -> float:
@@ -121,39 +148,39 @@ def softened(stretch: float, stiffness: float, limit: float) -> float:
 @njit
 def _move(p: FloatArray, h: float, x: float, y: float, vx: float, vy: float) -> None:
     """Move the virtual mass by one step, and drag it where the coupling would be too strong."""
-    ex, ey = p[_ZX] - p[_GOAL_X], p[_ZY] - p[_GOAL_Y]
-    k = softened(sqrt(ex * ex + ey * ey), p[_K], p[_LIMIT])
-    mass = p[_M] + h * (p[_BC] + p[_B]) + h * h * (p[_KC] + k)
-    wx = (p[_M] * p[_WX] + h * (p[_KC] * (x - p[_ZX]) + p[_BC] * vx - k * ex)) / mass
-    wy = (p[_M] * p[_WY] + h * (p[_KC] * (y - p[_ZY]) + p[_BC] * vy - k * ey)) / mass
+    ex, ey = p[_AT.zx] - p[_AT.goal_x], p[_AT.zy] - p[_AT.goal_y]
+    k = softened(sqrt(ex * ex + ey * ey), p[_AT.k], p[_AT.limit])
+    mass = p[_AT.m] + h * (p[_AT.bc] + p[_AT.b]) + h * h * (p[_AT.kc] + k)
+    wx = (p[_AT.m] * p[_AT.wx] + h * (p[_AT.kc] * (x - p[_AT.zx]) + p[_AT.bc] * vx - k * ex)) / mass
+    wy = (p[_AT.m] * p[_AT.wy] + h * (p[_AT.kc] * (y - p[_AT.zy]) + p[_AT.bc] * vy - k * ey)) / mass
     speed = sqrt(wx * wx + wy * wy)
     if speed > FASTEST:
         wx, wy = wx * FASTEST / speed, wy * FASTEST / speed
-    p[_WX], p[_WY] = (wx, wy) if speed > 1e-12 else (0.0, 0.0)
-    zx, zy = p[_ZX] + h * wx, p[_ZY] + h * wy
+    p[_AT.wx], p[_AT.wy] = (wx, wy) if speed > 1e-12 else (0.0, 0.0)
+    zx, zy = p[_AT.zx] + h * wx, p[_AT.zy] + h * wy
     sx, sy = zx - x, zy - y
-    stretch, most = sqrt(sx * sx + sy * sy), p[_LIMIT] / p[_KC]
+    stretch, most = sqrt(sx * sx + sy * sy), p[_AT.limit] / p[_AT.kc]
     if stretch > most:
         zx, zy = x + sx * most / stretch, y + sy * most / stretch
-    p[_ZX], p[_ZY] = zx, zy
+    p[_AT.zx], p[_AT.zy] = zx, zy
 
 
 @njit
 def _energy(p: FloatArray, x: float, y: float, goal_x: float, goal_y: float) -> float:
-    ex, ey = p[_ZX] - goal_x, p[_ZY] - goal_y
-    sx, sy = x - p[_ZX], y - p[_ZY]
-    moving = 0.5 * p[_M] * (p[_WX] * p[_WX] + p[_WY] * p[_WY])
-    coupled = 0.5 * p[_KC] * (sx * sx + sy * sy)
-    return moving + coupled + spring_energy(sqrt(ex * ex + ey * ey), p[_K], p[_LIMIT])
+    ex, ey = p[_AT.zx] - goal_x, p[_AT.zy] - goal_y
+    sx, sy = x - p[_AT.zx], y - p[_AT.zy]
+    moving = 0.5 * p[_AT.m] * (p[_AT.wx] * p[_AT.wx] + p[_AT.wy] * p[_AT.wy])
+    coupled = 0.5 * p[_AT.kc] * (sx * sx + sy * sy)
+    return moving + coupled + spring_energy(sqrt(ex * ex + ey * ey), p[_AT.k], p[_AT.limit])
 
 
 @njit
 def _coupling_force(p: FloatArray, x: float, y: float, vx: float, vy: float) -> tuple[float, float]:
     """Force at P3 [N]: the coupling's spring and as much of its damper as the limit leaves."""
-    fx, fy = p[_KC] * (p[_ZX] - x), p[_KC] * (p[_ZY] - y)
-    bx, by = p[_BC] * (p[_WX] - vx), p[_BC] * (p[_WY] - vy)
+    fx, fy = p[_AT.kc] * (p[_AT.zx] - x), p[_AT.kc] * (p[_AT.zy] - y)
+    bx, by = p[_AT.bc] * (p[_AT.wx] - vx), p[_AT.bc] * (p[_AT.wy] - vy)
     damping = sqrt(bx * bx + by * by)
-    room = p[_LIMIT] - sqrt(fx * fx + fy * fy)
+    room = p[_AT.limit] - sqrt(fx * fx + fy * fy)
     share = min(1.0, max(room, 0.0) / damping) if damping > 0.0 else 0.0
     return fx + share * bx, fy + share * by
 
@@ -161,11 +188,11 @@ def _coupling_force(p: FloatArray, x: float, y: float, vx: float, vy: float) -> 
 @njit
 def _take_coriolis_away(state: FloatArray, p: FloatArray) -> None:
     t1, t2 = velocity_torques(state, p, _MODEL)
-    t1, t2 = p[_SHARE] * t1, p[_SHARE] * t2
+    t1, t2 = p[_AT.share] * t1, p[_AT.share] * t2
     largest = max(abs(t1), abs(t2))
     if not isfinite(largest):
         return  # the distal links are in line
-    scale = p[_TORQUE] / largest if largest > p[_TORQUE] else 1.0
+    scale = p[_AT.torque] / largest if largest > p[_AT.torque] else 1.0
     state[sv.JOINT_LEFT] += scale * t1
     state[sv.JOINT_RIGHT] += scale * t2
 
@@ -178,18 +205,18 @@ def step(state: FloatArray, p: FloatArray) -> None:
     x, y, vx, vy = state[sv.P3_X], state[sv.P3_Y], state[sv.P3_VX], state[sv.P3_VY]
     fine = state[sv.KINEMATICS] == OK and not no_pose(state) and isfinite(x + y + vx + vy)
     if not (fine and -pz > _FLATTEST * length and isfinite(length)):
-        p[_STARTED] = 0.0
+        p[_AT.started] = 0.0
         return
     fall = p[_MODEL + dm.FZ] / pz
     goal_x, goal_y = p[_MODEL + dm.FX] - fall * px, p[_MODEL + dm.FY] - fall * py
-    if p[_STARTED] == 0.0:
-        p[_STARTED] = 1.0
-        p[_ZX], p[_ZY], p[_WX], p[_WY] = x, y, 0.0, 0.0
-        p[_GOAL_X], p[_GOAL_Y] = goal_x, goal_y
+    if p[_AT.started] == 0.0:
+        p[_AT.started] = 1.0
+        p[_AT.zx], p[_AT.zy], p[_AT.wx], p[_AT.wy] = x, y, 0.0, 0.0
+        p[_AT.goal_x], p[_AT.goal_y] = goal_x, goal_y
         gained = _energy(p, x, y, goal_x, goal_y)
     else:
-        gained = _energy(p, x, y, goal_x, goal_y) - _energy(p, x, y, p[_GOAL_X], p[_GOAL_Y])
-        p[_GOAL_X], p[_GOAL_Y] = goal_x, goal_y
+        gained = _energy(p, x, y, goal_x, goal_y) - _energy(p, x, y, p[_AT.goal_x], p[_AT.goal_y])
+        p[_AT.goal_x], p[_AT.goal_y] = goal_x, goal_y
     h = state[sv.DT] if state[sv.DT] > 0.0 else 0.0
     _move(p, min(h, 0.005), x, y, vx, vy)
     stored = _energy(p, x, y, goal_x, goal_y)
@@ -198,5 +225,5 @@ def step(state: FloatArray, p: FloatArray) -> None:
     dx, dy, dz = state[sv.AXIS_X], state[sv.AXIS_Y], state[sv.AXIS_Z]
     fx, fy, fz = felt_kernel(gx, gy, dx, dy, dz, state[sv.L_IN], state[sv.L_OUT])
     push(state, fx, fy, fz)
-    if p[_SHARE] > 0.0:
+    if p[_AT.share] > 0.0:
         _take_coriolis_away(state, p)
