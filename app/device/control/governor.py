@@ -238,7 +238,7 @@ def governor_stage(state: FloatArray, p: FloatArray) -> None:
         state[sv.LET_GO_SCALE] = min(max(room / (cap * size), 0.0), 1.0)
         state[sv.LIMIT_SCALE] *= cap
         scale = cap * state[sv.LET_GO_SCALE]
-        proof = min(p[_AT.run_away] / longest, _SURELY_RUNS * limit)
+        proof = min(p[_AT.run_away] / state[sv.L_OUT], _SURELY_RUNS * limit)
         _watch(state, p, least, proof, hand)
     p[_AT.acceleration] = scale * size
     p[_AT.governed] = scale * max(abs(left), abs(right))
@@ -259,7 +259,8 @@ class SpeedGovernor:
         hand_force, joint_torque: limits that act beside it, for GUIDANCE_LIMIT [N], [N·m].
         margin: share of what is promised that the governor plans for.
         hand: speed up to which a hand moves without being mistaken for a needle let go [m/s].
-        run_away: speed of the hub that the encoders must prove before LET_GO [m/s].
+        run_away: speed of the hub, at the depth that the loop takes for the likeliest, that the
+            encoders must prove before LET_GO [m/s].
         patience: time for which they must prove it [s].
         cause: time over which pushes add up to the speed that they can have caused [s]; a hand
             that moves faster than that has not let go.
