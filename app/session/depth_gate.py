@@ -8,9 +8,12 @@ hand can have moved the needle since the one before,
 
 with the standard deviations s. A depth that is further away is refused, and from then on none is
 believed until `AGREEING` new ones agree among themselves: nobody knows which of the two was right.
-After `TRACKER_HOLD` without any the next is a first one again. What is not believed reaches neither
-the loop, whose interval is then the profile's whole range (`device.control.depth_interval`), nor
-the pose. A depth that is wrong by the same amount in every picture passes: no gate can see it.
+After `FORGOTTEN` without any the next is a first one again; until then, as on a slow computer,
+t - t' counts as `TRACKER_HOLD` at most, so that a depth far from the last is confirmed anew.
+
+What is not believed reaches neither the loop, whose interval is then the profile's whole range
+(`device.control.depth_interval`), nor the pose. A depth that is wrong by the same amount in every
+picture passes: no gate can see it.
 """
 
 from math import isfinite, sqrt
@@ -21,6 +24,9 @@ from app.core.units import MILLIMETRE
 
 AGREEING: Final = 10
 """Depths that have to agree with a first one before it is believed."""
+
+FORGOTTEN: Final = 1.0
+"""Time without a depth [s] after which nothing is left to agree with."""
 
 SIGMAS: Final = 4.0
 """Standard deviations within which a depth is taken to lie."""
@@ -50,13 +56,14 @@ class DepthGate:
         """
         known = isfinite(depth) and isfinite(variance) and variance >= 0.0
         sigma = sqrt(variance) if known else 0.0
-        if self._last is None or not time - self._last[0] <= TRACKER_HOLD:
+        if self._last is None or not time - self._last[0] <= FORGOTTEN:
             self._agreed = -1  # nothing to agree with
             self._jump = 0.0
         else:
             since, before, spread = self._last
             away = abs(depth - before)
-            if not (known and away <= self._speed * (time - since) + SIGMAS * (sigma + spread)):
+            moved = self._speed * min(time - since, TRACKER_HOLD)
+            if not (known and away <= moved + SIGMAS * (sigma + spread)):
                 self._agreed, self._jump = -1, away if known else 0.0
         self._last = (time, depth, sigma) if known else None
         self._agreed = min(self._agreed + 1, AGREEING)

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.core.staleness import TRACKER_HOLD
-from app.session.depth_gate import AGREEING, DepthGate
+from app.session.depth_gate import AGREEING, FORGOTTEN, DepthGate
 
 SPEED = 0.15
 FRAME = 1.0 / 30.0
@@ -51,9 +50,17 @@ def test_a_marker_that_comes_and_goes_between_two_places_is_never_believed():
 def test_after_a_gap_the_next_depth_is_a_first_one_again():
     gate = DepthGate(SPEED)
     assert feed(gate, [0.04] * 12)[-1]
-    later = 10.0 + 12 * FRAME + TRACKER_HOLD
+    later = 10.0 + 12 * FRAME + FORGOTTEN
     assert not gate.take(later, 0.04, SIGMA**2)
     assert "just found" in gate.doubt
+
+
+def test_a_slow_computer_is_believed_too_but_not_when_a_depth_comes_back_elsewhere():
+    gate = DepthGate(SPEED)
+    assert feed(gate, [0.04] * 12, frame=0.4) == [False] * AGREEING + [True] * 2
+    later = 10.0 + 12 * 0.4 + 0.3
+    assert gate.take(later, 0.05, SIGMA**2)
+    assert not gate.take(later + 0.9, 0.09, SIGMA**2)
 
 
 @pytest.mark.parametrize("wrong", [(np.nan, 1e-8), (np.inf, 1e-8), (0.04, np.nan), (0.04, -1.0)])
