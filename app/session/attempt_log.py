@@ -2,7 +2,8 @@
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 from app.core.errors import AcusError
 from app.core.events import Event
@@ -18,9 +19,11 @@ from app.session.header import Attachment
 from app.session.machine import Attempt
 from app.session.pauses import excused
 from app.session.recorder import Recorder
+from app.session.recording import Recording, deferred_inputs
 from app.session.result import AttemptResult
 from app.session.risks import Risk, event_of, risk_marks_of
 from app.session.sample import Sample
+from app.session.sample_columns import attachment
 from app.session.samples import History, Samples
 from app.session.scored import renders_force, score_document, trajectory
 from app.session.sidecar import write_summary
@@ -89,7 +92,8 @@ class AttemptLog:
             score = self.scorer(path)
         except AcusError as error:
             unscored = str(error)
-        summary = self._finish_record(attempt, score, samples)
+        files = self._files(score, samples)
+        summary = self._finish_record(attempt, score, samples, files)
         status = self.recorder.status()
         return AttemptResult(
             summary=summary,
@@ -103,20 +107,57 @@ class AttemptLog:
             curves=curves(samples, self.placed),
             trajectory=path,
             events=tuple(self.events),
-            record=status.path if status.path.exists() and not status.failure else None,
+            record=status.path if status.published and not status.failure else None,
+            recording=self._recording(attempt, samples, files, summary.problems),
         )
 
-    def _finish_record(self, attempt: Attempt, score: Score | None, samples: Samples) -> Summary:
+    def _files(self, score: Score | None, samples: Samples) -> tuple[Attachment, ...]:
+        """Return what stands at the record's end: the score first, should there be little space."""
+        columns = (attachment(samples),) if len(samples.time) else ()
+        if score is None:
+            return columns
+        document = encoding.encode(score_document(score))
+        return Attachment(SCORE_FILE, "application/json", document), *columns
+
+    def _result(self, attempt: Attempt) -> dict[str, str]:
+        duration = attempt.duration(attempt.since)
+        return {
+            "state": attempt.state.value,
+            "reason": attempt.reason,
+            "duration_s": repr(duration),
+        }
+
+    def _recording(
+        self,
+        attempt: Attempt,
+        samples: Samples,
+        files: tuple[Attachment, ...],
+        problems: tuple[str, ...],
+    ) -> Recording:
+        """Return what the record holds, from memory; its ticks are read if they are wanted."""
+        header = self.recorder.header
+        status = self.recorder.status()
+        return Recording(
+            path=status.path,
+            complete=not status.failure,
+            problems=problems,
+            metadata=MappingProxyType({**header.records(), "result": self._result(attempt)}),
+            attachments=MappingProxyType({a.name: a.data for a in (*header.attachments, *files)}),
+            events=tuple(replace(e, data=encoding.finite(dict(e.data))) for e in self.events),
+            samples=samples,
+            inputs=deferred_inputs(status.path),
+        )
+
+    def _finish_record(
+        self,
+        attempt: Attempt,
+        score: Score | None,
+        samples: Samples,
+        files: tuple[Attachment, ...],
+    ) -> Summary:
         header = self.recorder.header
         document = score_document(score) if score is not None else None
-        files: tuple[Attachment, ...] = ()
-        if document is not None:
-            files = (Attachment(SCORE_FILE, "application/json", encoding.encode(document)),)
-        duration = attempt.duration(attempt.since)
-        self.recorder.finish(
-            files,
-            {"state": attempt.state.value, "reason": attempt.reason, "duration_s": repr(duration)},
-        )
+        self.recorder.finish(files, self._result(attempt))
         status = self.recorder.status()
         summary = Summary(
             id=header.id,
@@ -126,10 +167,10 @@ class AttemptLog:
             exercise_title=header.exercise_title,
             state=attempt.state.value,
             reason=attempt.reason,
-            duration=duration,
+            duration=attempt.duration(attempt.since),
             scans=self.scans,
             score=document,
-            problems=_problems(status.failure, status.lost_rows),
+            problems=_problems(status.failure, status.lost_rows, status.full),
             conditions=conditions_of(
                 header.records(),
                 {a.name: a.data for a in header.attachments},
@@ -142,13 +183,13 @@ class AttemptLog:
     def _write(self, summary: Summary) -> Summary:
         """Write the sidecar of a record that exists and is ours."""
         status = self.recorder.status()
-        if status.failure:
+        if not status.published:
             return summary
         with suppress(OSError):  # the list derives it from the record, which is complete
             write_summary(status.path, summary)
         return summary
 
 
-def _problems(failure: str, lost_rows: int) -> tuple[str, ...]:
+def _problems(failure: str, lost_rows: int, full: str) -> tuple[str, ...]:
     lost = f"{lost_rows} ticks of the loop were lost while recording" if lost_rows else ""
-    return tuple(text for text in (failure, lost) if text)
+    return tuple(text for text in (failure, lost, full) if text)

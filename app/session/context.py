@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
+from typing import Final
 
 from app.core.clock import Clock
 from app.core.errors import AcusError
@@ -15,9 +16,12 @@ from app.planning.placement import PlacedPlan
 from app.session.conditions import AGREEMENT
 from app.session.facts import PLAN, plan_record
 from app.session.hands import TRAINEE, hand_of
-from app.session.header import Attachment, SessionHeader, new_id
+from app.session.header import TRASH, Attachment, SessionHeader, new_id
 from app.session.ports import ExercisePort, LoopPort
 from app.session.recorder import Recorder
+
+_DRAWS: Final = 16
+"""An id that is taken is drawn anew so many times."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +62,7 @@ class RunContext:
         checked = {AGREEMENT: agreement} if agreement else {}
         started = self.wall()
         return SessionHeader(
-            id=self.identify(started),
+            id=self._free_id(started),
             started=started,
             origin=now,
             student=student,
@@ -69,6 +73,21 @@ class RunContext:
             metadata={PLAN: plan_record(placed), **self.metadata, TRAINEE: trainee, **checked},
             attachments=(*self.plan_files(placed), *self.attachments),
         )
+
+    def _free_id(self, started: datetime) -> str:
+        """Return an id that no record has, deleted ones included; the last one tried if all have.
+
+        Two programs that draw the same one at the same moment are told apart by the file's name,
+        which only one of them can take.
+        """
+        for _ in range(_DRAWS):
+            name = self.identify(started)
+            if not any((place / f"{name}.mcap").exists() for place in self._places()):
+                break
+        return name
+
+    def _places(self) -> tuple[Path, Path]:
+        return self.folder, self.folder / TRASH
 
     def recorder(
         self,

@@ -15,6 +15,9 @@ from app.session.errors import SessionError
 ID_PATTERN: Final = re.compile(r"[0-9A-Za-z][0-9A-Za-z._-]{0,63}")
 """A session id is also a file name, so nothing else may stand in it."""
 
+TRASH: Final = ".trash"
+"""Folder inside that of the records that holds what was deleted, until somebody empties it."""
+
 LONGEST_PSEUDONYM: Final = 64
 """Characters."""
 
@@ -96,8 +99,8 @@ class SessionHeader:
 
 
 def new_id(started: datetime) -> str:
-    """Return a new session id: UTC date and time, and four random hexadecimal digits."""
-    return f"{started.astimezone(UTC):%Y%m%d-%H%M%S}-{secrets.token_hex(2)}"
+    """Return a new session id: UTC date and time, and 40 random bits as hexadecimal digits."""
+    return f"{started.astimezone(UTC):%Y%m%d-%H%M%S}-{secrets.token_hex(5)}"
 
 
 def checked_id(session_id: str) -> str:

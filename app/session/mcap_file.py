@@ -1,15 +1,14 @@
 """An MCAP file that is safe to lose the process in: chunks are closed and synced on demand."""
 
-import os
-from contextlib import suppress
 from pathlib import Path
-from typing import IO
+from typing import Any, cast
 
 from mcap.writer import CompressionType, Writer
 
 from app import __version__
 from app.session.blocks import COLUMNS, SLOT_NAMES
 from app.session.errors import RecordingError
+from app.session.growing_file import GrowingFile
 from app.session.header import Attachment, SessionHeader
 from app.session.sample import encode
 from app.session.schemas import CHANNELS
@@ -25,31 +24,61 @@ class McapFile:
         """Keep what is needed."""
         self.path = path
         self._header = header
-        self._stream: IO[bytes] | None = None
+        self._file = GrowingFile(path)
         self._writer: Writer | None = None
         self._channels: dict[str, int] = {}
         self._sequence = 0
 
+    @property
+    def full(self) -> bool:
+        """Whether the disk is full: only the end may follow, in the space set aside for it."""
+        return self._file.full
+
+    @property
+    def room(self) -> int:
+        """Bytes that surely find space."""
+        return self._file.room
+
+    @property
+    def published(self) -> bool:
+        """Whether the file stands under its own name, with its beginning on the disk."""
+        return self._file.published
+
     def open(self) -> None:
-        """Create the file and write its head.
+        """Set space aside and write the head, under a name that no list looks at; see `publish`.
 
         Raises:
             RecordingError: if the folder cannot be written or the name is taken.
         """
         try:
             _make_folder(self.path.parent)
-            self._stream = self.path.open("xb")
-            self._writer = Writer(self._stream, CHUNK_SIZE, CompressionType.ZSTD)
+            self._file.open()
+            # All that a writer asks of a stream is what a growing file has.
+            self._writer = Writer(cast("Any", self._file), CHUNK_SIZE, CompressionType.ZSTD)
             self._write_head(self._writer)
-            self.flush()
-        except FileExistsError as error:
-            raise RecordingError(
+        except OSError as error:
+            raise self._refused(error) from error
+
+    def publish(self) -> None:
+        """Put what was written so far on the disk and give the file its name.
+
+        Raises:
+            RecordingError: if it cannot be written or the name is taken.
+        """
+        try:
+            self._finish_chunk()
+            self._file.publish()
+        except OSError as error:
+            raise self._refused(error) from error
+
+    def _refused(self, error: OSError) -> RecordingError:
+        self.abandon()
+        if isinstance(error, FileExistsError):
+            return RecordingError(
                 f"session {self._header.id} exists already ({self.path}): "
                 "every attempt needs its own id"
-            ) from error
-        except OSError as error:
-            self.abandon()
-            raise RecordingError(f"cannot record to {self.path}: {_reason(error)}") from error
+            )
+        return RecordingError(f"cannot record to {self.path}: {_reason(error)}")
 
     def message(self, topic: str, nanoseconds: int, data: bytes) -> None:
         """Append one message."""
@@ -67,30 +96,36 @@ class McapFile:
         """Append a metadata record."""
         self._open_writer().add_metadata(name, values)
 
-    def flush(self) -> None:
-        """Close the open chunk and put everything on the disk."""
-        writer, stream = self._open_writer(), self._stream
-        writer.flush()  # type: ignore[no-untyped-call]  # mcap leaves it without types
-        if stream is not None:
-            os.fsync(stream.fileno())
+    def flush(self, sync: bool = True) -> None:
+        """Close the open chunk and hand it to the system; with `sync` wait for the disk.
+
+        Raises:
+            OSError: if it cannot be written, not even into the space that was set aside.
+        """
+        self._finish_chunk()
+        self._file.commit(sync)
 
     def close(self) -> None:
-        """Finish the file (index and footer) and close it; idempotent."""
-        if self._writer is None or self._stream is None:
+        """Finish the file (index and footer) and close it; idempotent.
+
+        Raises:
+            OSError: if it cannot be written.
+        """
+        if self._writer is None:
             return
         try:
             self._writer.finish()  # type: ignore[no-untyped-call]
-            self._stream.flush()
-            os.fsync(self._stream.fileno())
+            self._file.close()
         finally:
             self.abandon()
 
     def abandon(self) -> None:
-        """Let go of the file as it is; what cannot be flushed any more is lost."""
-        stream, self._stream, self._writer = self._stream, None, None
-        if stream is not None:
-            with suppress(OSError):  # the same full disk that has been reported already
-                stream.close()
+        """Let go of the file as it is on the disk."""
+        self._writer = None
+        self._file.abandon()
+
+    def _finish_chunk(self) -> None:
+        self._open_writer().flush()  # type: ignore[no-untyped-call]  # mcap leaves it without types
 
     def _open_writer(self) -> Writer:
         if self._writer is None:

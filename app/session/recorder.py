@@ -26,8 +26,15 @@ DRAIN_PERIOD: Final = 0.04
 BLOCK_PERIOD: Final = 0.1
 """A block of inputs is written this often [s]."""
 
-FLUSH_PERIOD: Final = 1.0
+FLUSH_PERIOD: Final = 0.5
 """Everything is on the disk after this long [s]."""
+
+EAGER: Final = 2.0
+"""So long after the beginning [s] every block is handed to the system at once: a program that is
+killed early leaves ticks."""
+
+_LAST_WORDS: Final = 256 * 1024
+"""What follows an attachment on a full disk needs no more than this [bytes]."""
 
 QUEUE_LENGTH: Final = 20_000
 """Samples and events that may wait for a slow disk."""
@@ -43,7 +50,9 @@ class RecordingStatus:
         failure: why it is not recorded (any more); empty if all is well.
         rows: ticks of the loop written.
         lost_rows: ticks overwritten in the ring before they were read.
-        lost_samples: samples and events that a full queue had to drop.
+        lost_samples: samples and events that a full queue or a full disk had to drop.
+        full: since when the disk is full; empty if it is not. The score will be recorded.
+        published: whether the file at `path` is this record.
     """
 
     path: Path
@@ -52,6 +61,8 @@ class RecordingStatus:
     rows: int
     lost_rows: int
     lost_samples: int
+    full: str = ""
+    published: bool = False
 
 
 class Recorder:
@@ -85,17 +96,20 @@ class Recorder:
         self._thread: threading.Thread | None = None
         self._active = False
         self._failure = ""
+        self._full = ""
         self._lost_samples = 0
         self._last_block = self._last_flush = -np.inf
 
     def open(self) -> None:
-        """Create the file.
+        """Create the file: when this returns, head and checkpoint are on the disk.
 
         Raises:
             RecordingError: if it cannot be created; nothing is recorded then.
         """
         try:
             self._file.open()
+            self._ticks.begin(self._file, self.header)
+            self._file.publish()
         except RecordingError as error:
             self._failure = str(error)
             raise
@@ -155,6 +169,8 @@ class Recorder:
             self._ticks.written,
             self._ticks.lost,
             self._lost_samples,
+            self._full,
+            self._file.published,
         )
 
     def _run(self) -> None:
@@ -178,15 +194,29 @@ class Recorder:
         now = self._clock.now()
         with self._lock:
             items, self._queue = self._queue, deque()
+            if self._full:  # what is left of the disk is for the end
+                self._lost_samples += len(items)
+                return
         for item in items:
             self._write_event(item) if isinstance(item, Event) else self._write_sample(item)
         if now - self._last_block >= BLOCK_PERIOD - 1e-9:
             self._ticks.write(self._file, self.header)
             self._last_block = now
+            if now - self.header.origin < EAGER:
+                self._flush(now, sync=False)
         if now - self._last_flush >= FLUSH_PERIOD - 1e-9:
             self._write_patient(now)
-            self._file.flush()
+            self._flush(now)
             self._last_flush = now
+
+    def _flush(self, now: float, sync: bool = True) -> None:
+        self._file.flush(sync)
+        if self._file.full and not self._full:
+            after = now - self.header.origin
+            self._full = (
+                f"the disk is full: from {after:.1f} s on this attempt is recorded without its "
+                "samples and ticks; its score is"
+            )
 
     def _write_sample(self, item: Sample) -> None:
         nanoseconds = self.header.nanoseconds(item.time)
@@ -207,16 +237,19 @@ class Recorder:
     def _write_end(
         self, attachments: tuple[Attachment, ...], result: dict[str, str] | None
     ) -> None:
-        self._write_patient(self._clock.now())
-        self._file.flush()  # the result stands behind the data that it sums up, never before
+        if not self._full:
+            self._write_patient(self._clock.now())
+        self._flush(self._clock.now())  # the result stands behind the data that it sums up, never before
         for attachment in attachments:
-            self._file.attach(attachment, self.header.nanoseconds(self._clock.now()))
+            if len(attachment.data) + _LAST_WORDS < self._file.room:
+                self._file.attach(attachment, self.header.nanoseconds(self._clock.now()))
         counts = {
             "rows": str(self._ticks.written),
             "lost_rows": str(self._ticks.lost),
             "lost_samples": str(self._lost_samples),
         }
-        self._file.metadata("result", {**(result or {}), **counts})
+        full = {"full": self._full} if self._full else {}
+        self._file.metadata("result", {**(result or {}), **counts, **full})
 
     def _fail(self, error: Exception) -> None:
         """Stop recording and say so; the file keeps what is on the disk already."""

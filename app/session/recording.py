@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -19,8 +19,9 @@ from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
 from app.session.pauses import excused
 from app.session.risks import risk_marks
+from app.session.sample_columns import SAMPLES_FILE, same, unpack
 from app.session.samples import Samples, bends, floats, vectors, words
-from app.session.scan import Scan, scan
+from app.session.scan import Scan, scan, scan_by_index
 from app.session.schemas import CHANNELS, conforms
 from app.session.scored import renders_force, trajectory
 from app.session.ticks import Inputs, read_inputs
@@ -109,8 +110,59 @@ class Recording:
         return placed_plan(self.metadata[PLAN])
 
 
+class DeferredInputs:
+    """The loop's ticks of a record, read when somebody first asks for one of their attributes."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._read: Inputs | None = None
+
+    def __getattr__(self, name: str) -> Any:
+        """Return an attribute of the ticks as they stand in the file.
+
+        Raises:
+            BrokenRecordingError: if the file cannot be read any more.
+        """
+        if name.startswith("_"):  # somebody looks what this is, not at the ticks
+            raise AttributeError(name)
+        if self._read is None:
+            self._read = read_inputs(scan(self._path), [])
+        return getattr(self._read, name)
+
+
+def deferred_inputs(path: Path) -> Inputs:
+    """Return the ticks of a record, to be read when they are asked for."""
+    return cast("Inputs", DeferredInputs(path))
+
+
+def open_recording(path: Path) -> Recording:
+    """Read a record for its debrief: all but the ticks and what is only there for other programs.
+
+    Of a finished record with samples in columns; any other is read whole.
+
+    Raises:
+        BrokenRecordingError: as `read_recording`.
+    """
+    content = scan_by_index(path, "/events")
+    if content is None or "session" not in content.metadata:
+        return read_recording(path)
+    problems: list[str] = []
+    samples = _columns(content, problems)
+    if samples is None:
+        return read_recording(path)
+    lost = content.metadata.get("result", {}).get("lost_rows", "0")
+    return _recording(
+        path,
+        content,
+        samples,
+        problems,
+        deferred_inputs(path),
+        int(lost) if lost.isdigit() else 0,
+    )
+
+
 def read_recording(path: Path) -> Recording:
-    """Read a record, finished or not.
+    """Read a whole record, finished or not.
 
     Raises:
         BrokenRecordingError: if the file is not an MCAP file, or holds nothing of an attempt.
@@ -121,11 +173,36 @@ def read_recording(path: Path) -> Recording:
             f"{path.name} holds no session: " + "; ".join(content.problems or ["not ours"])
         )
     problems = content.problems
-    samples = _samples(content, problems)
+    samples = _columns(content, problems) or _samples(content, problems)
     inputs = read_inputs(content, problems)
+    return _recording(path, content, samples, problems, inputs, inputs.lost)
+
+
+def messages_agree(recording: Recording) -> str:
+    """Name what of the samples is not in the record's messages as it is in its columns; or nothing.
+
+    Raises:
+        BrokenRecordingError: if the file cannot be read any more.
+    """
+    content = scan(recording.path)
+    if SAMPLES_FILE not in content.attachments:
+        return ""
+    messages = _samples(content, [])
+    cut = "full" in recording.metadata.get("result", {})
+    if len(messages.time) != len(recording.samples.time) and not cut:
+        return "their number"
+    return same(messages, recording.samples)
+
+
+def _recording(
+    path: Path, content: Scan, samples: Samples, problems: list[str], inputs: Inputs, lost: int
+) -> Recording:
     events = tuple(_event(document) for document in _documents(content, "/events", problems))
-    if inputs.lost:
-        problems.append(f"{inputs.lost} ticks of the loop were lost while recording")
+    if lost:
+        problems.append(f"{lost} ticks of the loop were lost while recording")
+    full = content.metadata.get("result", {}).get("full", "")
+    if full:
+        problems.append(full)
     return Recording(
         path=path,
         complete=content.complete,
@@ -160,6 +237,17 @@ def _event(document: dict[str, Any]) -> Event:
     time = data.pop("time", 0.0)
     time = float(time) if conforms(time, {"type": "number"}) else 0.0
     return Event(time, str(document.get("kind", "")), str(document.get("message", "")), data)
+
+
+def _columns(content: Scan, problems: list[str]) -> Samples | None:
+    """Return the samples by the attachment; None without one that can be read."""
+    try:
+        return unpack(content.attachments[SAMPLES_FILE])
+    except KeyError:
+        return None
+    except BrokenRecordingError as error:
+        problems.append(str(error))
+        return None
 
 
 def _samples(content: Scan, problems: list[str]) -> Samples:

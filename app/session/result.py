@@ -9,6 +9,7 @@ from app.scoring.result import Score
 from app.scoring.trajectory import Trajectory
 from app.session.curves import Curves
 from app.session.machine import State
+from app.session.recording import Recording
 from app.session.summary import Summary
 
 
@@ -29,6 +30,7 @@ class AttemptResult:
         trajectory: what was scored; None if the samples make none.
         events: events in order.
         record: the record's file; None if nothing was recorded.
+        recording: what the record holds, as it is in memory: nothing is read back to show it.
     """
 
     summary: Summary
@@ -43,3 +45,4 @@ class AttemptResult:
     trajectory: Trajectory | None
     events: tuple[Event, ...]
     record: Path | None
+    recording: Recording | None = None

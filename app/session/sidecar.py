@@ -18,7 +18,7 @@ from typing import Any, Final
 
 from app.core.files import write_atomically
 from app.session.errors import BrokenRecordingError
-from app.session.recording import read_recording
+from app.session.recording import messages_agree, open_recording, read_recording
 from app.session.sample import finite
 from app.session.summary import BROKEN, UNFINISHED, Summary, derive
 from app.session.verify import Change, Verification, verify
@@ -108,7 +108,7 @@ def read_summary(path: Path) -> Summary:
 def fresh_summary(path: Path) -> Summary:
     """Return the summary of a record, computed from it, and keep it beside; never raises."""
     try:
-        summary = derive(read_recording(path))
+        summary = derive(open_recording(path))
     except BrokenRecordingError as error:
         return Summary(path.stem, _modified(path), state=BROKEN, reason=str(error), software="")
     if summary.state != UNFINISHED or _seconds_since(path) > _STILL_WRITTEN:
@@ -135,6 +135,10 @@ def verify_record(path: Path) -> Verification:
     """
     recording = read_recording(path)
     found = verify(recording)
+    other = messages_agree(recording)
+    if other:
+        change = Change(f"samples ({other})", "in messages", "otherwise in columns")
+        found = replace(found, changes=(*found.changes, change))
     kept = cached(path)
     if kept is None or (kept.size, kept.modified_ns) != _size_and_time(path):
         return found  # no list believes it: it is written anew

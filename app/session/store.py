@@ -7,13 +7,11 @@ from typing import Final
 
 from app.session.calibration_flag import CalibrationFlags
 from app.session.errors import SessionError, SessionNotFoundError
+from app.session.header import TRASH as TRASH
 from app.session.sidecar import fresh_summary, read_summary, sidecar
 from app.session.summary import Summary
 
 SUFFIX: Final = ".mcap"
-TRASH: Final = ".trash"
-"""Folder inside the store that holds what was deleted, until somebody empties it."""
-
 _SHOWN: Final = 5
 
 

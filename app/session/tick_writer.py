@@ -35,13 +35,17 @@ class TickWriter:
         self.written = 0
         self.lost = 0
 
+    def begin(self, file: McapFile, header: SessionHeader) -> None:
+        """Write the checkpoint that the first row follows on."""
+        if self._rows is not None and self._start is not None:
+            message, self._start = checkpoint_file.pack(self._start), None
+            file.message("/loop/checkpoint", header.nanoseconds(header.origin), message)
+
     def write(self, file: McapFile, header: SessionHeader) -> None:
         """Write the rows after the last one written; a gap in the tick numbers is a loss."""
         if self._rows is None:
             return
-        if self._start is not None:
-            message, self._start = checkpoint_file.pack(self._start), None
-            file.message("/loop/checkpoint", header.nanoseconds(header.origin), message)
+        self.begin(file, header)
         rows = self._rows(self._tick)
         rows = rows[rows[:, slots.TICK] > self._tick]
         if not len(rows):

@@ -23,6 +23,7 @@ from app.scoring.tolerance import Tolerance
 from app.session.conditions import EXERCISE_FILE, conditions_of
 from app.session.machine import FINAL
 from app.session.recording import Recording
+from app.session.sample_columns import SAMPLES_FILE
 
 SCORE_FILE: Final = "score.json"
 """Name of the attachment that holds the score."""
@@ -61,6 +62,8 @@ class Verification:
         unscored: why today's rules give no score; empty if they do.
         changes: what differs, one each; empty if nothing does.
         finished: whether the attempt was ended or aborted; only then a score is expected.
+        cut: why the record does not hold all samples of the attempt; empty if it does. Its score
+            cannot be computed again then, and stands as it was written.
     """
 
     session: str
@@ -69,6 +72,7 @@ class Verification:
     unscored: str
     changes: tuple[Change, ...]
     finished: bool
+    cut: str = ""
 
     @property
     def same_rules(self) -> bool:
@@ -78,12 +82,12 @@ class Verification:
     @property
     def confirmed(self) -> bool:
         """Whether what was written is what the record gives."""
-        return not self.changes
+        return not self.changes and not self.cut
 
     @property
     def standing(self) -> Score | None:
         """The score to show: what the record gives; of another scoring version, what it kept."""
-        if not self.finished:
+        if not self.finished or self.cut:
             return self.written
         return self.recomputed if self.same_rules else self.written
 
@@ -91,6 +95,8 @@ class Verification:
         """Say what whoever sees the score must know; nothing if all is as written."""
         if not self.finished or (self.written is None and self.recomputed is None):
             return ()
+        if self.cut:
+            return ("the score cannot be computed again: not all samples are in the record",)
         if self.written is not None and not self.same_rules:
             now = _points(self.recomputed) if self.recomputed is not None else "no score"
             return (
@@ -107,9 +113,10 @@ class Verification:
         """Say all of it, one line each."""
         if not self.finished:
             return ["the attempt was not finished: it has no score to verify"]
-        remarks = [] if self.same_rules else list(self.remarks())
+        remarks = [] if self.same_rules and not self.cut else [*self.remarks()]
         if not self.confirmed:
-            return [*remarks, *(change.sentence() for change in self.changes)]
+            cut = (self.cut,) if self.cut else ()
+            return [*remarks, *cut, *(change.sentence() for change in self.changes)]
         if self.recomputed is None:
             return [*remarks, f"not scored, as written: {self.unscored}"]
         rows = len(self.recomputed.rows)
@@ -126,6 +133,7 @@ class Verification:
             "recomputed_total": self.recomputed.total if self.recomputed else None,
             "scoring_version": SCORING_VERSION,
             "unscored": self.unscored,
+            "cut": self.cut,
             "changes": [
                 {"what": c.what, "written": c.written, "recomputed": c.recomputed}
                 for c in self.changes
@@ -139,6 +147,9 @@ def verify(recording: Recording) -> Verification:
     finished = state_of(recording) in {state.value for state in FINAL}
     if not finished:
         return Verification(recording.id, written, None, "", (), finished)
+    cut = recording.metadata.get("result", {}).get("full", "")
+    if cut and SAMPLES_FILE not in recording.attachments:
+        return Verification(recording.id, written, None, "", (), finished, cut)
     now, unscored = _recomputed(recording, written)
     changes = [Change(SCORE_FILE, unreadable, "a score")] if unreadable else []
     if written is not None or now is not None:

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from app.core.files import write_atomically
 from app.exchange.csv_export import score_table, trajectory_table, write_csv
 from app.session.errors import SessionError
-from app.session.recording import read_recording
+from app.session.recording import open_recording
 from app.session.result import AttemptResult
 from app.session.sidecar import fresh_summary
 from app.session.store import find
@@ -63,7 +63,7 @@ class DebriefController(QObject):
 
     def open_session(self, session_id: str) -> None:
         """Show a recorded session."""
-        self._read(lambda: review(read_recording(find(self._folder, session_id))))
+        self._read(lambda: review(open_recording(find(self._folder, session_id))))
 
     def save_report(self, shown: Review) -> None:
         """Ask where, and write the report."""
@@ -102,7 +102,7 @@ class DebriefController(QObject):
         return path if path.suffix else path.with_suffix(suffix)
 
     def _trajectory(self, session_id: str) -> str:
-        return trajectory_table(read_recording(find(self._folder, session_id)))
+        return trajectory_table(open_recording(find(self._folder, session_id)))
 
     def _scores(self, summaries: Sequence[Summary]) -> str:
         """Table of scores, each computed from its record; what has gone stays as it was listed."""

@@ -1,5 +1,7 @@
 """The tip's track in the bull's-eye plane, from the entry to where it ended."""
 
+from typing import Final
+
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
@@ -13,6 +15,9 @@ from app.views.exercise.pad_painter import PadArea, paint_background
 from app.views.exercise.pad_view import PadScene
 from app.views.text import tr
 
+_FINENESS: Final = 2000.0
+"""Places on the pad are told apart to one part in this of its radius: less than a pixel."""
+
 
 class PathView(QWidget):
     """Pad with the tip's track: a square where it began, a diamond where it ended."""
@@ -20,6 +25,7 @@ class PathView(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._review: Review | None = None
+        self._track: FloatArray = np.empty((0, 2))
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(200, 200)
         self.setToolTip(
@@ -29,7 +35,7 @@ class PathView(QWidget):
 
     def show_review(self, review: Review) -> None:
         """Draw an attempt."""
-        self._review = review
+        self._review, self._track = review, thinned(review.track())
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
@@ -40,7 +46,26 @@ class PathView(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         area = PadArea.inside(self.width(), self.height(), margin=28)
         paint_background(painter, area, pad_scene(self._review))
-        paint_track(painter, area, self._review.track(), theme.NEEDLE_TIP.colour, 1.8)
+        paint_track(painter, area, self._track, theme.NEEDLE_TIP.colour, 1.8)
+
+
+def thinned(places: FloatArray) -> FloatArray:
+    """Leave out what no screen can show of a track: places that round to the one before.
+
+    Args:
+        places: on the pad, shape (n, 2); NaN where there is none.
+
+    Returns:
+        Shape (m, 2), the first and the last place among them, and a gap where one was.
+    """
+    if len(places) < 3:
+        return places
+    whole = np.rint(np.nan_to_num(places, nan=-_FINENESS) * _FINENESS)
+    moved = np.any(np.diff(whole, axis=0) != 0.0, axis=1)
+    keep = np.concatenate(([True], moved))
+    keep[:-1] |= moved  # the end of a stretch stays as well as its beginning
+    keep[-1] = True
+    return places[keep]
 
 
 def pad_scene(review: Review) -> PadScene:

@@ -2,7 +2,6 @@
 
 import json
 from dataclasses import dataclass, replace
-from math import atan2
 from typing import Final
 
 import numpy as np
@@ -13,14 +12,13 @@ from app.planning.placement import PlacedPlan
 from app.scoring.conditions import Conditions
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
-from app.scoring.trajectory import Phase
 from app.session.calibration_flag import CalibrationFlags
-from app.session.control_scan import ControlScan, scans_of
+from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.curves import Curves, at_rest, curves
 from app.session.errors import SessionError
 from app.session.needle import FROM_CAMERAS
-from app.session.recording import Recording, read_recording
+from app.session.recording import Recording
 from app.session.result import AttemptResult
 from app.session.risks import risk_marks
 from app.session.scored import renders_force
@@ -134,7 +132,7 @@ class Review:
             [(self.tip - self.placed.p_entry) @ axis for axis in (frame.right, frame.up)]
         )
         lengths = np.hypot(offsets[:, 0], offsets[:, 1])
-        radii = np.array([scale.radius(atan2(r, scale.length)) for r in lengths])
+        radii = scale.radii(np.arctan2(lengths, scale.length))
         with np.errstate(invalid="ignore", divide="ignore"):
             ratio = np.where(lengths > 1e-12, radii / lengths, 0.0)
         result: FloatArray = offsets * np.where(np.isnan(lengths), np.nan, ratio)[:, None]
@@ -196,46 +194,18 @@ def only_measured(figures: Curves, measured: NDArray[np.bool_]) -> Curves:
 
 
 def review_of_result(result: AttemptResult) -> Review:
-    """Gather what the debrief shows of an attempt that has just finished.
-
-    From its record; where nothing could be recorded, from memory.
+    """Gather what the debrief shows of an attempt that has just finished, from memory.
 
     Raises:
-        BrokenRecordingError: if the record holds no plan.
+        BrokenRecordingError: if it has no plan.
         SessionError: if there is neither record nor trajectory: nothing was ever measured.
     """
-    if result.record is not None:
-        return review(read_recording(result.record))
-    if result.trajectory is None:
+    recording = result.recording
+    if recording is None or (result.record is None and result.trajectory is None):
         raise SessionError(
             result.unscored or result.reason or "the attempt left nothing to show: no valid pose"
         )
-    summary, path = result.summary, result.trajectory
-    names = np.array([Phase(code).name.lower() for code in path.phase])
-    return Review(
-        id=summary.id,
-        student=summary.student,
-        exercise=summary.exercise_title or summary.exercise_id,
-        started=summary.started,
-        state=summary.state,
-        reason=summary.reason,
-        duration=result.duration,
-        scans=result.scans,
-        software=summary.software,
-        problems=summary.problems,
-        score=result.score,
-        conditions=summary.conditions,
-        curves=result.curves,
-        spans=spans(path.time - path.time[0], names),
-        marks=marks(result.events, float(path.time[0]), SHOWN_EVENTS),
-        placed=path.placed,
-        tip=path.tip,
-        force_limit=FORCE_LIMIT,
-        renders=path.felt is not None,
-        control_scans=scans_of(result.events),
-        risks=risk_marks(result.events),
-        origin=float(path.time[0]),
-    )
+    return review(recording)
 
 
 def _force_limit(recording: Recording) -> float:

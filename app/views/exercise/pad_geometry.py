@@ -160,6 +160,11 @@ class PadScale:
         """Place on the pad of an angle to the path [rad]; 1 is the rim."""
         return asinh(angle / self.knee) / asinh(0.5 * pi / self.knee)
 
+    def radii(self, angles: FloatArray) -> FloatArray:
+        """Places on the pad of many angles [rad], as `radius` gives them; NaN stays NaN."""
+        result: FloatArray = np.arcsinh(angles / self.knee) / asinh(0.5 * pi / self.knee)
+        return result
+
     def angle(self, radius: float) -> float:
         """Angle to the path [rad] of a place on the pad: the inverse of `radius`, at most π."""
         exponent = radius * asinh(0.5 * pi / self.knee)

@@ -1,0 +1,132 @@
+"""The samples of an attempt as columns: an attachment that is read at once, whatever its length.
+
+The same numbers stand in the record's JSON channels, sample by sample, for other programs and for
+an attempt that was never finished; `acus session verify` compares the two. Layout: magic `ACUS`,
+version u16, length of a JSON text u32, the text, then the columns as `session.columns` stores them;
+from the text on compressed (zstd). The text: `rows`, `fields` (array of name, kind, columns) and
+`words` (of each field of text, its different words; its column holds their numbers). Fields are
+found by name: what is not known is left out, and what is missing is not known.
+"""
+
+import json
+import struct
+from dataclasses import MISSING, fields
+from typing import Any, Final
+
+import numpy as np
+import zstandard
+from numpy.typing import NDArray
+
+from app.core.arrays import FloatArray, read_only
+from app.session import columns
+from app.session.errors import BrokenRecordingError
+from app.session.header import Attachment
+from app.session.samples import Samples
+
+SAMPLES_FILE: Final = "samples.acus"
+"""Name of the attachment."""
+
+MAGIC: Final = b"ACUS"
+VERSION: Final = 1
+_HEADER: Final = struct.Struct("<4sHI")
+_UNREADABLE: Final = (
+    *(zstandard.ZstdError, ValueError, LookupError),
+    *(TypeError, RecursionError, MemoryError, OverflowError),
+)
+_LARGEST: Final = 1 << 31
+"""A text or a table of more bytes is no attempt."""
+
+
+def attachment(samples: Samples) -> Attachment:
+    """Return the samples as a file of the record."""
+    return Attachment(SAMPLES_FILE, "application/octet-stream", pack(samples))
+
+
+def pack(samples: Samples) -> bytes:
+    """Return the samples as bytes."""
+    known: list[tuple[str, str, int]] = []
+    words: dict[str, list[str]] = {}
+    parts: list[FloatArray] = []
+    for field in fields(Samples):
+        values = getattr(samples, field.name)
+        if values is None:
+            continue
+        kind = {"U": "word", "b": "flag"}.get(values.dtype.kind, "number")
+        if kind == "word":
+            names, values = np.unique(values, return_inverse=True)
+            words[field.name] = names.tolist()
+        table = np.asarray(values, dtype=np.float64).reshape(len(samples.time), -1)
+        known.append((field.name, kind, table.shape[1]))
+        parts.append(table)
+    rows = len(samples.time)
+    text = json.dumps({"rows": rows, "fields": known, "words": words}).encode()
+    body = text + (columns.encode(np.hstack(parts)) if rows else b"")
+    return _HEADER.pack(MAGIC, VERSION, len(text)) + zstandard.compress(body)
+
+
+def unpack(data: bytes) -> Samples:
+    """Read them back.
+
+    Raises:
+        BrokenRecordingError: if they cannot be read; says why.
+    """
+    if len(data) < _HEADER.size or data[:4] != MAGIC:
+        raise BrokenRecordingError(f"{SAMPLES_FILE} does not begin with {MAGIC.decode()}")
+    _, version, length = _HEADER.unpack_from(data)
+    if version != VERSION:
+        raise BrokenRecordingError(f"{SAMPLES_FILE} has version {version}, not {VERSION}")
+    try:
+        body = zstandard.ZstdDecompressor().decompress(
+            data[_HEADER.size :], max_output_size=_LARGEST
+        )
+        document = json.loads(body[:length])
+        return _read(document, body[length:])
+    except BrokenRecordingError:
+        raise
+    except _UNREADABLE as error:
+        raise BrokenRecordingError(f"{SAMPLES_FILE} cannot be read: {error}") from error
+
+
+def same(a: Samples, b: Samples) -> str:
+    """Name the first field in which the samples of `a` are not those of `b`; empty if none.
+
+    `a` may end before `b` does: then its samples are compared.
+    """
+    n = len(a.time)
+    for field in fields(Samples):
+        x, y = getattr(a, field.name), getattr(b, field.name)
+        if x is None or y is None:
+            continue
+        if len(y) < n:
+            return field.name
+        if not np.array_equal(x, y[:n], equal_nan=x.dtype.kind == "f"):
+            return field.name
+    return ""
+
+
+def _read(document: dict[str, Any], data: bytes) -> Samples:
+    rows, known = int(document["rows"]), document["fields"]
+    count = sum(int(width) for _, _, width in known)
+    if not 0 <= rows <= _LARGEST // 8 or not 0 <= count <= 1000 or (rows and not data):
+        raise ValueError(f"{rows} rows of {count} columns in {len(data)} bytes")
+    table = columns.decode(data, rows, count)[0] if rows else np.zeros((0, count))
+    values, at = {}, 0
+    for name, kind, width in known:
+        part = table[:, at : at + int(width)]
+        values[str(name)] = _array(part, str(kind), document["words"].get(name, []))
+        at += int(width)
+    wanted = {field.name: field for field in fields(Samples)}
+    missing = [n for n, f in wanted.items() if n not in values and f.default is MISSING]
+    if missing:
+        raise ValueError(f"it lacks {', '.join(missing)}")
+    return Samples(**{name: value for name, value in values.items() if name in wanted})
+
+
+def _array(part: FloatArray, kind: str, words: list[str]) -> NDArray[Any]:
+    flat = part[:, 0] if part.shape[1] == 1 else part
+    if kind == "word":
+        texts = np.array([str(word) for word in words], dtype=np.str_)
+        return read_only(texts[flat.astype(np.int64)] if len(flat) else texts[:0])
+    if kind == "flag":
+        return read_only(flat != 0.0)
+    return read_only(np.ascontiguousarray(flat))
