@@ -69,7 +69,8 @@ def test_old_records_are_listed_with_and_without_the_files_beside_them(old: Path
 
 
 def test_old_records_are_debriefed_and_reported(old: Path) -> None:
-    assert QApplication.instance() or QApplication([])
+    application = QApplication.instance() or QApplication([])
+    assert application is not None
     for path in records(old):
         shown = review(read_recording(path))
         assert shown.score is not None

@@ -214,8 +214,8 @@ class Recorder:
         if self._file.full and not self._full:
             after = now - self.header.origin
             self._full = (
-                f"the disk is full: from {after:.1f} s on this attempt is recorded without its "
-                "samples and ticks; its score is"
+                f"the disk is full since {after:.1f} s after the beginning: what followed is not "
+                "recorded, the score is"
             )
 
     def _write_sample(self, item: Sample) -> None:
@@ -239,7 +239,9 @@ class Recorder:
     ) -> None:
         if not self._full:
             self._write_patient(self._clock.now())
-        self._flush(self._clock.now())  # the result stands behind the data that it sums up, never before
+        self._flush(
+            self._clock.now()
+        )  # the result stands behind the data that it sums up, never before
         for attachment in attachments:
             if len(attachment.data) + _LAST_WORDS < self._file.room:
                 self._file.attach(attachment, self.header.nanoseconds(self._clock.now()))

@@ -73,9 +73,11 @@ class Running:
             )
 
     def begin(
-        self, log: AttemptLog, now: float, threaded: bool, out: Known | None = Known.SIMULATED
+        self, log: AttemptLog, now: float, failure: str = "", out: Known | None = Known.SIMULATED
     ) -> None:
         """Begin a new attempt at `now` [s], or, while the needle is not out, what goes before it.
+
+        `failure` says why its log, which is open, is not recorded.
 
         Raises:
             IllegalTransitionError: if one is running.
@@ -85,7 +87,6 @@ class Running:
         self.attempt = machine.advance(Attempt(), event, now)
         self._classifier, self._depth, self.log = Classifier(), DepthNews(), log
         self._pauses = Pauses()
-        failure = log.open(threaded)
         if failure:
             self.say("recorder", f"this attempt is not recorded: {failure}", now)
         self._say_state(now)

@@ -20,7 +20,15 @@ from app.session.needle import DOWN, NeedlePose
 from app.session.ports import DeviceStatePort
 
 _FLIP: Final = np.diag([1.0, -1.0, -1.0])
-_LEVELS: Final = {"fault": 4, "abort": 4, "recorder": 3, "camera": 3, "depth": 3, "pause": 3}
+_LEVELS: Final = {
+    "fault": 4,
+    "abort": 4,
+    "recorder": 3,
+    "slept": 4,
+    "camera": 3,
+    "depth": 3,
+    "pause": 3,
+}
 _INFO: Final = 2
 JOINTS: Final = ("panto_a1", "panto_a5")
 """Names of the two motor joints in the published robot description: left, right."""

@@ -197,9 +197,7 @@ def _records(stream: IO[bytes], size: int, problems: list[str]) -> Iterator[Mcap
                 return
 
 
-def _parse(
-    frame: bytes, offset: int, problems: list[str], chunk: bool = False
-) -> list[McapRecord]:
+def _parse(frame: bytes, offset: int, problems: list[str], chunk: bool = False) -> list[McapRecord]:
     """Return the records of one frame; of a chunk, its messages unless `chunk` wants it itself."""
     records: list[McapRecord] = []
     try:

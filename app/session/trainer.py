@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Final
 
 from app.core.clock import Clock, SystemClock
+from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.exercises.locks import Lock
 from app.imaging.scan_order import ScanOrder
@@ -22,6 +23,7 @@ from app.session.risks import Risk
 from app.session.running import Running
 from app.session.scored import scorer
 from app.session.sight import Sight
+from app.session.sleep import Sleep, words
 from app.session.snapshot import Snapshot
 from app.session.ticker import Ticker
 from app.session.watch import Watch
@@ -91,6 +93,7 @@ class Trainer:
         self._sight = Sight(
             self._inputs, self._arming, self._watch, self._running, self.events, self._withdrawal
         )
+        self._sleep = Sleep() if isinstance(self._clock, SystemClock) else Sleep(lambda: 0.0)
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
 
@@ -163,9 +166,12 @@ class Trainer:
             header = self._context.header(self._exercise, self._placed, student, now, hand)
             recorder = self._context.recorder(header, self._loop, self._placed, self._clock)
             log = AttemptLog(recorder, self._placed, self._scorer, risks=self._risks)
+            # Head and checkpoint are on the disk before the attempt's clock starts.
+            failure = log.open(threaded=self._ticker is not None)
+            now = self._clock.now()
             seen = self._watch.newest(self._placed, now)
             out = self._withdrawal.begin(seen.device, seen.pose, now)
-            self._running.begin(log, now, self._ticker is not None, out)
+            self._running.begin(log, now, failure, out)
             self.heartbeat()
             if out is None:
                 self._running.say(WITHDRAWAL, self._withdrawal.words, now)
@@ -270,12 +276,23 @@ class Trainer:
     def tick(self, now: float) -> Snapshot:
         """Pull the latest values, move the attempt, record, publish; `now` is the time [s]."""
         with self._lock:
-            reason = self._sight.look(self._placed, now)
+            reason = self._stood_still(now) or self._sight.look(self._placed, now)
             if reason:
                 self.abort(reason)
             elif self._ticker is None and self._running.log is not None:
                 self._running.log.recorder.drain()
             return self._sight.publish(self._placed, now)
+
+    def _stood_still(self, now: float) -> str:
+        """Why the attempt ends if the whole program slept; empty if it did not."""
+        try:
+            slept = self._sleep.look(now, int(self._loop.latest().tick))
+        except AcusError:  # the loop has ended: whoever looks next says so
+            return ""
+        if slept <= 0.0 or not self._running.attempt.running:
+            return ""
+        self._running.say("slept", words(slept), now, {"seconds": slept})
+        return words(slept)
 
     def _finish(self, event: Event, reason: str = "") -> AttemptResult:
         self.disarm()

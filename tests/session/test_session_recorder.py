@@ -58,7 +58,8 @@ def test_mcaps_own_reader_takes_the_file_with_all_its_checks(record: Path) -> No
         assert counts.keys() == set(CHANNELS)
         names = {m.name for m in reader.iter_metadata()}
         assert {"session", "exercise", "software", "device", "plan", "result"} <= names
-        assert {a.name for a in reader.iter_attachments()} == {"plan.mrk.json", "score.json"}
+        names = {a.name for a in reader.iter_attachments()}
+        assert names == {"plan.mrk.json", "score.json", "samples.acus"}
 
 
 def test_the_json_messages_keep_their_schemas(record: Path) -> None:
@@ -203,10 +204,10 @@ def test_a_full_disk_ends_the_record_and_is_said(
     clock.sleep(1.1)
     recorder.drain()
 
-    def full(descriptor: int) -> None:
+    def full(descriptor: int, data: memoryview) -> int:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr("app.session.mcap_file.os.fsync", full)
+    monkeypatch.setattr("app.session.growing_file._write", full)  # no space set aside helps
     recorder.event(Event(101.2, "scan", "lost"))
     clock.sleep(1.1)
     recorder.drain()
@@ -219,16 +220,17 @@ def test_a_full_disk_ends_the_record_and_is_said(
     assert read_recording(status.path).events[0].message == "kept"
 
 
-def test_a_real_full_device_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_real_full_device_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     if not Path("/dev/full").exists():
         pytest.skip("no /dev/full here")
-    recorder = Recorder(Path("/dev"), header())
-    real_open = Path.open
-    monkeypatch.setattr(
-        Path, "open", lambda self, mode="r": real_open(Path("/dev/full"), mode.replace("x", "w"))
-    )
-    with pytest.raises(RecordingError, match="No space left"):
-        recorder.open()
+    recorder = Recorder(tmp_path, header())
+    with Path("/dev/full").open("wb", buffering=0) as device:
+        monkeypatch.setattr(
+            "app.session.growing_file._write", lambda _, data: os.write(device.fileno(), data)
+        )
+        with pytest.raises(RecordingError, match="No space left"):
+            recorder.open()
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_samples_that_a_full_queue_drops_are_counted(

@@ -132,7 +132,7 @@ def test_lists_read_a_record_once_and_again_when_it_changed(
         read.append(path)
         return read_recording(path)
 
-    monkeypatch.setattr(module, "read_recording", counted)
+    monkeypatch.setattr(module, "open_recording", counted)
     first = list_sessions(folder)
     assert len(read) == 3
     assert list_sessions(folder) == first

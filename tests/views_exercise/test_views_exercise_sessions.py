@@ -5,13 +5,15 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from views_exercise_attempts import placed_plan, review, score
+from views_exercise_attempts import placed_plan, review
 
-from app.scoring.trajectory import Trajectory
 from app.session.errors import SessionError
-from app.session.machine import State
+from app.session.facts import plan_record
+from app.session.recording import Recording
+from app.session.samples import Samples
 from app.session.sidecar import write_summary
 from app.session.summary import Summary
+from app.session.ticks import Inputs
 from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.review import review_of_result
@@ -196,30 +198,37 @@ def test_saying_no_in_the_dialog_writes_nothing(desk, page, tmp_path):
     assert not desk.out.exists()
 
 
-def result(trajectory):
-    from views_exercise_attempts import curves
-
-    figures, _, _ = curves(placed_plan())
-    return SimpleNamespace(
-        record=None, trajectory=trajectory, summary=summary("1", problems=("disk full",)),
-        state=State.ENDED, reason="", unscored="", duration=3.0, scans=0, score=score(),
-        curves=figures, events=(),
+def result(samples):
+    """An attempt that could not be recorded, as it is in memory."""
+    placed = placed_plan()
+    recording = Recording(
+        path=Path("s1.mcap"), complete=False, problems=("disk full",),
+        metadata=MappingProxyType({
+            "session": {"id": "s1", "student": "student-07"}, "exercise": {"id": "x"},
+            "plan": plan_record(placed), "result": {"state": "ended", "duration_s": "4.0"},
+        }),
+        attachments=MappingProxyType({}), events=(), samples=samples,
+        inputs=Inputs((), np.empty((0, 0)), 0),
     )  # fmt: skip
+    known = None if samples is None else object()
+    return SimpleNamespace(
+        record=None, trajectory=known, recording=recording, reason="", unscored=""
+    )
 
 
 def test_an_attempt_that_could_not_be_recorded_is_shown_from_memory():
-    placed = placed_plan()
-    time = np.arange(5.0)
-    tip = placed.p_entry + np.linspace(0.0, 0.05, 5)[:, None] * placed.axis
-    path = Trajectory(
-        placed=placed, time=time, tip=tip, axis=np.tile(placed.axis, (5, 1)),
-        depth=np.linspace(0.0, 0.05, 5), felt=np.zeros((5, 3)),
-        phase=np.array(["aligning", "inserting", "inserting", "holding", "holding"]),
-        depth_valid=np.ones(5, dtype=bool),
+    placed, nothing = placed_plan(), np.zeros((5, 3))
+    samples = Samples(
+        time=np.arange(5.0), valid=np.ones(5, dtype=bool), depth=np.linspace(0.0, 0.05, 5),
+        state=np.array(["aligning", "inserting", "inserting", "holding", "holding"]),
+        tip=placed.p_entry + np.linspace(0.0, 0.05, 5)[:, None] * placed.axis,
+        axis=np.tile(placed.axis, (5, 1)), depth_source=np.array(["tracked"] * 5),
+        target=np.tile(placed.p_target, (5, 1)), hub=nothing, guide=nothing, felt=nothing,
+        measured=np.full(5, np.nan),
     )  # fmt: skip
-    shown = review_of_result(result(path))
+    shown = review_of_result(result(samples))
     assert [s.state for s in shown.spans] == ["aligning", "inserting", "holding"]
-    assert shown.problems == ("disk full",)
+    assert shown.problems[0] == "disk full"
     assert shown.score is not None
 
 

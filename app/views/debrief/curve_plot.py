@@ -60,7 +60,7 @@ def draw(plot: pg.PlotItem, review: Review, curve: Curve) -> None:
         plot.addItem(line)
     plot.plot(
         review.curves.time, curve.values, pen=pg.mkPen(curve.colour, width=2), connect="finite",
-        clipToView=True, autoDownsample=True, downsampleMethod="peak",  # an hour has 180,000 samples
+        autoDownsample=True, downsampleMethod="peak",  # for hours
     )  # fmt: skip
     for mark in review.marks:
         pen = pg.mkPen(theme.IMAGE_TEXT, width=1.2, style=Qt.PenStyle.DotLine)
