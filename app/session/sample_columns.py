@@ -2,16 +2,18 @@
 
 The same numbers stand in the record's JSON channels, sample by sample, for other programs and for
 an attempt that was never finished; `acus session verify` compares the two. Layout: magic `ACUS`,
-version u16, length of a JSON text u32, the text, then the columns as `session.columns` stores them;
-from the text on compressed (zstd). The text: `rows`, `fields` (array of name, kind, columns) and
-`words` (of each field of text, its different words; its column holds their numbers). Fields are
-found by name: what is not known is left out, and what is missing is not known.
+version u16, length of a JSON text u32, CRC-32 of what follows, the text, then the columns as
+`session.columns` stores them; from the text on compressed (zstd). The text: `rows`, `fields` (array
+of name, kind, columns) and `words` (of each field of text, its different words; its column holds
+their numbers). Fields are found by name: what is not known is left out, and what is missing is not
+known.
 """
 
 import json
 import struct
 from dataclasses import MISSING, fields
 from typing import Any, Final
+from zlib import crc32
 
 import numpy as np
 import zstandard
@@ -28,7 +30,7 @@ SAMPLES_FILE: Final = "samples.acus"
 
 MAGIC: Final = b"ACUS"
 VERSION: Final = 1
-_HEADER: Final = struct.Struct("<4sHI")
+_HEADER: Final = struct.Struct("<4sHII")
 _UNREADABLE: Final = (
     *(zstandard.ZstdError, ValueError, LookupError),
     *(TypeError, RecursionError, MemoryError, OverflowError),
@@ -61,7 +63,8 @@ def pack(samples: Samples) -> bytes:
     rows = len(samples.time)
     text = json.dumps({"rows": rows, "fields": known, "words": words}).encode()
     body = text + (columns.encode(np.hstack(parts)) if rows else b"")
-    return _HEADER.pack(MAGIC, VERSION, len(text)) + zstandard.compress(body)
+    packed = zstandard.compress(body)
+    return _HEADER.pack(MAGIC, VERSION, len(text), crc32(packed)) + packed
 
 
 def unpack(data: bytes) -> Samples:
@@ -72,9 +75,11 @@ def unpack(data: bytes) -> Samples:
     """
     if len(data) < _HEADER.size or data[:4] != MAGIC:
         raise BrokenRecordingError(f"{SAMPLES_FILE} does not begin with {MAGIC.decode()}")
-    _, version, length = _HEADER.unpack_from(data)
+    _, version, length, checksum = _HEADER.unpack_from(data)
     if version != VERSION:
         raise BrokenRecordingError(f"{SAMPLES_FILE} has version {version}, not {VERSION}")
+    if crc32(data[_HEADER.size :]) != checksum:
+        raise BrokenRecordingError(f"{SAMPLES_FILE} is damaged: its checksum is another")
     try:
         body = zstandard.ZstdDecompressor().decompress(
             data[_HEADER.size :], max_output_size=_LARGEST

@@ -320,5 +320,11 @@ def test_samples_in_columns_are_those_of_the_messages(bench: Bench) -> None:
     assert fast.events == whole.events
     assert fast.problems == whole.problems == ()
     assert verify_record(path).confirmed
+    spoilt = bytearray(path.read_bytes())
+    spoilt[spoilt.index(b"ACUS") + 200] ^= 0x10
+    path.write_bytes(bytes(spoilt))
+    again = open_recording(path)  # the messages still have them
+    np.testing.assert_array_equal(again.samples.tip, whole.samples.tip)
+    assert any("damaged" in problem for problem in again.problems)
     assert EAGER > 0.0
     assert isinstance(bench.clock, VirtualClock)
