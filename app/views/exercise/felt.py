@@ -102,8 +102,8 @@ def _limit_reason(row: FloatArray) -> str:
         return tr("the needle sticks out far, and the motors cannot push harder at so long a lever")
     if row[sv.DEPTH_SOURCE] == _UNMEASURED:
         return tr(
-            "the depth is not measured, so the needle may stick out further or less far than it "
-            "seems, and the robot keeps within its limits for all of that"
+            "the depth is not measured; the robot keeps within its limits for every depth, and "
+            "where the needle sticks out furthest no more than this reaches your hand"
         )
     if by == Limiter.DEPTH:
         doubt = 0.5 * float(row[sv.DEPTH_MOST] - row[sv.DEPTH_LEAST]) / MILLIMETRE
