@@ -35,10 +35,9 @@ def run(skill, exercise="first-insertion", seed=3, assistance=0.7, seconds=60.0,
         pixels = (np.zeros(2), np.zeros(2))
         trainer.on_fix(NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0))
 
-    trainer = Trainer(loop, None, placed, chosen, clock=clock, advance=measure)
+    trainer = Trainer(loop, None, placed, chosen, clock=clock, advance=measure, dial=assistance)
     loop.open()
     trainer.step()
-    trainer.assistance(assistance)
     trainer.begin("tester")
     states, felt = [], []
     while clock.now() < 100.0 + seconds:

@@ -107,7 +107,7 @@ def test_a_whole_attempt_on_a_device_that_was_commissioned_over_the_wire(emulato
             rig.trainer.open()
             wait(lambda: rig.loop.latest().row[sv.Q_TIME] > 0.0)  # noqa: B023
             assert rig.loop.latest().axis[2] < -0.99
-            rig.trainer.assistance(1.0)
+            rig.trainer._dial = 1.0
             result, felt = attempt(rig)
         finally:
             rig.close()
@@ -153,8 +153,8 @@ def test_an_attempt_on_a_board_in_memory_stays_below_the_cap(tmp_path, monkeypat
     rig = build_rig(replace(setup(None, tmp_path), clock=clock), robot)
     rig.loop.open()
     rig.trainer.step()
-    rig.trainer.assistance(1.0)
     rig.trainer.begin("tester")
+    rig.trainer.assistance(1.0)
     felt = []
     for _ in range(150):
         rig.trainer.arm()

@@ -52,7 +52,7 @@ def attempt(
         trainer.on_fix(NeedleFix(tip, 1e-9 * np.eye(3), now, FixStatus.VALID, pixels, 0.0))
 
     context = _context(setup, profile, AttachedCameras((), load_rig(chosen.rig), {}), None)
-    trainer = Trainer(loop, None, placed, chosen, context, clock, measure)
+    trainer = Trainer(loop, None, placed, chosen, context, clock, measure, dial=0.7)
     virtual = isinstance(clock, VirtualClock)
     loop.open() if virtual else trainer.open()
     end = time.monotonic() + 60.0
@@ -60,7 +60,6 @@ def attempt(
         time.sleep(0.01)
     trainer.heartbeat()
     trainer.step(300) if virtual else time.sleep(0.2)
-    trainer.assistance(0.7)
     trainer.begin("tester")
     for k in range(round(seconds / 0.02)):
         if skill is None:
