@@ -2,14 +2,17 @@
 
 import json
 import os
+import struct
 from pathlib import Path
 
 import pytest
+from mcap.writer import MCAP0_MAGIC
 from session_fakes import Bench
 
 from app.core.disclaimer import DISCLAIMER
 from app.session.errors import SessionError, SessionNotFoundError
-from app.session.sidecar import read_summary, sidecar
+from app.session.scan import scan
+from app.session.sidecar import fresh_summary, read_summary, sidecar
 from app.session.store import TRASH, delete, find, list_sessions, restore
 
 
@@ -106,3 +109,13 @@ def test_the_trash_never_overwrites(store: Path) -> None:
         delete(store, "20260115-093122-0002")
     with pytest.raises(SessionError, match="exists already"):
         restore(store, "20260115-093122-0002")
+
+
+def test_a_length_beyond_any_memory_in_a_record_is_said_and_left_out(tmp_path: Path) -> None:
+    payload = bytes(16) + struct.pack("<I", 1) + b"a" + struct.pack("<I", 0)
+    payload += struct.pack("<Q", 2**63 + 5) + bytes(8)
+    path = tmp_path / "a.mcap"
+    path.write_bytes(MCAP0_MAGIC + struct.pack("<BQ", 9, len(payload)) + payload)
+    found = scan(path)
+    assert "the record at byte 8 is damaged and left out" in found.problems[0]
+    assert fresh_summary(path).state == "broken"
