@@ -12,8 +12,10 @@ from PySide6.QtWidgets import QApplication
 
 from app.compose.trainer import TrainerSetup, build_rig
 from app.core import state_vector as sv
+from app.core.bend import Bend
 from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
+from app.exercises.parts import NeedlePart
 from app.exercises.scene import device_of, placed_plan_of
 from app.planning.off_path import offset, path_to
 from app.planning.plan import Plan
@@ -55,9 +57,9 @@ class Kept:
         pass
 
 
-def attempt(exercise, sessions, seconds=9.0, steer=None):
+def attempt(exercise, sessions, seconds=9.0, steer=None, change=None):
     """Drive the whole trainer in virtual time; yields each moment, then its record."""
-    chosen = load_exercise(exercise)
+    chosen = load_exercise(exercise).model_copy(update=change or {})
     placed = placed_plan_of(chosen, device_of(chosen), PLAN)
     clock = VirtualClock(100.0)
     skill = None if steer else "expert"
@@ -140,6 +142,67 @@ def test_panel_bullseye_slices_record_and_score_say_the_same_of_a_tick(
     assert np.degrees(kept_curves.angle[last]) == pytest.approx(
         result.score.row("angle_error").value, abs=1e-6
     )
+
+
+@pytest.mark.parametrize("gauge", [18, 22])
+def test_a_bent_needle_is_one_needle_for_panel_slices_record_and_score(
+    gauge, tmp_path, application
+):
+    chosen = load_exercise("first-insertion")
+    placed = placed_plan_of(chosen, device_of(chosen), PLAN)
+
+    def steer(trainer, time):  # straight in, then the hub is turned by 4°
+        depth = min(-0.015 + 0.03 * time, 0.055)
+        tilt = np.radians(4.0) * min(max(time - 3.0, 0.0), 1.0)
+        axis = placed.axis + np.tan(tilt) * np.array([0.0, 1.0, 0.0])
+        axis = axis / np.linalg.norm(axis)
+        trainer.assistance(0.0)
+        trainer.hand(float(axis[0]), float(axis[1]), depth)
+
+    needle = {"needle": NeedlePart(gauge=gauge), "locks": ()}
+    run, snapshots, result = attempt("first-insertion", tmp_path, 5.0, steer, needle)
+    last = snapshots[-1]
+    pose = last.measured_pose
+    assert pose.bend is not None
+    beside = np.linalg.norm(pose.p_tip - pose.p_straight)
+    assert 1e-3 < beside < 5e-3
+    assert np.linalg.norm(pose.curve[-1] - pose.p_tip) < 1e-15
+    assert np.linalg.norm(pose.curve[0] - run.placed.p_entry) < 1e-6
+    # The needle, tilted, has bent back: nearer to its channel than the straight line says.
+    straight = offset(pose.p_straight, pose.axis, run.placed, last.p_target)
+    assert last.offset.lateral < 0.7 * straight.lateral
+    kept, panel, view = Kept(), figures(last, 5.0), pad_view(last, 0.2, 5.0)
+    LiveNeedle(kept).show(run, last)
+    way = run.placed.plan.direction
+    beyond = kept.needle.tip_mm - run.placed.plan.target_mm
+    assert np.linalg.norm(beyond - (beyond @ way) * way) == pytest.approx(1e3 * panel.lateral)
+    assert len(kept.needle.points_mm) > 5
+    assert view.offset.lateral == panel.lateral
+    np.testing.assert_allclose(view.curve_across[-1], view.offset.across, atol=1e-15)
+    recording = read_recording(result.record)
+    row = np.flatnonzero(np.isfinite(recording.samples.tip).all(axis=1))[-1]
+    bend = Bend.of_numbers(recording.samples.bend[row])
+    depth, axis = recording.samples.depth[row], recording.samples.axis[row]
+    np.testing.assert_allclose(
+        recording.samples.tip[row], run.placed.p_entry + depth * axis + bend.at(depth), atol=1e-6
+    )
+    away = result.trajectory.offset(result.trajectory.final()).lateral
+    assert away == pytest.approx(last.offset.lateral, abs=3e-4)  # the shown pose is a moment ahead
+    assert result.score.row("lateral_error").value == pytest.approx(1e3 * away, abs=1e-9)
+
+
+def test_without_the_tissue_the_needle_is_straight_to_the_last_bit(tmp_path, application):
+    run, snapshots, result = attempt("first-insertion", tmp_path, 4.0, change={"effects": {}})
+    for snapshot in snapshots[::20]:
+        pose, row = snapshot.measured_pose, snapshot.device.row
+        assert pose.bend is None
+        assert not row[sv.TIP_OFFSET].any()
+        assert row[sv.BENT_LENGTH] == 0.0
+        assert pose.p_straight is pose.p_tip
+        assert pose.tip_axis is pose.axis
+        assert pad_view(snapshot, 0.2, 5.0).curve_across is None
+    assert read_recording(result.record).samples.bend is None
+    assert run.placed is not None
 
 
 def test_at_target_is_said_only_within_the_tolerance_across_too(tmp_path, application):
