@@ -110,6 +110,17 @@ class NeedlePose:
         return self.axis if self.bend is None else self.axis + self.bend.slope_at(self.depth)
 
     @property
+    def bending(self) -> float | None:
+        """How far the tip is off the straight needle [m]: by the tissue's model, and by what both
+        cameras see beside that; None where neither tells.
+        """
+        seen = None if self.deflection_sigma == 0.0 else self.deflection
+        if self.bend is None or not self.measured:
+            return seen
+        modelled = float(np.linalg.norm(self.bend.at(self.depth)))
+        return modelled if self.snapped or seen is None else modelled + seen
+
+    @property
     def curve(self) -> FloatArray:
         """Points of the inserted part from the fulcrum to the tip [m], shape (n, 3)."""
         return needle_curve(self.p_tip, self.axis, self.depth, self.bend)

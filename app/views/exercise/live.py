@@ -25,7 +25,7 @@ class LiveFigures:
             depth.
         scans: control scans so far.
         radius: round the tip that holds the true one with 95 % [m]; None while it is not measured.
-        deflection: of the tip from the straight needle, as both cameras see it [m]; None where it
+        deflection: of the tip from the straight needle (`NeedlePose.bending`) [m]; None where it
             is not known.
         deflection_sigma: its standard deviation [m].
         guidance: what holds the force below `force_limit` where the needle is; None if nothing.
