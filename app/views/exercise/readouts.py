@@ -116,9 +116,7 @@ def _rows() -> dict[str, tuple[str, str]]:
         ),
         "bending": (
             tr("Bending"),
-            tr(
-                "Tip off the straight needle, by tissue or both cameras; less than chance is shown as <"
-            ),
+            tr("Tip off the straight needle, by tissue or cameras; less than chance is shown as <"),
         ),
         "scans": (tr("Control scans"), tr("Scans taken in this attempt")),
     }
