@@ -1,5 +1,6 @@
 """A student at a simulated robot in virtual time: a pad for the hand, cameras late and noisy."""
 
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from app.core.clock import VirtualClock
 from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
+from app.session.errors import ControlLockedError
 from app.session.machine import State
 from app.session.trainer import Trainer
 from app.session.withdrawal import Start
@@ -100,7 +102,8 @@ class Student:
             elif kind == "tilt":
                 self.hand.tilt(np.deg2rad(a), np.deg2rad(b))
             elif kind == "dial":
-                self.trainer.assistance(float(np.sin(amount[0])))
+                with suppress(ControlLockedError):  # the exercise keeps it
+                    self.trainer.assistance(float(np.sin(amount[0])))
             self.wish()
 
     @property
