@@ -7,7 +7,6 @@ import cv2
 import numpy as np
 import pytest
 import yaml
-from calibration_samples import sample
 
 from app.core.configuration import parse_yaml
 from app.core.errors import ConfigurationError
@@ -18,6 +17,7 @@ from app.tracking.calibration.formats.storage import read_matrices
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
 from app.tracking.optics.rig import load_rig
+from tests.tracking.calibration_samples import sample
 
 ICUBE_LEFT = """\
 image_width: 640
