@@ -128,3 +128,28 @@ def test_a_window_that_is_blocked_has_no_torque_on_the_board_after_a_second() ->
     falling = [torque for age, torque in torques if 0.6 < age < 0.9]
     assert falling[0] > falling[-1] > 0.0, "it fades, it does not break off"
     assert row[sv.FAULT] == Fault.HEARTBEAT_LOST
+
+
+@pytest.mark.parametrize("silence", [700, 800, 950, 1500, 3000])
+@pytest.mark.parametrize("pixels", [150.0, 2000.0])
+def test_a_window_that_is_busy_while_the_hand_moves_voids_nothing(
+    tmp_path: Path, silence: int, pixels: float
+) -> None:
+    """The force that fades meanwhile comes back slowly: in one tick it would throw the needle."""
+    student = Student(tmp_path)
+    try:
+        student.trainer.begin()
+        student.trainer.assistance(1.0)
+        student.pause(1200)
+        for sign in (1.0, -1.0, 1.0):
+            student.do("drag", (sign * pixels, 0.5 * pixels), 100)
+            student.busy(silence)
+            before = student.rig.loop.latest().row[sv.ARMING]
+            student.pause(100)
+            assert student.rig.loop.latest().row[sv.ARMING] - before < 0.11
+            student.pause(1500)
+        snapshot = student.trainer.snapshot()
+        assert snapshot.state is State.ALIGNING, snapshot.reason
+        assert snapshot.armed
+    finally:
+        student.close()

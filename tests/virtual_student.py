@@ -84,6 +84,13 @@ class Student:
         self.trainer.hand(float(x), float(y), self.hand.pose.depth, self.hand.pose.holds)
         self.trainer.step(milliseconds)
 
+    def busy(self, milliseconds: int) -> None:
+        """Let time pass in which the window gives no sign of life."""
+        for _ in range(max(1, milliseconds // INTENT)):
+            self.rig.loop.step(INTENT)
+            self._cameras(self.clock.now())
+            self.trainer.tick(self.clock.now())
+
     def pause(self, milliseconds: int) -> None:
         """Wish nothing else for a while."""
         for _ in range(max(1, milliseconds // INTENT)):

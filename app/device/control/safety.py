@@ -188,11 +188,13 @@ def safety_stage(state: FloatArray, p: FloatArray) -> None:
     freshness = fade(state[sv.TIME] - state[sv.Q_TIME], p[_AT.fade_from], p[_AT.fade_to])
     fault = _fault(state, p, armed, freshness)
     arming = ramp(state[sv.ARMING], state[sv.DT], p[_AT.arming], armed and fault == 0)
+    if armed:
+        # A window that goes silent loses the force bit by bit; it comes back along the arming ramp,
+        # since a force that returns in one tick throws the needle.
+        silence = state[sv.TIME] - state[sv.HEARTBEAT]
+        arming = min(arming, fade(silence, _SILENT * p[_AT.heartbeat], p[_AT.heartbeat]))
     state[sv.ARMING] = arming
     scale = freshness * arming
-    if armed:  # a window that goes silent loses the force bit by bit, not in one tick
-        silence = state[sv.TIME] - state[sv.HEARTBEAT]
-        scale *= fade(silence, _SILENT * p[_AT.heartbeat], p[_AT.heartbeat])
     state[sv.FAULT] = fault
     state[sv.SAFETY_SCALE] = scale
     if scale > 0.0:
