@@ -17,6 +17,7 @@ from app.session.facts import plan_record
 from app.session.recording import Inputs, Recording
 from app.session.samples import Samples
 from app.views import theme
+from app.views.debrief.curve_plot import peaks
 from app.views.debrief.curves import CurvesView, curves_of, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.print_plot import polylines, ticks
@@ -373,6 +374,21 @@ def test_a_stored_score_that_cannot_be_read_becomes_a_problem_line():
     assert shown.score is not None  # it is computed from the samples
     assert "score.json: not a stored score" in shown.problems[0]
     assert shown.force_limit == 5.0
+
+
+def test_a_long_curve_is_drawn_by_its_extremes_without_losing_a_peak_or_a_gap():
+    time = np.arange(180_000) / 50.0
+    values = np.sin(time)
+    values[77_777] = 9.0
+    values[100_000:120_000] = np.nan
+    thin_time, thin = peaks(time, values)
+    assert len(thin) < 2_500
+    assert (np.diff(thin_time) >= 0.0).all()
+    assert np.nanmax(thin) == 9.0
+    assert np.isnan(thin[(thin_time > 2010.0) & (thin_time < 2390.0)]).all()
+    assert (thin_time[0], thin_time[-1]) == (time[0], pytest.approx(time[-1], abs=4.0))
+    short = np.arange(3999.0)
+    assert peaks(short, short)[0] is short
 
 
 def test_the_page_is_there_before_its_curves_and_each_plot_has_its_turn(qt):

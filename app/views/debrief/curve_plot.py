@@ -2,11 +2,13 @@
 
 from typing import Final
 
+import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPen
 from PySide6.QtWidgets import QGraphicsRectItem
 
+from app.core.arrays import FloatArray
 from app.views import theme
 from app.views.debrief.curve_values import Curve, time_end, value_range
 from app.views.debrief.review import Review
@@ -14,6 +16,9 @@ from app.views.debrief.timeline import Mark
 from app.views.exercise.state_words import state_word
 from app.views.text import tr
 from app.views.themes import DARK
+
+_STRETCHES: Final = 1000
+"""A long curve is drawn as the extremes of so many stretches: about one a pixel."""
 
 PHASE_SHADES: Final = {
     "ready": "#1b1f23",
@@ -49,6 +54,28 @@ def prepare(plot: pg.PlotItem, curve: Curve, last: bool) -> None:
     title.setPos(6, 2)
 
 
+def peaks(time: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Thin a long curve for drawing: of each of `_STRETCHES` stretches the lowest and the highest.
+
+    No peak is lost, and a gap stays where a stretch holds nothing else. A short curve stays whole.
+
+    Args:
+        time: of the samples, shape (n,).
+        values: shape (n,), NaN where there is none.
+    """
+    size = len(time) // _STRETCHES
+    if size < 4:
+        return time, values
+    whole = len(time) // size * size
+    table = values[:whole].reshape(-1, size)
+    low = np.argmin(np.where(np.isnan(table), np.inf, table), axis=1)
+    high = np.argmax(np.where(np.isnan(table), -np.inf, table), axis=1)
+    rows = np.arange(len(table))[:, None] * size
+    picked = (np.sort(np.column_stack((low, high)), axis=1) + rows).ravel()
+    keep = np.concatenate(([0], picked, np.arange(whole, len(time))))
+    return time[keep], values[keep]
+
+
 def draw(plot: pg.PlotItem, review: Review, curve: Curve) -> None:
     """Draw a curve, its level and the times of the events."""
     if curve.line is not None:
@@ -58,10 +85,8 @@ def draw(plot: pg.PlotItem, review: Review, curve: Curve) -> None:
             curve.line, angle=0, pen=pen, label=curve.line_name, labelOpts=options
         )  # fmt: skip
         plot.addItem(line)
-    plot.plot(
-        review.curves.time, curve.values, pen=pg.mkPen(curve.colour, width=2), connect="finite",
-        autoDownsample=True, downsampleMethod="peak",  # for hours
-    )  # fmt: skip
+    time, values = peaks(review.curves.time, curve.values)
+    plot.plot(time, values, pen=pg.mkPen(curve.colour, width=2), connect="finite")
     for mark in review.marks:
         pen = pg.mkPen(theme.IMAGE_TEXT, width=1.2, style=Qt.PenStyle.DotLine)
         plot.addItem(pg.InfiniteLine(mark.time, angle=90, pen=pen))

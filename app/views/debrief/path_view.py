@@ -19,6 +19,10 @@ _FINENESS: Final = 2000.0
 """Places on the pad are told apart to one part in this of its radius: less than a pixel."""
 
 
+_MOST: Final = 6000
+"""A track of more places that a screen could tell apart is drawn by every second one, or fewer."""
+
+
 class PathView(QWidget):
     """Pad with the tip's track: a square where it began, a diamond where it ended."""
 
@@ -52,6 +56,8 @@ class PathView(QWidget):
 def thinned(places: FloatArray) -> FloatArray:
     """Leave out what no screen can show of a track: places that round to the one before.
 
+    Of what is left no more than `_MOST` places are taken, at equal steps.
+
     Args:
         places: on the pad, shape (n, 2); NaN where there is none.
 
@@ -65,7 +71,9 @@ def thinned(places: FloatArray) -> FloatArray:
     keep = np.concatenate(([True], moved))
     keep[:-1] |= moved  # the end of a stretch stays as well as its beginning
     keep[-1] = True
-    return places[keep]
+    left = places[keep]
+    step = -(-len(left) // _MOST)
+    return left if step < 2 else np.vstack((left[::step], left[-1:]))
 
 
 def pad_scene(review: Review) -> PadScene:
