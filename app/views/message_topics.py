@@ -79,7 +79,9 @@ class MessageTopics:
 
 def tell_pause(bar: MessageBar, event: Event) -> None:
     """Say on every page that the attempt waits, until it goes on or ends."""
-    if event.kind in ("pause", "withdrawal") and "duration_s" not in event.data:
+    if event.kind == "pause" and "duration_s" not in event.data:
         bar.show_until(PAUSE, event.message)
+    elif event.kind == "withdrawal" and "how" not in event.data:
+        bar.show_note(event.message)
     elif event.kind in ("pause", "state", "abort"):
         bar.forget(PAUSE)

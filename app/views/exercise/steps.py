@@ -96,7 +96,7 @@ class Steps(QWidget):
             name = tr("Under way")
         name = tr("Paused") if paused else name
         if here and self._state is State.WITHDRAWING:
-            name = state_word(State.WITHDRAWING)
+            name = tr("Pull out")  # what fits below a step
         top = Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignTop
         painter.drawText(box.adjusted(0, 26, 0, 0), top, name)
 
