@@ -193,7 +193,10 @@ def _size(rng: random.Random, screen: Screen) -> Action | None:
 
 
 def _start(rng: random.Random, screen: Screen) -> Action | None:
-    return Action("start", seconds=rng.choice((0.0, 5.0, 20.0, 20.0)))
+    if not screen.exercises:
+        return None
+    patience = rng.choice((0.0, 5.0, 20.0, 20.0))
+    return Action("start", seconds=patience, words=rng.choice(screen.exercises))
 
 
 def _end(rng: random.Random, screen: Screen) -> Action | None:

@@ -20,6 +20,7 @@ from PySide6.QtCore import QObject, QTimer, QtMsgType, qInstallMessageHandler
 from PySide6.QtWidgets import QLabel
 
 from app.core import state_vector as sv
+from app.session.machine import RUNNING
 from app.session.recording import read_recording
 from app.session.result import AttemptResult
 from app.views.window import MainWindow
@@ -190,13 +191,15 @@ class Checks(QObject):
         if patient is None:
             return []
         said = []
+        snapshot = None if run is None else run.trainer.snapshot()
         if workspace.viewing.volume is not patient.volume:
             said.append("the slices show another volume than the patient's")
         if run is None and workspace.viewing.needle is not None:
             said.append("a needle is shown, but nothing runs")
-        if run is not None and run.placed.plan != _plan_of(window):
+        runs = snapshot is not None and snapshot.state in RUNNING
+        judged = runs or window.editor.verdict.placed is not None  # else Start says what is missing
+        if run is not None and judged and run.placed.plan != _plan_of(window):
             said.append("the run has another plan than the editor")
-        snapshot = None if run is None else run.trainer.snapshot()
         scans = workspace.exercise_panel.readouts.text("scans")
         if scans.isdigit() and int(scans) > (0 if snapshot is None else snapshot.scans):
             said.append(f"{scans} control scans are shown, there are none")

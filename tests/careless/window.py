@@ -49,6 +49,7 @@ from tests.careless.targets import (
 SETTLES_S = 0.4
 """What is still so after this long is no passing state [s]."""
 READY_S = 240.0
+LOADS_S = 8.0
 FROZEN_S = 30.0
 
 T = TypeVar("T")
@@ -125,7 +126,8 @@ class CarelessUser(threading.Thread):
         end = time.monotonic() + READY_S
         while not self._asked.of(lambda: self._window.isVisible(), READY_S):
             time.sleep(0.1)
-        time.sleep(2.0)
+        time.sleep(LOADS_S)  # the first start of a day loads libraries from a cold disk
+        self._asked.of(self._checks.after, READY_S)
         end = time.monotonic() + self._options.seconds
         for action in self._actions(end):
             print(action.text(), file=self._log)
@@ -213,7 +215,7 @@ class CarelessUser(threading.Thread):
 
     def _start(self, action: Action) -> None:
         """Go where the start button is, and press it as soon as it can be pressed."""
-        self._asked.begin(self._show_exercise)
+        self._asked.begin(lambda: self._show_exercise(action.words))
         buttons, end = (
             self._window.workspace.exercise_panel.buttons,
             time.monotonic() + action.seconds,
@@ -224,10 +226,16 @@ class CarelessUser(threading.Thread):
             time.sleep(0.2)
         hands.click(target.box, action)
 
-    def _show_exercise(self) -> None:
-        if QApplication.activeModalWidget() is None and self._window.conductor.patient is not None:
-            self._window.show_workspace()
-            self._window.workspace.show_exercise()
+    def _show_exercise(self, identifier: str) -> None:
+        """Go to the start button; where no patient is open, begin an exercise first."""
+        window = self._window
+        if QApplication.activeModalWidget() is not None:
+            return
+        if window.conductor.patient is None:
+            window.begin_exercise(identifier)
+        else:
+            window.show_workspace()
+            window.workspace.show_exercise()
 
     def _entries(self, kind: str) -> list[Target]:
         front = top()

@@ -55,7 +55,7 @@ def assert_bounded(result: Score) -> None:
 
 def test_an_empty_trajectory_is_void_and_every_row_says_why() -> None:
     result = score(attempt(0))
-    assert result.void_reason == "the attempt was never begun"
+    assert result.void_reason.startswith("the attempt was never begun")
     assert all(row.value is None and row.note for row in result.rows)
     assert_bounded(result)
 
@@ -150,7 +150,7 @@ def test_an_absurd_position_is_refused(size: float) -> None:
 
 def test_no_depth_ever_measured_is_void() -> None:
     result = score(attempt(300, depth_valid=np.zeros(300, dtype=bool)))
-    assert "tracked for 0 % of the insertion" in result.void_reason
+    assert result.void_reason == "nothing measured how deep the needle was"
     assert_bounded(result)
 
 

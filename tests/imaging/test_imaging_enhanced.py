@@ -108,7 +108,7 @@ def test_a_pixel_of_a_frame_is_found_by_its_number(tmp_path):
     lps_mm, hu = pixel_lps_mm(tmp_path, uid, 3, 2, frame=1)  # written from the last slice
     np.testing.assert_allclose(lps_mm, slices.position(6.0) + (1.5, 1.6, 0.0))
     assert hu == slices.stored(3)[2, 3] - 1024 - 3
-    with pytest.raises(SeriesUnknownError, match="frame 5"):
+    with pytest.raises(SeriesUnknownError, match="frame 6"):
         pixel_lps_mm(tmp_path, uid, 3, 2, frame=5)
 
 

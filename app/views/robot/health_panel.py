@@ -31,7 +31,7 @@ from app.views.text import tr
 PERIOD = 0.25
 """Words are refreshed this often [s]; curves at every look."""
 
-TITLE_WIDTH = 128
+TITLE_WIDTH = 134
 
 
 class HealthPanel(QWidget):
