@@ -32,6 +32,7 @@ def main() -> int:
     parser.add_argument("--plant", help="a defect to be found, by the name of its check")
     parser.add_argument("--keep", type=Path, help="folder for actions and pictures")
     parser.add_argument("--whole", action="store_true", help="do not look for a shorter list")
+    parser.add_argument("--busy", action="store_true", help="beside others: answers may take 5 s")
     parser.add_argument("--go-on", action="store_true", help="collect failures, shorten none")
     options = parser.parse_args()
     missing = [tool for tool in ("xvfb-run", "xdotool") if shutil.which(tool) is None]
@@ -44,7 +45,14 @@ def main() -> int:
     while time.monotonic() < end:
         run = folder / f"part-{part}"
         left = end - time.monotonic()
-        code = use(run, options.seed * 1000 + part, left, options.plant, go_on=options.go_on)
+        code = use(
+            run,
+            options.seed * 1000 + part,
+            left,
+            options.plant,
+            go_on=options.go_on,
+            busy=options.busy,
+        )
         actions = read_actions(run / "actions.jsonl")
         count += len(actions)
         if code != 0:
@@ -64,6 +72,7 @@ def use(
     plant: str | None,
     replay: Path | None = None,
     go_on: bool = False,
+    busy: bool = False,
 ) -> int:
     """Let the user at a fresh window with folders of its own; returns the window's exit code."""
     shutil.rmtree(folder, ignore_errors=True)
@@ -81,6 +90,7 @@ def use(
     command += ["--plant", plant] if plant else []
     command += ["--replay", str(replay)] if replay is not None else []
     command += ["--go-on"] if go_on else []
+    command += ["--answer", "5"] if busy else []
     for ct in _patients():
         command += ["--ct", str(ct)]
     with (folder / "stderr.txt").open("w") as said:

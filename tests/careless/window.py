@@ -29,7 +29,7 @@ from app.views.collector import collect_for
 from app.views.window import MainWindow
 from tests.careless import hands
 from tests.careless.actions import Action, Screen, draw, read_actions
-from tests.careless.checks import Checks, Failure
+from tests.careless.checks import ANSWER_S, Checks, Failure
 from tests.careless.defects import DEFECTS
 from tests.careless.targets import (
     CONTROLS,
@@ -284,6 +284,7 @@ def main() -> None:
     parser.add_argument("--plant", choices=sorted(DEFECTS))
     parser.add_argument("--replay", type=Path)
     parser.add_argument("--ct", type=Path, action="append", default=[])
+    parser.add_argument("--answer", type=float, default=ANSWER_S)
     parser.add_argument("--go-on", action="store_true", help="after a failure too")
     options = parser.parse_args()
     application = start()
@@ -293,7 +294,7 @@ def main() -> None:
     collector = collect_for(window)
     window.resize(1366, 768)
     window.show()
-    checks = Checks(window, options.folder / "stacks.txt")
+    checks = Checks(window, options.folder / "stacks.txt", options.answer)
     if options.plant:
         DEFECTS[options.plant](window)
     asked = Asked()

@@ -12,6 +12,7 @@ from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
 from app.imaging import scanning
 from app.imaging.series import Listing
+from app.planning.plan import Plan
 from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS, Cause
 from app.views.layouts import FIVE
 from app.views.needle_overlay import NeedleOverlay
@@ -68,6 +69,13 @@ def test_the_plan_is_locked_while_an_attempt_runs(window, patient, services, set
     assert window.workspace.grid.shown == FIVE
     window.editor.undo()
     assert "attempt" in window.message_bar.text
+    before = window.editor.edit
+    window.message_bar.clear()
+    window.plan_files.new()  # the menu, Ctrl+N, and the panel's button
+    assert "attempt" in window.message_bar.text
+    window.editor.opened(Path("other.mrk.json"), Plan((0, 0, 0), (0, 0, 50)))
+    assert window.editor.edit == before
+    assert window.workspace.viewing.draft.complete
 
 
 def test_a_trainer_that_cannot_start_is_told_and_the_program_goes_on(

@@ -112,7 +112,9 @@ class PlanEditor(QObject):
         self._announce()
 
     def opened(self, path: Path, plan: Plan) -> None:
-        """Take over a plan that was read from a file."""
+        """Take over a plan that was read from a file, unless an attempt keeps the present one."""
+        if self.refuse_locked():
+            return
         if self._moves_target(DraftPlan.of(plan)):
             self.refused.emit(KEPT)
             return
@@ -130,7 +132,7 @@ class PlanEditor(QObject):
 
         Points of other tools are somebody else's: nothing happens.
         """
-        if tool not in OWN_TOOLS or self._refuse_locked():
+        if tool not in OWN_TOOLS or self.refuse_locked():
             return
         if tool is Tool.TARGET and self.keeps_target:
             self.refused.emit(KEPT)
@@ -155,7 +157,7 @@ class PlanEditor(QObject):
 
     def set_placement(self, placement: Placement) -> None:
         """Lay the patient differently."""
-        if not self._refuse_locked():
+        if not self.refuse_locked():
             self._do(replace(self.edit, placement=placement))
             self._announce()
 
@@ -164,7 +166,7 @@ class PlanEditor(QObject):
         if self._moves_target(draft):
             self.refused.emit(KEPT)
             return
-        if not self._refuse_locked():
+        if not self.refuse_locked():
             self._do(Edit(draft, placement))
             self._announce()
 
@@ -189,11 +191,12 @@ class PlanEditor(QObject):
             self.stepped.emit(self)
 
     def _step(self, move: Callable[[], History[Edit]]) -> None:
-        if not self._refuse_locked():
+        if not self.refuse_locked():
             self._history = move()
             self._announce()
 
-    def _refuse_locked(self) -> bool:
+    def refuse_locked(self) -> bool:
+        """Whether an attempt keeps the plan as it is; then that is said."""
         if self.locked:
             self.refused.emit("the plan cannot change while an attempt runs: end it first")
         return self.locked

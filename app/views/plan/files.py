@@ -34,12 +34,14 @@ class PlanFiles(QObject):
         self._editor, self._recents, self._window = editor, recents, window
 
     def new(self) -> None:
-        """Start an empty plan."""
-        self.after_question(lambda: self._editor.start(None))
+        """Start an empty plan, unless an attempt keeps the present one."""
+        if not self._editor.refuse_locked():
+            self.after_question(lambda: self._editor.start(None))
 
     def ask_open(self) -> None:
-        """Ask for a file and open it."""
-        self.after_question(self._ask_open)
+        """Ask for a file and open it, unless an attempt keeps the present plan."""
+        if not self._editor.refuse_locked():
+            self.after_question(self._ask_open)
 
     def open(self, path: Path) -> None:
         """Open this file, after the question about unsaved changes."""
