@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hard.let_go_rig import LetGoRig
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from virtual_student import Student
 
@@ -41,6 +41,8 @@ MOVE = st.one_of(
 @settings(
     max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
+@example(moves=[("wheel", (126.0, 0.0), 1000), ("drag", (-1200.0, 0.0), 10),
+                ("dial", (0.0, 0.0), 500), ("drag", (34.0, 0.0), 700)])  # fmt: skip
 @given(moves=st.lists(MOVE, min_size=1, max_size=12))
 def test_no_movement_voids_an_attempt(
     tmp_path: Path, exercise: str, moves: list[tuple[str, tuple[float, float], int]]
@@ -69,9 +71,10 @@ def test_no_movement_voids_an_attempt(
         [("drag", (2000.0 * (-1) ** k, 700.0 * (-1) ** (k // 2)), 50) for k in range(30)],
         [("drag", (300.0 * (-1) ** k, 0.0), 200) for k in range(20)],
         [("tilt", (40.0, 0.0), 500), ("tilt", (-60.0, 0.0), 100), ("tilt", (0.0, 60.0), 100)],
+        [("wheel", (126.0, 0.0), 1000), ("drag", (-1200.0, 0.0), 10), ("drag", (35.0, 0.0), 700)],
         [("wheel", (100.0, 0.0), 50), ("drag", (400.0, 0.0), 50), ("wheel", (-130.0, 0.0), 50)] * 3,
     ],
-    ids=["slow", "wild", "alternating", "shaking", "keys", "in and out"],
+    ids=["slow", "wild", "alternating", "shaking", "keys", "deep", "in and out"],
 )
 def test_a_wild_mouse_voids_nothing(
     tmp_path: Path, dial: float, moves: list[tuple[str, tuple[float, float], int]]

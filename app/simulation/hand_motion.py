@@ -42,9 +42,10 @@ class Places(NamedTuple):
 AT: Final = numbered(Places)
 SIZE: Final = len(AT)
 
-FASTEST: Final = 0.08
-"""Speed of the hub across the needle [m/s]: the one up to which the speed governor of the robot
-takes a moving needle for a hand's (docs/decisions/0008); 40° of the needle in a second."""
+FASTEST: Final = 0.05
+"""Speed of the hub across the needle [m/s]: what Perk Tutor counts as a movement of its own, 17° of
+the needle in a second. The springs of a hand let the needle swing to half as much again; deep in
+tissue the speed governor takes less than twice this for a needle let go (docs/decisions/0014)."""
 
 FASTEST_ALONG: Final = 0.10
 """Speed along the needle [m/s]: five times that of an ordinary insertion (20 mm/s), twice what
