@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from typing import Any
 
 from PySide6.QtWidgets import QLabel
 
-from app.device.control.safety import Safety
-from app.mechanisms.profile import DeviceProfile
+from app.core.arrays import FloatArray
+from app.device.control.kinematics import _AT, Kinematics
 from app.views.window import MainWindow
 
 
@@ -55,27 +56,15 @@ def answer(window: MainWindow) -> None:
 
 
 def force(window: MainWindow) -> None:
-    """The last stage lets pass half as much again as it may."""
-    honest = Safety.of.__func__  # type: ignore[attr-defined]
+    """The loop takes the needle for 60 mm longer than it is, and so its lever."""
+    honest = Kinematics.stage
 
-    def of(cls: type[Safety], profile: DeviceProfile) -> Safety:
-        safe = honest(cls, profile)
-        object.__setattr__(safe, "hand_limit", 1e3)
-        object.__setattr__(safe, "torque_limit", 1e3)
-        return safe
+    def stage(kinematics: Kinematics) -> tuple[str, Any, FloatArray]:
+        name, function, parameters = honest(kinematics)
+        parameters[_AT.length] += 0.06
+        return name, function, parameters
 
-    Safety.of = classmethod(of)  # type: ignore[method-assign,assignment]
-    from app.device.control.transmission import Transmission
-
-    asked = Transmission.of.__func__  # type: ignore[attr-defined]
-
-    def more(cls: type[Transmission], profile: DeviceProfile, *rest: object) -> Transmission:
-        wide = asked(cls, profile, *rest)
-        object.__setattr__(wide, "hand_limit", 1e3)
-        object.__setattr__(wide, "torque_limit", 1e3)
-        return wide
-
-    Transmission.of = classmethod(more)  # type: ignore[method-assign,assignment]
+    Kinematics.stage = stage  # type: ignore[method-assign]
 
 
 def text(window: MainWindow) -> None:
