@@ -79,7 +79,7 @@ class Robot:
             self.link.home()
             wait_for(lambda: self.link.is_homed)
             self.process.order("park off")
-            self.run(0.7)
+            self.run(3.0)  # the emulated hand brings them there no faster than hands move
 
     def torques(self):
         if self.process:
