@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from collections.abc import Callable
 from typing import Any
@@ -35,11 +36,16 @@ def void(window: MainWindow) -> None:
 
 
 def quantity(window: MainWindow) -> None:
-    """The bull's-eye says a tenth more than the panel."""
+    """The bull's-eye says more than the panel."""
     from app.views.exercise import bullseye
 
     honest = bullseye.lateral
-    bullseye.lateral = lambda frame, offset: honest(frame, 1.1 * offset)
+
+    def more(*arguments: Any, **others: Any) -> str:
+        words: str = honest(*arguments, **others)
+        return re.sub(r"\d+\.\d", lambda found: f"{1.1 * float(found[0]) + 0.2:.1f}", words)
+
+    bullseye.lateral = more
 
 
 def patient(window: MainWindow) -> None:
