@@ -131,12 +131,9 @@ class Conductor(QObject):
         """End the run on the patient, and forget everything that was known of it; idempotent."""
         if self.patient is None:
             return
-        run = self.controller.run
-        if run is not None and self._editor.locked:
-            run.trainer.abort(tr("another patient was opened"))
         self._leaving = True  # no run may be wanted for a plan that is about to go
         try:
-            self._runs.want(None)
+            self._runs.abort(tr("another patient was opened"))
             self.patient = None
             self._editor.set_locked(False)
             self._editor.set_keeps_target(False)

@@ -81,6 +81,15 @@ class Runs(QObject):
             if self._task is None and self._wanted is setup:
                 self._build(setup)
 
+    def abort(self, why: str) -> None:
+        """Want no trainer; an attempt that runs ends without force at once and is saved with `why`.
+
+        Scoring and writing go on beside the window.
+        """
+        self._wanted = None
+        if self._task is None:
+            self._drop(why)
+
     def closed(self) -> Callable[[], None]:
         """Return what waits until the last run has let go of its robot; for other threads."""
         closing = self._closing
@@ -98,6 +107,7 @@ class Runs(QObject):
         opened, self._open = self._open, None
         if opened is not None:
             opened.close()
+        self.closed()()
 
     def _build(self, setup: RunSetup) -> None:
         self._setup = setup
@@ -141,14 +151,21 @@ class Runs(QObject):
         except AcusError as error:
             self.failed.emit(error)
 
-    def _drop(self) -> None:
+    def _drop(self, why: str = "") -> None:
         opened, self._open = self._open, None
-        if opened is not None:
-            self.gone.emit()
-            self._closing = threading.Thread(
-                target=opened.close, name="acus-run-close", daemon=True
-            )
-            self._closing.start()
+        if opened is None:
+            return
+        if why:
+            opened.run.trainer.disarm()
+
+        def close() -> None:
+            if why:
+                opened.run.trainer.abort(why)
+            opened.close()
+
+        self.gone.emit()
+        self._closing = threading.Thread(target=close, name="acus-run-close", daemon=True)
+        self._closing.start()
 
 
 def _same(placed: PlacedPlan, other: PlacedPlan) -> bool:

@@ -145,7 +145,8 @@ def apply_theme(application: QApplication, theme: Theme = DARK, size: float = 1.
     """
     zoom = size / _scale
     _adopt(theme, size)
-    application.setStyle("Fusion")
+    if not application.styleSheet():  # it stays; setting it again polishes every widget once more
+        application.setStyle("Fusion")
     application.setPalette(_palette())
     font = QFont(application.font())
     font.setPixelSize(FONT_PX)

@@ -1,3 +1,5 @@
+import threading
+import time
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -39,6 +41,14 @@ def desk(qt):
     controller.detach()
     for name in ExerciseViews.__slots__:
         getattr(views, name).deleteLater()
+
+
+def until(holds, seconds=2.0):
+    """Let the window live until something holds; returns whether it does."""
+    end = time.monotonic() + seconds
+    while not holds() and time.monotonic() < end:
+        QTest.qWait(10)
+    return holds()
 
 
 def test_every_look_sends_a_heartbeat_and_passes_the_needle_on(desk):
@@ -116,6 +126,27 @@ def test_a_result_from_before_is_not_told_of_again(desk):
     assert results == []
 
 
+def test_aborting_disarms_at_once_and_writes_beside_the_window(desk):
+    desk.controller.look()
+    desk.controller.begin("x")
+    honest, results = desk.trainer.abort, []
+    written = threading.Event()
+
+    def slow(reason=""):
+        written.wait(5.0)
+        return honest(reason)
+
+    desk.trainer.abort = slow
+    desk.controller.finished.connect(results.append)
+    desk.controller.abort()
+    desk.controller.abort()  # pressed once more while it is written
+    assert desk.trainer.told("disarm")
+    assert not results
+    written.set()
+    assert until(lambda: bool(results))
+    assert len(desk.trainer.told("abort")) == len(results) == 1
+
+
 def test_dial_scan_abort_and_hand_reach_the_trainer(desk):
     desk.controller.look()
     desk.controller.begin("x")
@@ -126,7 +157,7 @@ def test_dial_scan_abort_and_hand_reach_the_trainer(desk):
     desk.views.panel.buttons.abort.click()
     assert ("assistance", 0.4) in desk.trainer.calls
     assert desk.trainer.told("scan")
-    assert desk.trainer.told("abort")
+    assert until(lambda: bool(desk.trainer.told("abort")))
     hand = desk.trainer.told("hand")[-1]
     assert np.hypot(hand[1], hand[2]) < 1.0
     assert hand[4] is True

@@ -51,7 +51,7 @@ class CalibrationWizard(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Calibration of the cameras"))
-        self.setMinimumSize(940, 620)
+        self.resize(theme.px(940), 620)
         self.job = job
         self.list, self.pages = QListWidget(self), QStackedWidget(self)
         self.board_page = BoardPage(job, self)

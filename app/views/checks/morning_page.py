@@ -57,7 +57,7 @@ class MorningPage(QDialog):
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Morning check"))
-        self.setMinimumSize(theme.px(720), theme.px(520))
+        self.resize(theme.px(720), theme.px(520))
         self._run, self._plate = run, plate
         self._touch: TouchFacts | None = None
         self._failure, self._touching = "", ""

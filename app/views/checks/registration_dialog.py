@@ -49,7 +49,7 @@ class RegistrationDialog(QDialog):
     def __init__(self, around: Surroundings, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Registration check"))
-        self.setMinimumSize(theme.px(780), 640)  # no higher: 768 must do
+        self.resize(theme.px(780), 640)  # no higher: 768 must do
         self._around = around
         self._history = History(CheckDraft())
         self._touching = ""

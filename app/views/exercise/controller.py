@@ -201,17 +201,14 @@ class ExerciseController(QObject):
 
     def end(self) -> None:
         """End the attempt; scoring and writing go on beside the window."""
-        run = self._run
-        if run is None or self._ending:
-            return
-        self._ending = True
-        run_in_background(self, lambda _: run.trainer.end(), self._ended, self._end_failed)
+        if self._run is not None:
+            self._finish(self._run.trainer.end)
 
     def abort(self) -> None:
-        """Break the attempt off: the force is zero before this returns."""
+        """Break the attempt off: forces off at once; score and record follow beside the window."""
         if self._run is not None:
-            self._run.trainer.abort()
-            self.look()
+            self._run.trainer.disarm()
+            self._finish(self._run.trainer.abort)
 
     def set_held(self, held: bool) -> None:
         """Arm the forces while somebody holds the switch."""
@@ -234,7 +231,12 @@ class ExerciseController(QObject):
             self._views.panel.set_assistance(run.trainer.snapshot().assistance)
             self._fail(str(error))
 
-    def _ended(self, result: AttemptResult) -> None:
+    def _finish(self, finish: Callable[[], AttemptResult | None]) -> None:
+        if not self._ending:
+            self._ending = True
+            run_in_background(self, lambda _: finish(), self._ended, self._end_failed)
+
+    def _ended(self, result: AttemptResult | None) -> None:
         self._ending = False
         self.look()
 

@@ -35,7 +35,7 @@ class Wizard(QDialog):
     def __init__(self, bench: BenchPort, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Commissioning of {name}", name=bench.profile.name))
-        self.setMinimumSize(860, 560)
+        self.resize(theme.px(860), 560)
         self._bench = bench
         self.runner = Runner(bench, self)
         self.steps = steps_of(bench)

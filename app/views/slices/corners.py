@@ -51,10 +51,12 @@ class Overlay(QLabel):
         return font
 
     def changeEvent(self, event: QEvent) -> None:
-        """Take another size of the text."""
+        """Take another size of the text; told of several times for one change."""
         if event.type() == QEvent.Type.FontChange and hasattr(self, "_lines"):
-            self._font = self._sized_font()
-            self._draw()
+            size = theme.SMALL_PX + self._larger
+            if size != self._font.pixelSize():
+                self._font = self._sized_font()
+                self._draw()
 
     def set_lines(self, *lines: str, first: str = "") -> None:
         """Show these lines, the first of them in the colour `first` if given."""
