@@ -62,12 +62,12 @@ def answer(window: MainWindow) -> None:
 
 
 def force(window: MainWindow) -> None:
-    """The loop takes the needle for 60 mm longer than it is, and so its lever."""
+    """The loop takes the needle for 250 mm longer than it is, and so its lever."""
     honest = Kinematics.stage
 
     def stage(kinematics: Kinematics) -> tuple[str, Any, FloatArray]:
         name, function, parameters = honest(kinematics)
-        parameters[_AT.length] += 0.06
+        parameters[_AT.length] += 0.25
         return name, function, parameters
 
     Kinematics.stage = stage  # type: ignore[method-assign]
