@@ -143,7 +143,8 @@ def _wheel(rng: random.Random, screen: Screen) -> Action | None:
     places = screen.pictures or screen.controls
     if not places:
         return None
-    target = rng.choice(places)
+    pads = [target for target in places if "PadCanvas" in target.path]
+    target = rng.choice(pads if pads and rng.random() < 0.6 else places)
     notches = rng.choice((1, 3, 10, 40)) * rng.choice((-1, 1))
     return Action("wheel", target.path, _place(rng), number=notches, words=target.words)
 

@@ -49,11 +49,16 @@ def quantity(window: MainWindow) -> None:
 
 
 def patient(window: MainWindow) -> None:
-    """The count of scans survives a change of patient."""
-    values = window.workspace.exercise_panel.readouts._values["scans"]
-    plain = values.setText
-    values.setText = lambda text: plain("3" if text == "–" else text)  # type: ignore[method-assign]
-    window.workspace.exercise_panel.readouts.show_figures(None)
+    """The count of scans survives whatever comes after: attempt, exercise, patient."""
+    value = window.workspace.exercise_panel.readouts._values["scans"]
+    plain, most = value.setText, 0
+
+    def keep(text: str) -> None:
+        nonlocal most
+        most = max(most, int(text) if text.isdigit() else 0)
+        plain(str(most))
+
+    value.setText = keep  # type: ignore[method-assign]
 
 
 def answer(window: MainWindow) -> None:
@@ -62,12 +67,12 @@ def answer(window: MainWindow) -> None:
 
 
 def force(window: MainWindow) -> None:
-    """The loop takes the needle for 250 mm longer than it is, and so its lever."""
+    """The loop takes the needle for 100 mm longer than it is, and so its lever."""
     honest = Kinematics.stage
 
     def stage(kinematics: Kinematics) -> tuple[str, Any, FloatArray]:
         name, function, parameters = honest(kinematics)
-        parameters[_AT.length] += 0.25
+        parameters[_AT.length] += 0.1
         return name, function, parameters
 
     Kinematics.stage = stage  # type: ignore[method-assign]
