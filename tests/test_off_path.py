@@ -24,11 +24,11 @@ from app.session.recording import read_recording
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.live_needle import LiveNeedle
 from app.views.exercise.pad_view import depth_tolerance, rings
 from app.views.exercise.readings import figures, pad_view
 from app.views.exercise.run import ExerciseRun
-from app.views.live_needle import LiveNeedle
-from app.views.target_motion import TargetMotion
+from app.views.exercise.target_motion import TargetMotion
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 

@@ -14,8 +14,8 @@ from PySide6.QtWidgets import QApplication, QDialog
 
 from app.compose.desktop import Desktop
 from app.planning.proposal import demonstration_plan
-from app.views.application import start
-from app.views.window import MainWindow
+from app.views.shell.application import start
+from app.views.shell.window import MainWindow
 
 PATIENCE_S = 550.0
 """A first start compiles every kernel [s]."""

@@ -19,9 +19,9 @@ from app.tracking.calibration.boards import Board, parse_board
 from app.tracking.calibration.placed_board import place
 from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.board import BoardRenderer
-from app.views.application import start
 from app.views.cameras.wizard import CalibrationWizard
 from app.views.cameras.wizard_job import CalibrationJob
+from app.views.shell.application import start
 from tools.robot_pictures import keep, pause, wait
 
 BOARD = "charuco:9x6:11mm:8mm:DICT_5X5_100"

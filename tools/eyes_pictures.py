@@ -9,9 +9,9 @@ from math import radians
 from pathlib import Path
 
 from app.compose import Desktop
-from app.views.application import start
+from app.views.shell.application import start
+from app.views.shell.window import MainWindow
 from app.views.slices.camera import Camera
-from app.views.window import MainWindow
 from tools.robot_pictures import keep, pause, wait
 
 

@@ -20,7 +20,7 @@ from app.imaging.structures.edit import brushed
 from app.imaging.structures.structure import Kind, Structure
 from app.imaging.window import WindowLevel
 from app.planning.measurements import Angle, Distance, Probe, Region
-from app.views.application import start
+from app.views.shell.application import start
 from app.views.slices.looks import Look, Slab
 from app.views.slices.operator_side import Side
 from app.views.slices.panes import PaneId

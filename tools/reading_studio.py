@@ -13,8 +13,8 @@ from app.exercises.library import load_exercise
 from app.exercises.parts import Ct, PlanPoints
 from app.exercises.schema import Exercise
 from app.imaging.privacy.key import BYTES, key_path
+from app.views.shell.window import MainWindow
 from app.views.slices.camera import Camera
-from app.views.window import MainWindow
 from tools.palette import small_png
 from tools.robot_pictures import pause, wait
 from tools.still_run import StillDesktop, StillTrainer

@@ -18,10 +18,10 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.compose import Desktop
 from app.core.progress import Progress
 from app.mechanisms.profile import load_profile
-from app.views.application import start
 from app.views.exercise.energy_gauge import GaugeMode
 from app.views.robot.wizard import Wizard
-from app.views.window import MainWindow
+from app.views.shell.application import start
+from app.views.shell.window import MainWindow
 
 ROOT = Path(__file__).resolve().parents[1]
 

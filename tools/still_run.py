@@ -25,7 +25,7 @@ from app.tracking.fix import FixStatus, NeedleFix
 from app.views.exercise.pad_view import rings
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.shown import Shown
-from app.views.services import RunSetup
+from app.views.shell.services import RunSetup
 
 START, LONGEST = 100.0, 120.0
 

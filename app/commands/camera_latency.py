@@ -21,8 +21,8 @@ def measure(side: str) -> None:
     from app.compose import Desktop
     from app.tracking.cameras.settings import SIDES, load_settings, save_settings, with_latency
     from app.tracking.errors import CameraError
-    from app.views.application import NoDisplayError, start
     from app.views.cameras.latency_dialog import LatencyDialog
+    from app.views.shell.application import NoDisplayError, start
 
     if side not in SIDES:
         raise CameraError(f"there is no {side!r} camera; there are {' and '.join(SIDES)}")

@@ -10,7 +10,7 @@ import typer
 
 if TYPE_CHECKING:
     from app.session.result import AttemptResult
-    from app.views.demonstration_script import Script
+    from app.views.shell.demonstration_script import Script
 
 
 class SkillName(StrEnum):
@@ -53,7 +53,7 @@ def demo(
 
     Without a display it runs as with --headless.
     """
-    from app.views.application import has_display
+    from app.views.shell.application import has_display
 
     hidden = headless or not has_display()
     folder = out or (Path("out") / "demo" if hidden else None)
@@ -77,11 +77,11 @@ def _show(
     from app.imaging.reading import choose
     from app.imaging.scanning import scan_folder
     from app.tracking.cameras.settings import parse_cameras
-    from app.views.application import start
-    from app.views.collector import collect_for
-    from app.views.demonstration import Demonstration
-    from app.views.demonstration_script import Script
-    from app.views.window import MainWindow
+    from app.views.shell.application import start
+    from app.views.shell.collector import collect_for
+    from app.views.shell.demonstration import Demonstration
+    from app.views.shell.demonstration_script import Script
+    from app.views.shell.window import MainWindow
 
     known = library().ids()
     if exercise not in known:

@@ -25,9 +25,9 @@ def explain(
     as_json: Annotated[bool, typer.Option("--json", help="print JSON (docs/json.md)")] = False,
 ) -> None:
     """Print the force laws, what an exercise simulates and what it leaves out, and why."""
+    from app.compose.declared_views import declared_views
     from app.exercises.library import load_exercise
     from app.exercises.scene import compile_exercise, device_of, law_requests
-    from app.views.declared import declared_views
 
     chosen = load_exercise(exercise)
     profile = device_of(chosen)

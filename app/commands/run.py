@@ -42,9 +42,9 @@ def run(
     from app.compose import Desktop
     from app.tracking.cameras.settings import parse_cameras
     from app.tracking.cameras.source import parse_source
-    from app.views.application import start
-    from app.views.collector import collect_for
-    from app.views.window import MainWindow
+    from app.views.shell.application import start
+    from app.views.shell.collector import collect_for
+    from app.views.shell.window import MainWindow
 
     if pen is not None:
         parse_source(pen)

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from app.tracking.pen.tracker import PenTracker
     from app.tracking.tracker import Tracker
     from app.views.exercise.run import ExerciseRun
-    from app.views.services import RobotPort, RunSetup
+    from app.views.shell.services import RobotPort, RunSetup
 
 HEAVY_MODULES: Final = (
     "app.imaging.reading",
@@ -114,7 +114,7 @@ class Desktop:
     def camera_sources(self) -> tuple[RobotPort, ...]:
         """Cameras that are plugged in now."""
         from app.tracking.cameras.ports import camera_ports
-        from app.views.services import RobotPort
+        from app.views.shell.services import RobotPort
 
         return tuple(
             RobotPort(f"usb:{port.port}", f"{port.title} (usb:{port.port})")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
+from app.compose.declared_views import declared_views
 from app.compose.needle import UPRIGHT
 from app.core.arrays import FloatArray
 from app.device.control import Table
@@ -19,7 +20,6 @@ from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.simulation.plant import plant_stage
 from app.simulation.trainee import trainee_stage
-from app.views.declared import declared_views
 
 START_DEPTH: Final = -0.015
 """Where the needle of a simulated hand waits [m]."""

@@ -9,7 +9,7 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.device.errors import LinkError
 from app.mechanisms.profile import DeviceProfile
-from app.views.services import RobotPort
+from app.views.shell.services import RobotPort
 
 if TYPE_CHECKING:
     from app.device.commissioning.bench import Bench

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
+from app.compose.declared_views import declared_views
 from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
 from app.compose.pen import Pen
 from app.compose.record import agreement_of, run_context
@@ -37,7 +38,6 @@ from app.tracking.optics.rig import load_rig
 from app.tracking.pen.settings import PenSettings
 from app.tracking.pen.tracker import PenTracker
 from app.tracking.tracker import Tracker
-from app.views.declared import declared_views
 
 START_DEPTH: Final = -0.015
 """Where the needle waits: tip 15 mm above the skin [m]."""

@@ -37,9 +37,9 @@ from app.session.samples import History
 from app.session.scan import scan
 from app.session.scored import score_document, trajectory
 from app.session.ticks import read_inputs
-from app.views.application import start
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.review import Review, review
+from app.views.shell.application import start
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 PLACED = PlacedPlan.of(Plan(np.zeros(3), np.array([0.0, 60.0, 0.0]), "bench"), Placement(), FULCRUM)

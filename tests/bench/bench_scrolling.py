@@ -19,13 +19,13 @@ from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.series import Series
 from app.imaging.volume import Volume
 from app.imaging.window import WindowLevel
-from app.views.grid import ViewGrid
-from app.views.layouts import SCENE
+from app.views.kit.theme import apply_theme
+from app.views.reading.grid import ViewGrid
+from app.views.reading.layouts import SCENE
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
-from app.views.theme import apply_theme
 
 SIZE, SHAPE, STEPS, GOAL_MS = (1400, 900), (300, 512, 512), 150, 16.0
 

@@ -11,9 +11,9 @@ from PySide6.QtWidgets import QApplication
 
 from app.compose import Desktop
 from app.session.needle import DepthSource
-from app.views.application import start
+from app.views.shell.application import start
+from app.views.shell.window import MainWindow
 from app.views.slices.panes import PaneId
-from app.views.window import MainWindow
 
 
 def pump(until: Callable[[], bool], limit: float) -> bool:

@@ -23,7 +23,7 @@ from app.core import state_vector as sv
 from app.session.machine import RUNNING
 from app.session.recording import read_recording
 from app.session.result import AttemptResult
-from app.views.window import MainWindow
+from app.views.shell.window import MainWindow
 from tests.careless.texts import all_windows, cut_texts
 
 ANSWER_S = 1.0

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel
 
 from app.core.arrays import FloatArray
 from app.device.control.kinematics import _AT, Kinematics
-from app.views.window import MainWindow
+from app.views.shell.window import MainWindow
 
 
 def log(window: MainWindow) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton, QWidget
 
-from app.views.theme import apply_theme
+from app.views.kit.theme import apply_theme
 from tests.careless.actions import Action, Screen, Target, draw, read_actions
 from tests.careless.texts import cut_texts
 

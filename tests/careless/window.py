@@ -24,9 +24,9 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtWidgets import QApplication, QFileDialog, QMenu
 
 from app.compose import Desktop
-from app.views.application import start
-from app.views.collector import collect_for
-from app.views.window import MainWindow
+from app.views.shell.application import start
+from app.views.shell.collector import collect_for
+from app.views.shell.window import MainWindow
 from tests.careless import hands
 from tests.careless.actions import Action, Screen, draw, read_actions
 from tests.careless.checks import ANSWER_S, Checks, Failure

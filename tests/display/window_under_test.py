@@ -17,9 +17,9 @@ from PySide6.QtWidgets import QPushButton, QWidget
 
 from app.compose import Desktop
 from app.core.files import write_atomically
-from app.views.application import start
-from app.views.collector import collect_for
-from app.views.window import MainWindow
+from app.views.shell.application import start
+from app.views.shell.collector import collect_for
+from app.views.shell.window import MainWindow
 from tests.display.scan_reading import remaining_mm
 
 PERIOD_MS = 100

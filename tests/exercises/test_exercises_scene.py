@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from app.compose.declared_views import declared_views
 from app.core.errors import ConfigurationError
 from app.exercises.library import load_exercise
 from app.exercises.parts import PlanPoints
@@ -15,7 +16,6 @@ from app.exercises.scene import (
 from app.exercises.schema import Exercise
 from app.planning.plan import Plan
 from app.simulation.errors import SimulationError
-from app.views.declared import declared_views
 
 POINTS = {"entry_mm": (0.0, -90.0, 300.0), "target_mm": (5.0, -20.0, 305.0)}
 

@@ -34,9 +34,9 @@ from app.session.control_scan import ControlScan
 from app.session.machine import State
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.shown import Shown
-from app.views.patient import Patient
+from app.views.series.patient import Patient
+from app.views.shell.window import MainWindow
 from app.views.slices.viewing import Tool
-from app.views.window import MainWindow
 
 OLD, NEW = "CT-OLDER-7731", "CT-NEWER-0042"
 PLANTED = ("7731", "77.7", "54:21", "1234", "98.7", "OLDPLAN", "oldvessel", "oldnote", "Scans: 3")
@@ -244,7 +244,7 @@ def slow(monkeypatch, patients):
             raise outcome["error"]
         return outcome["patient"]
 
-    monkeypatch.setattr("app.views.open_ct.load_phantom", load)
+    monkeypatch.setattr("app.views.series.open_ct.load_phantom", load)
     yield go, outcome
     go.set()
 

@@ -9,6 +9,7 @@ import pytest
 from app.core.confidence import chi_square_quantile
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
+from app.planning.error_overlay import PATIENCE, Enlargement, ErrorOverlay
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.planning.registration.draft import CheckDraft, measured_placement
@@ -19,7 +20,6 @@ from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.inspection import Inspection
 from app.views.checks.registration_dialog import RegistrationDialog
 from app.views.checks.words import agreement_item
-from app.views.error_overlay import PATIENCE, Enlargement, ErrorOverlay
 from app.views.exercise.status_items import Verdict
 from app.views.scene.words import error_note
 

@@ -11,8 +11,8 @@ from app.mechanisms.profile import load_profile
 from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
 from app.planning.reach import reach
-from app.views import patient
-from app.views.collector import FULL_EVERY, Collector
+from app.views.series import patient
+from app.views.shell.collector import FULL_EVERY, Collector
 
 
 @pytest.fixture

@@ -26,7 +26,7 @@ from app.session.machine import State
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.scan_view import ScanView
 from app.views.exercise.shown import Shown, veiled
-from app.views.patient import Patient
+from app.views.series.patient import Patient
 
 
 def scan_event(number=1, tip=(5.0, 0.0, 140.0), order=None, time=3.0):

@@ -1,6 +1,6 @@
 """Coordinates for people."""
 
-from app.views.coordinates import lps_words
+from app.views.kit.coordinates import lps_words
 
 
 def test_letters_name_the_side_and_there_is_no_sign():

@@ -5,9 +5,9 @@ import pytest
 from window_rig import plan
 
 from app.exercises.parts import OwnPlan
-from app.views.demonstration import FRESH_S, Demonstration, has_fresh_fix
-from app.views.demonstration_script import DemonstrationError, Script
 from app.views.exercise.shown import Shown
+from app.views.shell.demonstration import FRESH_S, Demonstration, has_fresh_fix
+from app.views.shell.demonstration_script import DemonstrationError, Script
 
 
 @pytest.fixture

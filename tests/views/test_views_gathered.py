@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QGraphicsItem
 from app.core.errors import NumericalError
 from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices.items import MarkItem
 from app.views.slices.looks import Slab
 from app.views.slices.needle_source import NeedlePlanes

@@ -3,8 +3,8 @@
 import pytest
 from PySide6.QtWidgets import QWidget
 
-from app.views.grid import ViewGrid
-from app.views.layouts import (
+from app.views.reading.grid import ViewGrid
+from app.views.reading.layouts import (
     BULLSEYE,
     COLUMNS,
     FOUR,

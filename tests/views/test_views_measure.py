@@ -9,8 +9,8 @@ from window_rig import plan
 
 from app.planning.measurements import Angle, Distance, Probe, Region
 from app.views.measure.editor import MeasureEditor, MeasureTool
+from app.views.shell.undo import UndoOrder
 from app.views.slices.viewing import Tool
-from app.views.undo import UndoOrder
 
 
 @pytest.fixture

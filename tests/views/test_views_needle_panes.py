@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from app.planning.draft import DraftPlan
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices.layers import FADED, FAINTEST, fading
 from app.views.slices.needle_menu import fill_needle_menu
 from app.views.slices.needle_source import Along, NeedlePlanes

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.planning.draft import DraftPlan
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices.needle_menu import fill_needle_menu
 from app.views.slices.needle_source import Along, NeedlePlanes
 from app.views.slices.pane import SlicePane

@@ -11,15 +11,15 @@ from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.imaging.errors import ImagingError
 from app.imaging.series import Ignored, Listing, Remedy
-from app.views import theme
-from app.views.background import run_in_background
-from app.views.elided_label import ElidedLabel
-from app.views.grid import ViewGrid
-from app.views.layouts import BULLSEYE, CORONAL, FIVE, FOUR
-from app.views.message_bar import MessageBar
-from app.views.progress_strip import ProgressStrip
+from app.views.kit import theme
+from app.views.kit.background import run_in_background
+from app.views.kit.elided_label import ElidedLabel
+from app.views.kit.progress_strip import ProgressStrip
+from app.views.kit.text import install_translation, tr
+from app.views.reading.grid import ViewGrid
+from app.views.reading.layouts import BULLSEYE, CORONAL, FIVE, FOUR
 from app.views.series.browser import SeriesBrowser
-from app.views.text import install_translation, tr
+from app.views.shell.message_bar import MessageBar
 
 
 # --- text, theme, background -------------------------------------------------------------------

@@ -7,7 +7,7 @@ from window_rig import plan
 
 from app.exchange.transforms import read_tfm, write_tfm
 from app.planning.placement import PatientOrientation, Placement, placement_of
-from app.views.drops import open_dropped
+from app.views.shell.drops import open_dropped
 
 
 @pytest.fixture

@@ -4,8 +4,8 @@ from PySide6.QtWidgets import QApplication
 
 from app import __version__
 from app.core.log_file import LogFile
-from app.views.names import NAMES
-from app.views.problem_report import ProblemReport
+from app.views.kit.names import NAMES
+from app.views.shell.problem_report import ProblemReport
 
 
 def test_a_report_holds_versions_and_the_log_and_nobody_is_named(application, tmp_path):

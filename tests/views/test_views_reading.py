@@ -13,7 +13,7 @@ from test_views_slices import drag, press, wheel
 from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.reformat import Frame
 from app.imaging.window import PRESETS, WindowLevel
-from app.views.shortcuts import ShortcutSheet, groups
+from app.views.shell.shortcuts import ShortcutSheet, groups
 from app.views.slices.binding_words import action_words, key_rows
 from app.views.slices.bindings import OHIF, RESERVED, SCHEMES, SLICER, Action, key_name
 from app.views.slices.camera import Camera

@@ -14,16 +14,16 @@ from app.exercises.reading import ReadingPart
 from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.window import PRESETS, WindowLevel
 from app.planning.placement import PatientOrientation
-from app.views import theme
-from app.views.names import NAMES
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.themes import DARK, LIGHT, THEMES, restyled, translated
 from app.views.robot.health_panel import _Line
+from app.views.shell.window import MainWindow
 from app.views.slices.looks import Look, Slab, Turn
 from app.views.slices.operator_side import Side, side_name, turns
 from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.panes import PANE_MARKS, PaneId
 from app.views.slices.shown_plane import ShownPlane
-from app.views.themes import DARK, LIGHT, THEMES, restyled, translated
-from app.views.window import MainWindow
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ from app.imaging.structures.structure import Structure
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
 from app.planning.draft import DraftPlan
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.needle_overlay import NeedleOverlay
 from app.views.scene.compass import compass_ends
 from app.views.scene.mesh import coarser, isosurface, structure_mesh
 from app.views.scene.orbit import Orbit

@@ -9,6 +9,7 @@ from views_exercise_fakes import pose as pose_of
 from views_exercise_fakes import snapshot as snapshot_of
 from window_rig import plan
 
+from app.compose.declared_views import declared_views
 from app.exercises.guidance import GuidanceMode, GuidancePart
 from app.exercises.library import load_exercise
 from app.exercises.locks import Lock
@@ -16,10 +17,9 @@ from app.exercises.parts import TELLING, View
 from app.exercises.scene import CONTROL_SCAN, compile_exercise, device_of
 from app.exercises.schema import Exercise
 from app.session.curves import offset
-from app.views.declared import declared_views
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.shown import Shown
-from app.views.lock_words import view_title
+from app.views.reading.lock_words import view_title
 
 SHIFT = np.array([0.002, 0.006, -0.003])
 

@@ -3,7 +3,7 @@
 import pytest
 from PySide6.QtWidgets import QApplication, QLabel
 
-from app.views.side_panel import IN_A_ROW, SidePanel
+from app.views.kit.side_panel import IN_A_ROW, SidePanel
 
 
 @pytest.fixture

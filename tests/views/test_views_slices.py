@@ -13,7 +13,7 @@ from app.core.errors import NumericalError
 from app.imaging.orthogonal import View
 from app.imaging.window import PRESETS, WindowLevel, to_grey
 from app.planning.draft import DraftPlan
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices import picture_item
 from app.views.slices.bindings import OHIF, SLICER
 from app.views.slices.camera import Camera, ruler

@@ -14,8 +14,8 @@ HEAVY = ("numba", "llvmlite", "vtkmodules", "scipy", "pydicom", "cv2")
 START = """
 import sys
 from app.compose import Desktop
-from app.views.application import start
-from app.views.window import MainWindow
+from app.views.shell.application import start
+from app.views.shell.window import MainWindow
 application = start(offscreen=True)
 window = MainWindow(Desktop())
 application.processEvents()
@@ -27,7 +27,7 @@ PREPARE = """
 import threading
 import time
 from app.core.progress import Progress
-from app.views.patient import load_phantom
+from app.views.series.patient import load_phantom
 failures = []
 def guarded(work):
     try:
@@ -64,7 +64,7 @@ def run(code, tmp_path):
     return set(out.stdout.split())
 
 
-@pytest.mark.parametrize("code", [START, "import sys, app.views.window, app.compose\n"])
+@pytest.mark.parametrize("code", [START, "import sys, app.views.shell.window, app.compose\n"])
 def test_the_start_page_loads_nothing_heavy(code, tmp_path):
     assert not run(code + LOADED, tmp_path) & set(HEAVY)
 

@@ -12,7 +12,7 @@ from app.imaging.structures.structure import Kind, Structure, StructureSet
 from app.imaging.volume import Volume
 from app.planning.clearance import Nearness
 from app.planning.draft import DraftPlan
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
 from app.views.slices.presets import default_window

@@ -1,5 +1,5 @@
 from app.core.disclaimer import DISCLAIMER
-from app.views.text import disclaimer
+from app.views.kit.text import disclaimer
 
 
 def test_the_disclaimer_of_the_window_is_the_one_of_the_files():

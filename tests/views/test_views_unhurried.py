@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QObject
 
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices import unhurried
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId

@@ -12,15 +12,15 @@ from app.core.disclaimer import DISCLAIMER
 from app.core.events import Event
 from app.imaging import scanning
 from app.imaging.series import Listing
+from app.planning.needle_overlay import NeedleOverlay
 from app.planning.plan import Plan
 from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS, Cause
-from app.views.layouts import FIVE
-from app.views.needle_overlay import NeedleOverlay
+from app.views.reading.layouts import FIVE
 from app.views.series.browser import SeriesBrowser
-from app.views.shortcuts import ShortcutSheet
+from app.views.shell.shortcuts import ShortcutSheet
+from app.views.shell.window import MainWindow
 from app.views.slices.panes import PaneId
 from app.views.slices.viewing import Tool
-from app.views.window import MainWindow
 
 
 def test_the_start_page_carries_the_disclaimer_and_the_exercises(window):

@@ -5,7 +5,7 @@ from pathlib import Path
 from window_rig import plan
 
 from app.views.robot.wizard_pages import ConnectionPage
-from app.views.window import MainWindow
+from app.views.shell.window import MainWindow
 
 
 def test_another_robot_ends_the_run_and_begins_one_on_it(window, patient, services, settle):

@@ -22,7 +22,7 @@ from app.tracking.pen.webcam import guessed_webcam
 from app.tracking.statistics import TrackerMeter
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.shown import Shown
-from app.views.services import RobotPort
+from app.views.shell.services import RobotPort
 from app.views.slices.viewing import Tool
 
 

@@ -16,7 +16,6 @@ from app.planning.plan import Plan
 from app.session.machine import State
 from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.fix import FixStatus
-from app.views import theme
 from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.felt import guidance_limit
 from app.views.exercise.hold_key import HOLD_MS
@@ -36,6 +35,7 @@ from app.views.exercise.status_items import (
     tracker_item,
 )
 from app.views.exercise.tracker_panel import TrackerFigures, _Figures, residual_text
+from app.views.kit import theme
 
 
 @pytest.fixture

@@ -9,14 +9,14 @@ from PySide6.QtWidgets import QDialog, QDialogButtonBox, QHBoxLayout, QLabel, QV
 
 from app.core.progress import Progress
 from app.tracking.cameras.settings import SIDES, CameraSettings
-from app.views import theme
-from app.views.background import run_in_background
 from app.views.cameras.live import AimPort, LiveCamera, LivePreview
-from app.views.progress_strip import ProgressStrip
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.background import run_in_background
+from app.views.kit.progress_strip import ProgressStrip
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
-    from app.views.services import Services
+    from app.views.shell.services import Services
 
 ENOUGH = 0.995
 

@@ -23,7 +23,7 @@ from app.tracking.calibration.boards import Board
 from app.tracking.calibration.pattern import dark_rectangles
 from app.tracking.errors import CalibrationError
 from app.views.cameras.board_layout import EDGE_MM, RULER_MM, Paper, Sheet, lay_out
-from app.views.text import tr
+from app.views.kit.text import tr
 
 _DPI: Final = 1200
 _MM_PER_INCH: Final = 25.4

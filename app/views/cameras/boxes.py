@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QComboBox, QWidget
 
 from app.tracking.cameras.source import Kind, parse_source
-from app.views.text import tr
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
-    from app.views.services import RobotPort
+    from app.views.shell.services import RobotPort
 
 SIZES = ("640x480", "800x600", "1280x720", "1920x1080")
 

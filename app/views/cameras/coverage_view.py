@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from app.tracking.calibration.corners import to_grey
 from app.tracking.calibration.coverage import COLUMNS, ROWS, Coverage
 from app.tracking.calibration.views import BoardView
-from app.views import theme
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

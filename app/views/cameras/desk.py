@@ -17,14 +17,14 @@ from app.tracking.cameras.settings import (
     save_settings,
     with_latency,
 )
-from app.views.background import run_in_background
 from app.views.cameras.aim_dialog import AimDialog
 from app.views.cameras.latency_dialog import LatencyDialog
 from app.views.cameras.settings_dialog import CameraSettingsDialog
-from app.views.conductor import Conductor
-from app.views.runs import Runs
-from app.views.services import Services
-from app.views.text import tr
+from app.views.exercise.conductor import Conductor
+from app.views.exercise.runs import Runs
+from app.views.kit.background import run_in_background
+from app.views.kit.text import tr
+from app.views.shell.services import Services
 
 if TYPE_CHECKING:
     from PySide6.QtCore import QSettings

@@ -20,16 +20,16 @@ from PySide6.QtWidgets import (
 
 from app.core.progress import Progress
 from app.tracking.cameras.settings import CameraSettings
-from app.views import theme
-from app.views.background import run_in_background
 from app.views.cameras.blink_patch import BlinkPatch
 from app.views.cameras.live import LiveCamera, LivePreview
-from app.views.progress_strip import ProgressStrip
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.background import run_in_background
+from app.views.kit.progress_strip import ProgressStrip
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.tracking.cameras.latency import Latency
-    from app.views.services import Services
+    from app.views.shell.services import Services
 
 TAIL_MS = 700
 """The last change has reached the camera by then."""

@@ -10,10 +10,10 @@ from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from app.core.progress import Progress
-from app.views import theme
-from app.views.background import Indicator, Task, run_in_background
 from app.views.cameras.picture import PictureView
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.background import Indicator, Task, run_in_background
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray

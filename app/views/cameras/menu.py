@@ -8,7 +8,7 @@ from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu
 
 from app.views.cameras.desk import CamerasDesk
-from app.views.text import tr
+from app.views.kit.text import tr
 
 
 class CamerasMenu:

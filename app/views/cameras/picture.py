@@ -8,9 +8,9 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.views import theme
-from app.views.text import tr
-from app.views.themes import DARK
+from app.views.kit import theme
+from app.views.kit.text import tr
+from app.views.kit.themes import DARK
 
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray

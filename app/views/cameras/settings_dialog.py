@@ -20,15 +20,15 @@ from PySide6.QtWidgets import (
 from app.core.errors import AcusError
 from app.tracking.cameras.settings import SIDES, CameraSettings
 from app.tracking.cameras.source import Kind
-from app.views import theme
 from app.views.cameras.boxes import SizeBox
 from app.views.cameras.live import LiveCamera
 from app.views.cameras.side_editor import SideEditor
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
-    from app.views.services import Services
+    from app.views.shell.services import Services
 
 QUIET_MS = 500
 """This long after the last change the cameras are opened anew."""

@@ -11,10 +11,10 @@ from PySide6.QtWidgets import QDoubleSpinBox, QFormLayout, QLabel, QVBoxLayout, 
 from app.tracking.cameras.settings import OneCamera
 from app.views.cameras.boxes import SourceBox
 from app.views.cameras.live import LivePreview
-from app.views.text import tr
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
-    from app.views.services import RobotPort
+    from app.views.shell.services import RobotPort
 
 
 class SideEditor(QWidget):

@@ -18,7 +18,6 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.progress import Progress
-from app.views import theme
 from app.views.cameras.camera_pair import OpenCamera, OpenPair
 from app.views.cameras.wizard_board import BoardPage
 from app.views.cameras.wizard_capture import CapturePage
@@ -27,7 +26,8 @@ from app.views.cameras.wizard_parts import button
 from app.views.cameras.wizard_result import ResultPage
 from app.views.cameras.wizard_save import SavePage
 from app.views.cameras.wizard_world import WorldPage
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 Step = BoardPage | CapturePage | ResultPage | WorldPage | SavePage
 

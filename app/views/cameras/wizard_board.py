@@ -20,14 +20,14 @@ from PySide6.QtWidgets import (
 from app.core.errors import AcusError
 from app.core.units import MILLIMETRE
 from app.tracking.calibration.boards import Board, BoardKind, dictionary_names
-from app.views import theme
 from app.views.cameras.board_layout import PAPERS
 from app.views.cameras.board_page import write_board
 from app.views.cameras.sheet_view import SheetView
 from app.views.cameras.wizard_job import CalibrationJob
 from app.views.cameras.wizard_parts import button, column, label, tell
 from app.views.exercise.status_items import Verdict
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 _COMMON: Final = ("DICT_4X4_50", "DICT_4X4_100", "DICT_5X5_50", "DICT_5X5_100", "DICT_6X6_250")
 

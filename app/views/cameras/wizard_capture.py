@@ -12,7 +12,6 @@ from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QWidget
 from app.core.errors import AcusError
 from app.tracking.calibration.collector import ViewCollector
 from app.tracking.calibration.views import BoardView
-from app.views.background import run_in_background
 from app.views.cameras.camera_pair import OpenCamera, OpenPair, PairOpening
 from app.views.cameras.capture import FolderShots, LiveShots, Search, Shot
 from app.views.cameras.coverage_view import CoverageView
@@ -20,7 +19,8 @@ from app.views.cameras.wizard_job import CalibrationJob, Views
 from app.views.cameras.wizard_parts import button, column, label, tell, thin_bar
 from app.views.cameras.wizard_words import pairs_words
 from app.views.exercise.status_items import Verdict
-from app.views.text import tr
+from app.views.kit.background import run_in_background
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.tracking.calibration.collector import Offer

@@ -8,8 +8,8 @@ from PySide6.QtWidgets import QTableWidget, QTableWidgetItem
 
 from app.core.errors import AcusError
 from app.tracking.calibration.history import CalibrationHistory, Entry
-from app.views import theme
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 Details = tuple[str, str, str]
 """Figures, place and problem of a calibration, in words."""

@@ -21,11 +21,11 @@ from app.tracking.calibration.formats.reading import read_calibration
 from app.tracking.calibration.formats.said import length, picture_size
 from app.tracking.calibration.history import CalibrationHistory
 from app.tracking.optics.calibration import StereoCalibration
-from app.views import theme
-from app.views.background import Task, run_in_background
 from app.views.cameras.wizard_parts import button, label, tell
 from app.views.exercise.status_items import Verdict
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.background import Task, run_in_background
+from app.views.kit.text import tr
 
 
 class ImportDialog(QDialog):

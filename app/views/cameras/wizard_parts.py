@@ -14,8 +14,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.views import theme
 from app.views.exercise.status_items import Verdict
+from app.views.kit import theme
 
 
 def column(page: QWidget, title: str) -> QVBoxLayout:

@@ -15,8 +15,6 @@ from PySide6.QtWidgets import (
 
 from app.tracking.calibration.run import StereoResult
 from app.tracking.optics.calibration import StereoCalibration
-from app.views import theme
-from app.views.background import Task, run_in_background
 from app.views.cameras.wizard_job import CalibrationJob
 from app.views.cameras.wizard_parts import button, column, label, table, tell, thin_bar
 from app.views.cameras.wizard_words import (
@@ -28,7 +26,9 @@ from app.views.cameras.wizard_words import (
     view_rows,
 )
 from app.views.exercise.status_items import Verdict
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.background import Task, run_in_background
+from app.views.kit.text import tr
 
 
 class ResultPage(QWidget):

@@ -15,7 +15,7 @@ from app.tracking.calibration.views import Rejection
 from app.tracking.calibration.world import WorldFrame
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration, StereoCalibration
 from app.views.exercise.status_items import Verdict
-from app.views.text import tr
+from app.views.kit.text import tr
 
 Line = tuple[Verdict, str]
 

@@ -22,14 +22,14 @@ from app.tracking.calibration.placed_board import PlacedBoard, place
 from app.tracking.calibration.world import WorldFrame
 from app.tracking.calibration.world_set import placed_boards
 from app.tracking.errors import CalibrationError
-from app.views.background import Task, run_in_background
 from app.views.cameras.camera_pair import OpenPair
 from app.views.cameras.take_board import take_board
 from app.views.cameras.wizard_job import CalibrationJob
 from app.views.cameras.wizard_parts import button, column, label, tell
 from app.views.cameras.wizard_words import world_lines
 from app.views.exercise.status_items import Verdict
-from app.views.text import tr
+from app.views.kit.background import Task, run_in_background
+from app.views.kit.text import tr
 
 
 class WorldPage(QWidget):

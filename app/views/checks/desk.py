@@ -14,15 +14,15 @@ from app.core.errors import AcusError
 from app.core.transform import RigidTransform
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
+from app.planning.error_overlay import ErrorOverlay
 from app.session.snapshot import Snapshot
 from app.views.checks.words import agreement_item
-from app.views.conductor import Conductor
-from app.views.error_overlay import ErrorOverlay
+from app.views.exercise.conductor import Conductor
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status_items import StatusItem
+from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor
-from app.views.text import tr
-from app.views.workspace import Workspace
+from app.views.reading.workspace import Workspace
 
 if TYPE_CHECKING:
     from app.planning.registration.check import RegistrationCheck

@@ -17,7 +17,7 @@ from app.core.units import MILLIMETRE
 from app.planning.registration.check import RegistrationCheck
 from app.planning.registration.draft import CheckDraft
 from app.planning.registration.record import points_of
-from app.views.text import tr
+from app.views.kit.text import tr
 
 _STRETCHED = (1, 3)
 

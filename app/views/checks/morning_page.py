@@ -27,11 +27,11 @@ from app.session.checks.record import DayCheck, newest_check, save_check
 from app.session.checks.steps import StepResult, Verdict, morning_check, overall
 from app.session.touch import Touch
 from app.tracking.inspection import Inspection
-from app.views import theme
 from app.views.checks.step_row import LOOKS, StepRow, line
 from app.views.checks.toucher import Toucher, move_there, tell_tracker
 from app.views.exercise.run import ExerciseRun
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 PERIOD_MS = 400
 

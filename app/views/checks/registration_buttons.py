@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QWidget
 
-from app.views.text import tr
+from app.views.kit.text import tr
 
 _BUTTONS = {
     "touch": tr("Touch now"),

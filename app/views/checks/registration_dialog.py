@@ -26,13 +26,13 @@ from app.planning.registration.draft import CheckDraft
 from app.planning.registration.plate import load_plate, plate_names
 from app.planning.registration.record import RegistrationRecord, Registrations, new_id
 from app.session.touch import Touch
-from app.views import theme
 from app.views.checks.fiducial_table import FiducialTable
 from app.views.checks.registration_buttons import make_buttons, row_of
 from app.views.checks.registration_result import RegistrationResult
 from app.views.checks.surroundings import Surroundings
 from app.views.checks.toucher import Toucher, move_there
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 
 class RegistrationDialog(QDialog):

@@ -9,7 +9,7 @@ from app.core.errors import AcusError
 from app.core.transform import RigidTransform
 from app.planning.registration import words
 from app.planning.registration.check import RegistrationCheck
-from app.views import theme
+from app.views.kit import theme
 
 
 class RegistrationResult(QWidget):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QWidget
 
 from app.session.checks.steps import StepResult, Verdict
-from app.views import theme
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 LOOKS = {
     Verdict.GOOD: theme.VERDICTS["good"],

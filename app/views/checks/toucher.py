@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from app.session.checks.facts import TouchFacts
 from app.session.touch import DURATION, Touch, TouchCollector, TouchError
 from app.views.exercise.run import ExerciseRun
-from app.views.text import tr
+from app.views.kit.text import tr
 
 PERIOD_MS = 15
 PATIENCE = 3.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from app.core.units import MILLIMETRE
 from app.planning.registration.check import Agreement
 from app.views.exercise.status_items import StatusItem, Verdict
-from app.views.text import tr
+from app.views.kit.text import tr
 
 GOOD_MM = 2.0
 """Up to this radius [mm] the agreement counts as good; a lesion of 10 mm is then hit."""

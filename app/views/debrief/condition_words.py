@@ -1,7 +1,7 @@
 """What a score was made under, in words: one line for page and list, facts for the report."""
 
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
-from app.views.text import tr
+from app.views.kit.text import tr
 
 
 def kind_word(kind: DeviceKind) -> str:

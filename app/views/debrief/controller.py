@@ -14,12 +14,12 @@ from app.session.result import AttemptResult
 from app.session.sidecar import fresh_summary
 from app.session.store import find
 from app.session.summary import Summary
-from app.views.background import run_in_background
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.report import report_bytes
 from app.views.debrief.review import Review, review, review_of_result
 from app.views.debrief.sessions import SessionsPage
-from app.views.text import tr
+from app.views.kit.background import run_in_background
+from app.views.kit.text import tr
 
 AskPath = Callable[[QWidget, str, str, str], str]
 """Asks where to save: parent, title, suggested path, filter; an empty answer means no."""

@@ -9,13 +9,13 @@ from PySide6.QtGui import QColor, QPen
 from PySide6.QtWidgets import QGraphicsRectItem
 
 from app.core.arrays import FloatArray
-from app.views import theme
 from app.views.debrief.curve_values import Curve, time_end, value_range
 from app.views.debrief.review import Review
 from app.views.debrief.timeline import Mark
 from app.views.exercise.state_words import state_word
-from app.views.text import tr
-from app.views.themes import DARK
+from app.views.kit import theme
+from app.views.kit.text import tr
+from app.views.kit.themes import DARK
 
 _STRETCHES: Final = 1000
 """A long curve is drawn as the extremes of so many stretches: about one a pixel."""

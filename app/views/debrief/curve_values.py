@@ -6,10 +6,10 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.views import theme
 from app.views.debrief.review import Review
 from app.views.exercise.felt import origin_word
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 SHORTEST_S: Final = 0.05
 """Shortest time axis [s]."""

@@ -5,7 +5,6 @@ from datetime import datetime
 from PySide6.QtCore import Qt, Signal, SignalInstance
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
 
-from app.views import theme
 from app.views.debrief.condition_words import facts_of, short_words
 from app.views.debrief.curves import CurvesView
 from app.views.debrief.path_view import PathView
@@ -16,8 +15,9 @@ from app.views.debrief.score_table import ScoreTable
 from app.views.debrief.score_words import total_text, verdict
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.state_words import state_word
-from app.views.names import NAMES
-from app.views.text import disclaimer, tr
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.text import disclaimer, tr
 
 _LEFT = 500
 """Width of what stands beside the curves [px]."""

@@ -8,12 +8,12 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.arrays import FloatArray
-from app.views import theme
 from app.views.debrief.review import Review
 from app.views.exercise.hand import HandLimits
 from app.views.exercise.pad_painter import PadArea, paint_background
 from app.views.exercise.pad_view import PadScene
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 _FINENESS: Final = 2000.0
 """Places on the pad are told apart to one part in this of its radius: less than a pixel."""

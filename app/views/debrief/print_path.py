@@ -10,7 +10,7 @@ from app.views.debrief.path_view import paint_track
 from app.views.debrief.print_style import DIM, INK, LINE, font
 from app.views.debrief.review import Review
 from app.views.exercise.pad_painter import PadArea
-from app.views.text import tr
+from app.views.kit.text import tr
 
 
 def paint_path(painter: QPainter, box: QRectF, review: Review) -> None:

@@ -24,7 +24,7 @@ from app.views.debrief.risk_words import risk_lines
 from app.views.debrief.score_words import counting, row_texts, shown_only, total_text, verdict
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.state_words import state_word
-from app.views.text import disclaimer, tr
+from app.views.kit.text import disclaimer, tr
 
 WIDTH: Final = 595.0
 HEIGHT: Final = 842.0

@@ -3,7 +3,7 @@
 from app.scoring.risks import RiskMark
 from app.views.debrief.review import Review
 from app.views.exercise.readouts import clock_text
-from app.views.text import tr
+from app.views.kit.text import tr
 
 
 def risk_line(mark: RiskMark, origin: float) -> str:

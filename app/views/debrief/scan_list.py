@@ -13,11 +13,11 @@ from PySide6.QtWidgets import (
 
 from app.imaging.scan_order import Seen
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
-from app.views import theme
-from app.views.coordinates import axis_words
 from app.views.debrief.review import Review
 from app.views.exercise.readouts import clock_text
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.coordinates import axis_words
+from app.views.kit.text import tr
 
 _ROW_HEIGHT = 24
 _COLUMNS = 5

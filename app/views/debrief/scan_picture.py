@@ -9,13 +9,13 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
+from app.planning.needle_overlay import NeedleOverlay
 from app.session.control_scan import ControlScan
-from app.views.background import Indicator, run_in_background
-from app.views.conductor import Conductor
 from app.views.debrief.page import DebriefPage
+from app.views.exercise.conductor import Conductor
 from app.views.exercise.scan_view import ScanView, caption
-from app.views.needle_overlay import NeedleOverlay
-from app.views.text import tr
+from app.views.kit.background import Indicator, run_in_background
+from app.views.kit.text import tr
 
 
 class ScanPictures(QObject):

@@ -11,9 +11,9 @@ from PySide6.QtWidgets import (
 )
 
 from app.scoring.result import Score
-from app.views import theme
 from app.views.debrief.score_words import counting, row_texts, shown_only
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 _ROW_HEIGHT, _WEIGHT = 26, 4
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from app.scoring.result import Score
 from app.scoring.rows import Row
 from app.scoring.tolerance import Band
-from app.views import theme
 from app.views.debrief.review import Review
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 COUNTED = ("scans",)
 """Units of values that are counted: whole numbers."""

@@ -20,10 +20,10 @@ from PySide6.QtWidgets import (
 from app.core.errors import AcusError
 from app.session.store import delete, list_sessions, restore
 from app.session.summary import BROKEN, Summary
-from app.views import theme
-from app.views.background import run_in_background
 from app.views.debrief.sessions_model import DATE, NOTE, SORT_ROLE, SUMMARY_ROLE, SessionsModel
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.background import run_in_background
+from app.views.kit.text import tr
 
 
 class SessionsPage(QWidget):

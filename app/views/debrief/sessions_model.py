@@ -7,13 +7,13 @@ from PySide6.QtCore import QAbstractTableModel, QModelIndex, QPersistentModelInd
 from PySide6.QtGui import QColor
 
 from app.session.summary import BROKEN, Summary
-from app.views import theme
 from app.views.debrief.condition_words import facts_of, short_words
 from app.views.debrief.page import date_text
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.state_words import state_word
-from app.views.names import NAMES
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
 
 Index = QModelIndex | QPersistentModelIndex
 SORT_ROLE: Final = Qt.ItemDataRole.UserRole

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QGridLayout, QPushButton, QWidget
 
 from app.session.machine import RUNNING, State
 from app.views.exercise.hold_key import HoldKey
-from app.views.text import tr
+from app.views.kit.text import tr
 
 
 class AttemptActions(QWidget):

@@ -11,8 +11,8 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core import state_vector as sv
 from app.session.snapshot import Snapshot
-from app.views import theme
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 DECLARATION: Final[dict[str, Any]] = {
     "view": "force_gauge",

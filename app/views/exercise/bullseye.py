@@ -6,7 +6,6 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
-from app.views import theme
 from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.hand import Hand, HandPose
 from app.views.exercise.hands.chooser import HandChooser
@@ -14,7 +13,8 @@ from app.views.exercise.hands.source import HandChange
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.exercise.pad_view import PadScene, PadView
 from app.views.exercise.words import corrections, ct_words, lateral, remaining
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 DECLARATION: Final[dict[str, Any]] = {
     "view": "bullseye",

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter, QPen, QPolygonF
 
-from app.views import theme
+from app.views.kit import theme
 
 MARK: Final = "#35d6ed"
 CURVE: Final = "#ffd84d"

@@ -11,7 +11,6 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QImage, QMouseEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.views import theme
 from app.views.exercise.camera_marks import (
     draw_curve,
     draw_magnified,
@@ -19,7 +18,8 @@ from app.views.exercise.camera_marks import (
     draw_mask,
     draw_region,
 )
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.tracking.inspection import InspectedPicture

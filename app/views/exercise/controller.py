@@ -11,11 +11,11 @@ from app.core.errors import AcusError
 from app.core.events import Event
 from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
-from app.views.background import run_in_background
 from app.views.exercise.display import ExerciseDisplay, ExerciseViews
 from app.views.exercise.hand import HandPose
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status_items import StatusItem
+from app.views.kit.background import run_in_background
 
 __all__ = ["PERIOD_MS", "ExerciseController", "ExerciseViews"]
 

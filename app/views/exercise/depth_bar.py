@@ -4,9 +4,9 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.views import theme
 from app.views.exercise.pad_view import PadScene
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 _COLUMN = 26
 _TOP, _BOTTOM = 18, 14

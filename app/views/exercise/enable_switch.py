@@ -4,10 +4,10 @@ from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
-from app.views import theme
 from app.views.exercise.enable_key import EnableKey, key_name
 from app.views.exercise.enable_words import Enabling, enable_words
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 _OFF = Enabling(False, False, 0.0)
 

@@ -7,7 +7,7 @@ from app.session.machine import RUNNING, State
 from app.session.snapshot import Snapshot
 from app.views.exercise.readings import fault_text
 from app.views.exercise.status_items import Verdict
-from app.views.text import tr
+from app.views.kit.text import tr
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.session.snapshot import Snapshot
 from app.views.exercise.status_items import Verdict
-from app.views.text import tr
+from app.views.kit.text import tr
 
 LITTLE = 0.1
 """Share of the tank from which on there is little left."""

@@ -6,9 +6,9 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.views import theme
 from app.views.exercise.energy import EnergyFigures, gauge_help, guard_words, millijoules
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 _ROW = 19
 _BAR = 14

@@ -11,7 +11,7 @@ from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.device.state import Limiter
 from app.session.snapshot import Snapshot
-from app.views.text import tr
+from app.views.kit.text import tr
 
 _UNKNOWN = 0.06
 """Length of the interval [m] from which a depth says nothing of the force: simulated cameras that

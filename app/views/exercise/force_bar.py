@@ -4,9 +4,9 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.views import theme
 from app.views.exercise.felt import Felt, GuidanceLimit, force_words, origin_help
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 _HEADROOM = 1.15
 """Length of the bar over the limit: the mark stands inside it."""

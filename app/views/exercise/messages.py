@@ -7,10 +7,10 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
 
 from app.core.events import Event
-from app.views import theme
 from app.views.exercise.readouts import clock_text
-from app.views.names import NAMES
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
 
 LONGEST: Final = 200
 """Lines kept; older ones are in the record."""

@@ -8,7 +8,6 @@ from PySide6.QtCore import QPointF, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.views import theme
 from app.views.exercise.pad_painter import (
     PadArea,
     paint_background,
@@ -17,7 +16,8 @@ from app.views.exercise.pad_painter import (
     paint_needle,
 )
 from app.views.exercise.pad_view import PadScene, PadView
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 TILT_STEP: Final = radians(0.2)
 FINE_TILT_STEP: Final = radians(0.05)

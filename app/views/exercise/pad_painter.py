@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPen, QPolygonF
 
-from app.views import theme
 from app.views.exercise.pad_view import PadScene, PadView
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 _ANGLES_DEG: Final = (10, 30)
 HAND_COLOUR: Final = "#ffffff"

@@ -19,7 +19,6 @@ from PySide6.QtWidgets import (
 from app.exercises.guidance import GuidancePart
 from app.planning.plan import Plan
 from app.session.machine import RUNNING, State
-from app.views import theme
 from app.views.exercise.actions import AttemptActions
 from app.views.exercise.assistance_dial import AssistanceDial
 from app.views.exercise.enable_switch import EnableSwitch
@@ -29,7 +28,8 @@ from app.views.exercise.readouts import Readouts
 from app.views.exercise.scan_panel import ScanPanel
 from app.views.exercise.steps import Steps
 from app.views.exercise.withdrawal_note import WithdrawalNote
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 PSEUDONYM: Final = r"([A-Za-z0-9][A-Za-z0-9._-]{0,31})?"
 """What a pseudonym may look like; empty for an anonymous attempt."""

@@ -29,7 +29,7 @@ from app.views.exercise.status_items import (
     tracker_item,
 )
 from app.views.exercise.tracker_panel import TrackerFigures
-from app.views.text import tr
+from app.views.kit.text import tr
 
 _BAD_STATES = (CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED)
 

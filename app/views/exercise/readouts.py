@@ -7,10 +7,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
-from app.views import theme
 from app.views.exercise.force_bar import ForceBar
 from app.views.exercise.live import LiveFigures
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 _EMPTY = "–"
 

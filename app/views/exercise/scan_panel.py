@@ -16,9 +16,9 @@ from app.exercises.guidance import GuidancePart
 from app.imaging.scan_order import FEWEST, MOST, ScanOrder
 from app.planning.plan import Plan
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
-from app.views import theme
-from app.views.coordinates import axis_words
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.coordinates import axis_words
+from app.views.kit.text import tr
 
 FARTHEST_MM = 1e5
 

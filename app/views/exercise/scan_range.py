@@ -7,9 +7,9 @@ from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.imaging.scan_order import ScanOrder
+from app.views.kit.theme import Mark
 from app.views.slices.pane import SlicePane
 from app.views.slices.plane import SlicePlane
-from app.views.theme import Mark
 
 RANGE = Mark("#c9ced3", dash=(1.0, 3.0), width=1.5)
 

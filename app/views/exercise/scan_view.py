@@ -18,12 +18,12 @@ from PySide6.QtWidgets import (
 from app.imaging.volume import Volume
 from app.imaging.window import to_grey
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
-from app.views import theme
-from app.views.coordinates import axis_words
+from app.views.kit import theme
+from app.views.kit.coordinates import axis_words
+from app.views.kit.text import tr
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
 from app.views.slices.viewing import Viewing
-from app.views.text import tr
 
 THUMB_PX, LEAST_THUMB_PX = 76, 28
 """Width of a small slice where there is room, and the least."""

@@ -1,6 +1,6 @@
 """Names of recorded states for people."""
 
-from app.views.text import tr
+from app.views.kit.text import tr
 
 
 def state_word(state: str) -> str:

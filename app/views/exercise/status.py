@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from app.views import theme
 from app.views.exercise.status_items import StatusItem, Verdict
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 
 class StatusStrip(QWidget):

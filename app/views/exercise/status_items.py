@@ -12,8 +12,8 @@ from app.core.staleness import (
     TRACKER_FRESH,
     TRACKER_HOLD,
 )
-from app.views import theme
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 LATE_WARNING: Final = 0.2e-3
 """Median lateness [s] from which the loop is called late: the figure the loop has to keep."""

@@ -7,9 +7,9 @@ from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.session.machine import State
-from app.views import theme
 from app.views.exercise.state_words import state_word
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 ORDER: Final[tuple[State, ...]] = (
     State.READY,

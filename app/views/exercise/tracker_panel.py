@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, Final
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
-from app.views import theme
 from app.views.exercise.camera_view import CameraView, Overlays
 from app.views.exercise.status_items import StatusItem
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.tracking.inspection import Inspection

@@ -5,7 +5,7 @@ from numpy.typing import ArrayLike
 
 from app.planning.off_path import Offset
 from app.views.exercise.pad_geometry import PathFrame
-from app.views.text import tr
+from app.views.kit.text import tr
 
 STRAIGHT_DEG = 0.1
 """Corrections below this [°] are not asked for: five encoder counts."""

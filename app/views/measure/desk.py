@@ -14,15 +14,15 @@ from PySide6.QtWidgets import QFileDialog
 from app.core.errors import AcusError
 from app.exchange.measurements import write_measurements
 from app.planning.measurements import Measurement
+from app.views.kit.text import tr
 from app.views.measure.editor import MeasureEditor, MeasureTool
 from app.views.measure.grip import MeasureGrip
 from app.views.measure.layer import MeasureLayer
 from app.views.slices.pane import SlicePane
 from app.views.slices.viewing import Tool
-from app.views.text import tr
 
 if TYPE_CHECKING:
-    from app.views.window import MainWindow
+    from app.views.shell.window import MainWindow
 
 KINDS = "Table (*.csv);;3D Slicer markups (*.mrk.json)"
 

@@ -11,10 +11,10 @@ from PySide6.QtGui import QFontMetricsF, QPainter, QPolygonF
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.planning.measurements import Angle, Measurement, Region
+from app.views.kit.theme import Mark
 from app.views.measure.editor import MeasureEditor
 from app.views.slices.items import label_font
 from app.views.slices.plane import SlicePlane
-from app.views.theme import Mark
 
 MEASURE = Mark("#b4f06c", width=2.0)
 """Told apart from plan and needle by its end ticks and by the value that stands beside it."""

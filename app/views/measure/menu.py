@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QMenu
 
+from app.views.kit.text import tr
 from app.views.measure.panel import TOOLS
 from app.views.measure.words import tool_help, tool_title
-from app.views.text import tr
 
 if TYPE_CHECKING:
-    from app.views.window import MainWindow
+    from app.views.shell.window import MainWindow
 
 
 class MeasureMenu:

@@ -17,10 +17,10 @@ from PySide6.QtWidgets import (
 )
 
 from app.planning.measurements import Measurement
-from app.views import theme
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.measure.editor import MeasureEditor, MeasureTool
 from app.views.measure.words import kind_word, tool_help, tool_title
-from app.views.text import tr
 
 TOOLS = (MeasureTool.DISTANCE, MeasureTool.ANGLE, MeasureTool.PROBE, MeasureTool.REGION)
 

@@ -1,8 +1,8 @@
 """What measuring tools and measurements are called."""
 
 from app.planning.measurements import KINDS, Measurement
+from app.views.kit.text import tr
 from app.views.measure.editor import MeasureTool
-from app.views.text import tr
 
 
 def tool_title(tool: MeasureTool) -> str:

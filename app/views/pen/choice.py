@@ -21,17 +21,17 @@ from PySide6.QtWidgets import (
 from app.core.errors import AcusError
 from app.tracking.pen.body import load_pen, shipped_pens
 from app.tracking.pen.settings import PenSettings
-from app.views import theme
 from app.views.cameras.board_layout import PAPERS
 from app.views.cameras.boxes import SizeBox, SourceBox
 from app.views.cameras.wizard_parts import button, label, tell
 from app.views.exercise.status_items import Verdict
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.pen.lens_box import LensBox
 from app.views.pen.net_page import write_pen
-from app.views.text import tr
 
 if TYPE_CHECKING:
-    from app.views.services import RobotPort
+    from app.views.shell.services import RobotPort
 
 
 class PenChoice(QWidget):

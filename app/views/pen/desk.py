@@ -10,11 +10,11 @@ from PySide6.QtWidgets import QWidget
 
 from app.core.errors import AcusError
 from app.views.cameras.desk import CamerasDesk
-from app.views.conductor import Conductor
+from app.views.exercise.conductor import Conductor
+from app.views.exercise.runs import Runs
+from app.views.kit.text import tr
 from app.views.robot.desk import RobotDesk
-from app.views.runs import Runs
-from app.views.services import Services
-from app.views.text import tr
+from app.views.shell.services import Services
 
 if TYPE_CHECKING:
     from app.tracking.pen.settings import PenSettings

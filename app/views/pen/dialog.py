@@ -10,22 +10,22 @@ from PySide6.QtWidgets import QDialog, QGroupBox, QHBoxLayout, QMessageBox, QVBo
 
 from app.core.errors import AcusError
 from app.tracking.pen.settings import PenSettings
-from app.views import theme
 from app.views.cameras.live import LivePreview
 from app.views.cameras.settings_dialog import QUIET_MS
 from app.views.cameras.wizard_parts import button
 from app.views.exercise.status_items import Verdict
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.pen.choice import PenChoice
 from app.views.pen.status import PenStatus
 from app.views.pen.tip_step import TipStep
 from app.views.pen.words import Line, accuracy_line, status_lines
-from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.tracking.pen.body import PenProfile
     from app.views.pen.port import LivePen
-    from app.views.services import Services
+    from app.views.shell.services import Services
 
 LOOK_MS: Final = 200
 _SIDE: Final = 470

@@ -9,8 +9,8 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.tracking.pen.rocking import LEANT, SIDES, Lean
-from app.views import theme
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 _RIM = sin(radians(40.0))
 """Sine of the lean at the disc's rim."""

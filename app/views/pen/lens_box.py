@@ -8,7 +8,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QFileDialog, QWidget
 
 from app.tracking.pen.settings import PenSettings
-from app.views.text import tr
+from app.views.kit.text import tr
 
 _ASK = "ask"
 _GUESS = "guess"

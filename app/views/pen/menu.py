@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu
 
+from app.views.kit.text import tr
 from app.views.pen.desk import PenDesk
-from app.views.text import tr
 
 
 class PenMenu:

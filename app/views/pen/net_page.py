@@ -22,8 +22,8 @@ from app.tracking.errors import PenError
 from app.tracking.pen.board import marker_cells
 from app.tracking.pen.body import PenProfile
 from app.views.cameras.board_layout import RULER_MM, Paper
+from app.views.kit.text import tr
 from app.views.pen.net_layout import Face, Page, base_page, body_page
-from app.views.text import tr
 
 _DPI: Final = 1200
 _MM_PER_INCH: Final = 25.4

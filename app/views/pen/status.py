@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from app.views import theme
 from app.views.cameras.wizard_parts import label, tell
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.pen.words import Line
-from app.views.text import tr
 
 
 class Lines(QWidget):

@@ -12,14 +12,14 @@ from app.tracking.pen.calibrating import WANTED, PenCalibration
 from app.tracking.pen.kept import can_undo, save_pen, undo_pen
 from app.tracking.pen.rocking import Rocking
 from app.tracking.pen.settings import PenSettings
-from app.views import theme
-from app.views.background import Task, run_in_background
 from app.views.cameras.wizard_parts import button, label, tell
 from app.views.exercise.status_items import Verdict
+from app.views.kit import theme
+from app.views.kit.background import Task, run_in_background
+from app.views.kit.text import tr
 from app.views.pen.directions_view import DirectionsView
 from app.views.pen.status import Lines
 from app.views.pen.words import Line, result_lines, tip_line
-from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.views.pen.port import LivePen

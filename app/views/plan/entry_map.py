@@ -12,8 +12,8 @@ from PySide6.QtGui import QColor, QPainter, QPen
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.core.arrays import FloatArray
+from app.views.kit.text import tr
 from app.views.slices.plane import SlicePlane
-from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.planning.paths import PathScores

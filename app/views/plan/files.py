@@ -10,10 +10,10 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 
 from app.core.errors import AcusError
 from app.exchange.markups import read_plan, write_plan
-from app.views.names import NAMES
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor
-from app.views.settings import Recents
-from app.views.text import tr
+from app.views.shell.settings import Recents
 
 SUFFIX = ".mrk.json"
 

@@ -15,14 +15,14 @@ from app.core.progress import Progress
 from app.planning.clearance import Field
 from app.planning.draft import DraftPlan
 from app.planning.limits import ReachLimits
-from app.views.background import Indicator, Task, run_in_background
-from app.views.conductor import Conductor
+from app.views.exercise.conductor import Conductor
+from app.views.kit.background import Indicator, Task, run_in_background
+from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor
 from app.views.plan.entry_map import EntryMap, EntryMapLayer
 from app.views.plan.paths_panel import PathsPanel
+from app.views.reading.workspace import Workspace
 from app.views.structures.book import StructureBook
-from app.views.text import tr
-from app.views.workspace import Workspace
 
 if TYPE_CHECKING:
     from app.planning.paths import PathScores

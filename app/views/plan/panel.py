@@ -15,13 +15,13 @@ from PySide6.QtWidgets import (
 )
 
 from app.planning.placement import PatientOrientation, Placement
-from app.views import theme
-from app.views.coordinates import lps_words
-from app.views.names import NAMES
+from app.views.kit import theme
+from app.views.kit.coordinates import lps_words
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor, Point
 from app.views.plan.verdict_words import verdict_words
 from app.views.slices.viewing import Tool, Viewing
-from app.views.text import tr
 
 
 class PlanPanel(QWidget):

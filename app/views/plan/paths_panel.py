@@ -19,9 +19,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.views import theme
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.plan.entry_map import legend
-from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.planning.paths import PathScores

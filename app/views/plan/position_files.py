@@ -19,10 +19,10 @@ from app.core.units import MILLIMETRE
 from app.exchange.errors import TransformError
 from app.exchange.transforms import read_tfm, write_tfm
 from app.planning.placement import placement_of
-from app.views.text import tr
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
-    from app.views.window import MainWindow
+    from app.views.shell.window import MainWindow
 
 SUFFIX = ".tfm"
 _NEAR_MM = 0.1

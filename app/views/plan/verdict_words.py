@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from app.core.units import DEGREE, MILLIMETRE
+from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor
-from app.views.text import tr
 
 
 @dataclass(frozen=True, slots=True)

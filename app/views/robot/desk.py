@@ -12,17 +12,17 @@ from PySide6.QtWidgets import QInputDialog, QWidget
 from app.core.progress import Progress
 from app.session.machine import RUNNING
 from app.session.snapshot import Snapshot
-from app.views.background import Indicator, run_in_background
-from app.views.conductor import Conductor
+from app.views.exercise.conductor import Conductor
 from app.views.exercise.energy_gauge import GaugeMode
+from app.views.exercise.runs import Runs
+from app.views.kit.background import Indicator, run_in_background
+from app.views.kit.text import tr
+from app.views.reading.workspace import Workspace
 from app.views.robot.bench import BenchPort
 from app.views.robot.key_dialog import KeyDialog
 from app.views.robot.settings import RobotSettings
 from app.views.robot.wizard import Wizard
-from app.views.runs import Runs
-from app.views.services import RobotChoice, RobotPort, Services
-from app.views.text import tr
-from app.views.workspace import Workspace
+from app.views.shell.services import RobotChoice, RobotPort, Services
 
 if TYPE_CHECKING:
     from PySide6.QtCore import QSettings

@@ -15,8 +15,8 @@ from app.views.exercise.felt import force_limit, origin_help, origin_word
 from app.views.exercise.readings import fault_text
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status_items import StatusItem, Verdict
+from app.views.kit.text import tr
 from app.views.robot.health_wire import NONE, Rates, loop_items, wire_items
-from app.views.text import tr
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,14 +19,14 @@ from PySide6.QtWidgets import (
 
 from app import __version__
 from app.session.snapshot import Snapshot
-from app.views import theme
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status_items import StatusItem
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.robot.health import HealthGroup, health
 from app.views.robot.health_wire import Rates
 from app.views.robot.trace import Trace
 from app.views.robot.wire_watch import WireWatch
-from app.views.text import tr
 
 PERIOD = 0.25
 """Words are refreshed this often [s]; curves at every look."""

@@ -18,8 +18,8 @@ from app.views.exercise.status_items import (
     encoder_item,
     loop_item,
 )
+from app.views.kit.text import tr
 from app.views.robot.wire_watch import WINDOW, WireFigures
-from app.views.text import tr
 
 NONE = "–"
 

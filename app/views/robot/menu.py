@@ -9,8 +9,8 @@ from PySide6.QtWidgets import QMenu
 
 from app.views.exercise.enable_key import key_name
 from app.views.exercise.energy_gauge import GaugeMode
+from app.views.kit.text import tr
 from app.views.robot.desk import RobotDesk
-from app.views.text import tr
 
 
 class RobotMenu:

@@ -17,13 +17,13 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.errors import AcusError
-from app.views import theme
 from app.views.exercise.status_items import Verdict
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.robot.bench import BenchPort
 from app.views.robot.runner import Runner
 from app.views.robot.wizard_pages import ConnectionPage, RoutinePage, SummaryPage
 from app.views.robot.wizard_words import state_of, step_words, steps_of
-from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.device.commissioning.results import Step

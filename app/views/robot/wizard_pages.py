@@ -17,8 +17,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.views import theme
 from app.views.exercise.status_items import Verdict
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.robot.bench import BenchPort
 from app.views.robot.wizard_words import (
     clearance_words,
@@ -27,7 +28,6 @@ from app.views.robot.wizard_words import (
     step_words,
     steps_of,
 )
-from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.device.commissioning.report import Report

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from app.device.commissioning.results import Step
 from app.views.exercise.status_items import Verdict
-from app.views.text import tr
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.views.robot.bench import BenchPort

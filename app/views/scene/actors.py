@@ -14,8 +14,8 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from app.core.arrays import FloatArray
 from app.core.transform import rotation_between
+from app.views.kit.theme import Mark
 from app.views.scene.mesh import Mesh, to_polydata
-from app.views.theme import Mark
 
 SHORTEST_MM = 1e-6
 """Rods shorter than this have no direction and are not shown."""

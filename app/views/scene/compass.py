@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPen
 
 from app.core.arrays import FloatArray
-from app.views import theme
+from app.views.kit import theme
 from app.views.scene.orbit import Orbit
 
 LENGTH_PX = 26.0

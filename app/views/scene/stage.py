@@ -17,9 +17,10 @@ from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.imaging.structures.structure import Colour
 from app.planning.draft import DraftPlan
-from app.views import theme
-from app.views.error_overlay import SMALLEST_MM
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.error_overlay import SMALLEST_MM
+from app.planning.needle_overlay import NeedleOverlay
+from app.views.kit import theme
+from app.views.kit.theme import Mark
 from app.views.plan.entry_map import COLOURS, SIZES_PX, EntryMap
 from app.views.scene.actors import Ball, Ellipsoid, Rod, SurfaceActor, colour
 from app.views.scene.cloud import Cloud
@@ -27,7 +28,6 @@ from app.views.scene.mesh import Mesh
 from app.views.scene.orbit import Orbit
 from app.views.scene.robot import RobotShape
 from app.views.scene.surfaces import Surfaces
-from app.views.theme import Mark
 
 EYE_DISTANCE_MM = 2000.0
 LINK_RADIUS_MM, FULCRUM_RADIUS_MM = 4.0, 7.0

@@ -24,16 +24,16 @@ from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
-from app.views import theme
-from app.views.error_overlay import Enlargement
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.error_overlay import Enlargement
+from app.planning.needle_overlay import NeedleOverlay
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.scene.compass import draw_compass
 from app.views.scene.feed import SceneFeed
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneRenderer
 from app.views.scene.robot import RobotShape
 from app.views.scene.words import Entry, draw_words
-from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.imaging.structures.structure import Colour

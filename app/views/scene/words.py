@@ -5,8 +5,8 @@ from __future__ import annotations
 from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QColor, QFontMetrics, QPainter
 
-from app.views import theme
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 Entry = tuple[tuple[int, int, int], str]
 """Colour, and what has it."""

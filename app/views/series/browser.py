@@ -17,11 +17,11 @@ from PySide6.QtWidgets import (
 )
 
 from app.imaging.series import Listing, Remedy, Series
-from app.views import theme
-from app.views.names import NAMES
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
 from app.views.series.card import PICTURE_PX, SeriesCard
 from app.views.series.thumbs import Thumbnails
-from app.views.text import tr
 
 SIZE = 980, 620
 

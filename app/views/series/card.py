@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLay
 
 from app.core.identifiers import HIDDEN
 from app.imaging.series import Remedy, Series
-from app.views import theme
-from app.views.names import NAMES
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
 
 PICTURE_PX = 112
 _BUTTON_PX = 190

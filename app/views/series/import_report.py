@@ -14,9 +14,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.views import theme
-from app.views.names import NAMES
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.imaging.library import Imported

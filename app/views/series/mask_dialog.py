@@ -22,11 +22,11 @@ from PySide6.QtWidgets import (
 
 from app.imaging.window import PRESETS, to_grey
 from app.planning.history import History
-from app.views import theme
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.series.mask_canvas import MaskCanvas
 from app.views.series.mask_words import box_words, explanation
 from app.views.slices.presets import preset_name
-from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.imaging.privacy.burned_in import Box

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from app.views.text import tr
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.imaging.privacy.burned_in import Box

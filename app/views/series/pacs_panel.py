@@ -28,11 +28,11 @@ from PySide6.QtWidgets import (
 from app.core.errors import AcusError
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
-from app.views import theme
-from app.views.background import Task, run_in_background
-from app.views.names import NAMES
-from app.views.progress_strip import ProgressStrip
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.background import Task, run_in_background
+from app.views.kit.names import NAMES
+from app.views.kit.progress_strip import ProgressStrip
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.imaging.pacs.query import FoundSeries, Query

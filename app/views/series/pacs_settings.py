@@ -21,11 +21,11 @@ from app.core.configuration import parse
 from app.core.errors import AcusError
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
-from app.views import theme
-from app.views.background import Task, run_in_background
-from app.views.progress_strip import ProgressStrip
+from app.views.kit import theme
+from app.views.kit.background import Task, run_in_background
+from app.views.kit.progress_strip import ProgressStrip
+from app.views.kit.text import tr
 from app.views.series.pacs_form import PacsForm
-from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.imaging.pacs.settings import PacsSettings

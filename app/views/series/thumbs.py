@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.series import Series
-from app.views.background import Task, run_in_background
+from app.views.kit.background import Task, run_in_background
 
 
 class Thumbnails(QObject):

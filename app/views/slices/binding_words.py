@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt
 
+from app.views.kit.text import tr
 from app.views.slices.bindings import CTRL, SHIFT, Action, Drag, Scheme, Wheel
-from app.views.text import tr
 
 _B = Qt.MouseButton
 

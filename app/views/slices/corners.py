@@ -6,9 +6,9 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QLabel, QWidget
 
-from app.views import theme
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.slices.camera import ruler
-from app.views.text import tr
 
 PADDING = 6
 RULER_PX = 110.0

@@ -6,8 +6,8 @@ from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QPainter, QPolygonF
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
+from app.views.kit.theme import Mark
 from app.views.slices.slab import chord
-from app.views.theme import Mark
 
 GAP_PX = 14.0
 """Half of the gap in the crosshair: the voxel under it stays visible."""

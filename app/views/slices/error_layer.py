@@ -8,10 +8,10 @@ from PySide6.QtGui import QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.core.arrays import FloatArray
-from app.views import theme
-from app.views.error_overlay import ErrorOverlay
+from app.planning.error_overlay import ErrorOverlay
+from app.views.kit import theme
+from app.views.kit.theme import Mark
 from app.views.slices.plane import SlicePlane
-from app.views.theme import Mark
 
 TARGET_ERROR = Mark(theme.TARGET.colour, dash=(3.0, 2.0), width=1.5)
 TIP_ERROR = Mark(theme.NEEDLE_TIP.colour, width=1.5)

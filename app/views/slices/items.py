@@ -16,10 +16,10 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
-from app.views import theme
+from app.views.kit import theme
+from app.views.kit.theme import Mark, Symbol
 from app.views.slices.labels import Placed, Wanted
 from app.views.slices.rimmed_text import rimmed
-from app.views.theme import Mark, Symbol
 
 
 class SegmentItem(QGraphicsItem):

@@ -11,8 +11,10 @@ from PySide6.QtWidgets import QGraphicsScene
 
 from app.imaging.reformat import Frame, trace
 from app.planning.draft import DraftPlan
-from app.views import theme
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.needle_overlay import NeedleOverlay
+from app.views.kit import theme
+from app.views.kit.text import tr
+from app.views.kit.theme import Mark
 from app.views.slices.cross_line import CrossLine
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.labels import arrange
@@ -20,8 +22,6 @@ from app.views.slices.panes import PANE_MARKS, PaneId, crossing_panes
 from app.views.slices.plane import SlicePlane
 from app.views.slices.slab import PlanePoint, crossing, pieces
 from app.views.slices.viewing import Viewing
-from app.views.text import tr
-from app.views.theme import Mark
 
 FADED, FAINTEST = 0.75, 0.25
 FAINTEST_MM = 50.0

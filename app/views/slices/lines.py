@@ -9,12 +9,12 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QMenu
 
 from app.imaging.reformat import Frame, trace
+from app.views.kit.text import tr
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.panes import others
 from app.views.slices.slab import PlanePoint
 from app.views.slices.turning import StartingPlanes, is_turned, straighten, turn_planes
 from app.views.slices.viewing import Tool, Viewing
-from app.views.text import tr
 
 GRAB_PX = 6.0
 FREE_PX = 48.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from app.views.text import tr
+from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.imaging.slab import Projection

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 from PySide6.QtWidgets import QMenu
 
+from app.views.kit.text import tr
 from app.views.slices.needle_source import Along, NeedlePlanes
 from app.views.slices.viewing import Tool, Viewing
-from app.views.text import tr
 
 
 def fill_needle_menu(menu: QMenu, planes: NeedlePlanes, viewing: Viewing) -> None:

@@ -19,9 +19,9 @@ from app.planning.needle_planes import (
     probe,
     through,
 )
+from app.views.kit.text import tr
 from app.views.slices.panes import NEEDLE_PANES, PaneId
 from app.views.slices.viewing import Viewing
-from app.views.text import tr
 
 _VIEWS = {PaneId.IN_PLANE: in_plane, PaneId.IN_PLANE_90: in_plane_90, PaneId.PROBE: probe}
 

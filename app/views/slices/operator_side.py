@@ -5,9 +5,9 @@ from __future__ import annotations
 from enum import StrEnum
 
 from app.planning.placement import PatientOrientation
+from app.views.kit.text import tr
 from app.views.slices.looks import Turn
 from app.views.slices.panes import PaneId
-from app.views.text import tr
 
 
 class Side(StrEnum):

@@ -8,7 +8,7 @@ from PySide6.QtCore import QEvent, QPoint, Qt, Signal
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QMenu, QVBoxLayout, QWidget
 
-from app.views import theme
+from app.views.kit import theme
 from app.views.slices.bindings import digit
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.cine import Cine

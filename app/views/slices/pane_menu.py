@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QInputDialog, QMenu
 
+from app.views.kit.text import tr
 from app.views.slices.cine import RATES
 from app.views.slices.looks import KINDS, Slab, kind_name
 from app.views.slices.presets import menu_windows
-from app.views.text import tr
 
 if TYPE_CHECKING:
     from app.views.slices.pane import SlicePane

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-from app.views import theme
-from app.views.text import tr
-from app.views.theme import Mark
+from app.views.kit import theme
+from app.views.kit.text import tr
+from app.views.kit.theme import Mark
 
 
 class PaneId(StrEnum):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from app.imaging.volume import Volume
 from app.imaging.window import FROM_DICOM, FROM_VALUES, MINIMUM_WIDTH, PRESETS, WindowLevel, presets
-from app.views.text import tr
+from app.views.kit.text import tr
 
 KEYED = (
     "Soft tissue", "Lung", "Bone", "Brain", "Mediastinum", "Liver", "Angio", "Spine", "Needle",

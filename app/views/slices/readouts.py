@@ -8,16 +8,16 @@ from PySide6.QtCore import QObject, Qt
 
 from app.core.arrays import FloatArray
 from app.imaging.volume import Volume
-from app.views import theme
-from app.views.coordinates import lps_words
-from app.views.names import NAMES
+from app.views.kit import theme
+from app.views.kit.coordinates import lps_words
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.corners import PADDING, Overlay, Ruler
 from app.views.slices.needle_source import Along
 from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
 from app.views.slices.plane import SlicePlane
 from app.views.slices.shown_plane import ShownPlane
-from app.views.text import tr
 
 _A = Qt.AlignmentFlag
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from PySide6.QtWidgets import QGraphicsScene
 
-from app.views import theme
+from app.views.kit import theme
+from app.views.kit.theme import Mark
 from app.views.slices.error_layer import OutlineItem
 from app.views.slices.items import MarkItem
 from app.views.slices.plane import SlicePlane
 from app.views.slices.viewing import Viewing
-from app.views.theme import Mark
 
 INNER = Mark(theme.TARGET.colour, width=2.0)
 OUTER = Mark(theme.TARGET.colour, dash=(5.0, 3.0), width=1.5)

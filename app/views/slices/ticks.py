@@ -10,11 +10,11 @@ from PySide6.QtGui import QPainter, QPen
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.core.arrays import FloatArray
-from app.views import theme
+from app.views.kit import theme
+from app.views.kit.theme import Mark
 from app.views.slices.plane import SlicePlane
 from app.views.slices.rimmed_text import rimmed
 from app.views.slices.viewing import Viewing
-from app.views.theme import Mark
 
 STEP_MM = 10.0
 LABEL_PX = 42.0

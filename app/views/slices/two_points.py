@@ -7,15 +7,15 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QGraphicsScene
 
 from app.core.arrays import FloatArray
-from app.views import theme
+from app.views.kit import theme
+from app.views.kit.text import tr
+from app.views.kit.theme import Mark, Symbol
 from app.views.slices.items import MarkItem
 from app.views.slices.layers import SegmentLayer, place_mark
 from app.views.slices.needle_source import Along, NeedlePlanes
 from app.views.slices.pane import SlicePane
 from app.views.slices.plane import SlicePlane
 from app.views.slices.viewing import Tool, Viewing
-from app.views.text import tr
-from app.views.theme import Mark, Symbol
 
 POINT = Mark(theme.IN_PLANE.colour, symbol=Symbol.RING, width=2.0)
 LINE = Mark(theme.IN_PLANE.colour, width=1.5)

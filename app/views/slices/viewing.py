@@ -16,8 +16,8 @@ from app.imaging.reformat import Frame
 from app.imaging.volume import Volume
 from app.imaging.window import PRESETS, WindowLevel, presets
 from app.planning.draft import DraftPlan
-from app.views.error_overlay import ErrorOverlay
-from app.views.needle_overlay import NeedleOverlay
+from app.planning.error_overlay import ErrorOverlay
+from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices.bindings import OHIF, Scheme
 from app.views.slices.greys import Greys
 from app.views.slices.looks import Look

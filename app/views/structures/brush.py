@@ -13,10 +13,10 @@ from PySide6.QtWidgets import QGraphicsEllipseItem
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.imaging.structures.structure import free_name
-from app.views import theme
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.slices.canvas import SliceCanvas
 from app.views.structures.book import StructureBook
-from app.views.text import tr
 
 
 class Mode(StrEnum):

@@ -11,9 +11,11 @@ from app.core.progress import Progress
 from app.imaging.structures.structure import Index, Mask, Structure, free_name
 from app.planning.clearance import Clearance
 from app.planning.draft import DraftPlan
-from app.views.background import Indicator, Task, run_in_background
-from app.views.conductor import Conductor
+from app.views.exercise.conductor import Conductor
+from app.views.kit.background import Indicator, Task, run_in_background
+from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor
+from app.views.reading.workspace import Workspace
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip
 from app.views.structures.files import StructureFiles
@@ -21,8 +23,6 @@ from app.views.structures.layer import draw_in
 from app.views.structures.looks import named
 from app.views.structures.panel import StructurePanel
 from app.views.structures.watch import StructureWatch, words
-from app.views.text import tr
-from app.views.workspace import Workspace
 
 if TYPE_CHECKING:
     from app.imaging.structures.distance import SignedDistance

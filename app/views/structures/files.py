@@ -13,10 +13,10 @@ from app.core.progress import Progress
 from app.exercises.parts import StructurePart
 from app.imaging.structures.structure import Kind, StructureSet
 from app.imaging.volume import Volume
-from app.views.background import Indicator, run_in_background
+from app.views.kit.background import Indicator, run_in_background
+from app.views.kit.text import tr
 from app.views.structures.book import StructureBook
 from app.views.structures.panel import StructurePanel
-from app.views.text import tr
 
 FILES = "Structures (*.seg.nrrd *.nrrd *.nii *.nii.gz *.dcm *);;All files (*)"
 

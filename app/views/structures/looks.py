@@ -9,8 +9,8 @@ from PySide6.QtGui import QColor, QPen
 
 from app.imaging.structures.structure import Kind, Structure
 from app.planning.clearance import Nearness
-from app.views import theme
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 HATCHES = {
     Kind.RISK: Qt.BrushStyle.DiagCrossPattern,

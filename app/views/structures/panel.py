@@ -14,14 +14,14 @@ from PySide6.QtWidgets import (
 )
 
 from app.planning.clearance import Clearance, Nearness
-from app.views import theme
-from app.views.names import NAMES
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, Mode
 from app.views.structures.looks import LOOKS
 from app.views.structures.table import StructureTable, spin_box
 from app.views.structures.watch import StructureWatch
-from app.views.text import tr
 
 
 class StructurePanel(QWidget):

@@ -16,11 +16,11 @@ from PySide6.QtWidgets import (
 
 from app.imaging.structures.structure import Kind, Structure
 from app.planning.clearance import Clearance
-from app.views import theme
+from app.views.kit import theme
+from app.views.kit.text import tr
 from app.views.structures.book import StructureBook
 from app.views.structures.looks import LOOKS, SIGNS, kind_names
 from app.views.structures.watch import StructureWatch
-from app.views.text import tr
 
 NAME, KIND, WARN, PATH = range(4)
 

@@ -10,11 +10,11 @@ from PySide6.QtCore import QObject, Signal
 from app.core.events import Event
 from app.planning.clearance import Clearance, Nearness, clearances, worst
 from app.planning.draft import DraftPlan
+from app.planning.needle_overlay import NeedleOverlay
 from app.session.snapshot import Snapshot
 from app.views.exercise.status_items import StatusItem, Verdict
-from app.views.needle_overlay import NeedleOverlay
+from app.views.kit.text import tr
 from app.views.structures.book import StructureBook
-from app.views.text import tr
 
 PERIOD_S = 0.05
 """The live needle is measured at most this often."""

@@ -8,7 +8,7 @@ from app.views.exercise.hands.mouse import MouseHand
 from app.views.exercise.hands.source import HandSource
 from app.views.exercise.hands.tablet import TabletHand
 from app.views.exercise.pad_canvas import PadCanvas
-from app.views.text import tr
+from app.views.kit.text import tr
 
 SOURCES: Final[dict[str, Callable[[PadCanvas], HandSource]]] = {
     source.name: source for source in (MouseHand, TabletHand, GamepadHand)

@@ -4,12 +4,12 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QSizePolicy, QWidget
 
 from app.core.errors import AcusError
-from app.views import theme
 from app.views.exercise.hand import GAINS
 from app.views.exercise.hands.choice import SOURCES, depth_help, source_help, source_title
 from app.views.exercise.hands.source import HandSource
 from app.views.exercise.pad_canvas import PadCanvas
-from app.views.text import tr
+from app.views.kit import theme
+from app.views.kit.text import tr
 
 
 class HandChooser(QWidget):

@@ -8,7 +8,7 @@ from PySide6.QtCore import QTimer
 
 from app.views.exercise.hands.source import STEP_MS, HandSource
 from app.views.exercise.pad_canvas import PadCanvas
-from app.views.text import tr
+from app.views.kit.text import tr
 
 DEAD_ZONE: Final = 0.15
 """A stick that rests is this far off its middle at most."""

@@ -13,7 +13,7 @@ from PySide6.QtGui import QInputDevice, QTabletEvent
 
 from app.views.exercise.hands.source import STEP_MS, HandSource
 from app.views.exercise.pad_canvas import PadCanvas
-from app.views.text import tr
+from app.views.kit.text import tr
 
 RESTING_PRESSURE: Final = 0.3
 """Up to this share of the full pressure the pen only rests on the tablet: the depth stays."""

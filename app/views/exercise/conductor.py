@@ -1,0 +1,344 @@
+"""What happens between the parts of the workspace: patient, plan, robot, needle."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, Signal
+
+from app.core.arrays import FloatArray
+from app.core.errors import AcusError
+from app.core.units import MILLIMETRE
+from app.exercises.errors import ExerciseError
+from app.exercises.locks import HandName, Lock
+from app.exercises.parts import TELLING, OwnPlan, View
+from app.exercises.scene import device_of, draft_of
+from app.exercises.schema import Exercise
+from app.mechanisms.profile import DeviceProfile
+from app.planning.draft import DraftPlan
+from app.planning.placement import Placement
+from app.session.ct_facts import CtFacts
+from app.session.machine import RUNNING
+from app.session.snapshot import Snapshot
+from app.tracking.cameras.settings import CameraSettings
+from app.views.exercise.controller import ExerciseController
+from app.views.exercise.live_needle import LiveNeedle
+from app.views.exercise.pad_view import rings
+from app.views.exercise.run import ExerciseRun
+from app.views.exercise.runs import Runs
+from app.views.exercise.scan_source import ScanSource
+from app.views.exercise.shown import Shown
+from app.views.exercise.target_motion import TargetMotion
+from app.views.kit.background import Indicator
+from app.views.kit.text import tr
+from app.views.plan.editor import PlanEditor
+from app.views.reading.fixed_reading import apply as apply_reading
+from app.views.reading.lock_words import why_locked
+from app.views.reading.workspace import Workspace
+from app.views.scene.extraction import SurfaceExtraction
+from app.views.series.patient import Patient
+from app.views.shell.services import RobotChoice, RunSetup
+from app.views.slices.slab import as_point
+from app.views.slices.viewing import Tool, Viewing
+
+SIGHT_MM = 2000.0
+
+
+class Conductor(QObject):
+    """Keeps the views of one workspace in step.
+
+    Signals:
+        failed(object): an error to show; nothing was lost.
+        patient_left(): the patient is about to be replaced: everything of it is to be forgotten.
+        patient_changed(): another patient is shown.
+        exercise_taken(str): identifier of the exercise that is being prepared.
+        views_changed(): other views are on, or may be switched.
+    """
+
+    failed = Signal(object)
+    patient_left = Signal()
+    patient_changed = Signal()
+    exercise_taken = Signal(str)
+    views_changed = Signal()
+
+    def __init__(
+        self,
+        workspace: Workspace,
+        editor: PlanEditor,
+        runs: Runs,
+        indicator: Indicator,
+        parent: QObject,
+    ) -> None:
+        super().__init__(parent)
+        self._workspace, self._editor, self._runs = workspace, editor, runs
+        self._indicator = indicator
+        self.controller = ExerciseController(workspace.exercise_views, parent=self)
+        self.patient: Patient | None = None
+        self.exercise: Exercise | None = None
+        self._robot, self._released, self._leaving = RobotChoice(), False, False
+        self._cameras: CameraSettings | None = None
+        self._profile: DeviceProfile | None = None
+        self._surfaces = SurfaceExtraction(workspace.scene, self)
+        self._needle, self._motion = LiveNeedle(workspace), TargetMotion(workspace)
+        self.scans = ScanSource(self, workspace)
+        self._connect()
+
+    def _connect(self) -> None:
+        viewing, scene = self._workspace.viewing, self._workspace.scene
+        viewing.point_placed.connect(self._editor.place)
+        scene.clicked.connect(self._click_in_scene)
+        self._editor.changed.connect(self._show_plan)
+        self._editor.refused.connect(lambda _: viewing.refuse_point())
+        self._runs.ready.connect(self._attach)
+        self._runs.moved.connect(self._moved)
+        self._runs.gone.connect(self._detach)
+        self._surfaces.failed.connect(self.failed)
+        self.controller.snapshot_taken.connect(self.show_snapshot)
+        self.controller.attached.connect(self._show_views)
+        self.controller.beginning.connect(self._as_the_exercise_says)
+        self.scans.connect_all()
+
+    @property
+    def profile(self) -> DeviceProfile | None:
+        """Device of the exercise; None before there is one."""
+        return self._profile
+
+    @property
+    def planning(self) -> Viewing:
+        """State of the planning CT's slices."""
+        return self._workspace.viewing
+
+    @property
+    def settled(self) -> bool:
+        """Whether everything stands: surfaces extracted, robot and cameras on."""
+        return not self._surfaces.is_running and self.controller.run is not None
+
+    # --- patient and exercise -----------------------------------------------------------------
+    def set_patient(self, patient: Patient) -> None:
+        """Show another patient with the plan that belongs to it, or with none.
+
+        The run of the last one is ended, an attempt on it saved, and everything that was known of
+        it forgotten.
+        """
+        self.leave_patient()
+        self.patient = patient
+        self._workspace.viewing.set_volume(patient.volume)
+        self._workspace.scene.set_volume(patient.volume)
+        self._surfaces.start(patient)
+        self._editor.set_body(patient.body)
+        self._start_plan(patient)
+        self.patient_changed.emit()
+
+    def leave_patient(self) -> None:
+        """End the run on the patient, and forget everything that was known of it; idempotent."""
+        if self.patient is None:
+            return
+        self._leaving = True  # no run may be wanted for a plan that is about to go
+        try:
+            self._runs.abort(tr("another patient was opened"))
+            self.patient = None
+            self._editor.set_locked(False)
+            self._editor.set_keeps_target(False)
+            self._editor.start(None, Placement())
+            self.patient_left.emit()
+            self._as_the_exercise_says(reading=False)
+        finally:
+            self._leaving = False
+
+    def set_exercise(self, exercise: Exercise) -> None:
+        """Take an exercise's device, effects and tolerances; its plan, if its patient is shown.
+
+        Raises:
+            AcusError: if its device cannot be used.
+        """
+        self._profile = device_of(exercise)
+        self.exercise = exercise
+        self._editor.set_profile(self._profile)
+        radii = rings(exercise.tolerances)
+        self._workspace.viewing.set_tolerances(tuple(radius / MILLIMETRE for radius in radii))
+        self._as_the_exercise_says(reading=False)
+        self._show_views()
+        if self.patient is not None and self.fits(self.patient):
+            self._start_plan(self.patient)
+        self.exercise_taken.emit(exercise.id)
+
+    def _as_the_exercise_says(self, reading: bool = True) -> None:
+        """Put dial, hand and, unless `reading` is False, the reading as the exercise has them."""
+        exercise, workspace = self.exercise, self._workspace
+        if exercise is None:
+            return
+        panel, source = workspace.exercise_panel, workspace.bullseye.source
+        panel.set_assistance(exercise.assistance)
+        panel.set_locked(why_locked(exercise, Lock.ASSISTANCE))
+        why, hand = why_locked(exercise, Lock.HAND), exercise.hand
+        if why:
+            source.fix(hand or HandName.MOUSE, why)
+        else:
+            source.release()
+            if hand is not None:
+                source.set_source(hand)
+        if reading:
+            apply_reading(workspace, exercise)
+
+    # --- views --------------------------------------------------------------------------------
+    @property
+    def shown(self) -> Shown:
+        """What the exercise shows: the one gate of every view."""
+        run, exercise = self.controller.run, self.exercise
+        if run is not None:
+            return run.shown
+        return Shown() if exercise is None else Shown.of_exercise(exercise)
+
+    def why_view_stays(self, view: View) -> str:
+        """Say why the student cannot switch a view now; empty where he can."""
+        if self.exercise is None:
+            return tr("Choose an exercise first.")
+        if not self.shown.live and view in TELLING:
+            return tr("Control scans guide here: nothing tells of the needle between them.")
+        if self._editor.locked:
+            return tr("Views can be switched between attempts.")
+        return why_locked(self.exercise, Lock.VIEWS)
+
+    def show_view(self, view: View, on: bool) -> None:
+        """Switch a view, where the exercise lets the student; a run is built anew with it."""
+        why, exercise = self.why_view_stays(view), self.exercise
+        if why or exercise is None:
+            self.failed.emit(ExerciseError(why))
+        else:
+            others = frozenset(exercise.views) - {view}
+            self.exercise = exercise.showing(others | {view} if on else others)
+            self._show_plan()
+        self._show_views()
+
+    def _show_views(self) -> None:
+        run = self.controller.run
+        why = why_locked(self.exercise, Lock.VIEWS)
+        self._workspace.show_views(self.shown, run is None or run.interactive, why)
+        self.views_changed.emit()
+
+    def set_robot(self, choice: RobotChoice) -> None:
+        """Take another robot, from now on; a run on the present one ends."""
+        if choice != self._robot:
+            self._robot = choice
+            self._show_plan()
+
+    def set_cameras(self, cameras: CameraSettings | None) -> None:
+        """Take other cameras, None for simulated ones; a run on the present ones ends."""
+        if cameras != self._cameras:
+            self._cameras = cameras
+            self._show_plan()
+
+    def let_go(self) -> None:
+        """End the run, so that somebody else can have the robot; the plan stays."""
+        self._released = True
+        self._runs.want(None)
+
+    def take_again(self) -> None:
+        """Have a run again after `let_go`."""
+        self._released = False
+        self._show_plan()
+
+    def check(self, exercise: Exercise) -> None:
+        """See whether an exercise can be taken.
+
+        Raises:
+            AcusError: if its device cannot be used.
+        """
+        device_of(exercise)
+
+    def fits(self, patient: Patient, exercise: Exercise | None = None) -> bool:
+        """Whether an exercise, by default the present one, is made for this patient."""
+        exercise = exercise or self.exercise
+        if exercise is None:
+            return False
+        ct = exercise.ct
+        if ct.phantom is not None:
+            return patient.phantom_seed == ct.phantom.seed
+        same_way = patient.volume.recipe.remedy is ct.remedy
+        return ct.folder is not None and patient.folder == ct.folder and same_way
+
+    def _start_plan(self, patient: Patient) -> None:
+        draft = None if patient.proposed is None else DraftPlan.of(patient.proposed)
+        placement, own = None, False
+        try:
+            if self.exercise is not None and self.fits(patient):
+                draft, placement = draft_of(self.exercise), self.exercise.placement.placement()
+                own = isinstance(self.exercise.plan, OwnPlan)
+        except AcusError as error:
+            self.failed.emit(error)
+        self._editor.set_keeps_target(False)
+        self._editor.start(draft, placement)
+        self._editor.set_keeps_target(own)
+        if draft is not None and draft.target_mm is not None:
+            self._workspace.viewing.set_cursor(draft.target_mm)
+
+    # --- plan ---------------------------------------------------------------------------------
+    def _show_plan(self) -> None:
+        editor, workspace = self._editor, self._workspace
+        workspace.viewing.set_draft(editor.edit.draft)
+        workspace.scene.set_plan(editor.edit.draft)
+        placed = editor.verdict.placed
+        note = "" if placed is not None else tr("Finish a plan that the robot can follow first.")
+        workspace.exercise_panel.set_ready(placed is not None and self._runs.run is not None, note)
+        if editor.locked or self._released or self._leaving or placed is None:
+            return  # a run that is open stays with its plan until there is a better one
+        if self.exercise is None or self.patient is None:
+            return
+        ct = CtFacts.of_volume(self.patient.volume)
+        self._runs.want(
+            RunSetup(self.exercise, placed, ct, self._robot, self._cameras, self.patient.volume)
+        )
+
+    def _click_in_scene(self, point: FloatArray, direction: FloatArray) -> None:
+        """Take a click on the skin in 3D as the entry, if one is being placed."""
+        if self._workspace.viewing.tool is not Tool.ENTRY or self.patient is None:
+            return
+        from app.imaging.body import skin_entry  # scipy: loaded since there is a patient
+
+        try:
+            start, end = point - SIGHT_MM * direction, point + SIGHT_MM * direction
+            skin = skin_entry(self.patient.body, start, end)
+        except AcusError as error:
+            self._editor.refused.emit(error)
+            return
+        self._editor.place(Tool.ENTRY, as_point(skin), True)
+        self._workspace.viewing.set_cursor(skin)
+        self._workspace.viewing.set_tool(Tool.NAVIGATE)
+
+    # --- robot and needle ---------------------------------------------------------------------
+    def _attach(self, run: ExerciseRun) -> None:
+        self._needle.forget()
+        self._motion.hide()
+        self.controller.attach(run)
+        self._show_plan()
+
+    def _moved(self, run: ExerciseRun) -> None:
+        self._needle.forget()
+        self._motion.hide()
+        self.controller.replan(run)
+
+    def _detach(self) -> None:
+        self.controller.detach()
+        self._needle.hide()
+        self._motion.hide()
+        self._show_plan()
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Draw needle and robot where a snapshot says they are."""
+        run = self.controller.run
+        if run is None:
+            return
+        self._editor_lock(snapshot)
+        self._needle.show(run, snapshot)
+        self._motion.show(run, snapshot)
+
+    def _editor_lock(self, snapshot: Snapshot) -> None:
+        running = snapshot.state in RUNNING
+        if running != self._editor.locked:
+            self._editor.set_locked(running)
+            self.views_changed.emit()
+
+    def close(self) -> None:
+        """Let go of everything that runs; idempotent."""
+        self.controller.detach()
+        self._surfaces.close()
+        self._runs.close()
+        self._workspace.scene.close_renderer()

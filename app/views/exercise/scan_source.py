@@ -1,0 +1,130 @@
+"""The view `control_scan`: from the pedal to the picture, made beside the window, then shown."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from PySide6.QtCore import QObject
+
+from app.core.events import Event
+from app.core.progress import Progress
+from app.imaging.volume import Volume
+from app.session.control_scan import ControlScan
+from app.views.exercise.scan_range import attach
+from app.views.kit.background import run_in_background
+from app.views.reading.workspace import Workspace
+
+if TYPE_CHECKING:
+    from app.views.exercise.conductor import Conductor
+
+DECLARATION: Final[dict[str, Any]] = {
+    "view": "control_scan",
+    "title": "Control scans",
+    "reads": (
+        "target_shift_x",
+        "target_shift_y",
+        "target_shift_z",
+        "tip_offset_x",
+        "tip_offset_y",
+        "tip_offset_z",
+    ),
+}
+"""The slices show the patient where breathing has him, the target too."""
+
+
+class ScanSource(QObject):
+    """Connects controller, scan panel and scan view; the newest scan wins."""
+
+    def __init__(self, conductor: Conductor, workspace: Workspace) -> None:
+        super().__init__(conductor)
+        self._conductor, self._workspace = conductor, workspace
+        self._panel, self._view = workspace.exercise_panel.scan, workspace.scan_view
+        self._panes = workspace.panes
+        self.ranges = tuple(attach(pane) for pane in self._panes)
+        self._busy, self._waiting = False, False
+        self._newest: ControlScan | None = None
+        self._origin: float | None = None  # of the attempt: its first event
+
+    def connect_all(self) -> None:
+        """Listen; once the conductor has its controller."""
+        controller = self._conductor.controller
+        controller.event_seen.connect(self._take)
+        controller.began.connect(self._begin)
+        controller.attached.connect(self._attached)
+        self._conductor.patient_changed.connect(self._view.clear)
+        self._panel.order_changed.connect(self._show_range)
+        self._panel.crosshair_wanted.connect(
+            lambda: self._panel.set_table(float(self._workspace.viewing.cursor_mm[2]))
+        )
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether a picture is being made."""
+        return self._busy
+
+    def _attached(self) -> None:
+        run = self._conductor.controller.run
+        scanning = run is not None and not run.shown.live
+        self._show_range()
+        if not scanning:
+            self._view.clear()
+
+    def _show_range(self) -> None:
+        run = self._conductor.controller.run
+        scanning = run is not None and not run.shown.live
+        for pane, layer in zip(self._panes, self.ranges, strict=True):
+            layer.set_order(self._panel.order if scanning else None)
+            pane.canvas.refresh()
+
+    def forget(self) -> None:
+        """Let go of scans and their count; a picture that is still being made is not shown."""
+        self._begin()
+
+    def _begin(self) -> None:
+        self._waiting = False
+        self._newest, self._origin = None, None
+        self._panel.begin()
+        self._view.clear()
+
+    def _take(self, event: Event) -> None:
+        run = self._conductor.controller.run
+        self._origin = event.time if self._origin is None else self._origin
+        scan = ControlScan.of(event)
+        if scan is None or run is None or run.shown.live:
+            return
+        self._newest = scan
+        self._panel.add(scan)
+        if self._busy:
+            self._waiting = True
+        else:
+            self._make(scan)
+
+    def _make(self, scan: ControlScan) -> None:
+        patient, run = self._conductor.patient, self._conductor.controller.run
+        if patient is None or run is None:
+            return
+        self._busy, self._waiting = True, False
+        self._panel.set_busy(True)
+        volume, streak = patient.volume, bool(scan.streak)
+
+        def make(_: Progress) -> Volume:
+            from app.imaging.scanned import scan_image  # compiled parts: beside the window
+
+            return scan_image(volume, scan.order, scan.needle, streak, scan.shift_mm)
+
+        run_in_background(self, make, lambda picture: self._show(picture, scan), self._fail)
+
+    def _show(self, picture: Volume, scan: ControlScan) -> None:
+        self._done()
+        if scan is self._newest:
+            self._view.show_scan(picture, scan, self._origin or 0.0)
+
+    def _fail(self, error: Exception) -> None:
+        self._done()
+        self._conductor.failed.emit(error)
+
+    def _done(self) -> None:
+        self._busy = False
+        self._panel.set_busy(False)
+        if self._waiting and self._newest is not None:
+            self._make(self._newest)

@@ -1,0 +1,56 @@
+"""The view `target_motion`: the target where breathing has it now, on slices and in 3D.
+
+Where the view is off, the snapshot that everybody gets has the target at rest (`exercise.shown`),
+and with it the bull's-eye, its rings and every distance.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+
+from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
+from app.session.snapshot import Snapshot
+from app.views.exercise.run import ExerciseRun
+from app.views.reading.workspace import Workspace
+
+DECLARATION: Final[dict[str, Any]] = {
+    "view": "target_motion",
+    "title": "Motion of the target",
+    "reads": ("target_shift_x", "target_shift_y", "target_shift_z"),
+}
+
+SCENE_DEAD_BAND_MM: Final = 0.25
+"""The 3D picture is made anew when the target moved more than this."""
+
+
+class TargetMotion:
+    """Lets target, rings and path of slices and 3D go with every snapshot."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        self._workspace = workspace
+        self._drawn: FloatArray | None = None
+
+    def show(self, run: ExerciseRun, snapshot: Snapshot) -> None:
+        """Draw the target of a moment."""
+        if not run.shown.live or not (snapshot.p_target != run.placed.p_target).any():
+            self.hide()
+            return
+        self._place(run.placed.T_world_patient.inverse() @ snapshot.p_target / MILLIMETRE)
+
+    def hide(self) -> None:
+        """Let the target stand where the plan has it."""
+        self._place(None)
+
+    def _place(self, target_mm: FloatArray | None) -> None:
+        viewing, before = self._workspace.viewing, self._drawn
+        viewing.set_target_now(target_mm)
+        if target_mm is None:
+            again = before is not None
+        else:
+            again = before is None or np.abs(target_mm - before).max() > SCENE_DEAD_BAND_MM
+        if again:
+            self._drawn = target_mm
+            self._workspace.scene.set_plan(viewing.shown_draft)

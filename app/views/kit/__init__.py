@@ -1,0 +1,1 @@
+"""Parts that every feature of the window shares."""

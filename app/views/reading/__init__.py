@@ -1,0 +1,1 @@
+"""The page where one reads and works: panes, layouts, panels."""

@@ -1,0 +1,43 @@
+"""Why a control cannot be changed, in the student's words."""
+
+from __future__ import annotations
+
+from app.exercises.guidance import Purpose
+from app.exercises.locks import Lock
+from app.exercises.parts import View
+from app.exercises.schema import Exercise
+from app.views.kit.text import tr
+
+
+def why_locked(exercise: Exercise | None, lock: Lock) -> str:
+    """Say why the exercise keeps a control as it is; empty where the control is free."""
+    if exercise is None or lock not in exercise.locked:
+        return ""
+    what = {
+        Lock.ASSISTANCE: tr("the assistance"),
+        Lock.VIEWS: tr("what is shown"),
+        Lock.READING: tr("window, slab and layout"),
+        Lock.HAND: tr("what moves the hand, and how far"),
+    }[lock]
+    if exercise.purpose is Purpose.ASSESSMENT:
+        return tr("This is an assessment: {what} is the same for everybody.", what=what)
+    return tr("The exercise “{title}” sets {what}.", title=exercise.title, what=what)
+
+
+def view_title(view: View) -> str:
+    """Name of a view for people."""
+    return {
+        View.LIVE_OVERLAY: tr("Needle on the slices"),
+        View.BULLSEYE: tr("Bull's-eye"),
+        View.THREE_D: tr("3D view"),
+        View.CAMERAS: tr("Camera pictures"),
+        View.FORCE_GAUGE: tr("Force along the needle"),
+        View.TARGET_MOTION: tr("Motion of the target"),
+    }[view]
+
+
+def off_words(why: str) -> str:
+    """Say that a view is off, and how it is switched on if it may be; `why` it may not."""
+    if why:
+        return tr("Not shown in this exercise")
+    return tr("Not shown in this exercise; switch it on in View ▸ Shown by the exercise")

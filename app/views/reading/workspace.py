@@ -1,0 +1,263 @@
+"""The page where one works: panes in the middle, plan and exercise beside them, status below."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QBoxLayout,
+    QHBoxLayout,
+    QSplitter,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.units import MILLIMETRE
+from app.exercises.parts import View
+from app.views.exercise.bullseye import Bullseye
+from app.views.exercise.controller import ExerciseViews
+from app.views.exercise.messages import MessageList
+from app.views.exercise.needle_cell import NeedleCell
+from app.views.exercise.pad_view import rings
+from app.views.exercise.panel import ExercisePanel
+from app.views.exercise.scan_view import ScanView
+from app.views.exercise.shown import Shown
+from app.views.exercise.status import StatusStrip
+from app.views.exercise.tracker_panel import TrackerPanel
+from app.views.kit.side_panel import SidePanel, scrolled
+from app.views.kit.text import tr
+from app.views.measure.editor import MeasureEditor
+from app.views.measure.panel import MeasurePanel
+from app.views.plan.editor import PlanEditor
+from app.views.plan.panel import PlanPanel
+from app.views.reading.grid import Cell, ViewGrid
+from app.views.reading.layouts import BULLSEYE, FOUR, SCENE, chosen, possible
+from app.views.reading.lock_words import off_words
+from app.views.robot.health_panel import HealthPanel
+from app.views.scene.renderer import SceneRenderer
+from app.views.scene.view import SceneView
+from app.views.shell.shortcuts import disclaimer_label
+from app.views.slices.lines import LineGrip, fill_turn_menu
+from app.views.slices.needle_menu import fill_needle_menu
+from app.views.slices.needle_source import Along, NeedlePlanes
+from app.views.slices.pane import SlicePane
+from app.views.slices.panes import MPR_PANES, NEEDLE_PANES
+from app.views.slices.presets import default_window
+from app.views.slices.two_points import TwoPoints
+from app.views.slices.viewing import Viewing
+
+SIDE_WIDTH = 376
+_LEFT_TO_RIGHT, _RIGHT_TO_LEFT = QBoxLayout.Direction.LeftToRight, QBoxLayout.Direction.RightToLeft
+
+
+class Workspace(QWidget):
+    """Owns the panes and panels; what they do together stands in `Conductor`.
+
+    Signals:
+        arranged(): another layout, with or without the bull's-eye, or the other hand's.
+    """
+
+    arranged = Signal()
+
+    def __init__(self, editor: PlanEditor, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.viewing = Viewing(default_window(), self)
+        self.panes = tuple(SlicePane(self.viewing, pane, self) for pane in MPR_PANES)
+        self.needle_planes = NeedlePlanes(self.viewing, self)
+        self.needle_panes = tuple(SlicePane(self.viewing, pane, self) for pane in NEEDLE_PANES)
+        for pane in self.panes:
+            pane.gestures.add_grip(LineGrip(pane.canvas))
+            pane.menu_parts.append(lambda menu: fill_turn_menu(menu, self.viewing))
+        self.two_points = TwoPoints(self.viewing, self.needle_planes, self)
+        self.viewing.set_tolerances(tuple(ring / MILLIMETRE for ring in rings()))
+        self.scene = SceneView(SceneRenderer(), self)
+        self.bullseye = Bullseye(self)
+        self.scan_view = ScanView(self.viewing, self)
+        self.needle_cell = NeedleCell(self.bullseye, self.scan_view)
+        panes: dict[str, QWidget] = {str(pane.pane): pane for pane in self.slices}
+        self.grid = ViewGrid(panes | {SCENE: self.scene, BULLSEYE: Cell(self.needle_cell)}, self)
+        self.layout_name, self.has_bullseye, self.is_left_handed = FOUR.name, False, False
+        self.is_layout_fixed = self.is_cell_fixed = False
+        self._has_cell = True
+        for pane in self.slices:
+            pane.maximise_wanted.connect(lambda pane=pane: self.grid.toggle(pane))
+            pane.leave_wanted.connect(lambda on, pane=pane: self._go_on(pane, on))
+        cell = self.grid.pane(BULLSEYE)
+        self.scan_view.pane.maximise_wanted.connect(lambda: self.grid.toggle(cell))
+        self._set_up_needle_panes()
+        self.needle_planes.refused.connect(editor.refused)
+        self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
+        self.measure = MeasureEditor(self)
+        self.measure_panel = MeasurePanel(self.measure, self)
+        self.plan_panel = PlanPanel(editor, self.viewing, self)
+        self.exercise_panel = ExercisePanel(self)
+        self.tracker_panel = TrackerPanel(self)
+        self.health_panel = HealthPanel(self)
+        self.messages = MessageList(self)
+        self.status = StatusStrip(self)
+        self.side = self._side()
+        self._lay_out()
+
+    @property
+    def slices(self) -> tuple[SlicePane, ...]:
+        """All slice panes of the planning CT, whether the layout shows them or not."""
+        return (*self.panes, *self.needle_panes)
+
+    @property
+    def exercise_views(self) -> ExerciseViews:
+        """The widgets that the exercise controller feeds."""
+        return ExerciseViews(
+            self.bullseye, self.exercise_panel, self.status, self.tracker_panel, self.messages,
+            self.needle_cell.gauge,
+        )  # fmt: skip
+
+    def _set_up_needle_panes(self) -> None:
+        planes, viewing = self.needle_planes, self.viewing
+        for pane in self.needle_panes:
+            pane.canvas.seen.connect(self._watch_needle_panes)
+            pane.menu_parts.append(lambda menu: fill_needle_menu(menu, planes, viewing))
+        for pane in self.slices:
+            self.two_points.show_in(pane)
+        planes.changed.connect(self._show_needle_words)
+        planes.changed.connect(self._show_two_points)
+        self._show_needle_words()
+
+    def _show_needle_words(self) -> None:
+        planes = self.needle_planes
+        for pane in self.needle_panes:
+            pane.readouts.set_note(planes.words(), planes.laid_along)
+
+    def _show_two_points(self) -> None:
+        """Make room for a plane that was asked for while nobody sees the needle's panes."""
+        seen = any(pane.isVisible() for pane in self.needle_panes)
+        if self.needle_planes.along is Along.POINTS and self.isVisible() and not seen:
+            self.show_layout("6-up")
+
+    def _watch_needle_panes(self) -> None:
+        seen = [pane.pane for pane in self.needle_panes if pane.isVisible()]
+        self.needle_planes.set_watched(bool(seen))
+        self.viewing.set_seen(seen)
+
+    # --- layouts ------------------------------------------------------------------------------
+    @property
+    def layouts(self) -> tuple[str, ...]:
+        """Names of the layouts whose panes are all there."""
+        return possible(self.grid.names)
+
+    def show_layout(self, name: str) -> None:
+        """Arrange the panes otherwise, unless they are fixed; the bull's-eye stays."""
+        if not self.is_layout_fixed:
+            self.layout_name = name if name in self.layouts else FOUR.name
+        self._arrange()
+
+    def share_room(self) -> None:
+        """Let a pane that has the whole room share it again."""
+        if self.grid.maximised is not None:
+            self._arrange()
+
+    def fix_layout(self, fixed: bool) -> None:
+        """Keep the layout as it is for an exercise, or end that."""
+        self.is_layout_fixed = fixed
+        self.arranged.emit()
+
+    def show_bullseye(self, shown: bool) -> None:
+        """Give the bull's-eye's cell a place in the layout, or take it away, if there is anything
+        in it and the exercise lets it go.
+        """
+        self.has_bullseye = self._has_cell and (shown or self.is_cell_fixed)
+        self._arrange()
+
+    def show_views(self, shown: Shown, has_hand: bool, why_fixed: str = "") -> None:
+        """Show what an exercise shows, and nothing that it does not.
+
+        Args:
+            shown: says what.
+            has_hand: whether there is a simulated hand to move.
+            why_fixed: why the student cannot change it; empty where he can.
+        """
+        shows, scanning = shown.shows, not shown.live
+        pad, gauge = shows(View.BULLSEYE), shows(View.FORCE_GAUGE)
+        self.needle_cell.set_shown(scanning, has_hand, pad, gauge)
+        self._has_cell = scanning or has_hand or pad or gauge
+        self.is_cell_fixed = bool(why_fixed)
+        self.scene.set_off("" if shows(View.THREE_D) else off_words(why_fixed))
+        self.tracker_panel.set_off("" if shows(View.CAMERAS) else off_words(why_fixed))
+        if self.has_bullseye and not self._has_cell:
+            self.show_bullseye(False)
+        self.arranged.emit()
+
+    def set_left_handed(self, left_handed: bool) -> None:
+        """Put panel and panes where the left hand at the mouse leaves them free to see."""
+        self.is_left_handed = left_handed
+        self._row.setDirection(_RIGHT_TO_LEFT if left_handed else _LEFT_TO_RIGHT)
+        self._arrange()
+
+    def _arrange(self) -> None:
+        self.grid.arrange(
+            chosen(self.layout_name, self.has_bullseye, self.is_left_handed, self.grid.names)
+        )
+        self.arranged.emit()
+
+    def _go_on(self, pane: QWidget, on: bool) -> None:
+        """Give the keyboard to the next pane that is shown, or to the previous one."""
+        shown = [self.grid.pane(name) for name in self.grid.shown.panes]
+        if self.grid.maximised is None and pane in shown:
+            step = 1 if on else -1
+            shown[(shown.index(pane) + step) % len(shown)].setFocus()
+
+    # --- panels -------------------------------------------------------------------------------
+
+    def add_panel(self, panel: QWidget, title: str) -> None:
+        """Give one more panel its tab at the end."""
+        self.side.addTab(scrolled(panel), title)
+
+    def show_exercise(self) -> None:
+        """Bring the exercise panel and the bull's-eye to the front."""
+        self.side.setCurrentIndex(1)
+        self.show_bullseye(True)
+
+    def show_cameras(self) -> None:
+        """Bring the camera pictures to the front."""
+        self.side.setCurrentIndex(2)
+
+    def show_health(self) -> None:
+        """Bring the robot's health to the front."""
+        self.side.setCurrentIndex(3)
+
+    def show_measurements(self) -> None:
+        """Bring the list of measurements to the front."""
+        self.side.setCurrentWidget(self.measure_panel)
+
+    def show_plan(self) -> None:
+        """Bring the plan panel to the front."""
+        self.side.setCurrentIndex(0)
+
+    def _side(self) -> SidePanel:
+        cameras = QSplitter(Qt.Orientation.Vertical)
+        cameras.addWidget(self.tracker_panel)
+        cameras.addWidget(self.messages)
+        cameras.setStretchFactor(0, 3)
+        cameras.setStretchFactor(1, 1)
+        tabs = SidePanel(self)
+        tabs.setFixedWidth(SIDE_WIDTH)
+        tabs.addTab(scrolled(self.plan_panel), tr("Plan"))
+        tabs.addTab(scrolled(self.exercise_panel), tr("Exercise"))
+        tabs.addTab(cameras, tr("Cameras"))
+        tabs.addTab(self.health_panel, tr("Robot"))
+        tabs.addTab(self.measure_panel, tr("Measure"))
+        return tabs
+
+    def _lay_out(self) -> None:
+        right = QVBoxLayout()
+        right.setContentsMargins(0, 0, 0, 0)
+        right.setSpacing(0)
+        right.addWidget(self.grid, 1)
+        right.addWidget(disclaimer_label(self))
+        self._row = row = QHBoxLayout()
+        row.setSpacing(3)
+        row.addWidget(self.side)
+        row.addLayout(right, 1)
+        page = QVBoxLayout(self)
+        page.setContentsMargins(0, 0, 0, 0)
+        page.setSpacing(0)
+        page.addLayout(row, 1)
+        page.addWidget(self.status)

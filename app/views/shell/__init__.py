@@ -1,0 +1,1 @@
+"""The window itself: menus, pages, messages, settings, undo."""

@@ -1,0 +1,83 @@
+"""Python's garbage collection, at moments when nobody waits for the window.
+
+A full collection walks every object that Python knows. Compiled kernels leave hundreds of thousands
+of them, and the walk then holds the interpreter for most of a second, on whichever thread happens
+to allocate: long enough to miss the window's sign of life to the robot. Here the young objects are
+collected on the window's thread, what stands for good is left out of the walk, and full collections
+wait until no attempt runs. Qt objects that Python lost in a cycle also die on Qt's own thread so.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Final
+
+from PySide6.QtCore import QObject, QTimer
+
+if TYPE_CHECKING:
+    from app.views.shell.window import MainWindow
+
+PERIOD_MS: Final = 2000
+"""Young objects are collected this often: seldom enough that most have died without help."""
+
+FULL_EVERY: Final = 15
+"""One in so many collections is a full one."""
+
+_YOUNG, _ALL = 1, 2
+
+
+class Collector(QObject):
+    """Takes over the collection from Python's own count of allocations, between open and close."""
+
+    def __init__(self, busy: Callable[[], bool], parent: QObject | None = None) -> None:
+        """Collect for a window.
+
+        Args:
+            busy: whether a full collection has to wait: an attempt runs, or something is loading.
+            parent: Qt's owner.
+        """
+        super().__init__(parent)
+        self._busy = busy
+        self._since_full, self._settled = 0, False
+        self._timer = QTimer(self, interval=PERIOD_MS)
+        self._timer.timeout.connect(self.collect)
+
+    def open(self) -> None:
+        """Take over; what stands already, such as imported modules, is never walked again."""
+        gc.disable()
+        gc.freeze()
+        self._timer.start()
+
+    def settle(self) -> None:
+        """Leave all that stands now out of future collections: after something big was built."""
+        gc.collect(_YOUNG)
+        gc.freeze()
+        self._settled = True
+
+    def collect(self) -> None:
+        """Collect what is young, and now and then everything, if nobody is kept waiting.
+
+        Before anything has settled, everything is new and a full walk is as long as it can be.
+        """
+        self._since_full += 1
+        if self._settled and self._since_full >= FULL_EVERY and not self._busy():
+            self._since_full = 0
+            gc.collect(_ALL)
+        else:
+            gc.collect(_YOUNG)
+
+    def close(self) -> None:
+        """Give the collection back to Python; idempotent."""
+        if self._timer.isActive():
+            self._timer.stop()
+            gc.unfreeze()
+            gc.enable()
+
+
+def collect_for(window: MainWindow) -> Collector:
+    """Return an open collector for a window; it settles whenever a robot was started."""
+    collector = Collector(lambda: window.editor.locked or window.progress.count > 0, window)
+    window.runs.ready.connect(lambda _: collector.settle())
+    collector.open()
+    return collector

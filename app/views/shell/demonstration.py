@@ -1,0 +1,237 @@
+"""A whole exercise shown in the window by itself: patient, plan, attempt, debrief.
+
+It presses what a user would press. With a folder for pictures it leaves one of each moment there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from app.core import state_vector as sv
+from app.core.errors import AcusError
+from app.planning.placement import Placement
+from app.planning.proposal import demonstration_plan
+from app.session.machine import State
+from app.session.needle import DepthSource
+from app.session.result import AttemptResult
+from app.session.snapshot import Snapshot
+from app.views.series.patient import Patient
+from app.views.shell.demonstration_pictures import StillPictures
+from app.views.shell.demonstration_script import DemonstrationError, Script
+from app.views.shell.window import MainWindow
+from app.views.slices.slab import as_point
+from app.views.slices.viewing import Tool
+
+PERIOD_MS: Final = 50
+PATIENCE_S: Final = 300.0
+"""A step that takes longer than this has failed (a first start compiles every kernel)."""
+
+SETTLE_S: Final = 1.5
+"""Time for the first picture in 3D after everything stands [s]."""
+
+FRESH_S: Final = 0.1
+"""Pictures on the way wait until the cameras' last fix is no older [s]: drawing disturbs them."""
+
+TRAINEE_DONE: Final = 9.0
+
+
+def has_fresh_fix(snapshot: Snapshot) -> bool:
+    """Whether the cameras' newest fix is no older than `FRESH_S`; not before the first."""
+    age = snapshot.tracker.age if snapshot.tracker is not None else None
+    return age is not None and age <= FRESH_S
+
+
+class Demonstration(QObject):
+    """Leads a window through one attempt.
+
+    Signals:
+        told(str): what is happening, one line.
+        finished(AttemptResult): the debrief is on screen, everything is written.
+        failed(str): why it ended early.
+    """
+
+    told = Signal(str)
+    finished = Signal(object)
+    failed = Signal(str)
+
+    def __init__(self, window: MainWindow, script: Script, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._window, self._script = window, script
+        self._timer = QTimer(self, interval=PERIOD_MS)
+        self._timer.timeout.connect(self._look)
+        self._step: Callable[[], bool] = self._patient_is_open
+        self._waited = self._settled_at = 0.0
+        self._pictures = StillPictures(window, script.pictures)
+        self._result: AttemptResult | None = None
+        self._drawn = False
+        window.debrief_page.curves.drawn.connect(self._note_drawn)
+        window.conductor.controller.finished.connect(self._take_result)
+        for failure in (
+            window.open_ct.failed,
+            window.conductor.failed,
+            window.runs.failed,
+            window.conductor.controller.failed,
+        ):
+            failure.connect(self._stop)
+
+    def start(self) -> None:
+        """Begin; the rest follows by itself."""
+        self.told.emit("opening the patient")
+        if self._script.ct is None:
+            self._window.begin_exercise(self._script.exercise)
+        else:
+            self._window.conductor.set_exercise(self._window.exercises[self._script.exercise])
+            self._window.open_ct.open_folder(self._script.ct)
+        self._timer.start()
+
+    # --- steps: each says whether it is over ----------------------------------------------------
+    def _patient_is_open(self) -> bool:
+        patient = self._window.conductor.patient
+        if patient is None:
+            return False
+        if self._script.ct is not None:
+            self.told.emit("no plan comes with this CT: taking a demonstration path")
+            plan = demonstration_plan(patient.volume, patient.body)
+            self._window.editor.start(plan, Placement())
+            self._window.workspace.viewing.set_cursor(plan.target_mm)
+        elif not self._window.editor.edit.draft.complete:
+            self._place_entry(patient)
+        return self._then("waiting for robot, cameras and surfaces", self._everything_runs)
+
+    def _place_entry(self, patient: Patient) -> None:
+        """Choose the entry that an exercise leaves to the student, as a student would.
+
+        Raises:
+            DemonstrationError: if none is proposed for this target.
+        """
+        proposed, target = patient.proposed, self._window.editor.edit.draft.target_mm
+        if proposed is None or target is None or not np.allclose(proposed.target_mm, target):
+            raise DemonstrationError(
+                f"exercise {self._script.exercise} leaves the entry to the student, and none is "
+                "proposed for its target: show an exercise with a plan, or place the entry in the "
+                "window (acus run)"
+            )
+        self.told.emit("the exercise leaves the entry to the student: taking the proposed one")
+        self._window.editor.place(Tool.ENTRY, as_point(proposed.entry_mm), True)
+
+    def _everything_runs(self) -> bool:
+        snapshot = self._snapshot()
+        if snapshot is None or snapshot.pose.depth_source is not DepthSource.TRACKED:
+            return False
+        if not self._window.conductor.settled:
+            self._settled_at = self._waited
+        if self._waited < self._settled_at + SETTLE_S:
+            return False
+        self._pictures.take("1-plan")
+        panel = self._window.workspace.exercise_panel
+        panel.set_student(self._script.student)
+        panel.start_requested.emit(self._script.student)
+        return self._then("attempt", self._needle_is_in)
+
+    def _needle_is_in(self) -> bool:
+        if self._result is not None:  # broken off, by a fault
+            self._stop(f"the attempt was aborted: {self._result.reason}")
+            return True
+        snapshot = self._snapshot()
+        if snapshot is None or snapshot.device is None:
+            return False
+        self._picture_on_the_way(snapshot)
+        if snapshot.device.row[sv.TRAINEE_PHASE] != TRAINEE_DONE:
+            return False
+        run = self._window.conductor.controller.run
+        if run is not None and not run.shown.live:
+            self._window.workspace.show_exercise()
+            self._window.workspace.exercise_panel.scan.here.click()
+            self._window.conductor.controller.scan()
+            return self._then("control scan", self._scan_is_shown)
+        self._pictures_missed()
+        return self._at_the_target()
+
+    def _scan_is_shown(self) -> bool:
+        scans, view = self._window.conductor.scans, self._window.workspace.scan_view
+        return view.scan is not None and not scans.is_busy and self._at_the_target()
+
+    def _at_the_target(self) -> bool:
+        self._window.workspace.show_exercise()
+        self._pictures.take("4-at-the-target")
+        self._window.conductor.controller.end()
+        return self._then("scoring", self._debrief_is_shown)
+
+    def _debrief_is_shown(self) -> bool:
+        if self._result is None or not self._drawn:
+            return False
+        self._pictures.take("5-debrief")
+        self._window.show_sessions()
+        return self._then("listing the sessions", self._sessions_are_listed)
+
+    def _sessions_are_listed(self) -> bool:
+        if self._result is None or not self._window.sessions_page.model.rowCount():
+            return False
+        self._pictures.take("6-sessions")
+        self._window.show_debrief()
+        self._timer.stop()
+        self._pictures.write(self._result)
+        self.finished.emit(self._result)
+        return True
+
+    def _picture_on_the_way(self, snapshot: Snapshot) -> None:
+        workspace = self._window.workspace
+        if snapshot.state is State.ALIGNING and snapshot.elapsed > 3.0:
+            self._pictures.take("2-aligning")
+        run = self._window.conductor.controller.run
+        if run is not None and not run.shown.live:
+            return  # there is nothing of the needle to picture on the way
+        if not (snapshot.pose.measured and has_fresh_fix(snapshot)):
+            return
+        length = snapshot.pose.depth + snapshot.offset.remaining
+        if snapshot.pose.depth > 0.7 * length and "3-inserting" in self._pictures:
+            self._pictures.take("3-cameras")
+            workspace.show_exercise()
+        elif snapshot.pose.depth > 0.4 * length and self._script.pictures is not None:
+            self._pictures.take("3-inserting")
+            self._pictures.take("3-bullseye", workspace.bullseye)
+            workspace.show_cameras()
+
+    def _pictures_missed(self) -> None:
+        """Take at the target what no moment on the way was good for; each picture exists."""
+        if "3-cameras" in self._pictures:
+            return
+        workspace = self._window.workspace
+        self._pictures.take("3-inserting")
+        self._pictures.take("3-bullseye", workspace.bullseye)
+        workspace.show_cameras()
+        self._pictures.take("3-cameras")
+
+    # --- around the steps -----------------------------------------------------------------------
+    def _look(self) -> None:
+        self._waited += PERIOD_MS * 1e-3
+        try:
+            if not self._step() and self._waited > PATIENCE_S:
+                self._stop(f"nothing has happened for {PATIENCE_S:g} s")
+        except AcusError as error:
+            self._stop(str(error))
+
+    def _then(self, text: str, step: Callable[[], bool]) -> bool:
+        self._step, self._waited = step, 0.0
+        self.told.emit(text)
+        return True
+
+    def _stop(self, reason: object) -> None:
+        if self._timer.isActive():
+            self._timer.stop()
+            self._pictures.write(self._result)
+            self.failed.emit(str(reason))
+
+    def _take_result(self, result: AttemptResult) -> None:
+        self._result, self._waited, self._drawn = result, 0.0, False
+
+    def _note_drawn(self) -> None:
+        self._drawn = True
+
+    def _snapshot(self) -> Snapshot | None:
+        run = self._window.conductor.controller.run
+        return None if run is None else run.trainer.snapshot()

@@ -1,0 +1,141 @@
+"""Errors and notes at the top of the window: they stop nothing and go when closed.
+
+Notes go by themselves after a while. What belongs to a state stands as long as the state does
+(`message_topics` says which): another message covers it, and it is back when that one goes.
+"""
+
+from __future__ import annotations
+
+import traceback
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QMessageBox, QToolButton, QWidget
+
+from app.core.errors import AcusError
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
+
+NOTE_MS = 6000
+"""A note that something worked is shown this long."""
+
+REFUSAL, ROBOT, PAUSE = "refusal", "robot", "pause"
+"""Topics: the user's last change was refused; no robot can be had; the attempt waits."""
+
+LONGEST = 260
+"""Characters shown in the bar; the rest stands in the details."""
+
+
+class MessageBar(QWidget):
+    """One line with a symbol, details on request, and a button to close it."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self._line = self._details = ""
+        self._topic = ""
+        self._standing: dict[str, Exception | str] = {}
+        self._note = QTimer(self, interval=NOTE_MS, singleShot=True)
+        self._note.timeout.connect(self._uncover)
+        self._symbol, self._text = QLabel(self), QLabel(self)
+        self._text.setWordWrap(True)
+        self._text.setTextFormat(Qt.TextFormat.PlainText)
+        self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._more, self._close = QToolButton(self), QToolButton(self)
+        self._more.setText(tr("Details"))
+        self._close.setText("✕")
+        self._close.setAccessibleName(tr("Close message"))
+        self._more.clicked.connect(self.show_details)
+        self._close.clicked.connect(self.dismiss)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(theme.MARGIN, 0, theme.SPACING, 0)
+        row.addWidget(self._symbol)
+        row.addWidget(self._text, 1)
+        row.addWidget(self._more)
+        row.addWidget(self._close)
+        NAMES.changed.connect(self._write)
+        self.hide()
+
+    @property
+    def text(self) -> str:
+        """Message that is shown."""
+        return self._text.text()
+
+    def show_error(self, error: Exception | str) -> None:
+        """Tell what happened and, where the error says so, what to do."""
+        details = ""
+        if isinstance(error, Exception):
+            details = "".join(traceback.format_exception(error))
+        known = isinstance(error, AcusError | str)
+        text = str(error) if known else tr("Something went wrong: {what}", what=repr(error))
+        self._show("bad", text, details)
+
+    def show_note(self, text: str) -> None:
+        """Tell that something worked."""
+        self._show("good", text, "")
+        self._note.start()
+
+    def show_until(self, topic: str, error: Exception | str) -> None:
+        """Tell what happened, until `forget` says that it is true no more.
+
+        Args:
+            topic: what it is about, e.g. `REFUSAL`.
+            error: what happened.
+        """
+        self._standing.pop(topic, None)  # the newest stands last
+        self._standing[topic] = error
+        self.show_error(error)
+        self._topic = topic
+
+    def forget(self, topic: str) -> None:
+        """Take a topic's message away: it is true no more."""
+        self._standing.pop(topic, None)
+        if self._topic == topic:
+            self._uncover()
+
+    def dismiss(self) -> None:
+        """Take away what is shown; what it covered is shown again."""
+        self.forget(self._topic)
+
+    def clear(self) -> None:
+        """Take everything away, but for an attempt that waits."""
+        for topic in [topic for topic in self._standing if topic != PAUSE]:
+            del self._standing[topic]
+        if self._topic != PAUSE:
+            self._uncover()
+
+    def show_details(self) -> None:
+        """Open a window with the whole message and where it comes from."""
+        box = QMessageBox(QMessageBox.Icon.NoIcon, tr("Details"), self._text.text(), parent=self)
+        box.setDetailedText(NAMES.veiled(self._details))
+        box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        box.open()
+
+    def _uncover(self) -> None:
+        """Show the newest message that is still true, or nothing."""
+        if self._standing:
+            self.show_until(*list(self._standing.items())[-1])
+        else:
+            self._note.stop()
+            self._topic = ""
+            self.hide()
+
+    def _show(self, verdict: str, text: str, details: str) -> None:
+        self._note.stop()
+        self._topic = ""
+        colour, symbol = theme.VERDICTS[verdict]
+        self._symbol.setText(symbol)
+        self._symbol.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX}px;")
+        self.setStyleSheet(
+            f"MessageBar {{ background: {theme.RAISED}; border-bottom: 2px solid {colour}; }}"
+        )
+        self._line = " ".join(text.split())
+        self._details = details or (text if len(self._line) > LONGEST else "")
+        self._more.setVisible(bool(self._details))
+        self._write()
+        self.show()
+
+    def _write(self) -> None:
+        """Write the message, without names while they are hidden."""
+        line = NAMES.veiled(self._line)
+        self._text.setText(line if len(line) <= LONGEST else line[: LONGEST - 1] + "…")

@@ -1,0 +1,157 @@
+"""What the window remembers of itself: size, place, how one works, how one reads each exercise."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QSettings, QSize
+
+from app.core.errors import AcusError
+from app.exercises.locks import Lock
+from app.imaging.window import WindowLevel
+from app.views.reading.fixed_reading import apply, let_go
+from app.views.reading.layouts import LAYOUTS
+from app.views.slices.bindings import SCHEMES
+from app.views.slices.looks import KINDS, THICKEST_MM, Look, Slab, Turn
+from app.views.slices.panes import PaneId
+
+if TYPE_CHECKING:
+    from app.views.reading.workspace import Workspace
+    from app.views.shell.window import MainWindow
+
+SMALLEST = (1180, 700)
+PREFERRED = (1400, 900)
+
+_UNUSABLE = (ValueError, TypeError, KeyError, AttributeError, AcusError)
+
+
+class Remembered:
+    """Keeps the state of one window in its settings file; what cannot be used is left.
+
+    How one reads (window, layout, slabs, turns) is kept for each exercise, and once more for
+    whatever comes next; how one works (mouse and keys, hand, projector, kept windows) for all.
+    """
+
+    def __init__(self, window: MainWindow, settings: QSettings) -> None:
+        self._window, self._settings = window, settings
+        self._exercise = ""
+
+    def restore(self) -> None:
+        """Give the window what was remembered."""
+        window, settings = self._window, self._settings
+        window.setMinimumSize(*SMALLEST)
+        wanted, available = QSize(*PREFERRED), window.screen().availableGeometry().size()
+        window.resize(wanted.boundedTo(available))
+        geometry = settings.value("window/geometry")
+        if geometry is not None:
+            window.restoreGeometry(geometry)
+        self._take("work", self._set_work)
+        self._take("reading", lambda state: set_reading(window.workspace, state))
+
+    def remember(self) -> None:
+        """Keep everything."""
+        self._settings.setValue("window/geometry", self._window.saveGeometry())
+        self._settings.setValue("work", json.dumps(self._work()))
+        self._keep_reading()
+        self._settings.sync()
+
+    def follow(self, exercise: str) -> None:
+        """Keep how the last exercise was read, and read this one as it was read before.
+
+        What the exercise itself says of that counts the first time, and always where it locks it.
+        """
+        if exercise == self._exercise:
+            return
+        if self._exercise:
+            self._keep_reading()
+        self._exercise = exercise
+        workspace, key = self._window.workspace, f"exercises/{exercise}"
+        let_go(workspace)
+        self._take(key, lambda state: set_reading(workspace, state))
+        taken = self._window.conductor.exercise
+        if taken is None:
+            return
+        held = taken.reading.locked or Lock.READING in taken.locked
+        if held or self._settings.value(key) is None:
+            apply(workspace, taken)
+
+    def _keep_reading(self) -> None:
+        state = json.dumps(reading(self._window.workspace))
+        self._settings.setValue("reading", state)
+        if self._exercise:
+            self._settings.setValue(f"exercises/{self._exercise}", state)
+
+    def _take(self, key: str, take: Callable[[Mapping[str, Any]], None]) -> None:
+        stored = self._settings.value(key)
+        if stored is None:
+            return
+        try:
+            take(json.loads(str(stored)))
+        except _UNUSABLE:  # written by hand or by another version: as if there were nothing
+            return
+
+    def _work(self) -> dict[str, Any]:
+        window, viewing = self._window, self._window.workspace.viewing
+        return {
+            "scheme": viewing.scheme.name, "reversed": viewing.level_reversed,
+            "left_handed": window.workspace.is_left_handed, "traces": viewing.shows_traces,
+            "light": window.projector.is_light, "large": window.projector.is_large,
+            "kept": {name: [w.width, w.level] for name, w in viewing.greys.kept.items()},
+        }  # fmt: skip
+
+    def _set_work(self, state: Mapping[str, Any]) -> None:
+        workspace, viewing = self._window.workspace, self._window.workspace.viewing
+        viewing.level_reversed = bool(state["reversed"])
+        viewing.set_scheme(SCHEMES[state["scheme"]])
+        viewing.set_shows_traces(bool(state.get("traces", True)))
+        workspace.set_left_handed(bool(state["left_handed"]))
+        for name, (width, level) in state["kept"].items():
+            viewing.greys.keep(str(name), WindowLevel(float(width), float(level)))
+        self._window.projector.set(light=bool(state["light"]), large=bool(state["large"]))
+
+
+def reading(workspace: Workspace) -> dict[str, Any]:
+    """How the slices are read now, as JSON can hold it."""
+    viewing, greys = workspace.viewing, workspace.viewing.greys
+    looks = {}
+    for pane in PaneId:
+        look = viewing.look(pane)
+        if look != Look():
+            looks[str(pane)] = [
+                look.slab.kind, look.slab.thickness_mm, look.turn.quarters, look.turn.mirrored
+            ]  # fmt: skip
+    return {
+        "window": [greys.common.width, greys.common.level], "linked": greys.is_linked,
+        "inverted": greys.is_inverted, "layout": workspace.layout_name, "looks": looks,
+        "locked": greys.is_locked and not greys.is_fixed,
+    }  # fmt: skip
+
+
+def set_reading(workspace: Workspace, state: Mapping[str, Any]) -> None:
+    """Read as a state says.
+
+    Raises:
+        ValueError, TypeError, KeyError, AcusError: if it is not one; nothing has changed then.
+    """
+    window = WindowLevel(*(float(value) for value in state["window"]))
+    looks = {PaneId(name): _look(*values) for name, values in state["looks"].items()}
+    layout, viewing = state["layout"], workspace.viewing
+    if layout not in LAYOUTS:
+        raise ValueError(f"there is no layout {layout}")
+    greys = viewing.greys
+    greys.set_locked(False)
+    greys.set_linked(bool(state["linked"]))
+    viewing.set_window(window)
+    greys.set_locked(bool(state.get("locked", False)))  # states of earlier versions have none
+    greys.set_inverted(bool(state["inverted"]))
+    for pane in PaneId:
+        viewing.set_look(pane, looks.get(pane, Look()))
+    workspace.show_layout(layout)
+
+
+def _look(kind: str, thickness_mm: float, quarters: int, mirrored: bool) -> Look:
+    if kind not in KINDS or not 0.0 <= thickness_mm <= THICKEST_MM or quarters not in range(4):
+        raise ValueError("not a look")
+    return Look(Slab(kind, float(thickness_mm)), Turn(int(quarters), bool(mirrored)))

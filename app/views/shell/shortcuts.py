@@ -1,0 +1,135 @@
+"""The sheet of keys and mouse buttons, and the sentence about what this program is."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QSize, Qt
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.views.kit import theme
+from app.views.kit.text import disclaimer, tr
+from app.views.slices.binding_words import key_rows, mouse_rows
+from app.views.slices.bindings import Scheme
+
+_AROUND_PX = 40
+
+Group = tuple[str, list[tuple[str, str]]]
+
+
+def groups(scheme: Scheme) -> list[Group]:
+    """Headings with what to press and what it does."""
+    return [
+        (tr("Slices: mouse ({scheme})", scheme=scheme.title), mouse_rows(scheme)),
+        (
+            tr("Slices: keys ({scheme})", scheme=scheme.title),
+            [*key_rows(scheme), ("1 … 9, 0", tr("window presets, the file's own"))],
+        ),
+        (
+            tr("Plan"),
+            [
+                ("E, T", tr("place entry, place target: then click in any view")),
+                (tr("Drag a mark"), tr("move it")),
+                (tr("Esc"), tr("stop placing")),
+                ("Ctrl+Z, Ctrl+Y", tr("undo, redo")),
+                ("Ctrl+S, Ctrl+Shift+S", tr("save plan, save as")),
+                (measure_keys(scheme), tr("measure: distance, angle, HU, region")),
+                ("F4", tr("pen and webcam: a needle without a robot")),
+                ("Ctrl+O, Ctrl+Shift+O", tr("open CT folder, open plan")),
+            ],
+        ),
+        (
+            tr("3D view"),
+            [
+                (tr("Left, middle, right drag"), tr("turn, pan, zoom")),
+                ("A P L R S I", tr("look from that side")),
+                ("r, " + tr("Space"), tr("reset")),
+                (tr("Click with E pressed before"), tr("entry on the skin")),
+            ],
+        ),
+        (
+            tr("Attempt"),
+            [
+                ("F5", tr("start the attempt")),
+                ("S", tr("control scan")),
+                (tr("Enter"), tr("end the attempt")),
+                (tr("Hold Esc"), tr("abort: force to zero at once")),
+                (tr("Hold H, or a pedal"), tr("forces on, where they are armed by holding")),
+                (
+                    f"{scheme.menu_keys['follow']}, {scheme.menu_keys['bullseye']}",
+                    tr("slices follow the tip; bull's-eye"),
+                ),
+                (tr("Drag in the bull's-eye"), tr("tilt the needle")),
+                (tr("Wheel, Page keys in the bull's-eye"), tr("depth 1 mm, with Shift 0.2 mm")),
+            ],
+        ),
+    ]
+
+
+def measure_keys(scheme: Scheme) -> str:
+    """Keys of the measuring tools."""
+    return ", ".join(scheme.menu_keys[name] for name in ("distance", "angle", "probe", "region"))
+
+
+class ShortcutSheet(QDialog):
+    """All keys and buttons on one page."""
+
+    def __init__(self, scheme: Scheme, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("Keys and mouse"))
+        columns = QHBoxLayout()
+        columns.setSpacing(4 * theme.SPACING)
+        mouse, keys, plan, scene, attempt = groups(scheme)
+        for part in ((mouse, plan, scene), (keys, attempt)):
+            column = QVBoxLayout()
+            for group in part:
+                column.addLayout(_table(group))
+            column.addStretch(1)
+            columns.addLayout(column)
+        sheet = QWidget(self)
+        sheet.setLayout(columns)
+        area = QScrollArea(self)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setWidgetResizable(True)
+        area.setWidget(sheet)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close, parent=self)
+        buttons.rejected.connect(self.reject)
+        layout = QVBoxLayout(self)
+        layout.addWidget(area)
+        layout.addWidget(disclaimer_label(self))
+        layout.addWidget(buttons)
+        wanted = sheet.sizeHint() + QSize(_AROUND_PX, 4 * _AROUND_PX)
+        self.resize(wanted.boundedTo(self.screen().availableSize() * 0.95))
+
+
+def disclaimer_label(parent: QWidget | None = None) -> QLabel:
+    """Return the sentence as a label."""
+    label = QLabel(disclaimer(), parent)
+    label.setProperty("role", "disclaimer")
+    label.setAlignment(Qt.AlignmentFlag.AlignCenter)
+    return label
+
+
+def _table(group: Group) -> QGridLayout:
+    heading, rows = group
+    grid = QGridLayout()
+    grid.setVerticalSpacing(2)
+    grid.setHorizontalSpacing(2 * theme.SPACING)
+    title = QLabel(heading)
+    title.setProperty("role", "heading")
+    grid.addWidget(title, 0, 0, 1, 2)
+    for number, (key, meaning) in enumerate(rows, start=1):
+        pressed, does = QLabel(key), QLabel(meaning)
+        pressed.setStyleSheet(f"color: {theme.ACCENT};")
+        grid.addWidget(pressed, number, 0)
+        grid.addWidget(does, number, 1)
+    grid.setColumnStretch(1, 1)
+    return grid
