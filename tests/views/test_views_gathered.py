@@ -100,7 +100,7 @@ def item_state(item):
     rect = None if isinstance(item, MarkItem) else item.boundingRect().getRect()
     at = (item.x(), item.y(), *(rect or ()))
     words = item._label if isinstance(item, MarkItem) else ""
-    return type(item).__name__, True, tuple(np.round(at, 6).tolist()), words
+    return type(item).__name__, True, tuple((np.round(at, 6) + 0.0).tolist()), words  # no -0.0
 
 
 def state(pane):

@@ -11,11 +11,10 @@ from app.imaging.reformat import Frame
 from app.views.plan.editor import PlanEditor
 from app.views.slices.cross_line import CrossLine
 from app.views.slices.lines import LineGrip
-from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, PaneId, others
+from app.views.slices.plane import own_plane, reformat_plane
 from app.views.slices.presets import default_window
-from app.views.slices.reformat_plane import ReformatPlane
 from app.views.slices.slab import chord, crossing
 from app.views.slices.turning import StartingPlanes, is_turned, straighten, turn_planes
 from app.views.slices.viewing import Tool, Viewing
@@ -50,8 +49,8 @@ def tilted(viewing, pane=PaneId.CORONAL):
 
 @pytest.mark.parametrize("view", list(View))
 def test_a_reformat_along_the_volumes_axes_equals_its_slices(viewing, volume, view):
-    straight = OrthogonalPlane(viewing.slicer, view)
-    plane = ReformatPlane(volume, straight.frame(0.0), PaneId(view), straight.ahead)
+    straight = own_plane(viewing.slicer, view)
+    plane = reformat_plane(volume, straight.frame(0.0), PaneId(view), straight.ahead)
     for index in (0, 3, straight.count - 1):
         point = straight.lps_mm(11.0, 7.0, index)
         at = plane.point(point, plane.index_at(point))
@@ -86,9 +85,9 @@ def test_scrolling_a_turned_plane_moves_the_crosshair_along_its_normal(viewing, 
 
 def test_going_back_shows_the_volumes_own_slices(viewing):
     viewing.set_frame(PaneId.AXIAL, tilted(viewing, PaneId.AXIAL))
-    assert isinstance(viewing.plane(PaneId.AXIAL), ReformatPlane)
+    assert not viewing.plane(PaneId.AXIAL).is_native
     viewing.set_frame(PaneId.AXIAL, None)
-    assert isinstance(viewing.plane(PaneId.AXIAL), OrthogonalPlane)
+    assert viewing.plane(PaneId.AXIAL).is_native
 
 
 def test_a_needle_pane_stands_off_its_own_plane(viewing, make_pane):

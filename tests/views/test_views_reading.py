@@ -18,11 +18,10 @@ from app.views.slices.binding_words import action_words, key_rows
 from app.views.slices.bindings import OHIF, RESERVED, SCHEMES, SLICER, Action, key_name
 from app.views.slices.camera import Camera
 from app.views.slices.looks import KINDS, Look, Slab, Turn
-from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, PaneId
+from app.views.slices.plane import looked_at, own_plane
 from app.views.slices.presets import KEYED, best_window, default_window, menu_windows
-from app.views.slices.shown_plane import ShownPlane
 from app.views.slices.viewing import Tool, Viewing
 
 CTRL, SHIFT = Qt.KeyboardModifier.ControlModifier, Qt.KeyboardModifier.ShiftModifier
@@ -208,8 +207,8 @@ def test_a_window_can_be_kept_by_name_and_forgotten(pane, viewing):
 @pytest.mark.parametrize("turn", TURNS, ids=str)
 @pytest.mark.parametrize("view", list(View))
 def test_places_letters_and_pixels_of_a_turned_pane_belong_together(volume, view, turn):
-    plane = OrthogonalPlane(OrthogonalSlicer(volume), view)
-    turned = ShownPlane(plane, turn, Slab())
+    plane = own_plane(OrthogonalSlicer(volume), view)
+    turned = looked_at(plane, Look(turn=turn))
     lps = volume.lps_mm([[20, 10, 7], [5, 40, 30], [50, 3, 20]])
     for point in lps:
         index = plane.index_at(point)
@@ -265,16 +264,16 @@ def test_the_crosshair_and_the_marks_follow_a_turned_pane(pane, viewing):
 )
 @pytest.mark.parametrize("view", list(View))
 def test_a_slab_of_whole_slices_is_what_numpy_makes_of_them(volume, view, kind, reduce):
-    plane = OrthogonalPlane(OrthogonalSlicer(volume), view)
-    slab = ShownPlane(plane, Turn(), Slab(kind, 5 * plane.step_mm))
+    plane = own_plane(OrthogonalSlicer(volume), view)
+    slab = looked_at(plane, Look(Slab(kind, 5 * plane.step_mm)))
     block = np.stack([plane.image(index) for index in range(8, 13)]).astype(np.float64)
     assert_allclose(slab.image(10), reduce(block, axis=0), atol=1e-3)
     assert slab.half_slab_mm >= 2.5 * plane.step_mm
 
 
 def test_a_slab_at_the_end_of_the_volume_takes_the_slices_that_there_are(volume):
-    plane = OrthogonalPlane(OrthogonalSlicer(volume), View.AXIAL)
-    slab = ShownPlane(plane, Turn(), Slab("mip", 100.0))
+    plane = own_plane(OrthogonalSlicer(volume), View.AXIAL)
+    slab = looked_at(plane, Look(Slab("mip", 100.0)))
     assert_allclose(slab.image(0), np.max([plane.image(i) for i in range(26)], axis=0))
 
 

@@ -21,9 +21,8 @@ from app.views.robot.health_panel import _Line
 from app.views.shell.window import MainWindow
 from app.views.slices.looks import Look, Slab, Turn
 from app.views.slices.operator_side import Side, side_name, turns
-from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.panes import PANE_MARKS, PaneId
-from app.views.slices.shown_plane import ShownPlane
+from app.views.slices.plane import looked_at, own_plane
 
 
 @pytest.fixture
@@ -274,8 +273,8 @@ def test_settings_that_cannot_be_used_are_left(services, window, destroy, stored
 
 # --- operator's side --------------------------------------------------------------------------
 def letters(volume, view, turn):
-    plane = OrthogonalPlane(OrthogonalSlicer(volume), view)
-    return ShownPlane(plane, turn, Slab()).letters()
+    plane = own_plane(OrthogonalSlicer(volume), view)
+    return looked_at(plane, Look(turn=turn)).letters()
 
 
 @pytest.mark.parametrize(("lies", "top"), [("SUPINE", "A"), ("PRONE", "P"), ("LEFT_DOWN", "R"),

@@ -18,9 +18,9 @@ from app.views.slices import picture_item
 from app.views.slices.bindings import OHIF, SLICER
 from app.views.slices.camera import Camera, ruler
 from app.views.slices.items import MarkItem, SegmentItem
-from app.views.slices.orthogonal_plane import OrthogonalPlane
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
+from app.views.slices.plane import own_plane
 from app.views.slices.presets import default_window, keyed_window, menu_windows
 from app.views.slices.slab import PlanePoint, pieces
 from app.views.slices.viewing import Tool, Viewing
@@ -122,7 +122,7 @@ def test_a_segment_in_the_slice_is_one_solid_piece():
 
 @pytest.mark.parametrize("view", list(View))
 def test_the_middle_of_a_pixel_is_half_a_pixel_from_its_edge(viewing, view):
-    plane = OrthogonalPlane(viewing.slicer, view)
+    plane = own_plane(viewing.slicer, view)
     point = plane.point(viewing.slicer.to_lps_mm(view, 3, 0, 0), 3)
     width, height = viewing.slicer.pixel_size_mm(view)
     assert_allclose((point.x, point.y, point.distance), (width / 2, height / 2, 0.0), atol=1e-9)
@@ -130,13 +130,13 @@ def test_the_middle_of_a_pixel_is_half_a_pixel_from_its_edge(viewing, view):
 
 @pytest.mark.parametrize("view", list(View))
 def test_plane_and_patient_coordinates_are_inverse_of_each_other(viewing, view):
-    plane = OrthogonalPlane(viewing.slicer, view)
+    plane = own_plane(viewing.slicer, view)
     back = plane.point(plane.lps_mm(12.3, 7.7, 5.0), 5.0)
     assert_allclose((back.x, back.y, back.distance), (12.3, 7.7, 0.0), atol=1e-9)
 
 
 def test_distance_is_told_with_the_patients_side(viewing):
-    plane = OrthogonalPlane(viewing.slicer, View.AXIAL)
+    plane = own_plane(viewing.slicer, View.AXIAL)
     above = viewing.slicer.to_lps_mm(View.AXIAL, 8, 0, 0)
     assert plane.point(above, 5).distance == pytest.approx(6.0)
     assert plane.towards(6.0) == "S"

@@ -18,7 +18,6 @@ from app.views.slices.picture_feed import PictureFeed
 from app.views.slices.picture_item import PictureItem
 from app.views.slices.plane import Rect, SlicePlane
 from app.views.slices.plane_view import PlaneView
-from app.views.slices.reformat_plane import ReformatPlane
 from app.views.slices.unhurried import Unhurried
 from app.views.slices.viewing import Viewing
 
@@ -152,6 +151,10 @@ class SliceCanvas(PlaneView):
         if plane is None:
             self._clear()
 
+    @property
+    def _is_interpolated(self) -> bool:
+        return self.plane is not None and not self.plane.is_native
+
     def _clear(self) -> None:
         """Draw nothing: what was there is no longer true."""
         self.feed.drop()
@@ -175,7 +178,7 @@ class SliceCanvas(PlaneView):
             return  # it has been drawn meanwhile
         self._asked = False
         moved = self._slice != (self.plane, self.index)
-        if moved and isinstance(self.plane, ReformatPlane) and Due.CAMERA not in self._due:
+        if moved and self._is_interpolated and Due.CAMERA not in self._due:
             self._fetch()
             if self.feed.is_near:
                 return
@@ -197,7 +200,7 @@ class SliceCanvas(PlaneView):
         moved, zoomed = self._slice != (plane, index), Due.CAMERA in due
         if zoomed:
             self._apply_camera()
-        if moved or (zoomed and isinstance(plane, ReformatPlane)):  # the pixels are other ones
+        if moved or (zoomed and self._is_interpolated):  # the pixels are other ones
             self._fetch()
         self._slice = plane, index
         self._show_picture()
@@ -239,6 +242,6 @@ class SliceCanvas(PlaneView):
         """Stop drawing."""
         super().hideEvent(event)
         self._asked = False
-        if isinstance(self.plane, ReformatPlane):
+        if self._is_interpolated:
             self._clear()  # what it shows next may be another needle's
         self.seen.emit()

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.views.slices.plane import Rect, SlicePlane
-from app.views.slices.reformat_plane import ReformatPlane
 from app.views.slices.reformatter import Reformatter, Wish
 
 LOOK_MS = 4
@@ -68,7 +67,7 @@ class PictureFeed(QObject):
             visible: rectangle that the pane shows [mm].
             pixel_mm: size of the pane's pixels.
         """
-        if not isinstance(plane, ReformatPlane):
+        if plane.is_native:
             self.drop()
             # kept contiguous: changing the window then needs no second gather
             self.hu, self.bounds_mm = np.ascontiguousarray(plane.image(index)), plane.bounds_mm
@@ -108,7 +107,7 @@ class PictureFeed(QObject):
             self.arrived.emit()
 
 
-def _wish(plane: ReformatPlane, index: float, visible: Rect, pixel_mm: float) -> Wish | None:
+def _wish(plane: SlicePlane, index: float, visible: Rect, pixel_mm: float) -> Wish | None:
     """Return the part of the volume that is seen, on the pane's pixels; None if there is none."""
     pixel = max(pixel_mm, plane.finest_mm / FINEST)
     first, last = [], []

@@ -10,11 +10,8 @@ from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.reformat import Frame
 from app.imaging.volume import Volume
 from app.views.slices.looks import Look
-from app.views.slices.orthogonal_plane import own_plane
 from app.views.slices.panes import MPR_PANES, PaneId
-from app.views.slices.plane import SlicePlane
-from app.views.slices.reformat_plane import ReformatPlane
-from app.views.slices.shown_plane import shown
+from app.views.slices.plane import SlicePlane, looked_at, own_plane, reformat_plane
 
 
 class Planes:
@@ -55,7 +52,7 @@ class Planes:
         if plane is None:
             return None
         if pane not in self._shown:
-            self._shown[pane] = shown(plane, self.look(pane))
+            self._shown[pane] = looked_at(plane, self.look(pane))
         return self._shown[pane]
 
     def look(self, pane: PaneId) -> Look:
@@ -77,7 +74,7 @@ class Planes:
         if frame is not None:
             if ahead is None and before is not None and not pane.is_needle:
                 ahead = before.ahead
-            self._planes[pane] = ReformatPlane(self._volume, frame, pane, ahead, pane.is_needle)
+            self._planes[pane] = reformat_plane(self._volume, frame, pane, ahead, pane.is_needle)
         elif not pane.is_needle:
             self._planes[pane] = own_plane(self._slicer, View(pane))
 

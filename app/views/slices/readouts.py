@@ -17,7 +17,6 @@ from app.views.slices.corners import PADDING, Overlay, Ruler
 from app.views.slices.needle_source import Along
 from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
 from app.views.slices.plane import SlicePlane
-from app.views.slices.shown_plane import ShownPlane
 
 _A = Qt.AlignmentFlag
 
@@ -101,7 +100,7 @@ class Readouts(QObject):
         """Say what a reader must not overlook: that it is a slab, that it is turned."""
         look = self._canvas.viewing.look(self._canvas.pane)
         slab = look.slab
-        if slab and isinstance(plane, ShownPlane):  # whole slices
+        if slab:  # of whole slices it is as thick as they are
             slab = replace(slab, thickness_mm=round(plane.thickness_mm, 2))
         notes = (("▣", slab.words()), ("↻", look.turn.words()))
         return [f"{sign} {words}" for sign, words in notes if words]

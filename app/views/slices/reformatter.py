@@ -11,8 +11,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from app.core.loading import ONE_AT_A_TIME
-from app.views.slices.plane import Rect
-from app.views.slices.reformat_plane import ReformatPlane
+from app.views.slices.plane import Rect, SlicePlane
 
 IDLE_S = 20.0
 """The thread ends when nobody wants a picture for so long; the next request starts another."""
@@ -33,7 +32,7 @@ class Wish:
         rows: height of the picture.
     """
 
-    plane: ReformatPlane
+    plane: SlicePlane
     index: float
     corner: tuple[float, float]
     pixel_mm: float

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 
 from app.core.arrays import FloatArray
 
 
-@dataclass(frozen=True, slots=True)
-class PlanePoint:
+class PlanePoint(NamedTuple):
     """A point seen from a slice: its place in the plane and its signed distance from it [mm]."""
 
     x: float
