@@ -277,7 +277,7 @@ def test_the_command_says_identical_and_leaves_with_zero_or_three(
     assert checked.exit_code == 0
     assert "identical over 12000 ticks" in checked.output
     rewritten(virtual.path, tmp_path / virtual.path.name)
-    wrong = runner.invoke(command_line(), [*ask, str(tmp_path), "--json"])
+    wrong = runner.invoke(command_line(), [*ask, str(tmp_path), "--json=1"])
     assert wrong.exit_code == 3
     found = json.loads(wrong.output)
     assert not found["identical"]

@@ -1,25 +1,50 @@
-"""The command line: one file per noun; each parses, calls one room and prints.
+"""The command line: one file per noun; each parses, calls one room and returns an `Answer`.
 
-A file here exposes `register(app)`, which adds its commands. Rooms are imported inside the
-commands, so that `acus --help` is instant.
+A file named in `NOUNS` exposes `register(root)`, which adds its commands; names that a command had
+before stay beside the new one, hidden. Rooms are imported inside the commands, so that
+`acus --help` is instant.
 """
 
 from importlib import import_module
-from pkgutil import iter_modules
+from typing import Annotated
 
 import typer
 
+from app import __version__
+from app.commands.answer import Commands
+
+NOUNS = (
+    *("run", "demo", "check", "ct", "library", "pacs", "structures", "transform", "session"),
+    *("device", "camera", "calibrate", "registration", "plate", "pen", "urdf", "explain"),
+    *("law", "study"),
+)
+
 
 def build() -> typer.Typer:
-    """Return the whole command line, every file of this folder registered."""
-    app = typer.Typer(
+    """Return the whole command line, every noun registered."""
+    root = Commands(
         name="acus",
         help="A trainer for CT-guided needle insertion. Training only; not a medical device.",
-        no_args_is_help=True,
-        add_completion=False,
-        rich_markup_mode="markdown",  # in rich's own markup [mm] is a style, and is cut out
-        pretty_exceptions_enable=False,
+        add_completion=True,
     )
-    for module in sorted(iter_modules(__path__), key=lambda item: item.name):
-        import_module(f"{__name__}.{module.name}").register(app)
-    return app
+    root.callback()(_options)
+    for noun in NOUNS:
+        import_module(f"{__name__}.{noun}").register(root)
+    return root
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"acus {__version__}")
+        raise typer.Exit
+
+
+def _options(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", help="Print the version.", callback=_print_version, is_eager=True
+        ),
+    ] = False,
+) -> None:
+    """Take what stands before the noun."""

@@ -22,10 +22,6 @@ class AnswerError(AcusError):
     """An answer is missing or cannot be understood."""
 
 
-def register(app: typer.Typer) -> None:
-    """Add nothing: this file helps commands."""
-
-
 def numbers(text: str, name: str, count: int) -> tuple[float, ...]:
     """Read numbers between commas, e.g. `20.5,51,102`.
 

@@ -1,11 +1,11 @@
 """`acus calibrate`: cameras from pictures of a board."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 import typer
 
+from app.commands.answer import Answer, Commands, wants_json
 from app.commands.calibrate_cameras import mono, stereo
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-app = typer.Typer(help="Calibrate cameras from pictures of a board (docs/calibration.md).")
+app = Commands(help="Calibrate cameras from pictures of a board.")
 app.command("mono")(mono)
 app.command("stereo")(stereo)
 
@@ -30,43 +30,39 @@ BoardSpec = Annotated[
         "charuco:COLSxROWS:SQUARE:MARKER:DICTIONARY (squares).",
     ),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
 
 
 def register(root: typer.Typer) -> None:
-    """Add `calibrate` to the command line."""
-    root.add_typer(app, name="calibrate", no_args_is_help=True)
+    """Add `calibrate` to the command line, with the commands of its other files."""
+    from app.commands import calibrate_exchange, calibrate_history, calibrate_world  # noqa: F401
+
+    root.add_typer(app, name="calibrate")
 
 
 @app.command("views")
 def list_views(
     images: Images,
     board: BoardSpec = "charuco:9x6:20mm:15mm:DICT_5X5_100",
-    as_json: AsJson = False,
-) -> None:
-    """Say of every picture whether it shows the board sharply enough, or why it is of no use."""
+) -> Answer:
+    """Say of every picture whether it can be used. Or why it cannot."""
     from app.tracking.calibration.boards import parse_board
     from app.tracking.calibration.pictures import list_pictures, look_at_all
 
     known = parse_board(board)
     paths = list_pictures(images)
-    found = with_progress(lambda progress: look_at_all(paths, known, progress), as_json)
-    if as_json:
-        document = {"board": known.spec, "views": [view_document(view) for view in found]}
-        typer.echo(json.dumps(document, indent=2))
-        return
-    for view in found:
-        typer.echo(view_line(view))
+    found = with_progress(lambda progress: look_at_all(paths, known, progress))
+    facts = {"board": known.spec, "views": [view_document(view) for view in found]}
+    return Answer(facts, [view_line(view) for view in found])
 
 
-def with_progress(work: "Callable[[Progress], T]", quiet: bool) -> T:
+def with_progress(work: "Callable[[Progress], T]") -> T:
     """Run `work(progress)` with a bar on the standard error; Ctrl-C cancels it."""
     from rich.console import Console
     from rich.progress import Progress as Bar
 
     from app.core.progress import Progress
 
-    with Bar(console=Console(stderr=True), transient=True, disable=quiet) as bar:
+    with Bar(console=Console(stderr=True), transient=True, disable=wants_json()) as bar:
         task = bar.add_task("", total=1.0)
 
         def show(fraction: float, text: str) -> None:

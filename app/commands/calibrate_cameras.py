@@ -1,10 +1,11 @@
 """`acus calibrate mono` and `stereo`: pictures in, calibration out."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from app.commands.answer import Answer
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -37,11 +38,6 @@ Window = Annotated[
     typer.Option(min=1, max=50, help="Half the sub-pixel window [px], to compare; else chosen."),
 ]
 Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the YAML here.")]
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
-
-
-def register(app: typer.Typer) -> None:
-    """Add nothing: `commands.calibrate` takes the commands into its group."""
 
 
 def mono(
@@ -50,9 +46,10 @@ def mono(
     hold_back: HoldBack = None,
     window: Window = None,
     out: Out = None,
-    as_json: AsJson = False,
-) -> None:
-    """Calibrate one camera, or each of two whose names stand in the pictures' names.
+) -> Answer:
+    """Calibrate one camera, or each of two by itself.
+
+    Of two, their names stand in the pictures' names.
 
     With --out one camera's lens is written, as `acus pen calibrate --lens` and `pen.yaml` take it.
     """
@@ -84,16 +81,12 @@ def mono(
             f"--out takes the lens of one camera; these pictures are of {', '.join(groups)}: "
             "give a folder for each, or use `acus calibrate stereo`"
         )
-    found = with_progress(work, as_json)
+    found = with_progress(work)
     if out is not None:
         save_camera(out, found[0].result.calibration)
         typer.echo(f"wrote {out}", err=True)
-    if as_json:
-        document = {"board": known.spec, "cameras": [mono_document(one) for one in found]}
-        typer.echo(json.dumps(document, indent=2))
-        return
-    for one in found:
-        _print(mono_lines(one))
+    facts = {"board": known.spec, "cameras": [mono_document(one) for one in found]}
+    return Answer(facts, [line for one in found for line in mono_lines(one)])
 
 
 def stereo(
@@ -132,9 +125,8 @@ def stereo(
     force: Annotated[
         bool, typer.Option("--force", help="Write and keep it even if it is not good enough.")
     ] = False,
-    as_json: AsJson = False,
-) -> None:
-    """Calibrate two cameras from pairs of pictures; validate on pairs held back.
+) -> Answer:
+    """Calibrate two cameras from pairs of pictures. Validated on pairs held back.
 
     Pictures are paired by name (docs/calibration.md): left01.png with right01.png, camera0_3.png
     with camera1_3.png; one without a partner helps its own lens. A known baseline or a second board
@@ -154,21 +146,18 @@ def stereo(
     found = with_progress(
         lambda progress: stereo_set(
             paired.pairs, known, both, hold_back, window, progress, alone=alone
-        ),
-        as_json,
+        )
     )
     checks = _checks(found, baseline_mm, second)
     verdict = judge(found.calibration, checks)
-    if as_json:
-        document = stereo_document(found, checks, verdict) | {"remarks": paired.remarks}
-        typer.echo(json.dumps(document, indent=2))
-    else:
-        _print([*stereo_lines(found, checks, verdict), *(f"  {line}" for line in paired.remarks)])
+    facts = stereo_document(found, checks, verdict) | {"remarks": paired.remarks}
+    lines = [*stereo_lines(found, checks, verdict), *(f"  {line}" for line in paired.remarks)]
     if verdict.grade is Grade.NOT_GOOD_ENOUGH and not force:
         if out is not None or keep:
             typer.echo("not written and not kept; --force does it all the same", err=True)
-        raise typer.Exit(3)
+        return Answer(facts, lines, yes=False)
     _write(found, out, keep)
+    return Answer(facts, lines, yes=True)
 
 
 def _folder(images: Path | None) -> Path:
@@ -246,8 +235,3 @@ def _write(found: "StereoSet", out: Path | None, keep: bool) -> None:
         typer.echo(f"wrote {out}", err=True)
     if keep:
         typer.echo(f"kept {CalibrationHistory().keep(found.calibration)}", err=True)
-
-
-def _print(lines: list[str]) -> None:
-    for line in lines:
-        typer.echo(line)

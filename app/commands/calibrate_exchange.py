@@ -1,12 +1,12 @@
 """`acus calibrate export|import|board`: files for and from other programs, boards to print."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from app.commands.calibrate import AsJson, app
+from app.commands.answer import Answer
+from app.commands.calibrate import app
 from app.commands.calibrate_history import Id
 from app.core.errors import AcusError
 
@@ -19,10 +19,6 @@ class ExchangeError(AcusError):
     """An option of the exchange commands that cannot be understood."""
 
 
-def register(_root: typer.Typer) -> None:
-    """Add nothing: the commands here belong to `calibrate`, which its own file adds."""
-
-
 @app.command("export")
 def export(
     calibration_id: Id,
@@ -30,8 +26,7 @@ def export(
     kind: Annotated[
         str, typer.Option("--format", help="yaml (one file, everything) or ros (camera_info pair).")
     ] = "yaml",
-    as_json: AsJson = False,
-) -> None:
+) -> Answer:
     """Write a calibration to other files."""
     from app.tracking.calibration.formats.own import save_calibration
     from app.tracking.calibration.formats.ros import ros_paths, write_ros
@@ -47,10 +42,11 @@ def export(
         write_ros(files[0], files[1], calibration)
     else:
         raise ExchangeError(f"--format {kind}: only yaml and ros can be written")
-    if as_json:
-        typer.echo(json.dumps({"id": calibration.id, "files": [str(path) for path in files]}))
-    else:
-        typer.echo(f"{calibration.id} written to {', '.join(str(path) for path in files)}")
+    written = [str(path) for path in files]
+    return Answer(
+        {"id": calibration.id, "files": written},
+        [f"{calibration.id} written to {', '.join(written)}"],
+    )
 
 
 @app.command("import")
@@ -73,9 +69,8 @@ def import_(
         str | None,
         typer.Option("--size", help="Picture size of TemugeB's and OpenCV's files: e.g. 1280x720."),
     ] = None,
-    as_json: AsJson = False,
-) -> None:
-    """Read a calibration of another program and use it from now on."""
+) -> Answer:
+    """Read another program's calibration and use it from now on."""
     from app.commands.calibrate_history import calibration_lines
     from app.tracking.calibration.formats.reading import read_calibration
     from app.tracking.calibration.formats.said import length, picture_size
@@ -87,22 +82,19 @@ def import_(
         image_size=picture_size(size) if size is not None else None,
     )
     path = CalibrationHistory().keep(calibration)
-    if as_json:
-        document = {"file": str(path), "calibration": calibration.model_dump(mode="json")}
-        typer.echo(json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False))
-        return
-    for line in calibration_lines(calibration):
-        typer.echo(line)
-    typer.echo(f"in use from now on; kept as {path}")
+    return Answer(
+        {"file": str(path), "calibration": calibration.model_dump(mode="json")},
+        [*calibration_lines(calibration), f"in use from now on; kept as {path}"],
+    )
 
 
-@app.command("board")
+@app.command("board", hidden=True)
+@app.command("print")
 def board_(
     out: Annotated[Path, typer.Option("--out", help="PDF file to write.")],
     board: BoardOption = "charuco:9x6:20mm:15mm:DICT_5X5_100",
     paper: Annotated[str, typer.Option("--paper", help="A4, A3 or Letter.")] = "A4",
-    as_json: AsJson = False,
-) -> None:
+) -> Answer:
     """Write a board as PDF at true size; print it at 100 %."""
     from app.tracking.calibration.boards import parse_board
     from app.views.cameras.board_layout import paper_named
@@ -113,21 +105,19 @@ def board_(
     known = parse_board(board)
     sheet = write_board(out, known, paper_named(paper))
     width, height = sheet.pattern_mm
-    if as_json:
-        document = {
-            "file": str(out),
-            "board": known.spec,
-            "paper": sheet.paper.name,
-            "landscape": sheet.landscape,
-            "pattern_mm": [width, height],
-            "ambiguous": known.ambiguous,
-        }
-        typer.echo(json.dumps(document, indent=1))
-        return
-    typer.echo(f"{known.spec}, {width:g} x {height:g} mm on {sheet.paper.name}: {out}")
+    facts = {
+        "file": str(out),
+        "board": known.spec,
+        "paper": sheet.paper.name,
+        "landscape": sheet.landscape,
+        "pattern_mm": [width, height],
+        "ambiguous": known.ambiguous,
+    }
+    lines = [f"{known.spec}, {width:g} x {height:g} mm on {sheet.paper.name}: {out}"]
     if known.ambiguous:
-        typer.echo(
+        lines.append(
             "note: this board looks the same after half a turn; a ChArUco board, or one with an "
             "odd and an even count of corners, does not"
         )
-    typer.echo("print at 100 %, not fitted to the page, and measure the line of 100 mm")
+    lines.append("print at 100 %, not fitted to the page, and measure the line of 100 mm")
+    return Answer(facts, lines)

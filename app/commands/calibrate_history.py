@@ -1,11 +1,11 @@
-"""`acus calibrate list|show|use|undo|redo|condemn`: the calibrations that were kept."""
+"""`acus calibrate list|show|use|undo|redo|reject`: the calibrations that were kept."""
 
-import json
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from app.commands.calibrate import AsJson, app
+from app.commands.answer import Answer
+from app.commands.calibrate import app
 
 if TYPE_CHECKING:
     from app.tracking.calibration.history import CalibrationHistory, Entry
@@ -14,75 +14,67 @@ if TYPE_CHECKING:
 Id = Annotated[str, typer.Argument(metavar="ID", help="Id of the calibration, or its beginning.")]
 
 
-def register(_root: typer.Typer) -> None:
-    """Add nothing: the commands here belong to `calibrate`, which its own file adds."""
-
-
 @app.command("list")
-def list_(as_json: AsJson = False) -> None:
-    """List all calibrations, newest first, and which one is in use."""
+def list_() -> Answer:
+    """List all calibrations. Newest first, and which one is in use."""
     history = _history()
     documents = [entry_document(history, entry) for entry in reversed(history.entries())]
-    if as_json:
-        _print({"folder": str(history.folder), "calibrations": documents})
-    elif not documents:
-        typer.echo(f"no calibrations in {history.folder}")
-    for document in [] if as_json else documents:
-        mark = "*" if document["in_use"] else " "
-        typer.echo(f"{mark} {document['id']:28} {_line(document)}")
+    lines = [
+        f"{'*' if document['in_use'] else ' '} {document['id']:28} {_line(document)}"
+        for document in documents
+    ]
+    facts = {"folder": str(history.folder), "calibrations": documents}
+    return Answer(facts, lines or [f"no calibrations in {history.folder}"])
 
 
 @app.command("show")
-def show(calibration_id: Id, as_json: AsJson = False) -> None:
-    """Show one calibration: cameras, residuals, validation, notes."""
+def show(calibration_id: Id) -> Answer:
+    """Show one calibration. Cameras, residuals, validation, notes."""
     history = _history()
     entry = history.find(calibration_id)
     calibration = history.load(entry.id)
-    if as_json:
-        content = calibration.model_dump(mode="json")
-        _print(entry_document(history, entry) | {"calibration": content})
-        return
-    for line in calibration_lines(calibration):
-        typer.echo(line)
+    content = calibration.model_dump(mode="json")
+    lines = calibration_lines(calibration)
     if entry.condemned is not None:
-        typer.echo(f"found bad     {entry.condemned.date:%Y-%m-%d}: {entry.condemned.reason}")
-    typer.echo(f"file          {entry.path}{'  (in use)' if entry.active else ''}")
+        lines.append(f"found bad     {entry.condemned.date:%Y-%m-%d}: {entry.condemned.reason}")
+    lines.append(f"file          {entry.path}{'  (in use)' if entry.active else ''}")
+    return Answer(entry_document(history, entry) | {"calibration": content}, lines)
 
 
 @app.command("use")
-def use(calibration_id: Id, as_json: AsJson = False) -> None:
+def use(calibration_id: Id) -> Answer:
     """Use a kept calibration from now on."""
     history = _history()
     history.use(calibration_id)
-    _tell(history, as_json)
+    return _in_use(history)
 
 
 @app.command("undo")
-def undo(as_json: AsJson = False) -> None:
-    """Go back to the calibration that was used before; nothing is deleted."""
+def undo() -> Answer:
+    """Go back to the calibration used before. Nothing is deleted."""
     history = _history()
     history.undo()
-    _tell(history, as_json)
+    return _in_use(history)
 
 
 @app.command("redo")
-def redo(as_json: AsJson = False) -> None:
+def redo() -> Answer:
     """Take back an undo."""
     history = _history()
     history.redo()
-    _tell(history, as_json)
+    return _in_use(history)
 
 
-@app.command("condemn")
-def condemn(
+@app.command("condemn", hidden=True)
+@app.command("reject")
+def reject(
     calibration_id: Id,
     why: Annotated[str, typer.Option("--why", help="What is wrong with it; attempts say it.")],
-    as_json: AsJson = False,
-) -> None:
-    """Say that a calibration was found bad: it is not used, its attempts are flagged."""
+) -> Answer:
+    """Mark a calibration as bad. It is not used, its attempts are flagged."""
     history = _history()
     history.condemn(calibration_id, why)
-    _tell(history, as_json)
+    return _in_use(history)
 
 
 def entry_document(history: "CalibrationHistory", entry: "Entry") -> dict[str, Any]:
@@ -171,13 +163,8 @@ def _history() -> "CalibrationHistory":
     return CalibrationHistory()
 
 
-def _tell(history: "CalibrationHistory", as_json: bool) -> None:
+def _in_use(history: "CalibrationHistory") -> Answer:
     active = history.active()
-    if as_json:
-        _print({"in_use": active.id if active is not None else None})
-    else:
-        typer.echo(f"in use: {active.id}" if active is not None else "no calibration is in use")
-
-
-def _print(document: dict[str, Any]) -> None:
-    typer.echo(json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False))
+    if active is None:
+        return Answer({"in_use": None}, ["no calibration is in use"])
+    return Answer({"in_use": active.id}, [f"in use: {active.id}"])

@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-import typer
-
 from app.commands.calibrate import view_document
 
 if TYPE_CHECKING:
@@ -14,10 +12,6 @@ if TYPE_CHECKING:
     from app.tracking.calibration.sets import MonoSet, Seen, StereoSet
     from app.tracking.calibration.verdict import Judgement
     from app.tracking.optics.calibration import CameraCalibration
-
-
-def register(app: typer.Typer) -> None:
-    """Add nothing: the commands stand in `calibrate_cameras`."""
 
 
 def mono_document(found: "MonoSet") -> dict[str, Any]:

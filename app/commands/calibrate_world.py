@@ -1,12 +1,12 @@
 """`acus calibrate world`: the world frame from a board at a known place."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from app.commands.calibrate import AsJson, BoardSpec, app, with_progress
+from app.commands.answer import Answer
+from app.commands.calibrate import BoardSpec, app, with_progress
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,10 +17,6 @@ if TYPE_CHECKING:
     from app.tracking.optics.calibration import StereoCalibration
 
 PLACE = "x,y,z[,rx,ry,rz]"
-
-
-def register(_root: typer.Typer) -> None:
-    """Add nothing: the command here belongs to `calibrate`, which its own file adds."""
 
 
 @app.command("world")
@@ -55,9 +51,8 @@ def world(
     keep: Annotated[
         bool, typer.Option("--keep", help="Keep it in the history and use it from now on.")
     ] = False,
-    as_json: AsJson = False,
-) -> None:
-    """Find where the cameras stand in the robot's frame, from a board at known places."""
+) -> Answer:
+    """Find where the cameras stand. In the robot's frame, from a board at known places."""
     from app.mechanisms.profile import load_profile
     from app.tracking.calibration.boards import parse_board
     from app.tracking.calibration.history import CalibrationHistory
@@ -71,9 +66,7 @@ def world(
     history = CalibrationHistory()
     calibration = _calibration(history, calibration_id)
     expected = load_rig(rig).models[0].T_world_camera if rig is not None else None
-    boards, looked = with_progress(
-        lambda progress: placed_boards(images, places, known, progress), as_json
-    )
+    boards, looked = with_progress(lambda progress: placed_boards(images, places, known, progress))
     frame = find_world(
         calibration,
         boards,
@@ -86,13 +79,11 @@ def world(
     if keep:
         history.keep(placed)
     refused = [view for view in looked if isinstance(view, Rejection)]
-    if as_json:
-        document = world_document(placed, frame, refused) | {"kept": keep}
-        typer.echo(json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False))
-        return
-    for line in world_lines(placed, frame, refused):
-        typer.echo(line)
-    typer.echo(f"in use from now on: {placed.id}" if keep else "not kept: add --keep to use it")
+    last = f"in use from now on: {placed.id}" if keep else "not kept: add --keep to use it"
+    return Answer(
+        world_document(placed, frame, refused) | {"kept": keep},
+        [*world_lines(placed, frame, refused), last],
+    )
 
 
 def place_of(text: str) -> "RigidTransform":

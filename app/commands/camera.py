@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-Json = Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")]
+from app.commands.answer import Answer, Commands
+
+if TYPE_CHECKING:
+    from app.tracking.cameras.settings import CameraSettings
+    from app.tracking.cameras.survey import CameraReport
+
 Cameras = Annotated[
     str | None,
     typer.Option(
@@ -19,38 +24,37 @@ Cameras = Annotated[
 
 def register(app: typer.Typer) -> None:
     """Add `acus camera …`."""
-    group = typer.Typer(help="Cameras: list, choose, look at, aim, measure (docs/cameras.md).")
+    group = Commands(help="Cameras: choose, test, aim, measure.")
     group.command("list")(list_cameras)
     group.command("use")(use)
-    group.command("show")(show)
+    group.command("test")(examine)
+    group.command("show", hidden=True)(examine)
     group.command("aim")(aim)
     group.command("latency")(latency)
-    app.add_typer(group, name="camera", no_args_is_help=True)
+    app.add_typer(group, name="camera")
 
 
-def list_cameras(as_json: Json = False) -> None:
-    """List the cameras that are plugged in, by port, and what is chosen."""
+def list_cameras() -> Answer:
+    """List the cameras that are plugged in, and the chosen."""
     from app.tracking.cameras.ports import camera_ports
     from app.tracking.cameras.settings import load_settings
 
     ports, settings = camera_ports(), load_settings()
-    if as_json:
-        _print_json(
-            {
-                "plugged_in": [
-                    {"source": f"usb:{p.port}", "title": p.title, "node": p.node,
-                     "by_path": list(p.paths)} for p in ports
-                ],
-                "chosen": settings.model_dump(mode="json"),
-            }
-        )  # fmt: skip
-        return
-    for port in ports:
-        typer.echo(f"usb:{port.port:<12} {port.title}  {port.node}")
+    lines = [f"usb:{port.port:<12} {port.title}  {port.node}" for port in ports]
     if not ports:
-        typer.echo("no camera is plugged in")
+        lines.append("no camera is plugged in")
     for side, camera in (("left", settings.left), ("right", settings.right)):
-        typer.echo(f"{side:<6} {camera.source}")
+        lines.append(f"{side:<6} {camera.source}")
+    plugged_in = [
+        {
+            "source": f"usb:{port.port}",
+            "title": port.title,
+            "node": port.node,
+            "by_path": list(port.paths),
+        }
+        for port in ports
+    ]
+    return Answer({"plugged_in": plugged_in, "chosen": settings.model_dump(mode="json")}, lines)
 
 
 def use(
@@ -66,8 +70,8 @@ def use(
     forget_colour: Annotated[
         bool, typer.Option("--forget-colour", help="Forget the marker's learned colour.")
     ] = False,
-) -> None:
-    """Choose the cameras of the trainer and remember them; only what is given changes.
+) -> Answer:
+    """Choose the cameras and remember them. Only what is given changes.
 
     A SOURCE is usb:PORT, usb:0, folder:PATH, video:PATH or simulated.
     """
@@ -98,22 +102,24 @@ def use(
     if forget_colour:
         document["marker_colour"] = None
     settings = parse(document, CameraSettings, "acus camera use")
-    typer.echo(f"left {settings.left.source}, right {settings.right.source}")
-    typer.echo(f"saved in {save_settings(settings)}")
+    file, warnings = save_settings(settings), []
     for side in given:
         if lack := missing(getattr(settings, side).source, camera_ports()):
-            typer.echo(f"warning: {side}: {lack}; saved all the same, for when it is", err=True)
+            warnings.append(f"{side}: {lack}; saved all the same, for when it is")
+            typer.echo(f"warning: {warnings[-1]}", err=True)
+    return Answer(
+        {"chosen": settings.model_dump(mode="json"), "file": file, "warnings": warnings},
+        [f"left {settings.left.source}, right {settings.right.source}", f"saved in {file}"],
+    )
 
 
-def show(
+def examine(
     cameras: Cameras = None,
     source: Annotated[str, typer.Option(help="Look at this one source only.")] = "",
     seconds: Annotated[float, typer.Option(min=0.2, max=600.0, help="How long.")] = 2.0,
     out: Annotated[Path | None, typer.Option(help="Folder for a picture of each.")] = None,
-    as_json: Json = False,
-) -> None:
-    """Look at the cameras: size, rate, repeats, settings, light; are left and right swapped?"""
-    from app.commands.camera_report import colour_line, report_document, report_lines
+) -> Answer:
+    """Measure what the cameras deliver. Size, rate, repeats, light; left and right swapped?"""
     from app.compose.camera_check import look
     from app.tracking.cameras.settings import load_settings, parse_cameras
 
@@ -121,24 +127,18 @@ def show(
     found = look(settings, source, seconds)
     if out is not None:
         found.write_pictures(out)
-    if as_json:
-        _print_json(
-            {
-                "cameras": [report_document(report) for report in found.reports],
-                "skew_ms": found.skew_ms,
-                "order": found.order,
-                "marker_colour": settings.model_dump(mode="json")["marker_colour"],
-            }
-        )
-        return
-    for report in found.reports:
-        for line in report_lines(report):
-            typer.echo(line)
+    lines = [line for report in found.reports for line in report_lines(report)]
     if found.skew_ms is not None:
-        typer.echo(f"skew (right after left): {found.skew_ms:.1f} ms")
+        lines.append(f"skew (right after left): {found.skew_ms:.1f} ms")
     if found.order:
-        typer.echo(found.order)
-    typer.echo(colour_line(settings))
+        lines.append(found.order)
+    facts = {
+        "cameras": [report_document(report) for report in found.reports],
+        "skew_ms": found.skew_ms,
+        "order": found.order,
+        "marker_colour": settings.model_dump(mode="json")["marker_colour"],
+    }
+    return Answer(facts, [*lines, colour_line(settings)])
 
 
 def aim(
@@ -156,9 +156,8 @@ def aim(
     out: Annotated[
         Path | None, typer.Option(help="Folder for both pictures with the cone drawn in.")
     ] = None,
-    as_json: Json = False,
-) -> None:
-    """Say which share of the needle's cone both cameras see, and where it is lost."""
+) -> Answer:
+    """Say how much of the needle's cone both cameras see."""
     from app.compose.camera_check import aim_of
     from app.tracking.cameras.settings import CameraSettings, load_settings, parse_cameras
 
@@ -169,19 +168,14 @@ def aim(
     if out is not None:
         found.write_pictures(settings, out)
     cone = found.cone
-    if as_json:
-        _print_json(
-            {
-                "share": cone.share,
-                "cameras": dict(zip(cone.names, cone.shares, strict=True)),
-                "losses": list(cone.losses()),
-                "basis": found.basis,
-            }
-        )
-        return
-    typer.echo(f"both cameras see {100.0 * cone.share:.0f} % of the needle's cone ({found.basis})")
-    for line in cone.losses():
-        typer.echo(line)
+    facts = {
+        "share": cone.share,
+        "cameras": dict(zip(cone.names, cone.shares, strict=True)),
+        "losses": list(cone.losses()),
+        "basis": found.basis,
+    }
+    seen = f"both cameras see {100.0 * cone.share:.0f} % of the needle's cone ({found.basis})"
+    return Answer(facts, [seen, *cone.losses()])
 
 
 def latency(
@@ -189,26 +183,22 @@ def latency(
     display: Annotated[
         bool, typer.Option("--display", help="Measure: blink a patch on this screen.")
     ] = False,
-    as_json: Json = False,
-) -> None:
-    """Print the measured latency of the cameras, or measure one before this screen."""
+) -> Answer:
+    """Print the cameras' latency, or measure it on this screen."""
     from app.tracking.cameras.settings import load_settings
 
     if display:
-        from app.commands.camera_latency import measure
-
-        measure(side)
+        _measure(side)
     settings = load_settings()
     known = {"left": settings.left, "right": settings.right}
-    if as_json:
-        _print_json({s: {"latency_ms": c.latency_ms, "sd_ms": c.latency_sd_ms}
-                     for s, c in known.items()})  # fmt: skip
-        return
+    facts, lines = {}, []
     for name, camera in known.items():
-        told = "not measured; use --display" if camera.latency_ms is None else (
-            f"{camera.latency_ms:.1f} ms, spread {camera.latency_sd_ms or 0.0:.1f} ms"
-        )  # fmt: skip
-        typer.echo(f"{name:<6} {camera.source}: {told}")
+        facts[name] = {"latency_ms": camera.latency_ms, "sd_ms": camera.latency_sd_ms}
+        told = "not measured; use --display"
+        if camera.latency_ms is not None:
+            told = f"{camera.latency_ms:.1f} ms, spread {camera.latency_sd_ms or 0.0:.1f} ms"
+        lines.append(f"{name:<6} {camera.source}: {told}")
+    return Answer(facts, lines)
 
 
 def _range(depths: str, tilt: float | None) -> dict[str, float]:
@@ -233,7 +223,88 @@ def _size(text: str) -> tuple[int, int]:
     return int(width), int(height)
 
 
-def _print_json(document: object) -> None:
-    from json import dumps
+def _measure(side: str) -> None:
+    """Open the test for the `left` or `right` camera and keep what the user keeps.
 
-    typer.echo(dumps(document, indent=2))
+    Raises:
+        CameraError: if the camera is simulated, or there is no such side.
+        NoDisplayError: without a screen, or with one that is drawn into memory only.
+    """
+    import os
+
+    from app.compose import Desktop
+    from app.tracking.cameras.settings import SIDES, load_settings, save_settings, with_latency
+    from app.tracking.errors import CameraError
+    from app.views.cameras.latency_dialog import LatencyDialog
+    from app.views.shell.application import NoDisplayError, start
+
+    if side not in SIDES:
+        raise CameraError(f"there is no {side!r} camera; there are {' and '.join(SIDES)}")
+    settings = load_settings()
+    if settings.simulated:
+        raise CameraError(
+            "the cameras are simulated and have no latency to measure; choose real ones with "
+            "`acus camera use`"
+        )
+    if os.environ.get("QT_QPA_PLATFORM") == "offscreen":
+        raise NoDisplayError(
+            "the test needs a real screen that a camera can look at; there is none"
+        )
+    application = start()
+    dialog = LatencyDialog(settings, side, Desktop(), lambda: None)
+    dialog.measured.connect(
+        lambda name, found: save_settings(with_latency(settings, name, found.median, found.sd))
+    )
+    dialog.finished.connect(lambda _: application.quit())
+    dialog.show()
+    application.exec()
+    dialog.closed()()
+
+
+def report_lines(report: CameraReport) -> list[str]:
+    """Return what a camera delivered, a line each, for people."""
+    figures = report.figures
+    times = {True: "the driver's", False: "of the delivery, less the latency"}
+    lines = [
+        f"{report.name}: {report.size[0]}x{report.size[1]}, {figures.rate:.1f} pictures/s, "
+        f"jitter {1e3 * figures.jitter:.1f} ms, {100.0 * figures.repeated_share:.1f} % repeated",
+        f"  brightness {report.brightness:.0f} of 255, "
+        f"{100.0 * report.saturated:.1f} % overexposed",
+    ]
+    if report.driver_time is not None:
+        lines.append(
+            f"  capture times: {times[report.driver_time]}; {1e3 * report.age:.0f} ms to delivery"
+        )
+    lines += [f"  {text}" for text in report.settings]
+    return lines + [f"  ! {text}" for text in report.advice()]
+
+
+def colour_line(settings: CameraSettings) -> str:
+    """Return which colour of the marker is looked for, for people."""
+    colour = settings.marker_colour
+    if colour is None:
+        return "marker's colour: the usual red (the tracker panel's Learn takes another)"
+    blue, green, red = colour.bgr
+    return (
+        f"marker's colour: learned, red {red:.0f} green {green:.0f} blue {blue:.0f}, within "
+        f"{colour.angle_deg:.0f}° (`acus camera use --forget-colour` goes back to the usual red)"
+    )
+
+
+def report_document(report: CameraReport) -> dict[str, Any]:
+    """Return it for `--json` (docs/json.md)."""
+    figures = report.figures
+    return {
+        "name": report.name,
+        "size": list(report.size),
+        "rate_hz": figures.rate,
+        "jitter_ms": 1e3 * figures.jitter,
+        "repeated": figures.repeated,
+        "backwards": figures.backwards,
+        "repeated_share": figures.repeated_share,
+        "brightness": report.brightness,
+        "saturated_share": report.saturated,
+        "driver_time": report.driver_time,
+        "settings": list(report.settings),
+        "advice": list(report.advice()),
+    }

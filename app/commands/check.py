@@ -1,9 +1,10 @@
 """`acus check`: the morning check."""
 
-import json
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from app.commands.answer import Answer
 
 if TYPE_CHECKING:
     from app.session.checks.record import DayCheck
@@ -31,27 +32,27 @@ def check(
     last: Annotated[
         bool, typer.Option("--last", help="Show the newest check instead of making one.")
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")] = False,
-) -> None:
-    """Check robot, pictures, marker and one touched point; two minutes; the result is kept.
+) -> Answer:
+    """Make the morning check of robot and cameras. It takes two minutes.
+
+    Looked at: robot, pictures, marker and one touched point; the result is kept.
 
     Ends with code 3 if something is wrong.
     """
-    from app.core.exits import answer
     from app.session.checks.record import newest_check
     from app.session.checks.steps import Verdict
 
-    found = newest_check() if last else _made(device, cameras, plate, point, touch, as_json)
+    found = newest_check() if last else _made(device, cameras, plate, point, touch)
     if found is None:
-        typer.echo("null" if as_json else "no morning check was made yet")
-        answer(False)
-        return
-    _print(found, as_json)
-    answer(found.verdict not in (Verdict.BAD, Verdict.WAITING))
+        none = ["no morning check was made yet"]
+        return Answer({"check": None}, none, yes=False, first_form=None)
+    document = found.model_dump(mode="json")
+    passed = found.verdict not in (Verdict.BAD, Verdict.WAITING)
+    return Answer({"check": document}, _lines(found), yes=passed, first_form=document)
 
 
 def _made(
-    device: str | None, cameras: str | None, plate: str, point: str, touch: bool, quiet: bool
+    device: str | None, cameras: str | None, plate: str, point: str, touch: bool
 ) -> "DayCheck":
     from datetime import datetime
 
@@ -88,15 +89,12 @@ def _made(
     return found
 
 
-def _print(found: "DayCheck", as_json: bool) -> None:
+def _lines(found: "DayCheck") -> list[str]:
     from datetime import datetime
 
-    if as_json:
-        document: dict[str, Any] = found.model_dump(mode="json")
-        typer.echo(json.dumps(document, indent=2))
-        return
+    lines = []
     for step in found.steps:
-        typer.echo(f"{_MARKS[step.verdict.value]} {step.name:10} {step.found}")
+        lines.append(f"{_MARKS[step.verdict.value]} {step.name:10} {step.found}")
         if step.todo:
-            typer.echo(f"  {'':10} → {step.todo}")
-    typer.echo(found.words(datetime.now().astimezone()))
+            lines.append(f"  {'':10} → {step.todo}")
+    return [*lines, found.words(datetime.now().astimezone())]

@@ -1,19 +1,19 @@
 """`acus ct`: what a folder of CT holds, and where a voxel lies in the patient."""
 
-import json
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.commands.answer import Answer, Commands
 from app.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from app.imaging.series import Listing, Series
     from app.imaging.volume import Volume
 
-app = typer.Typer(help="List the CT series of a folder; find where a voxel lies.")
+app = Commands(help="CT series: list, points, import.")
 
 Mend = Annotated[
     str | None,
@@ -26,17 +26,16 @@ Mend = Annotated[
 Folder = Annotated[
     Path, typer.Argument(metavar="DIR", help="Folder (at any depth), zip, DICOMDIR or file.")
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
 
 
 def register(root: typer.Typer) -> None:
     """Add `ct` to the command line."""
-    root.add_typer(app, name="ct", no_args_is_help=True)
+    root.add_typer(app, name="ct")
 
 
 @app.command("list")
-def list_series(folder: Folder, as_json: AsJson = False) -> None:
-    """List every series: modality, size, spacing, origin, direction, usable or why not."""
+def list_series(folder: Folder) -> Answer:
+    """List every series and whether it can be used. Modality, size, place, or why not."""
     _start_reader()
     from app.imaging.scanning import scan_folder
 
@@ -45,13 +44,8 @@ def list_series(folder: Folder, as_json: AsJson = False) -> None:
         from app.imaging.reading import choose
 
         choose(listing)  # says what is wrong with the folder
-    if as_json:
-        typer.echo(json.dumps(_listing(listing), indent=2))
-        return
-    for series in listing.series:
-        typer.echo(_line(series))
-    for file in listing.ignored:
-        typer.echo(f"ignored  {listing.shown(file.path)}: {file.reason}")
+    ignored = [f"ignored  {listing.shown(one.path)}: {one.reason}" for one in listing.ignored]
+    return Answer(_listing(listing), [*map(_line, listing.series), *ignored])
 
 
 @app.command()
@@ -71,9 +65,8 @@ def point(
         int | None, typer.Option(help="Frame of a multi-frame file, from 1; goes with --sop.")
     ] = None,
     remedy: Mend = None,
-    as_json: AsJson = False,
-) -> None:
-    """Patient point (LPS, mm) and Hounsfield value of a voxel, or of a pixel of one file."""
+) -> Answer:
+    """Print where a voxel lies, and its value. LPS in mm, Hounsfield; or of a file's pixel."""
     if (voxel is None) == (sop is None and pixel is None):
         raise ConfigurationError(
             "name a point: either --voxel I,J,K, or --sop UID with --pixel COL,ROW"
@@ -92,13 +85,11 @@ def point(
         lps_mm, hu = _pixel(
             folder, sop, _integers(pixel, 2, "--pixel", "COL,ROW"), (frame or 1) - 1
         )
-    if as_json:
-        typer.echo(json.dumps({"lps_mm": lps_mm, "hu": hu, **source}))
-        return
     x, y, z = lps_mm
-    typer.echo(f"LPS {x:.3f} {y:.3f} {z:.3f} mm, {hu:g} HU")
+    lines = [f"LPS {x:.3f} {y:.3f} {z:.3f} mm, {hu:g} HU"]
     if source["sop_uid"] and voxel is not None:
-        typer.echo(f"SOPInstanceUID {source['sop_uid']}, frame {source['frame']}")
+        lines.append(f"SOPInstanceUID {source['sop_uid']}, frame {source['frame']}")
+    return Answer({"lps_mm": lps_mm, "hu": hu, **source}, lines)
 
 
 @app.command()
@@ -108,22 +99,18 @@ def digest(
         str | None, typer.Option(help="SeriesInstanceUID, where several fit.")
     ] = None,
     remedy: Mend = None,
-    as_json: AsJson = False,
-) -> None:
-    """Digest of a volume's values and its geometry, to compare it with another program's."""
+) -> Answer:
+    """Print a digest of values and geometry, to compare programs."""
     _start_reader()
     from app.imaging.digest import digest_of
 
     found = digest_of(_volume(folder, series, remedy))
-    if as_json:
-        typer.echo(json.dumps(asdict(found)))
-        return
     rows = [
         " ".join(f"{n:.9g}" for n in found.affine_mm[4 * row : 4 * row + 4]) for row in range(3)
     ]
-    typer.echo(f"values  sha256 {found.values} of {'×'.join(map(str, found.size))} {found.kind}")
-    for name, row in zip("xyz", rows, strict=True):
-        typer.echo(f"{name} [mm]  {row}")
+    size = "×".join(map(str, found.size))
+    lines = [f"{name} [mm]  {row}" for name, row in zip("xyz", rows, strict=True)]
+    return Answer(asdict(found), [f"values  sha256 {found.values} of {size} {found.kind}", *lines])
 
 
 def _voxel(

@@ -49,7 +49,7 @@ def demo(
         bool, typer.Option("--pen", help="No robot: a pen with printed markers, simulated.")
     ] = False,
 ) -> None:
-    """Show a whole exercise: patient, plan, guided insertion, score, debrief.
+    """Show a whole exercise, from the plan to the debrief.
 
     Without a display it runs as with --headless.
     """

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from app.commands.answer import Answer, Commands
 from app.commands.device_calibrate import calibrate
 
 if TYPE_CHECKING:
@@ -14,45 +15,49 @@ if TYPE_CHECKING:
 
 Port = Annotated[str, typer.Argument(help="Serial port, e.g. /dev/ttyACM0.")]
 Profile = Annotated[str, typer.Option(help="Device profile: a name or a YAML file.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")]
 
 
 def register(app: typer.Typer) -> None:
     """Add `acus device …`."""
-    group = typer.Typer(help="Robots on serial ports: list, ask, test, calibrate, emulate.")
+    group = Commands(help="Robots on serial ports.")
     group.command("list")(list_ports)
-    group.command("info")(info)
+    group.command("show")(show)
+    group.command("info", hidden=True)(show)
     group.command("test")(measure)
     group.command("calibrate")(calibrate)
     group.command("emulate")(emulate)
     app.add_typer(group, name="device")
 
 
-def list_ports(as_json: Json = False) -> None:
-    """List serial ports, and the device profiles that a robot may have."""
+def list_ports() -> Answer:
+    """List serial ports and device profiles."""
     from app.device.links.port import ports
     from app.mechanisms.profile import load_profile, profile_names
 
     found = ports()
-    if as_json:
-        _print_json(
-            [
-                {"port": port.path, "description": port.description, "hardware": port.hardware}
-                for port in found
-            ]
-        )
-        return
-    for port in found:
-        typer.echo(f"{port.path:<16} {port.description}  {port.hardware}")
+    rows = [
+        {"port": port.path, "description": port.description, "hardware": port.hardware}
+        for port in found
+    ]
+    lines = [f"{port.path:<16} {port.description}  {port.hardware}" for port in found]
     if not found:
-        typer.echo("no serial ports; plug the robot in, or try `acus device emulate`")
-    typer.echo("profiles:")
+        lines.append("no serial ports; plug the robot in, or try `acus device emulate`")
+    profiles = []
     for name in profile_names():
         profile = load_profile(name)
-        typer.echo(f"  {name:<12} {profile.wire.protocol}, {profile.description}")
+        profiles.append(
+            {
+                "name": name,
+                "protocol": profile.wire.protocol,
+                "description": profile.description,
+            }
+        )
+    lines.append("profiles:")
+    lines += [f"  {p['name']:<12} {p['protocol']}, {p['description']}" for p in profiles]
+    return Answer({"ports": rows, "profiles": profiles}, lines, first_form=rows)
 
 
-def info(port: Port, profile: Profile = "icube", as_json: Json = False) -> None:
+def show(port: Port, profile: Profile = "icube") -> Answer:
     """Ask the robot on a port who it is."""
     from dataclasses import asdict
 
@@ -65,29 +70,25 @@ def info(port: Port, profile: Profile = "icube", as_json: Json = False) -> None:
         found = asdict(link.info())
     finally:
         link.close()
-    if as_json:
-        _print_json({"port": port} | found)
-        return
-    for name, value in found.items():
-        typer.echo(f"{name:<10} {value if value != '' else '(the board does not say)'}")
+    lines = [
+        f"{name:<10} {value if value != '' else '(the board does not say)'}"
+        for name, value in found.items()
+    ]
+    return Answer({"port": port} | found, lines)
 
 
 def measure(
     port: Port,
     profile: Profile = "icube",
     seconds: Annotated[float, typer.Option(min=0.1, max=3600.0, help="How long.")] = 5.0,
-    as_json: Json = False,
-) -> None:
-    """Send zero torques at the profile's rate; print round trip, losses and errors."""
+) -> Answer:
+    """Measure the link. Zero torques at the profile's rate: round trip, losses, errors."""
     from app.device.link_test import measure_link
     from app.mechanisms.profile import load_profile
 
     result = measure_link(port, load_profile(profile), seconds)
-    if as_json:
-        _print_json(result.document())
-        return
-    for label, value in result.lines():
-        typer.echo(f"{label:<24} {value}")
+    lines = [f"{label:<24} {value}" for label, value in result.lines()]
+    return Answer(result.document(), lines)
 
 
 def emulate(
@@ -103,7 +104,7 @@ def emulate(
     serial: Annotated[str, typer.Option(help="Serial number of the board.")] = "EMULATED",
     seed: Annotated[int, typer.Option(min=0, help="Seed of the faults.")] = 1,
 ) -> None:
-    """Be a robot behind a pseudo-terminal, whose path is printed; faults are typed while it runs.
+    """Be a robot behind a pseudo-terminal. Its path is printed; faults are typed on the way.
 
     Lines on the standard input: drop P, garble P, delay MS, freeze on|off, cut on|off,
     unplug on|off, reset, version N, error N, park on|off, quit. For the hand: hold
@@ -147,9 +148,3 @@ def _serve(emulator: Emulator) -> None:
             time.sleep(0.01)
     finally:
         emulator.close()
-
-
-def _print_json(document: object) -> None:
-    from json import dumps
-
-    typer.echo(dumps(document, indent=2))

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from app.commands.answer import Answer, wants_json
+
 if TYPE_CHECKING:
     from app.commands.answers import Answers
     from app.device.commissioning.bench import Bench
@@ -26,10 +28,6 @@ class StepName(StrEnum):
     GAUGE = "gauge"
 
 
-def register(app: typer.Typer) -> None:
-    """Add nothing: `commands.device` takes the command into its group."""
-
-
 def calibrate(
     port: Annotated[str, typer.Argument(help="Serial port, e.g. /dev/ttyACM0.")],
     profile: Annotated[str, typer.Option(help="Device profile: a name or a YAML file.")] = "icube",
@@ -45,9 +43,10 @@ def calibrate(
         typer.Option("--yes", help="Confirm everything; signs by pulses only. For scripts."),
     ] = False,
     undo: Annotated[bool, typer.Option("--undo", help="Take the newest result back.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")] = False,
-) -> None:
-    """Home a robot, check its signs, measure friction, latency and force scale (docs/hardware.md).
+) -> Answer:
+    """Commission a robot: homing, signs, latency, force scale.
+
+    And its friction, offsets and gauge where asked for (docs/hardware.md).
 
     Results are kept for the device by its serial number. Ctrl-C ends at zero torque at any time.
     """
@@ -69,25 +68,26 @@ def calibrate(
         _wait_for_the_robot(bench)
         if undo:
             bench.undo(*(steps if step else ()))
-        results = [] if undo else [_run(bench, one, answers, yes, as_json) for one in steps]
-        _tell(bench, results, as_json)
+        results = [] if undo else [_run(bench, one, answers, yes) for one in steps]
+        return _answer(bench, results)
 
 
-def _run(bench: Bench, step: Step, answers: Answers, yes: bool, as_json: bool) -> AnyResult:
+def _run(bench: Bench, step: Step, answers: Answers, yes: bool) -> AnyResult:
     """Run one routine to its end and keep what it found; a check that fails takes back its own."""
     from app.device.commissioning.errors import CommissioningError
     from app.device.commissioning.settle import settle
 
     routine = bench.routine(step, by_hand=not yes)
     said: list[str] = []
+    aside = wants_json()  # what is said on the way is not the answer
 
     def tell(report: Report) -> None:
         if report.message not in said[-1:] and not report.needs:
             said.append(report.message)
-            typer.echo(f"  {report.message}", err=as_json)
+            typer.echo(f"  {report.message}", err=aside)
 
-    typer.echo(f"{routine.TITLE}", err=as_json)
-    report = bench.run(routine, lambda report: answers.to(routine, report, as_json), tell)
+    typer.echo(f"{routine.TITLE}", err=aside)
+    report = bench.run(routine, lambda report: answers.to(routine, report, aside), tell)
     failure = settle(bench, step, report)
     if report.result is None:
         raise CommissioningError(failure)
@@ -108,21 +108,16 @@ def _wait_for_the_robot(bench: Bench) -> None:
         bench.advance(0.05)
 
 
-def _tell(bench: Bench, results: list[AnyResult], as_json: bool) -> None:
+def _answer(bench: Bench, results: list[AnyResult]) -> Answer:
     from dataclasses import asdict
-    from json import dumps
 
     clearance = bench.clearance()
-    if as_json:
-        document = {
-            "device": bench.record.device,
-            "boot": bench.info.boot,
-            "results": [result.model_dump(mode="json") for result in results],
-            "clearance": asdict(clearance),
-        }
-        typer.echo(dumps(document, indent=2))
-        return
-    for result in results:
-        typer.echo(f"{result.step.value:<10} {result.summary()}")
+    facts = {
+        "device": bench.record.device,
+        "boot": bench.info.boot,
+        "results": [result.model_dump(mode="json") for result in results],
+        "clearance": asdict(clearance),
+    }
     text = clearance.reason or f"cleared for {clearance.force_cap:g} N"
-    typer.echo(f"{'device':<10} {bench.record.device}: {text}")
+    lines = [f"{result.step.value:<10} {result.summary()}" for result in results]
+    return Answer(facts, [*lines, f"{'device':<10} {bench.record.device}: {text}"])

@@ -4,6 +4,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.commands.answer import Answer
+
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray
     from app.mechanisms.profile import DeviceProfile
@@ -22,9 +24,11 @@ def explain(
     real: Annotated[
         bool, typer.Option("--real", help="for the real robot and hand, not the simulated ones")
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="print JSON (docs/json.md)")] = False,
-) -> None:
-    """Print the force laws, what an exercise simulates and what it leaves out, and why."""
+) -> Answer:
+    """Print what an exercise simulates, why, and at what cost.
+
+    Its force laws, its effects, and what it leaves out, each with the reason.
+    """
     from app.compose.declared_views import declared_views
     from app.exercises.library import load_exercise
     from app.exercises.scene import compile_exercise, device_of, law_requests
@@ -37,12 +41,7 @@ def explain(
     document = _document(chosen.id, chosen.device, not real, plan)
     document["assistance"] = chosen.assistance
     document["laws"] = _laws(law_requests(chosen), profile)
-    if as_json:
-        from json import dumps
-
-        typer.echo(dumps(document, indent=2))
-    else:
-        _print(document)
+    return Answer(document, _lines(document))
 
 
 def _is_first_time() -> bool:
@@ -146,24 +145,28 @@ def _held_pose(profile: "DeviceProfile") -> "FloatArray":
     return state
 
 
-def _print(document: dict[str, Any]) -> None:
+def _lines(document: dict[str, Any]) -> list[str]:
     kind = "simulated" if document["simulated_device"] else "real"
-    typer.echo(f"{document['exercise']} on the {kind} device {document['device']}")
+    lines = [f"{document['exercise']} on the {kind} device {document['device']}"]
     for law in document["laws"]:
-        typer.echo(f"\n  {law['law']}: {law['title']}")
-        typer.echo(f"    energy   {law['energy']}: {law['energy_statement']}")
-        typer.echo(f"    bound    {1000.0 * law['energy_bound_j']:.1f} mJ")
-        typer.echo(f"    cost     {_cost(law['cost_ns'])}")
+        lines += [
+            f"\n  {law['law']}: {law['title']}",
+            f"    energy   {law['energy']}: {law['energy_statement']}",
+            f"    bound    {1000.0 * law['energy_bound_j']:.1f} mJ",
+            f"    cost     {_cost(law['cost_ns'])}",
+        ]
     for kept in document["simulated"]:
-        typer.echo(f"\n  {kept['effect']}: {kept['title']}")
-        typer.echo(f"    model    {kept['model']}: {kept['model_description']}")
-        typer.echo(f"    why      {kept['why']}")
-        typer.echo(f"    energy   {kept['energy']}")
-        typer.echo(f"    cost     {_cost(kept['cost_ns'])}")
-    for dropped in document["dropped"]:
-        typer.echo(f"\n  {dropped['effect']}\n    {dropped['why']}")
+        lines += [
+            f"\n  {kept['effect']}: {kept['title']}",
+            f"    model    {kept['model']}: {kept['model_description']}",
+            f"    why      {kept['why']}",
+            f"    energy   {kept['energy']}",
+            f"    cost     {_cost(kept['cost_ns'])}",
+        ]
+    lines += [f"\n  {dropped['effect']}\n    {dropped['why']}" for dropped in document["dropped"]]
     if not document["simulated"] and not document["dropped"]:
-        typer.echo("  no effects")
+        lines.append("  no effects")
+    return lines
 
 
 def _cost(nanoseconds: float) -> str:

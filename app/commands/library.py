@@ -1,11 +1,11 @@
-"""`acus ct import` and `acus ct library`: CTs taken in de-identified."""
+"""`acus ct import` and `acus library`: CTs taken in de-identified."""
 
-import json
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from app.commands.ct import AsJson, Folder, Mend
+from app.commands.answer import Answer, Commands
+from app.commands.ct import Folder, Mend
 from app.commands.ct import app as ct
 from app.core.errors import ConfigurationError
 
@@ -15,15 +15,17 @@ if TYPE_CHECKING:
     from app.imaging.privacy.burned_in import Box
     from app.imaging.series import Remedy
 
+app = Commands(help="The CTs that were taken in: list, remove.")
+
 MASK_HELP = "Pixels to blacken, in every picture or in one (from 1); may be repeated."
 
 
 def register(root: typer.Typer) -> None:
-    """Add `import` and `library` to `acus ct`, which its own file adds to the command line."""
-    names = {command.name for command in ct.registered_commands}
-    if "import" not in names:
+    """Add `library` to the command line, and `import` to `acus ct`."""
+    if "import" not in {command.name for command in ct.registered_commands}:
         ct.command("import")(import_ct)
-        ct.command("library")(library)
+        ct.command("library", hidden=True)(library)
+    root.add_typer(app, name="library")
 
 
 def import_ct(
@@ -36,9 +38,11 @@ def import_ct(
         typer.Option(metavar="COL,ROW,WIDTH,HEIGHT[,PICTURE]", help=MASK_HELP),
     ] = None,
     remedy: Mend = None,
-    as_json: AsJson = False,
-) -> None:
-    """Take a series into the library, de-identified (DICOM PS3.15), whole or not at all."""
+) -> Answer:
+    """Take a series into the library, de-identified.
+
+    As DICOM PS3.15 says, whole or not at all.
+    """
     from app.commands.calibrate import with_progress
     from app.imaging.library import CtLibrary
     from app.imaging.reading import choose
@@ -51,38 +55,46 @@ def import_ct(
         chosen = choose(listing, series, asked)
         return CtLibrary().import_series(chosen, boxes, progress.part(0.2, 1.0), asked)
 
-    imported = with_progress(work, as_json)
-    show_imported(imported, as_json)
+    return imported_answer(with_progress(work))
+
+
+@app.command("list")
+def list_entries() -> Answer:
+    """List the CTs of the library."""
+    from app.imaging.library import CtLibrary
+
+    entries = CtLibrary().entries()
+    lines = []
+    for entry in entries:
+        opens = "" if entry.remedy == "none" else f"  opens with --remedy {entry.remedy}"
+        lines.append(f"{entry.name}  {entry.label}  {entry.files} files{opens}  {entry.folder}")
+    empty = "the library is empty; `acus ct import DIR` takes a CT in"
+    return Answer({"entries": [_entry(entry) for entry in entries]}, lines or [empty])
+
+
+@app.command("remove")
+def remove(name: Annotated[str, typer.Argument(metavar="NAME", help="Which CT.")]) -> Answer:
+    """Delete a CT from the library."""
+    from app.imaging.library import CtLibrary
+
+    CtLibrary().remove(name)
+    return list_entries()
 
 
 def library(
     remove: Annotated[str | None, typer.Option(metavar="NAME", help="Delete this CT.")] = None,
-    as_json: AsJson = False,
-) -> None:
+) -> Answer:
     """List the CTs of the library, or delete one."""
     from app.imaging.library import CtLibrary
 
-    own = CtLibrary()
     if remove is not None:
-        own.remove(remove)
-    entries = own.entries()
-    if as_json:
-        typer.echo(json.dumps({"entries": [_entry(entry) for entry in entries]}, indent=2))
-        return
-    for entry in entries:
-        opens = "" if entry.remedy == "none" else f"  opens with --remedy {entry.remedy}"
-        typer.echo(f"{entry.name}  {entry.label}  {entry.files} files{opens}  {entry.folder}")
-    if not entries:
-        typer.echo("the library is empty; `acus ct import DIR` takes a CT in")
+        CtLibrary().remove(remove)
+    return list_entries()
 
 
-def show_imported(imported: "Imported", as_json: bool) -> None:
-    """Print what `acus ct import`, `acus pacs get` and `acus pacs move` have taken in."""
-    if as_json:
-        typer.echo(json.dumps(_document(imported), indent=2))
-        return
-    for line in _lines(imported):
-        typer.echo(line)
+def imported_answer(imported: "Imported") -> Answer:
+    """Return what `acus ct import`, `acus pacs get` and `acus pacs move` have taken in."""
+    return Answer(_document(imported), _lines(imported))
 
 
 def _document(imported: "Imported") -> dict[str, Any]:

@@ -6,12 +6,6 @@ import sys
 import threading
 from os import fstat
 
-import typer
-
-
-def register(app: typer.Typer) -> None:
-    """Add nothing: this file helps commands."""
-
 
 class Orders:
     """Lines of the standard input, read by a thread.

@@ -1,11 +1,11 @@
 """`acus pacs`: ask a PACS, find, and take a series into the library; nothing is written to it."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.commands.answer import Answer, Commands
 from app.commands.ct import Mend
 from app.commands.library import MASK_HELP
 
@@ -15,9 +15,8 @@ if TYPE_CHECKING:
     from app.imaging.pacs.query import FoundSeries
     from app.imaging.pacs.settings import PacsSettings
 
-app = typer.Typer(help="A PACS, reading only: ask, find, take series into the library.")
+app = Commands(help="Read from a PACS: find series, take them in.")
 
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
 Server = Annotated[
     str | None, typer.Option("--pacs", metavar="NAME", help="Which, where several are configured.")
 ]
@@ -30,24 +29,22 @@ SeriesUid = Annotated[str, typer.Argument(metavar="SERIES", help="SeriesInstance
 
 def register(root: typer.Typer) -> None:
     """Add `pacs` to the command line."""
-    root.add_typer(app, name="pacs", no_args_is_help=True)
+    root.add_typer(app, name="pacs")
 
 
 @app.command("list")
-def list_servers(as_json: AsJson = False) -> None:
+def list_servers() -> Answer:
     """List the configured PACS."""
     from app.imaging.pacs.settings import configured, pacs_path
 
     servers = configured()
-    if as_json:
-        typer.echo(json.dumps({"servers": [one.model_dump() for one in servers]}, indent=2))
-        return
-    for one in servers:
-        typer.echo(f"{one.name}  {one.title} at {one.host}:{one.port}, as {one.own_title}, "
-                   f"C-{one.retrieve.upper()}, waits {one.timeout_s:g} s"
-                   f"{', TLS' if one.tls else ''}")  # fmt: skip
-    if not servers:
-        typer.echo(f"none; acus pacs add NAME writes {pacs_path()}")
+    lines = [
+        f"{one.name}  {one.title} at {one.host}:{one.port}, as {one.own_title}, "
+        f"C-{one.retrieve.upper()}, waits {one.timeout_s:g} s{', TLS' if one.tls else ''}"
+        for one in servers
+    ]
+    facts = {"servers": [one.model_dump() for one in servers]}
+    return Answer(facts, lines or [f"none; acus pacs add NAME writes {pacs_path()}"])
 
 
 @app.command()
@@ -70,7 +67,7 @@ def add(
     tls_any_name: Annotated[
         bool, typer.Option("--tls-any-name", help="Its certificate may name another host.")
     ] = False,
-) -> None:
+) -> Answer:
     """Configure a PACS, or change the one of that name."""
     from app.core.configuration import parse
     from app.imaging.pacs.settings import PacsSettings, configured, keep
@@ -85,31 +82,31 @@ def add(
                                 strict=True)) | {"check_name": not tls_any_name}  # fmt: skip
     one = parse(given, PacsSettings, "acus pacs add")
     keep((*(other for other in configured() if other.name != name), one))
-    typer.echo(f"{name} is configured; acus pacs echo --pacs {name} asks whether it is there")
+    words = f"{name} is configured; acus pacs echo --pacs {name} asks whether it is there"
+    return Answer({"servers": [each.model_dump() for each in configured()]}, [words])
 
 
 @app.command()
-def remove(name: Annotated[str, typer.Argument(help="Which.")]) -> None:
+def remove(name: Annotated[str, typer.Argument(help="Which.")]) -> Answer:
     """Forget a configured PACS."""
     from app.imaging.pacs.settings import chosen, configured, keep
 
     gone = chosen(name)
     keep(tuple(one for one in configured() if one != gone))
-    typer.echo(f"{name} is forgotten")
+    facts = {"servers": [each.model_dump() for each in configured()]}
+    return Answer(facts, [f"{name} is forgotten"])
 
 
 @app.command()
-def echo(pacs: Server = None, as_json: AsJson = False) -> None:
+def echo(pacs: Server = None) -> Answer:
     """Ask a PACS whether it is there (C-ECHO)."""
     from app.imaging.pacs.client import Pacs
     from app.imaging.pacs.settings import chosen
 
     settings = chosen(pacs)
     seconds = Pacs(settings).echo()
-    if as_json:
-        typer.echo(json.dumps({"name": settings.name, "seconds": seconds}))
-    else:
-        typer.echo(f"{settings.name} answers in {1e3 * seconds:.1f} ms")
+    words = f"{settings.name} answers in {1e3 * seconds:.1f} ms"
+    return Answer({"name": settings.name, "seconds": seconds}, [words])
 
 
 @app.command()
@@ -122,9 +119,8 @@ def find(
     modality: Annotated[str, typer.Option(help="CT or MR.")] = "CT",
     names: Annotated[bool, typer.Option("--names", help="Show who the patients are.")] = False,
     pacs: Server = None,
-    as_json: AsJson = False,
-) -> None:
-    """Find studies and their series (C-FIND); who the patients are only with --names.
+) -> Answer:
+    """Find studies and their series (C-FIND). Who the patients are is shown only with --names.
 
     The JSON never has names, identifiers or descriptions.
     """
@@ -136,31 +132,32 @@ def find(
     client = Pacs(chosen(pacs))
     studies = client.find_studies(query)
     found = [series for one in studies for series in client.find_series(one, modality)]
-    if as_json:
-        typer.echo(json.dumps({"series": [_series(one) for one in found]}, indent=2))
-        return
-    for one in found:
-        typer.echo(_line(one, names))
-    if not found:
-        typer.echo("nothing matches")
+    lines = [_line(one, names) for one in found]
+    return Answer({"series": [_series(one) for one in found]}, lines or ["nothing matches"])
 
 
 @app.command()
 def get(
-    study: StudyUid, series: SeriesUid, pacs: Server = None, mask: Mask = None,
-    remedy: Mend = None, as_json: AsJson = False,
-) -> None:  # fmt: skip
-    """Take a series into the library, de-identified (C-GET); repeated, it fetches the rest."""
-    _take(study, series, pacs, "get", mask, remedy, as_json)
+    study: StudyUid,
+    series: SeriesUid,
+    pacs: Server = None,
+    mask: Mask = None,
+    remedy: Mend = None,
+) -> Answer:
+    """Take a series into the library (C-GET), de-identified. Repeated, it fetches the rest."""
+    return _take(study, series, pacs, "get", mask, remedy)
 
 
 @app.command()
 def move(
-    study: StudyUid, series: SeriesUid, pacs: Server = None, mask: Mask = None,
-    remedy: Mend = None, as_json: AsJson = False,
-) -> None:  # fmt: skip
-    """Do the same by C-MOVE: the PACS sends to our own port and must know our AE title."""
-    _take(study, series, pacs, "move", mask, remedy, as_json)
+    study: StudyUid,
+    series: SeriesUid,
+    pacs: Server = None,
+    mask: Mask = None,
+    remedy: Mend = None,
+) -> Answer:
+    """Take a series into the library by C-MOVE. The PACS must know our AE title and port."""
+    return _take(study, series, pacs, "move", mask, remedy)
 
 
 def _take(
@@ -170,10 +167,9 @@ def _take(
     way: str,
     mask: list[str] | None,
     remedy: str | None,
-    as_json: bool,
-) -> None:
+) -> Answer:
     from app.commands.calibrate import with_progress
-    from app.commands.library import boxes_of, remedy_of, show_imported
+    from app.commands.library import boxes_of, imported_answer, remedy_of
     from app.imaging.library import CtLibrary
     from app.imaging.pacs.client import Pacs
     from app.imaging.pacs.settings import chosen
@@ -185,8 +181,7 @@ def _take(
     def work(progress: "Progress") -> "Imported":
         return take(Pacs(settings), study, series, CtLibrary(), progress, boxes, asked)
 
-    imported = with_progress(work, as_json)
-    show_imported(imported, as_json)
+    return imported_answer(with_progress(work))
 
 
 def _whole(file: str) -> str:

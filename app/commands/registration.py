@@ -1,19 +1,19 @@
 """`acus registration`: fiducials touched on a plate, and what they say of a target."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+from app.commands.answer import Answer, Commands
 
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray
     from app.planning.registration.check import PointCheck, RegistrationCheck
     from app.planning.registration.uncertainty import FiducialError
 
-app = typer.Typer(help="Check the cameras' frame, or a scanned phantom, with a fiducial plate.")
+app = Commands(help="Check where cameras or a phantom stand, with a plate.")
 
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON; the keys stand in docs/json.md.")]
 Touched = Annotated[Path, typer.Option(help="Touched points in world, CSV or YAML, mm.")]
 Plate = Annotated[str, typer.Option(help="Name of a plate, or a .yaml file.")]
 Picked = Annotated[Path | None, typer.Option(help="Beads in the CT (LPS), CSV or YAML, mm.")]
@@ -27,7 +27,7 @@ DEFAULT_TARGET_MM = (0.0, 160.56, 30.0)
 
 def register(root: typer.Typer) -> None:
     """Add `registration` to the command line."""
-    root.add_typer(app, name="registration", no_args_is_help=True)
+    root.add_typer(app, name="registration")
 
 
 @app.command()
@@ -36,13 +36,13 @@ def check(
     plate: Plate = "stepped-plate",
     picked: Picked = None,
     target: Target = None,
-    as_json: AsJson = False,
-) -> None:
-    """Register touched fiducials to a plate; say what is wrong, and the error at a target.
+) -> Answer:
+    """Register touched fiducials to a plate.
+
+    Says what is wrong, and the error at a target.
 
     Ends with code 3 if the points do not fit the plate.
     """
-    from app.core.exits import answer
     from app.planning.registration.check import RegistrationCheck
     from app.planning.registration.plate import load_plate
     from app.planning.registration.points import read_points
@@ -51,28 +51,22 @@ def check(
         load_plate(plate), read_points(touched), read_points(picked) if picked else None
     )
     point = _target(target)
-    if as_json:
-        typer.echo(json.dumps(_document(found, point), indent=2))
-    else:
-        _print(found, point)
-    answer(found.trusted)
+    return Answer(_document(found, point), _lines(found, point), yes=found.trusted)
 
 
-@app.command()
-def plates(as_json: AsJson = False) -> None:
+@app.command("plates", hidden=True)
+def list_plates() -> Answer:
     """List the plates that come with the program."""
     from app.planning.registration.plate import load_plate, plate_names
 
     found = [load_plate(name) for name in plate_names()]
-    if as_json:
-        typer.echo(json.dumps([plate.model_dump(mode="json") for plate in found], indent=2))
-        return
-    for plate in found:
-        typer.echo(f"{plate.name}  {len(plate.fiducials)} fiducials  {plate.description}")
+    rows = [plate.model_dump(mode="json") for plate in found]
+    lines = [f"{one.name}  {len(one.fiducials)} fiducials  {one.description}" for one in found]
+    return Answer({"plates": rows}, lines, first_form=rows)
 
 
 @app.command("list")
-def list_checks(as_json: AsJson = False) -> None:
+def list_checks() -> Answer:
     """List the saved checks, newest first."""
     from app.planning.registration.record import Registrations
 
@@ -90,16 +84,13 @@ def list_checks(as_json: AsJson = False) -> None:
         }
         for record in Registrations.own().records()
     ]
-    if as_json:
-        typer.echo(json.dumps(rows, indent=2))
-    elif not rows:
-        typer.echo(f"no registration checks in {Registrations.own().folder}")
-    for row in rows if not as_json else ():
-        verdict = "good" if row["trusted"] else "does not fit"
-        typer.echo(
-            f"{row['id']}  {row['plate']}  {row['touched']} touched, {row['picked']} picked  "
-            f"{row['rig']}  {verdict}"
-        )
+    lines = [
+        f"{row['id']}  {row['plate']}  {row['touched']} touched, {row['picked']} picked  "
+        f"{row['rig']}  {'good' if row['trusted'] else 'does not fit'}"
+        for row in rows
+    ]
+    none = f"no registration checks in {Registrations.own().folder}"
+    return Answer({"checks": rows}, lines or [none], first_form=rows)
 
 
 def _target(text: str | None) -> "FloatArray":
@@ -119,19 +110,16 @@ def _target(text: str | None) -> "FloatArray":
     return np.array(values) * MILLIMETRE
 
 
-def _print(found: "RegistrationCheck", point: "FloatArray") -> None:
+def _lines(found: "RegistrationCheck", point: "FloatArray") -> list[str]:
     from app.planning.registration import words
 
-    for line in (*words.troubles(found), *words.technician_lines(found)):
-        typer.echo(line)
+    lines = [*words.troubles(found), *words.technician_lines(found)]
     for part in (found.world, found.patient):
         for name, residual in zip(part.names, _lengths_mm(part), strict=True) if part else ():
-            typer.echo(f"  {name}  residual {residual:.2f} mm")
-    typer.echo(words.target_line(found, point))
+            lines.append(f"  {name}  residual {residual:.2f} mm")
     agreement = words.agreement_or_reason(found, point)
-    typer.echo(agreement if isinstance(agreement, str) else words.student_line(agreement))
-    for line in words.MEANING:
-        typer.echo(line)
+    told = agreement if isinstance(agreement, str) else words.student_line(agreement)
+    return [*lines, words.target_line(found, point), told, *words.MEANING]
 
 
 def _document(found: "RegistrationCheck", point: "FloatArray") -> dict[str, Any]:

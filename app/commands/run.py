@@ -37,7 +37,7 @@ def run(
         ),
     ] = None,
 ) -> None:
-    """Open the trainer; the mouse moves a simulated hand, or a real robot its own needle."""
+    """Open the trainer. The mouse moves a simulated hand, or a real robot its own needle."""
     _check(ct, device, exercise)
     from app.compose import Desktop
     from app.tracking.cameras.settings import parse_cameras

@@ -1,21 +1,21 @@
 """`acus session`: recorded attempts."""
 
-import json
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
+from app.commands.answer import Answer, Commands
+
 FolderOption = Annotated[
     Path | None,
     typer.Option("--folder", help="Folder of the records."),
 ]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")]
 
 
 def register(app: typer.Typer) -> None:
     """Add `session list`, `session show`, `replay`, `verify`, `compare` and `export`."""
-    session = typer.Typer(no_args_is_help=True, help="Recorded attempts.")
+    session = Commands(help="Recorded attempts.")
     session.command("list")(list_)
     session.command("show")(show)
     session.command("replay")(replay)
@@ -25,25 +25,22 @@ def register(app: typer.Typer) -> None:
     app.add_typer(session, name="session")
 
 
-def list_(folder: FolderOption = None, as_json: JsonOption = False) -> None:
-    """List all attempts, newest first; broken records with the reason."""
+def list_(folder: FolderOption = None) -> Answer:
+    """List all attempts, newest first. Broken records with the reason."""
     from app.session.store import list_sessions
 
     place = _folder(folder)
     summaries = list_sessions(place)
-    if as_json:
-        _print_json({"folder": str(place), "sessions": [s.document() for s in summaries]})
-    elif not summaries:
-        typer.echo(f"no sessions in {place}")
-    else:
-        _print_table(summaries)
+    facts = {"folder": str(place), "sessions": [s.document() for s in summaries]}
+    if not summaries:
+        return Answer(facts, [f"no sessions in {place}"])
+    return Answer(facts, lambda: _print_table(summaries))
 
 
 def show(
     session_id: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
     folder: FolderOption = None,
-    as_json: JsonOption = False,
-) -> None:
+) -> Answer:
     """Show one attempt: score, events, what its record holds."""
     from app.session.calibration_flag import CalibrationFlags
     from app.session.recording import read_recording
@@ -54,10 +51,7 @@ def show(
     recording = read_recording(path)
     summary = CalibrationFlags.read().flagged(fresh_summary(path))
     document = _details(recording, summary.document())
-    if as_json:
-        _print_json(document)
-    else:
-        _print_details(document)
+    return Answer(document, _detail_lines(document))
 
 
 def replay(
@@ -69,9 +63,8 @@ def replay(
         ),
     ] = False,
     folder: FolderOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Say what a record holds of the robot's loop; --check computes it once more and compares."""
+) -> Answer:
+    """Say what a record holds of the robot's loop. --check computes it anew and compares."""
     from app.session.recording import read_recording
     from app.session.replay_contents import contents
     from app.session.store import find
@@ -79,46 +72,39 @@ def replay(
     recording = read_recording(find(_folder(folder), session_id))
     if not check:
         held = contents(recording)
-        _print_json(held.document()) if as_json else typer.echo("\n".join(held.sentences()))
-        return
+        return Answer(held.document(), list(held.sentences()))
     from app.compose.replay import replay_recording  # loads kernels
-    from app.core.exits import answer
     from app.session.verify import verify as verified
 
     report, found = replay_recording(recording), verified(recording)
-    if as_json:
-        _print_json(report.document() | {"score": found.document()})
-    else:
-        typer.echo("\n".join([*report.sentences(), *(f"score: {s}" for s in found.sentences())]))
-    answer(report.identical and found.confirmed)
+    return Answer(
+        report.document() | {"score": found.document()},
+        [*report.sentences(), *(f"score: {sentence}" for sentence in found.sentences())],
+        yes=report.identical and found.confirmed,
+    )
 
 
 def verify(
     session_id: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
     folder: FolderOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Compute score and metrics from the record; say what differs from what was written.
+) -> Answer:
+    """Compute the score anew and say what differs.
 
     Looks at the score in the record and at the file beside it. Ends with code 3 if one differs.
     """
-    from app.core.exits import answer
     from app.session.sidecar import verify_record
     from app.session.store import find
 
     found = verify_record(find(_folder(folder), session_id))
-    _print_json(found.document()) if as_json else typer.echo("\n".join(found.sentences()))
-    answer(found.confirmed)
+    return Answer(found.document(), list(found.sentences()), yes=found.confirmed)
 
 
 def compare(
     first: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
     second: Annotated[str, typer.Argument(metavar="ID", help="Another one.")],
     folder: FolderOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Say whether the scores of two attempts may be compared; code 3 with the reasons if not."""
-    from app.core.exits import answer
+) -> Answer:
+    """Say whether two scores may be compared. Code 3 with the reasons if not."""
     from app.scoring.conditions import Conditions, comparable
     from app.session.sidecar import fresh_summary
     from app.session.store import find
@@ -126,19 +112,14 @@ def compare(
     pair = [fresh_summary(find(_folder(folder), name)) for name in (first, second)]
     a, b = (s.conditions or Conditions(s.exercise_id) for s in pair)
     reasons = comparable(a, b)
-    if as_json:
-        _print_json(
-            {
-                "comparable": not reasons,
-                "reasons": list(reasons),
-                "sessions": [s.document() for s in pair],
-            }
-        )
-    else:
-        for summary in pair:
-            typer.echo(f"{summary.id}  {_total(summary.score)}")
-        typer.echo("\n".join(f"not comparable: {r}" for r in reasons) or "comparable")
-    answer(not reasons)
+    facts = {
+        "comparable": not reasons,
+        "reasons": list(reasons),
+        "sessions": [summary.document() for summary in pair],
+    }
+    lines = [f"{summary.id}  {_total(summary.score)}" for summary in pair]
+    lines += [f"not comparable: {reason}" for reason in reasons] or ["comparable"]
+    return Answer(facts, lines, yes=not reasons)
 
 
 def export(
@@ -151,8 +132,8 @@ def export(
     trajectory: Annotated[
         bool, typer.Option("--trajectory", help="One attempt over time instead of the scores.")
     ] = False,
-) -> None:
-    """Export scores, one row per attempt, or one attempt over time, as CSV."""
+) -> Answer:
+    """Export scores, or one attempt over time, as CSV."""
     from app.exchange.csv_export import write_csv
 
     place = _folder(folder)
@@ -160,7 +141,7 @@ def export(
     if out.suffix.lower() != ".csv":
         raise typer.BadParameter(f"--out {out}: only .csv can be written")
     write_csv(out, text)
-    typer.echo(f"{rows} rows written to {out}")
+    return Answer({"files": [out], "rows": rows}, [f"{rows} rows written to {out}"])
 
 
 def _folder(folder: Path | None) -> Path:
@@ -219,12 +200,6 @@ def _details(recording: Any, summary: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _print_json(document: dict[str, Any]) -> None:
-    from app.session.sample import finite
-
-    typer.echo(json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False))
-
-
 def _print_table(summaries: list[Any]) -> None:
     from rich.console import Console
     from rich.table import Table
@@ -262,25 +237,27 @@ def _total(score: Any) -> str:
     return f"{score['total']:.0f} %{' passed' if score.get('passed') else ''}"
 
 
-def _print_details(document: dict[str, Any]) -> None:
-    for key in ("id", "started", "student", "state", "reason", "duration_s", "scans", "file"):
-        typer.echo(f"{key:12} {document[key]}")
-    typer.echo(f"{'exercise':12} {document['exercise']['title']} ({document['exercise']['id']})")
-    typer.echo(f"{'hand':12} {document['metadata'].get('trainee', {}).get('hand', 'not recorded')}")
+def _detail_lines(document: dict[str, Any]) -> list[str]:
+    keys = ("id", "started", "student", "state", "reason", "duration_s", "scans", "file")
+    lines = [f"{key:12} {document[key]}" for key in keys]
+    lines.append(f"{'exercise':12} {document['exercise']['title']} ({document['exercise']['id']})")
+    lines.append(
+        f"{'hand':12} {document['metadata'].get('trainee', {}).get('hand', 'not recorded')}"
+    )
     if document["calibration"]:
-        typer.echo(f"{'calibration':12} {document['calibration']}")
+        lines.append(f"{'calibration':12} {document['calibration']}")
     if document["tip_radius_95_mm"] is not None:
-        typer.echo(f"{'tip known to':12} ± {document['tip_radius_95_mm']:.1f} mm (95 %), median")
-    typer.echo(f"{'score':12} {_total(document['score'])}")
+        lines.append(f"{'tip known to':12} ± {document['tip_radius_95_mm']:.1f} mm (95 %), median")
+    lines.append(f"{'score':12} {_total(document['score'])}")
     score = document["score"] or {}
     if score.get("void_reason"):
-        typer.echo(f"{'void':12} {score['void_reason']}")
+        lines.append(f"{'void':12} {score['void_reason']}")
     for row in score.get("rows", []):
         value = "-" if row["value"] is None else f"{row['value']:.4g} {row['unit']}"
         band = row["band"] if score.get("total") is not None else ""  # a void one is not judged
-        typer.echo(f"  {row['label']:32} {value:>14}  {band or row['note'] or ''}")
+        lines.append(f"  {row['label']:32} {value:>14}  {band or row['note'] or ''}")
     for event in document["events"]:
-        typer.echo(f"  {event['time_s']:12.3f} s  {event['message']}")
+        lines.append(f"  {event['time_s']:12.3f} s  {event['message']}")
     for problem in document["problems"]:
-        typer.echo(f"{'problem':12} {problem}")
-    typer.echo(document["note"])
+        lines.append(f"{'problem':12} {problem}")
+    return [*lines, document["note"]]

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.commands.answer import Answer
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -29,15 +31,11 @@ def study(
     out: Annotated[
         Path | None, typer.Option(help="folder for table (CSV, JSON) and picture")
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="print JSON instead of a table")] = False,
     repeats: Annotated[int, typer.Option(min=1, help="timings per way and setting")] = 9,
-) -> None:
-    """Run a study and print error against time; `acus study list` names them."""
+) -> Answer:
+    """Run a study, or `list` them: error against time."""
     if name == "list":
-        _list(json)
-        return
-    from json import dumps
-
+        return _list()
     from rich.console import Console
 
     from app.studies.errors import StudyError
@@ -56,16 +54,13 @@ def study(
     else:
         result = run(chosen, repeats)
     data = document(result) if isinstance(result, Result) else survey_document(result)
-    if json:
-        typer.echo(dumps(data, indent=2))
-    else:
-        console = Console()
-        if not console.is_terminal:  # a pipe or a file has no edge at which figures must be cut
-            console = Console(width=max(console.width, PIPE_WIDTH))
-        _print(result, console)
     if out is not None:
         for path in _write(name, result, data, out):
             typer.echo(f"wrote {path}", err=True)
+    console = Console()
+    if not console.is_terminal:  # a pipe or a file has no edge at which figures must be cut
+        console = Console(width=max(console.width, PIPE_WIDTH))
+    return Answer(data, lambda: _print(result, console))
 
 
 def _print(result: "Result | SurveyResult", console: "Console") -> None:
@@ -81,18 +76,13 @@ def _print(result: "Result | SurveyResult", console: "Console") -> None:
             console.print(line)
 
 
-def _list(json: bool) -> None:
-    from json import dumps
-
+def _list() -> Answer:
     from app.studies.runner import find_study, study_names
 
     found = [find_study(name) for name in study_names()]
-    if json:
-        rows = [{"name": s.name, "title": s.title, "question": s.question} for s in found]
-        typer.echo(dumps(rows, indent=2))
-        return
-    for item in found:
-        typer.echo(f"{item.name:24} {item.question}")
+    rows = [{"name": s.name, "title": s.title, "question": s.question} for s in found]
+    lines = [f"{item.name:24} {item.question}" for item in found]
+    return Answer({"studies": rows}, lines, first_form=rows)
 
 
 def _write(

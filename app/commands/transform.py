@@ -1,19 +1,19 @@
 """`acus transform`: where the patient lies in front of the robot, to and from 3D Slicer."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from app.commands.answer import Answer, Commands
 from app.core.errors import ConfigurationError
 
-app = typer.Typer(help="Rigid transforms as .tfm files of ITK and 3D Slicer.")
+app = Commands(help="Rigid transforms as .tfm files of ITK and 3D Slicer.")
 
 
 def register(root: typer.Typer) -> None:
     """Add `transform` to the command line."""
-    root.add_typer(app, name="transform", no_args_is_help=True)
+    root.add_typer(app, name="transform")
 
 
 @app.command()
@@ -27,8 +27,8 @@ def export(
         str, typer.Option(metavar="X,Y,Z", help="Free rotation vector, world axes [°].")
     ] = "0,0,0",
     device: Annotated[str, typer.Option(help="Device profile, for its fulcrum.")] = "icube",
-) -> None:
-    """Write the transform from the robot's frame to the patient's (LPS), for a placed plan.
+) -> Answer:
+    """Write the transform from robot to patient (LPS), for a plan.
 
     In Slicer, models of the robot under this transform stand where they stand in Acus.
     """
@@ -45,15 +45,14 @@ def export(
     placement = Placement(PatientOrientation(orientation), (x, y, z))
     fulcrum = load_profile(device).pantograph.fulcrum
     write_tfm(out, placement.T_world_patient(read_plan(plan), fulcrum).inverse())
-    typer.echo(f"{out}: from world (robot) to patient (LPS)")
+    return Answer({"files": [out]}, [f"{out}: from world (robot) to patient (LPS)"])
 
 
 @app.command()
 def show(
     file: Annotated[Path, typer.Argument(metavar="FILE", help="Transform, .tfm.")],
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")] = False,
-) -> None:
-    """Show the rigid transform of a file, to its parent as Slicer shows it; or why it is none."""
+) -> Answer:
+    """Show the rigid transform of a file. To its parent, as Slicer shows it; or why it is none."""
     import numpy as np
 
     from app.core.rotation import rotation_log
@@ -63,9 +62,8 @@ def show(
     matrix = T_to_from.matrix()
     matrix[:3, 3] *= 1e3
     angle = float(np.degrees(np.linalg.norm(rotation_log(T_to_from.rotation))))
-    if as_json:
-        typer.echo(json.dumps({"to_parent_mm": matrix.tolist(), "angle_deg": angle}))
-        return
-    for row in matrix:
-        typer.echo("  ".join(f"{value:12.6f}" for value in row + 0.0))
-    typer.echo(f"turns by {angle:.3f}°, millimetres, LPS as in the file")
+    rows = ["  ".join(f"{value:12.6f}" for value in row + 0.0) for row in matrix]
+    return Answer(
+        {"to_parent_mm": matrix.tolist(), "angle_deg": angle},
+        [*rows, f"turns by {angle:.3f}°, millimetres, LPS as in the file"],
+    )

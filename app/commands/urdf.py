@@ -5,12 +5,14 @@ from typing import Annotated
 
 import typer
 
-app = typer.Typer(help="Export a device profile as URDF; read link lengths from one.")
+from app.commands.answer import Answer, Commands
+
+app = Commands(help="Device profiles to and from URDF.")
 
 
 def register(root: typer.Typer) -> None:
     """Add `urdf` to the command line."""
-    root.add_typer(app, name="urdf", no_args_is_help=True)
+    root.add_typer(app, name="urdf")
 
 
 @app.command("export")
@@ -20,8 +22,8 @@ def export(
     origin: Annotated[
         str, typer.Option(help="Where `world` stands: left-motor (as ICube's) or midpoint.")
     ] = "left-motor",
-) -> None:
-    """Write a profile as URDF, the loop cut at the right arm's end."""
+) -> Answer:
+    """Write a profile as URDF. The loop is cut at the right arm's end."""
     from app.core.errors import ConfigurationError
     from app.exchange.text_export import write_text
     from app.exchange.urdf import Origin, write_urdf
@@ -33,7 +35,8 @@ def export(
         names = ", ".join(Origin)
         raise ConfigurationError(f"--origin {origin!r}; valid names: {names}") from None
     write_text(out, write_urdf(load_profile(profile), where))
-    typer.echo(f"{out}: {profile}, world at the {where.value.replace('-', ' ')}")
+    place = where.value.replace("-", " ")
+    return Answer({"files": [out]}, [f"{out}: {profile}, world at the {place}"])
 
 
 @app.command("import")
@@ -43,8 +46,11 @@ def import_profile(
     ],
     out: Annotated[Path, typer.Option(metavar="PROFILE.yaml", help="Profile to write.")],
     like: Annotated[str, typer.Option(help="Profile that gives all other values.")] = "icube",
-) -> None:
-    """Write a device profile with the link lengths of a URDF and all else from another profile."""
+) -> Answer:
+    """Write a device profile with the link lengths of a URDF.
+
+    All else is taken from another profile.
+    """
     import yaml
 
     from app.core.errors import ConfigurationError
@@ -59,4 +65,4 @@ def import_profile(
     write_text(out, head + yaml.safe_dump(document, sort_keys=False, allow_unicode=True))
     lengths = document["geometry"]
     shown = ", ".join(f"{name} {lengths[name]}" for name in lengths if name != "provenance")
-    typer.echo(f"{out}: {shown} m")
+    return Answer({"files": [out], "geometry": lengths}, [f"{out}: {shown} m"])

@@ -18,12 +18,5 @@ class Exit(IntEnum):
     NO = 3
     """Done, and the answer is no: a score that is not confirmed, a check that was not passed."""
 
-
-def answer(yes: bool) -> None:
-    """End a command whose question has been answered.
-
-    Raises:
-        SystemExit: with `NO` where the answer is no.
-    """
-    if not yes:
-        raise SystemExit(Exit.NO)
+    BROKEN_OFF = 130
+    """Ctrl-C, as every shell has it."""

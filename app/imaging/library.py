@@ -195,7 +195,7 @@ def _require_comparable(name: str, before: Images, given: Images, masked: bool) 
         f"the library holds {len(before)} images of this series as {name}; of the {len(given)} "
         f"given {len(given & before)} are among them and {len(before - given)} of those there are "
         "not given: give all images of the series at once, or remove what lies there first "
-        f"(acus ct library --remove {name}); nothing was changed"
+        f"(acus library remove {name}); nothing was changed"
     )
 
 

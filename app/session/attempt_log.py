@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 from app.core.errors import AcusError
 from app.core.events import Event
+from app.core.json_values import finite
 from app.planning.placement import PlacedPlan
 from app.scoring.result import Score
 from app.scoring.trajectory import Trajectory
@@ -143,7 +144,7 @@ class AttemptLog:
             problems=problems,
             metadata=MappingProxyType({**header.records(), "result": self._result(attempt)}),
             attachments=MappingProxyType({a.name: a.data for a in (*header.attachments, *files)}),
-            events=tuple(replace(e, data=encoding.finite(dict(e.data))) for e in self.events),
+            events=tuple(replace(e, data=finite(dict(e.data))) for e in self.events),
             samples=samples,
             inputs=deferred_inputs(status.path),
         )

@@ -14,6 +14,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.events import Event
 from app.core.frames import Frame
+from app.core.json_values import finite
 from app.core.transform import RigidTransform, rotation_between
 from app.session.machine import State
 from app.session.needle import DOWN, NeedlePose
@@ -71,19 +72,6 @@ class Sample:
 def encode(document: Any) -> bytes:
     """JSON without NaN or infinity; such a number becomes null."""
     return json.dumps(finite(document), separators=(",", ":"), allow_nan=False).encode()
-
-
-def finite(value: Any) -> Any:
-    """Copy of a JSON-like value in which every number that is not finite is None."""
-    if isinstance(value, float | np.floating):
-        return float(value) if isfinite(value) else None
-    if isinstance(value, np.integer | np.bool_ | np.ndarray):
-        return finite(value.tolist())
-    if isinstance(value, dict) or hasattr(value, "items"):
-        return {str(key): finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [finite(item) for item in value]
-    return value if isinstance(value, int | str | bool | None) else str(value)
 
 
 def messages(sample: Sample, stamp: dict[str, int]) -> list[tuple[str, bytes]]:

@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core.files import write_atomically
+from app.core.json_values import finite
 from app.session.errors import BrokenRecordingError
 from app.session.recording import messages_agree, open_recording, read_recording
-from app.session.sample import finite
 from app.session.summary import BROKEN, UNFINISHED, Summary, derive
 from app.session.verify import Change, Verification, verify
 

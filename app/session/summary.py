@@ -10,11 +10,11 @@ import numpy as np
 
 from app import __version__
 from app.core.disclaimer import DISCLAIMER
+from app.core.json_values import finite
 from app.scoring.conditions import Conditions
 from app.scoring.result import Score
 from app.session.machine import FINAL, State
 from app.session.recording import Recording
-from app.session.sample import finite
 from app.session.schemas import SCORE, conforms
 from app.session.verify import Verification, conditions, state_of, verify
 

@@ -50,7 +50,7 @@ def test_stereo_says_what_json_docs_list_and_writes_its_file(folder: Path, tmp_p
         "83",
         "--out",
         str(file),
-        "--json",
+        "--json=1",
     )
     document = json.loads(text)
     page = (Path(__file__).resolve().parents[2] / "docs" / "json.md").read_text(encoding="utf-8")
@@ -96,7 +96,7 @@ def test_stray_files_are_named_and_pictures_of_one_camera_help_its_lens(
         (place / path.name).write_bytes(path.read_bytes())
     (pairs / "notes.txt").write_text("x")
     (pairs / "desk.png").write_bytes((pairs / "left01.png").read_bytes())
-    plain = ["stereo", "--images", str(pairs), *BOARD, "--hold-back", "0", "--json"]
+    plain = ["stereo", "--images", str(pairs), *BOARD, "--hold-back", "0", "--json=1"]
     found = json.loads(run(*plain, "--left-alone", str(more)))
     assert len(found["residuals"]) == 5
     assert [part.split(":")[0] for part in found["remarks"]] == ["skipped", "no partner"]
@@ -131,7 +131,7 @@ def test_the_lens_of_one_camera_is_written_as_the_pen_reads_it(folder: Path, tmp
 
 
 def test_views_says_of_every_picture_what_it_is_good_for(folder: Path) -> None:
-    document = json.loads(run("views", "--images", str(folder), *BOARD, "--json"))
+    document = json.loads(run("views", "--images", str(folder), *BOARD, "--json=1"))
     assert len(document["views"]) == 14
     assert all(view["used"] for view in document["views"])
 

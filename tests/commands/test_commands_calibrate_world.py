@@ -56,7 +56,7 @@ def test_the_cameras_places_are_found_and_kept(acus, history, pictures: Path) ->
     assert code == 0
     assert "add --keep" in text
     assert history.active().id == "cal-one"
-    code, text = acus("--images", str(pictures), "--at", at, "--board", SPEC, "--keep", "--json")
+    code, text = acus("--images", str(pictures), "--at", at, "--board", SPEC, "--keep", "--json=1")
     assert code == 0
     document = json.loads(text)
     for model in load_rig("wide").models:

@@ -85,5 +85,5 @@ def test_a_sign_check_that_fails_is_told_with_what_counts_no_more(tmp_path):
         commission(bench, person)
         link.motors[:4] = 0.0, 1, 1, 0
         with pytest.raises(CommissioningError, match=r"swapped.*the earlier sign check counts no"):
-            _run(bench, Step.SIGNS, Scripted(), yes=True, as_json=False)
+            _run(bench, Step.SIGNS, Scripted(), yes=True)
         assert bench.clearance().homed == 0.0

@@ -56,7 +56,7 @@ def test_list_shows_newest_first_and_broken_ones_with_the_reason(
 def test_list_as_json_has_the_documented_keys(
     store: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run(monkeypatch, "list", "--folder", str(store), "--json") == 0
+    assert run(monkeypatch, "list", "--folder", str(store), "--json=1") == 0
     document = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert document["folder"] == str(store)
     assert {s["state"] for s in document["sessions"]} == {"ended", "broken"}
@@ -87,7 +87,7 @@ def test_show_takes_the_beginning_of_an_id(
     text = capsys.readouterr().out
     assert "control scan 1" in text
     assert DISCLAIMER in text
-    assert run(monkeypatch, "show", "20260115", "--json") == 0
+    assert run(monkeypatch, "show", "20260115", "--json=1") == 0
     document = json.loads(capsys.readouterr().out, parse_constant=pytest.fail)
     assert document["events"][0]["kind"] == "scan"
     assert 0.0 <= document["events"][0]["time_s"] <= document["duration_s"]

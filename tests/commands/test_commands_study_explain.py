@@ -15,7 +15,7 @@ RUN = CliRunner()
 
 
 def test_studies_are_listed() -> None:
-    done = RUN.invoke(build(), ["study", "list", "--json"])
+    done = RUN.invoke(build(), ["study", "list", "--json=1"])
     assert done.exit_code == 0
     assert {row["name"] for row in json.loads(done.stdout)} >= {
         "lateral_tissue",
@@ -25,7 +25,7 @@ def test_studies_are_listed() -> None:
 
 def test_a_study_prints_json_and_writes_table_and_picture(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    arguments = ["study", "lateral_tissue", "--json", "--repeats", "1", "--out", str(tmp_path)]
+    arguments = ["study", "lateral_tissue", "--json=1", "--repeats", "1", "--out", str(tmp_path)]
     done = RUN.invoke(build(), arguments)
     assert done.exit_code == 0
     assert json.loads(done.stdout)["study"] == "lateral_tissue"
@@ -39,7 +39,7 @@ def test_an_unknown_study_or_exercise_is_refused_with_the_known_names() -> None:
 
 
 def test_explain_says_what_is_simulated_why_and_at_what_cost() -> None:
-    done = RUN.invoke(build(), ["explain", "first-insertion", "--json"])
+    done = RUN.invoke(build(), ["explain", "first-insertion", "--json=1"])
     assert done.exit_code == 0
     document = json.loads(done.stdout)
     assert {row["effect"] for row in document["simulated"]} == {"lateral_tissue", "shaft_friction"}

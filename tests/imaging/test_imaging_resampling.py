@@ -212,7 +212,7 @@ def test_the_command_reads_on_request_and_says_so(tmp_path, monkeypatch, capsys)
 
     field = Field(offsets=(0.0, 2.0, 4.0, 6.3, 8.0))
     field.write(tmp_path)
-    arguments = ("point", tmp_path, "--voxel", "3,2,3", "--json")
+    arguments = ("point", tmp_path, "--voxel", "3,2,3", "--json=1")
     code, out, error = run(monkeypatch, capsys, *arguments, "--remedy", "resample")
     assert code == 0
     answer = json.loads(out)

@@ -1,36 +1,34 @@
-"""`acus laws`: the force laws that are there, and why some cannot be used."""
+"""`acus law`: the force laws that are there, and why some cannot be used."""
 
 from typing import Annotated, Any
 
 import typer
 
+from app.commands.answer import Answer, Commands
 
-def register(app: typer.Typer) -> None:
-    """Add the command."""
-    app.command("laws")(laws)
+app = Commands(help="The force laws, the program's and your own.")
 
 
-def laws(
+def register(root: typer.Typer) -> None:
+    """Add the group."""
+    root.add_typer(app, name="law")
+    root.command("laws", hidden=True)(list_laws)
+
+
+@app.command("list")
+def list_laws(
     tried: Annotated[
         bool, typer.Option("--try", help="Also try laws that were not tried before.")
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON (docs/json.md).")] = False,
-) -> None:
-    """List force laws, the program's and your own, and why a file of yours is refused.
+) -> Answer:
+    """List force laws, and why a file of yours is refused.
 
     Ends with code 3 if one is refused. Nothing is deleted.
     """
-    from app.core.exits import answer
-
     rows = _rows(tried)
-    if as_json:
-        from json import dumps
-
-        typer.echo(dumps(rows, indent=2))
-    else:
-        for row in rows:
-            typer.echo(f"{'✖' if row['refused'] else '✔'} {row['law']}: {_words(row)}")
-    answer(not any(row["refused"] for row in rows))
+    lines = [f"{'✖' if row['refused'] else '✔'} {row['law']}: {_words(row)}" for row in rows]
+    fine = not any(row["refused"] for row in rows)
+    return Answer({"laws": rows}, lines, yes=fine, first_form=rows)
 
 
 def _rows(tried: bool) -> list[dict[str, Any]]:

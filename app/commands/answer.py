@@ -1,0 +1,149 @@
+"""What a command answers with, and the one printer: lines for people, or JSON (docs/json.md)."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from contextvars import ContextVar
+from dataclasses import dataclass
+from functools import wraps
+from inspect import Parameter, signature
+from typing import Annotated, Any, TypeVar
+
+import typer
+from typer.core import TyperCommand
+
+from app.core.errors import ConfigurationError
+from app.core.exits import Exit
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+FORM = 2
+"""Number of the JSON's root form; `--json=1` prints the form before it, for one release."""
+
+_FORMS = ("1", "2")
+_wanted: ContextVar[int] = ContextVar("form of the JSON that was asked for, 0 for text", default=0)
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a command has found.
+
+    Args:
+        facts: the keys of its JSON, as docs/json.md lists them.
+        lines: the same for people, a line each; or a function that prints them.
+        yes: the answer where the command asks a question; False ends it with exit code 3.
+        first_form: what `--json=1` prints where that is no object, or has other keys.
+    """
+
+    facts: Mapping[str, Any]
+    lines: Sequence[str] | Callable[[], object] = ()
+    yes: bool | None = None
+    first_form: Any = ...
+
+
+AsJson = Annotated[
+    bool,
+    typer.Option("--json", help="Print one JSON object (docs/json.md); --json=1: in its old form."),
+]
+
+
+class AnsweringCommand(TyperCommand):
+    """A command that returns an `Answer`; `--json` may name a form, as in `--json=1`."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Take the form of the JSON out of the arguments, before any `--`."""
+        end = args.index("--") if "--" in args else len(args)
+        form = 0
+        for place, word in enumerate(args[:end]):
+            if word == "--json":
+                form = FORM
+            elif word.startswith("--json="):
+                form = _form(word.removeprefix("--json="))
+                args = [*args[:place], "--json", *args[place + 1 :]]
+        ctx.meta["acus.json"] = form
+        return super().parse_args(ctx, args)
+
+    def invoke(self, ctx: Any) -> None:
+        """Run the command, print its answer; end with code 3 where the answer is no."""
+        form: int = ctx.meta["acus.json"]
+        token = _wanted.set(form)
+        try:
+            found: Answer = super().invoke(ctx)
+        finally:
+            _wanted.reset(token)
+        if form:
+            typer.echo(_text(found, ctx.command_path.partition(" ")[2], form))
+        elif callable(found.lines):
+            found.lines()
+        else:
+            for line in found.lines:
+                typer.echo(line)
+        if found.yes is False:
+            raise SystemExit(Exit.NO)
+
+
+class Commands(typer.Typer):
+    """A group of commands whose help is plain text; one that returns an `Answer` takes `--json`."""
+
+    def __init__(self, **options: Any) -> None:
+        # Plain words need no library, fit into 80 columns, and [mm] is no style in them.
+        plain = {"rich_markup_mode": None, "pretty_exceptions_enable": False}
+        super().__init__(**({"no_args_is_help": True, "add_completion": False} | plain | options))
+
+    def command(self, name: str | None = None, **options: Any) -> Callable[[Function], Function]:
+        """Register a function under a name."""
+
+        def register(function: Function) -> Function:
+            add = super(Commands, self).command
+            if signature(function).return_annotation in (Answer, Answer.__name__):
+                add(name, cls=AnsweringCommand, **options)(_with_json(function))
+            else:
+                add(name, **options)(function)
+            return function
+
+        return register
+
+
+def wants_json() -> bool:
+    """Whether the command that is running was asked for JSON: then it says nothing on the way."""
+    return _wanted.get() > 0
+
+
+def _with_json(function: Callable[..., Answer]) -> Callable[..., Answer]:
+    """Return the function with the option `--json` at the end of its parameters."""
+
+    @wraps(function)
+    def call(*args: Any, as_json: bool, **options: Any) -> Answer:
+        return function(*args, **options)
+
+    known = signature(function, eval_str=True)
+    flag = Parameter("as_json", Parameter.KEYWORD_ONLY, default=False, annotation=AsJson)
+    call.__signature__ = known.replace(parameters=[*known.parameters.values(), flag])  # type: ignore[attr-defined]
+    call.__annotations__ = {one.name: one.annotation for one in known.parameters.values()} | {
+        "as_json": AsJson
+    }
+    return call
+
+
+def _form(text: str) -> int:
+    if text not in _FORMS:
+        raise ConfigurationError(f"--json={text}: the forms are {' and '.join(_FORMS)}")
+    return int(text)
+
+
+def _text(found: Answer, name: str, form: int) -> str:
+    from app import __version__
+    from app.core.json_values import finite
+
+    if form == 1:
+        document = found.facts if found.first_form is ... else found.first_form
+    else:
+        document = {
+            "acus": __version__,
+            "form": FORM,
+            "command": name,
+            "answer": found.yes,
+            "facts": found.facts,
+        }
+    return json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False)

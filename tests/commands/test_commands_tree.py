@@ -1,0 +1,193 @@
+"""What holds for every command: the tree is walked, so a new one is held to it too."""
+
+import ast
+import json
+from pathlib import Path
+
+import pytest
+import typer
+
+import app.commands
+from app import __version__
+from app.__main__ import main
+from app.commands import build
+
+ROOT = Path(__file__).resolve().parents[2]
+
+SAYS_NO_FACTS = {("run",), ("demo",), ("device", "emulate")}
+"""They open a window, or go on until somebody ends them."""
+
+OLD_NAMES = {
+    ("calibrate", "board"): ("calibrate", "print"),
+    ("calibrate", "condemn"): ("calibrate", "reject"),
+    ("camera", "show"): ("camera", "test"),
+    ("ct", "library"): ("library", "list"),
+    ("device", "info"): ("device", "show"),
+    ("laws",): ("law", "list"),
+    ("registration", "plates"): ("plate", "list"),
+}
+
+NEEDS_MORE = {
+    "calibrate export", "calibrate import", "calibrate mono", "calibrate redo", "calibrate reject",
+    "calibrate show", "calibrate stereo", "calibrate undo", "calibrate use", "calibrate views",
+    "calibrate world", "ct digest", "ct import", "ct list", "ct point", "device calibrate",
+    "device show", "device test", "pacs echo", "pacs find", "pacs get", "pacs move",
+    "pen calibrate", "registration check", "session compare", "session replay", "session show",
+    "session verify", "structures distance", "structures export", "structures list",
+    "transform export", "transform show", "urdf import", "camera test", "library remove",
+}  # fmt: skip
+"""They need pictures, records, a robot or a PACS: run with --json by the tests of their own."""
+
+
+def walk(group=None, path=()):
+    """Every command and group: its words, itself."""
+    group = typer.main.get_command(build()) if group is None else group
+    for name, command in group.commands.items():
+        yield (*path, name), command
+        if hasattr(command, "commands"):
+            yield from walk(command, (*path, name))
+
+
+TREE = dict(walk())
+LEAVES = {path: one for path, one in TREE.items() if not hasattr(one, "commands")}
+
+
+def acus(monkeypatch, capsys, *words):
+    monkeypatch.setattr("sys.argv", ["acus", *map(str, words)])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    out, err = capsys.readouterr()
+    return ended.value.code, out, err
+
+
+@pytest.mark.parametrize("path", [(), *TREE], ids=" ".join)
+def test_help_is_at_most_80_columns_wide_and_no_line_of_it_is_cut(path, monkeypatch, capsys):
+    monkeypatch.setenv("COLUMNS", "300")
+    code, out, err = acus(monkeypatch, capsys, *path, "--help")
+    assert (code, err) == (0, "")
+    assert max(map(len, out.splitlines())) <= 80
+    cut = [line for line in out.split("Commands:")[-1].splitlines() if line.endswith("...")]
+    assert cut == [] or "Commands:" not in out
+
+
+@pytest.mark.parametrize("path", TREE, ids=" ".join)
+def test_every_command_has_a_line_of_help(path):
+    assert len(TREE[path].get_short_help_str(60)) > 10
+
+
+@pytest.mark.parametrize("path", LEAVES, ids=" ".join)
+def test_every_command_that_prints_facts_takes_json(path):
+    options = {name for one in LEAVES[path].params for name in one.opts}
+    assert ("--json" in options) == (path not in SAYS_NO_FACTS)
+
+
+def test_nothing_but_the_one_printer_writes_json():
+    writers = set()
+    for file in Path(app.commands.__file__).parent.glob("*.py"):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            names = [one.name for one in node.names] if isinstance(node, ast.Import) else []
+            if isinstance(node, ast.ImportFrom):
+                names = [node.module or ""]
+            if "json" in names:
+                writers.add(file.name)
+    assert writers == {"answer.py", "study.py"}  # a study's --out is a file
+
+
+EXAMPLES = {
+    "calibrate list": (),
+    "calibrate print": ("--out", "board.pdf"),
+    "camera aim": ("--rig", "wide"),
+    "camera latency": (),
+    "camera list": (),
+    "camera use": ("--left", "simulated", "--right", "simulated"),
+    "check": ("--last",),
+    "device list": (),
+    "explain": ("first-insertion",),
+    "law list": (),
+    "library list": (),
+    "pacs add": ("here", "--host", "localhost", "--title", "X"),
+    "pacs list": (),
+    "pacs remove": ("here",),
+    "pen list": (),
+    "pen print": ("--out", "pen.pdf"),
+    "plate list": (),
+    "registration list": (),
+    "session export": ("--out", "all.csv"),
+    "session list": (),
+    "study": ("list",),
+    "urdf export": ("--out", "robot.urdf"),
+}
+
+
+def test_every_command_is_tried_here_or_by_tests_of_its_own():
+    visible = {" ".join(path) for path, one in LEAVES.items() if not one.hidden}
+    visible -= {" ".join(path) for path in SAYS_NO_FACTS}
+    assert visible == set(EXAMPLES) | NEEDS_MORE
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_json_is_one_object_of_the_root_form(name, monkeypatch, capsys, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "sessions").mkdir()
+    if name == "pacs remove":
+        assert acus(monkeypatch, capsys, "pacs", "add", *EXAMPLES["pacs add"])[0] == 0
+    code, out, _ = acus(monkeypatch, capsys, *name.split(), *EXAMPLES[name], "--json")
+    found = json.loads(out, parse_constant=pytest.fail)
+    assert list(found) == ["acus", "form", "command", "answer", "facts"]
+    assert (found["acus"], found["form"], found["command"]) == (__version__, 2, name)
+    assert isinstance(found["facts"], dict)
+    assert code == {None: 0, True: 0, False: 3}[found["answer"]]
+
+
+def test_the_first_form_of_the_json_is_read_still(monkeypatch, capsys):
+    code, out, _ = acus(monkeypatch, capsys, "pen", "list", "--json=1")
+    assert code == 0
+    assert {"name", "description", "tip"} == set(json.loads(out)[0])
+
+
+def test_a_form_that_there_is_not_names_those_that_there_are(monkeypatch, capsys):
+    code, out, err = acus(monkeypatch, capsys, "pen", "list", "--json=9")
+    assert (code, out) == (2, "")
+    assert err == "acus: --json=9: the forms are 1 and 2\n"
+
+
+@pytest.mark.parametrize("old", OLD_NAMES, ids=" ".join)
+def test_a_name_from_before_does_the_same_and_no_help_lists_it(old, monkeypatch, capsys):
+    assert TREE[old].hidden
+    assert not TREE[OLD_NAMES[old]].hidden
+    if old != ("ct", "library"):  # it took `--remove NAME`, which is a command now
+        assert TREE[old].help == TREE[OLD_NAMES[old]].help
+    out = acus(monkeypatch, capsys, *old[:-1], "--help")[1]
+    assert f"  {old[-1]} " not in out
+
+
+def test_no_command_is_hidden_but_those_from_before():
+    assert {path for path, one in LEAVES.items() if one.hidden} == set(OLD_NAMES)
+
+
+@pytest.mark.parametrize("words", [(), ("ct",), ("device",), ("pen",)], ids=" ".join)
+def test_without_a_command_the_help_is_printed_and_nothing_after_it(words, monkeypatch, capsys):
+    code, out, err = acus(monkeypatch, capsys, *words)
+    assert (code, err) == (0, "")
+    assert out.startswith(" ".join(("Usage: acus", *words)))
+    assert "acus: " not in out
+
+
+def test_the_version_is_printed(monkeypatch, capsys):
+    assert acus(monkeypatch, capsys, "--version") == (0, f"acus {__version__}\n", "")
+
+
+def test_the_shell_completes_nouns(monkeypatch, capsys):
+    monkeypatch.setenv("_ACUS_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", "acus ses")
+    monkeypatch.setenv("COMP_CWORD", "1")
+    code, out, _ = acus(monkeypatch, capsys)
+    assert (code, out.split()) == (0, ["session"])
+
+
+def test_the_exit_codes_are_those_of_the_readme():
+    from app.core.exits import Exit
+
+    table = (ROOT / "README.md").read_text(encoding="utf-8").split("| exit code |")[1]
+    codes = {int(line.split("|")[1]) for line in table.split("\n\n")[0].splitlines()[2:]}
+    assert codes == set(map(int, Exit))
