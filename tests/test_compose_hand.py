@@ -13,7 +13,8 @@ from app.core import state_vector as sv
 from app.core.arrays import unit
 from app.device.faults import Fault
 from app.mechanisms.profile import load_profile
-from app.session.machine import State
+from app.session.machine import RUNNING, State
+from app.session.pauses import excused
 
 MOVE = st.one_of(
     st.tuples(
@@ -154,5 +155,41 @@ def test_a_window_that_is_busy_while_the_hand_moves_voids_nothing(
         snapshot = student.trainer.snapshot()
         assert snapshot.state is State.ALIGNING, snapshot.reason
         assert snapshot.armed
+    finally:
+        student.close()
+
+
+SWINGS = [
+    ("wheel", (109.9, 0.0), 300), ("drag", (-10.4, 3.4), 700), ("blind",),
+    ("drag", (265.9, -370.6), 200), (800,), ("drag", (87.5, -394.5), 700), (200,), ("sees",),
+    (650,), ("wheel", (-3.0, 0.0), 300), (50,), ("drag", (84.0, 63.0), 200), (1000,),
+]  # fmt: skip
+"""Deep in the body, across while the cameras see nothing, back while the force comes up again: the
+governor takes the needle that swings in the hand's springs for one let go."""
+
+
+def test_a_needle_that_swings_in_the_simulated_hand_pauses_the_attempt_and_voids_nothing(
+    tmp_path: Path,
+) -> None:
+    student = Student(tmp_path, "thick-tissue")
+    try:
+        student.pause(200)
+        student.trainer.begin()
+        student.pause(600)
+        for step in SWINGS:
+            if step[0] in ("blind", "sees"):
+                student.blind = step[0] == "blind"
+            elif isinstance(step[0], int):
+                student.pause(step[0])
+            else:
+                student.do(*step)
+        student.pause(1500)
+        snapshot = student.trainer.snapshot()
+        assert snapshot.state in RUNNING, snapshot.reason
+        told = [event for event in student.trainer.events.drain() if event.kind == "pause"]
+        hand = [event for event in told if event.data["cause"] == "hand"]
+        assert len(hand) == 2, told
+        assert 0.5 <= hand[1].data["duration_s"] < 1.0
+        assert excused(hand) == hand[1].data["duration_s"], "it costs the student nothing"
     finally:
         student.close()

@@ -64,6 +64,17 @@ class Observation:
         code = self.device.fault
         return str(getattr(code, "message", f"fault {int(code)} of the device"))
 
+    @property
+    def swings(self) -> bool:
+        """Whether the force was cut as if nobody held the needle, while the state says otherwise.
+
+        Only a simulated hand is known to the state.
+        """
+        device = self.device
+        if device is None or int(device.fault) != Fault.LET_GO:
+            return False
+        return float(device.row[slots.HAND_HOLDS]) > 0.5
+
     @staticmethod
     def _can_be_armed_again(device: DeviceStatePort) -> bool:
         """Whether the fault is one that ends by letting go of the switch and holding it again."""
@@ -72,10 +83,11 @@ class Observation:
             int(device.fault) == Fault.LINK_LOST and silence <= SILENCE
         )
 
-    def fatal(self, began: float, held_arming: bool = False) -> str:
+    def fatal(self, began: float, held_arming: bool = False, simulated: bool = False) -> str:
         """Why an attempt that began at `began` [s] cannot go on; empty if it can.
 
-        With `held_arming` a fault that ends when the person arms again is no reason.
+        With `held_arming` a fault that ends when the person arms again is no reason; with a
+        `simulated` hand a needle that swings in it is none either, the attempt pauses for it.
         """
         if self.device is None:
             return "" if self.time - began < LOOP_LIMIT else "the loop does not run"
@@ -83,6 +95,8 @@ class Observation:
         if age > LOOP_LIMIT:
             return f"the loop has stopped: its newest state is {age:.1f} s old"
         if self.device.time <= began + GRACE:
+            return ""
+        if simulated and self.swings:
             return ""
         if held_arming and self._can_be_armed_again(self.device):
             return ""

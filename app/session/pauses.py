@@ -1,13 +1,16 @@
 """When an attempt pauses, why, and when it goes on by itself.
 
-Two things pause an attempt. *Cameras*: inside the body no picture has told the depth for `LOST`
+Three things pause an attempt. *Cameras*: inside the body no picture has told the depth for `LOST`
 seconds; outside the body nothing pauses for it, nor while the marker is still inside the tube.
 *Window*: the window has given no sign of life for as long as the loop allows (`HEARTBEAT`): it is
-busy or blocked, and nobody sees what the needle does. Forces are off and the clock stands still;
-the attempt goes on where it was once the cause has been gone for `BACK` seconds without a break.
+busy or blocked, and nobody sees what the needle does. *Hand*: the loop has cut the force because
+the needle moved as if nobody held it, but the simulated hand holds it: its springs let the needle
+swing (a hand that is really there says so itself, by a switch that it holds, or ends the attempt).
+Forces are off and the clock stands still; the attempt goes on where it was once the cause has been
+gone for `BACK` seconds without a break.
 
-What the cameras cost the student may void a score (`Rules.maximum_pause`); a busy window is the
-program's own trouble and costs nothing.
+What the cameras cost the student may void a score (`Rules.maximum_pause`); a busy window and a
+simulated hand are the program's own trouble and cost nothing.
 """
 
 from collections.abc import Iterable
@@ -36,6 +39,7 @@ class Cause(StrEnum):
 
     CAMERAS = "cameras"
     WINDOW = "window"
+    HAND = "hand"
 
 
 PAUSED_WORDS: Final = {
@@ -48,6 +52,10 @@ PAUSED_WORDS: Final = {
         "paused: the window was busy for a second; forces are off and the clock stands still; the "
         "attempt goes on by itself"
     ),
+    Cause.HAND: (
+        "paused: the needle swung in the simulated hand as if nobody held it, so its force was "
+        "cut; the clock stands still and the attempt goes on by itself"
+    ),
 }
 RESUMED_WORDS: Final = {
     Cause.CAMERAS: (
@@ -58,7 +66,9 @@ RESUMED_WORDS: Final = {
         "the window answers again: the attempt goes on, forces come back; a switch that must be "
         "held has to be pressed again"
     ),
+    Cause.HAND: "the needle is at rest in the hand: the attempt goes on, forces come back",
 }
+_OWN_TROUBLE: Final = (Cause.WINDOW, Cause.HAND)
 
 
 class _Watched:
@@ -88,34 +98,44 @@ class Pauses:
 
     def __init__(self) -> None:
         self.cause: Cause | None = None
-        self._cameras, self._window = _Watched(), _Watched()
+        self._watched = {cause: _Watched() for cause in Cause}
         self._inside = True
         self._began = 0.0
 
     def look(
-        self, state: State, pose: NeedlePose, fix_status: str, silence: float = 0.0
+        self,
+        state: State,
+        pose: NeedlePose,
+        fix_status: str,
+        silence: float = 0.0,
+        swings: bool = False,
     ) -> Event | None:
         """Return what a moment means for the attempt, if anything.
 
         A pose that is not valid is the robot's trouble, and no reason to blame the cameras.
-        `silence`: since the window's last sign of life [s].
+        `silence`: since the window's last sign of life [s]; `swings`: whether the force was cut
+        though the simulated hand holds the needle.
         """
         now = pose.time
         blamed = pose.valid and fix_status != FixStatus.NOT_YET_VISIBLE
-        self._cameras.look(not pose.measured and blamed, pose.measured, now)
+        cameras = self._watched[Cause.CAMERAS]
+        cameras.look(not pose.measured and blamed, pose.measured, now)
         busy = silence > HEARTBEAT
-        self._window.look(busy, not busy, now)
+        own = {Cause.WINDOW: busy, Cause.HAND: swings}
+        for cause, there in own.items():
+            self._watched[cause].look(there, not there, now)
         if state is State.PAUSED:
-            watched = self._window if self.cause is Cause.WINDOW else self._cameras
-            if not watched.over(now):
+            if self.cause is None or not self._watched[self.cause].over(now):
                 return None
             return Event.RESUME if self._inside else Event.WITHDRAW
         inside = state in (State.INSERTING, State.HOLDING)
-        if busy and (inside or state is State.ALIGNING):
-            return self._pause(Cause.WINDOW, inside, now)
-        return self._pause(Cause.CAMERAS, inside, now) if (
-            inside and self._cameras.lasts(now, LOST)
-        ) else None  # fmt: skip
+        if inside or state is State.ALIGNING:
+            for cause, there in own.items():
+                if there:
+                    return self._pause(cause, inside, now)
+        if inside and cameras.lasts(now, LOST):
+            return self._pause(Cause.CAMERAS, inside, now)
+        return None
 
     def lasted(self, now: float) -> float:
         """How long the present pause has lasted [s]."""
@@ -133,7 +153,7 @@ def excused(events: Iterable[Told]) -> float:
         duration = event.data.get("duration_s")
         if (
             event.kind == KIND
-            and event.data.get("cause") == Cause.WINDOW
+            and event.data.get("cause") in _OWN_TROUBLE
             and isinstance(duration, int | float)
         ):
             total += max(0.0, float(duration))

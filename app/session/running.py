@@ -98,23 +98,33 @@ class Running:
         data: dict[str, object] = {"how": known.value, "duration_s": waited}
         self.say("withdrawal", _OUT_WORDS[known], now, data)
 
-    def look(self, seen: Observation, inputs: LoopInputs, held_arming: bool = False) -> str:
+    def look(
+        self,
+        seen: Observation,
+        inputs: LoopInputs,
+        held_arming: bool = False,
+        simulated: bool = False,
+    ) -> str:
         """Classify and record one observation; returns why the attempt cannot go on, or nothing.
 
-        `held_arming`: whether a person can arm again after a fault.
+        `held_arming`: whether a person can arm again after a fault. `simulated`: whether the hand
+        is, so that the state says whether it holds the needle.
         """
         log, attempt = self.log, self.attempt
         if log is None or not attempt.running:
             return ""
         began = attempt.since if attempt.began is None else attempt.began
-        reason = seen.fatal(began, held_arming)
+        reason = seen.fatal(began, held_arming, simulated)
         if reason:
             return reason
         self._classifier, event = classify(
             self._classifier, attempt.state, seen.pose, seen.offset.distance, self._thresholds
         )
         silence = inputs.silence(seen.time)
-        event = self._pauses.look(attempt.state, seen.pose, seen.fix_status, silence) or event
+        pause = self._pauses.look(
+            attempt.state, seen.pose, seen.fix_status, silence, simulated and seen.swings
+        )
+        event = pause or event
         if event is not None:
             self._change(event, seen.time)
         news = self._depth.look(seen.pose)

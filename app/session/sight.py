@@ -56,7 +56,9 @@ class Sight:
             self._arming.look()
             seen = self._watch.look(placed, now)
             was_paused = self._running.paused
-            reason = self._running.look(seen, self._inputs, self._arming.held)
+            reason = self._running.look(
+                seen, self._inputs, self._arming.held, self._withdrawal.simulated
+            )
             self._arming.pause(was_paused, self._running.paused)
             reason = reason or self._bring_out(seen)
             return reason or self._watch.news(self._running, self._events)

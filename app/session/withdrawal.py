@@ -113,6 +113,11 @@ class Withdrawal:
         self.active, self.asks, self.words = False, False, ""
 
     @property
+    def simulated(self) -> bool:
+        """Whether the hand that holds the needle is a simulated one."""
+        return self._start is Start.SIMULATED
+
+    @property
     def moves_hand(self) -> bool:
         """Whether it is moving the simulated hand."""
         return self.active and self._start is Start.SIMULATED
