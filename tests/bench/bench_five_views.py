@@ -17,8 +17,7 @@ import time
 from dataclasses import replace
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject
-from PySide6.QtWidgets import QGraphicsItem
+from PySide6.QtCore import QObject
 
 from app.core import state_vector as sv
 from app.core.arrays import unit
@@ -40,18 +39,15 @@ class Counter(QObject):
         self.ages: list[float] = []
         self._canvas, self._hand = pane.canvas, hand
         self._shown: tuple[object, ...] = ()
-        pane.canvas.viewport().installEventFilter(self)
+        pane.canvas.painted.connect(self.note)
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        if event.type() == QEvent.Type.Paint:
-            canvas = self._canvas
-            tip: QGraphicsItem = canvas.layers.needle.tip
-            shown = (id(canvas.feed.hu), tip.x(), tip.y())
-            if shown != self._shown:
-                self._shown = shown
-                self.times.append(time.perf_counter())
-                self.ages.append(self.times[-1] - self._hand.moved_at)
-        return False
+    def note(self) -> None:
+        tip = self._canvas.layers.needle.tip
+        shown = (id(self._canvas.feed.hu), tip.x(), tip.y())
+        if shown != self._shown:
+            self._shown = shown
+            self.times.append(time.perf_counter())
+            self.ages.append(self.times[-1] - self._hand.moved_at)
 
 
 class Hand:

@@ -136,7 +136,7 @@ def marks(window: MainWindow) -> dict[str, list[int]]:
     for name, point in (("entry", draft.entry_mm), ("target", draft.target_mm)):
         if point is not None and canvas.plane is not None:
             at = canvas.plane.point(point, canvas.index)
-            place = canvas.viewport().mapToGlobal(canvas.pixel_at(at.x, at.y))
+            place = canvas.mapToGlobal(canvas.pixel_at(at.x, at.y))
             places[name] = [round(place.x()), round(place.y())]
     return places
 

@@ -48,7 +48,7 @@ def patient():
 
 def seen_bead(pane):
     """Where the bead is seen in the pane [px of the window's own scale]."""
-    shot = pane.canvas.viewport().grab().toImage().convertToFormat(QImage.Format.Format_RGB32)
+    shot = pane.canvas.grab().toImage().convertToFormat(QImage.Format.Format_RGB32)
     raw = np.frombuffer(shot.constBits(), np.uint8).reshape(shot.height(), shot.width(), 4)
     rows, columns = np.nonzero((raw[..., :3] >= 254).all(axis=2))
     return QPoint(*(round(at / shot.devicePixelRatio()) for at in (columns.mean(), rows.mean())))
@@ -61,7 +61,7 @@ def click(window, pane, target):
     viewing.set_draft(DraftPlan())  # the mark of the last click covers the bead
     viewing.set_cursor(target)
     QTest.qWait(30)
-    at = pane.canvas.viewport().mapTo(window, seen_bead(pane))
+    at = pane.canvas.mapTo(window, seen_bead(pane))
     viewing.set_tool(Tool.TARGET)
     take = lambda tool, point, _: placed.append(point)  # noqa: E731
     viewing.point_placed.connect(take)

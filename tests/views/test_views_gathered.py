@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QGraphicsItem
 
 from app.core.errors import NumericalError
 from app.imaging.window import WindowLevel
@@ -108,13 +107,12 @@ def state(pane):
     canvas, readouts = pane.canvas, pane.readouts
     if canvas.plane is None:
         assert not any(item.isVisible() and not item.boundingRect().isEmpty()
-                       for item in canvas.scene().items()
-                       if isinstance(item, QGraphicsItem))  # fmt: skip
+                       for item in canvas.drawing.shapes)  # fmt: skip
         return readouts.title.text(), readouts.slice.text()
-    items = sorted(map(repr, map(item_state, canvas.scene().items())))
+    items = sorted(map(repr, map(item_state, canvas.drawing.shapes)))
     texts = [one.text() for one in (readouts.title, readouts.window, readouts.slice,
                                     *readouts.letters)]  # fmt: skip
-    where = tuple(np.round(canvas.transform().m11(), 9).reshape(1).tolist())
+    where = tuple(np.round(canvas._to_pixels.m11(), 9).reshape(1).tolist())
     return items, texts, where, canvas._image.image().copy()
 
 
@@ -162,13 +160,13 @@ def test_what_lies_over_a_picture_that_is_still_to_come_comes_with_it(room, sett
     one.viewing.set_needle(NeedleOverlay([0.0, -80.0, 0.0], [0.0, 0.0, 0.0]))
     one.arrive(settle)
     pane = one.panes[SHOWN.index(PaneId.IN_PLANE)]
-    before = [item_state(item) for item in pane.canvas.scene().items()]
+    before = [item_state(item) for item in pane.canvas.drawing.shapes]
     one.viewing.set_needle(NeedleOverlay([9.0, -80.0, 0.0], [4.0, 5.0, 3.0]))
     pane.canvas._draw_together()  # the event loop has come round
     assert pane.canvas.feed.is_waiting
-    assert [item_state(item) for item in pane.canvas.scene().items()] == before
+    assert [item_state(item) for item in pane.canvas.drawing.shapes] == before
     assert settle(lambda: pane.canvas.is_settled, 20.0)
-    assert [item_state(item) for item in pane.canvas.scene().items()] != before
+    assert [item_state(item) for item in pane.canvas.drawing.shapes] != before
 
 
 def test_a_pane_that_nobody_sees_does_nothing_and_catches_up(room, settle, monkeypatch):

@@ -142,7 +142,7 @@ def test_the_tip_stays_in_the_middle_of_a_pane_that_follows(viewing, planes, pan
         viewing.set_needle(needle_at(viewing, (2.0 * n, 1.0, 0.0)))
         at = pane.canvas.plane.point(viewing.needle.tip_mm, 0.0)
         place = pane.canvas.pixel_at(at.x, at.y)
-        middle = pane.canvas.viewport().rect().center()
+        middle = pane.canvas.rect().center()
         assert abs(place.x() - middle.x()) < 2
         assert abs(place.y() - middle.y()) < 2
 
@@ -227,13 +227,13 @@ def test_in_a_narrow_pane_the_lower_letter_gives_way_to_the_words(viewing, plane
     letter, words = pane.readouts.letters[3], pane.readouts.slice
     pane.resize(600, 300)
     settle(lambda: pane.canvas.is_settled, 5.0)
-    middle = pane.canvas.viewport().width() / 2
+    middle = pane.canvas.width() / 2
     assert abs(letter.geometry().center().x() - middle) <= 3  # where there is room
     pane.resize(230, 300)
     settle(lambda: pane.canvas.is_settled, 5.0)
     assert "through the needle" in words.text()
     assert not letter.geometry().intersects(words.geometry())
-    assert pane.canvas.viewport().rect().contains(letter.geometry())
+    assert pane.canvas.rect().contains(letter.geometry())
     pane.resize(600, 300)
     settle(lambda: pane.canvas.is_settled, 5.0)
-    assert abs(letter.geometry().center().x() - pane.canvas.viewport().width() / 2) <= 3
+    assert abs(letter.geometry().center().x() - pane.canvas.width() / 2) <= 3

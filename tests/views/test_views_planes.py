@@ -108,7 +108,7 @@ def test_a_needle_pane_stands_off_its_own_plane(viewing, make_pane):
 
 def test_the_crosshair_turns_with_the_other_plane(viewing, make_pane):
     pane = make_pane(PaneId.AXIAL)
-    lines = [i for i in pane.canvas.scene().items() if isinstance(i, CrossLine) and i.isVisible()]
+    lines = [i for i in pane.canvas.drawing.shapes if isinstance(i, CrossLine) and i.isVisible()]
     assert len(lines) == 2
     rects = sorted((line.boundingRect() for line in lines), key=lambda rect: rect.width())
     assert rects[0].width() < 2.0 < rects[0].height()

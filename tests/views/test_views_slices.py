@@ -50,7 +50,7 @@ def pane(viewing, volume, settle, destroy):
 
 
 def mouse(pane, kind, at, button=LEFT, modifiers=NONE):
-    port = pane.canvas.viewport()
+    port = pane.canvas
     place = QPointF(*at)
     held = Qt.MouseButton.NoButton if kind is QEvent.Type.MouseButtonRelease else button
     event = QMouseEvent(kind, place, port.mapToGlobal(place), button, held, modifiers)
@@ -263,7 +263,7 @@ def test_letters_and_readouts_come_from_the_geometry(pane, viewing):
 def test_no_readout_is_clipped_in_a_small_pane(pane, settle):
     pane.resize(330, 290)
     settle()
-    inside = pane.canvas.viewport().rect()
+    inside = pane.canvas.rect()
     r = pane.readouts
     shown = (r.title, r.window, r.slice, *r.letters)
     assert all(inside.contains(overlay.geometry()) for overlay in shown)
@@ -272,12 +272,12 @@ def test_no_readout_is_clipped_in_a_small_pane(pane, settle):
 
 
 def test_pixels_are_square_millimetres(pane):
-    corner, across, down = (pane.canvas.mapFromScene(x, y) for x, y in ((0, 0), (40, 0), (0, 40)))
+    corner, across, down = (pane.canvas.pixel_at(x, y) for x, y in ((0, 0), (40, 0), (0, 40)))
     assert abs((across.x() - corner.x()) - (down.y() - corner.y())) <= 1
 
 
 def visible_segments(pane):
-    return [i for i in pane.canvas.scene().items() if isinstance(i, SegmentItem) and i.isVisible()]
+    return [i for i in pane.canvas.drawing.shapes if isinstance(i, SegmentItem) and i.isVisible()]
 
 
 def test_the_needle_is_cut_at_the_slab(pane, viewing):
@@ -322,7 +322,7 @@ def test_entry_and_target_are_shown_in_every_view(viewing, destroy):
     viewing.set_draft(DraftPlan(tuple(middle - [0, 20, 0]), tuple(middle)))
     for pane in panes:
         pane.canvas.flush()
-        marks = [i for i in pane.canvas.scene().items()
+        marks = [i for i in pane.canvas.drawing.shapes
                  if isinstance(i, MarkItem) and i.isVisible()]  # fmt: skip
         assert len(marks) == 2
 
@@ -364,7 +364,7 @@ def test_the_tips_distance_is_left_out_where_the_plans_names_need_the_room(pane,
     viewing.set_draft(DraftPlan(tuple(middle - [0, 3.0, 9.0]), tuple(middle)))
     viewing.set_needle(NeedleOverlay(middle - [0, 100.0, 0], middle - [0, 1.0, 9.0]))
     pane.canvas.flush()
-    marks = [i for i in pane.canvas.scene().items() if isinstance(i, MarkItem) and i.isVisible()]
+    marks = [i for i in pane.canvas.drawing.shapes if isinstance(i, MarkItem) and i.isVisible()]
     rects = [
         mark.label_rect.translated(pane.canvas.pixel_at(mark.x(), mark.y()))
         for mark in marks
@@ -372,5 +372,5 @@ def test_the_tips_distance_is_left_out_where_the_plans_names_need_the_room(pane,
     ]
     assert len(rects) >= 2
     for number, rect in enumerate(rects):
-        assert pane.canvas.viewport().rect().toRectF().contains(rect)
+        assert pane.canvas.rect().toRectF().contains(rect)
         assert not any(rect.intersects(other) for other in rects[number + 1 :])

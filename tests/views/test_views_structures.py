@@ -98,7 +98,7 @@ def test_an_outline_is_drawn_where_the_structure_is(book, volume, pane):
     viewing = Viewing(default_window())
     view = SlicePane(viewing, pane)
     view.resize(300, 300)
-    layer = StructureLayer(view.canvas.scene(), book)
+    layer = StructureLayer(view.canvas.drawing, book)
     view.canvas.add_layer(layer)
     viewing.set_volume(volume)
     viewing.set_cursor(centre_of(book))

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtCore import QPointF
 from PySide6.QtGui import QPainter
-from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.imaging.scan_order import ScanOrder
 from app.views.kit.theme import Mark
+from app.views.slices.drawing import Drawing, Shape
 from app.views.slices.pane import SlicePane
 from app.views.slices.plane import SlicePlane
 
@@ -17,10 +17,10 @@ RANGE = Mark("#c9ced3", dash=(1.0, 3.0), width=1.5)
 class ScanRange:
     """Two dotted lines where the faces of the scan cut a slice; none in slices along them."""
 
-    def __init__(self, scene: QGraphicsScene) -> None:
+    def __init__(self, drawing: Drawing) -> None:
         self._order: ScanOrder | None = None
         self._item = _Lines()
-        scene.addItem(self._item)
+        drawing.add(self._item)
 
     def set_order(self, order: ScanOrder | None) -> None:
         """Show this range from the next refresh on; None shows nothing."""
@@ -39,16 +39,16 @@ class ScanRange:
             for line in [_cut(plane, index, z)]
             if line is not None
         ]  # fmt: skip
-        self._item.set_lines(tuple(found), plane.extent_mm)
+        self._item.set_lines(tuple(found))
 
     def hide(self) -> None:
         """Show nothing."""
-        self._item.set_lines((), (0.0, 0.0))
+        self._item.set_lines(())
 
 
 def attach(pane: SlicePane) -> ScanRange:
     """Let a pane show the range."""
-    layer = ScanRange(pane.canvas.scene())
+    layer = ScanRange(pane.canvas.drawing)
     pane.canvas.add_layer(layer)
     return layer
 
@@ -67,27 +67,19 @@ def _cut(plane: SlicePlane, index: float, z_mm: float) -> tuple[QPointF, QPointF
     return (ends[0], ends[1]) if len(ends) == 2 else None
 
 
-class _Lines(QGraphicsItem):
+class _Lines(Shape):
+    smooth = False
+
     def __init__(self) -> None:
-        super().__init__()
+        super().__init__(1.0)
         self.lines: tuple[tuple[QPointF, QPointF], ...] = ()
-        self._rect = QRectF()
-        self.setZValue(1)
 
-    def set_lines(
-        self, lines: tuple[tuple[QPointF, QPointF], ...], extent_mm: tuple[float, float]
-    ) -> None:
+    def set_lines(self, lines: tuple[tuple[QPointF, QPointF], ...]) -> None:
         if lines != self.lines:
-            self.prepareGeometryChange()
-            self.lines, self._rect = lines, QRectF(0.0, 0.0, *extent_mm)
-            self.update()
+            self.lines = lines
+            self.touch()
 
-    def boundingRect(self) -> QRectF:
-        return self._rect
-
-    def paint(
-        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
-    ) -> None:
+    def paint(self, painter: QPainter) -> None:
         painter.setPen(RANGE.pen())
         for start, end in self.lines:
             painter.drawLine(start, end)

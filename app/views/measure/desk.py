@@ -109,7 +109,7 @@ class _Escape(QObject):
 def attach(pane: SlicePane, editor: MeasureEditor) -> MeasureLayer:
     """Let a pane draw and take the measurements of an editor."""
     canvas = pane.canvas
-    layer = MeasureLayer(canvas.scene(), editor)
+    layer = MeasureLayer(canvas.drawing, editor)
     canvas.add_layer(layer)
     pane.gestures.add_grip(MeasureGrip(canvas, editor))
     editor.changed.connect(canvas.refresh)
@@ -117,7 +117,7 @@ def attach(pane: SlicePane, editor: MeasureEditor) -> MeasureLayer:
     def show_tool() -> None:
         armed = editor.tool is not MeasureTool.NONE
         shape = Qt.CursorShape.CrossCursor if armed else Qt.CursorShape.ArrowCursor
-        canvas.viewport().setCursor(shape)
+        canvas.setCursor(shape)
 
     editor.tool_changed.connect(show_tool)
     pane.installEventFilter(_Escape(editor, pane))

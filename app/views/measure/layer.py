@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetricsF, QPainter, QPolygonF
-from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.planning.measurements import Angle, Measurement, Region
 from app.views.kit.theme import Mark
 from app.views.measure.editor import MeasureEditor
+from app.views.slices.drawing import Drawing, Shape
 from app.views.slices.items import label_font
 from app.views.slices.plane import SlicePlane
 
@@ -45,10 +45,10 @@ class Drawn:
 class MeasureLayer:
     """A layer of one canvas: an item that draws all measurements of an editor."""
 
-    def __init__(self, scene: QGraphicsScene, editor: MeasureEditor) -> None:
+    def __init__(self, drawing: Drawing, editor: MeasureEditor) -> None:
         self._editor = editor
         self._item = MeasureItem()
-        scene.addItem(self._item)
+        drawing.add(self._item)
 
     @property
     def drawn(self) -> tuple[Drawn, ...]:
@@ -58,43 +58,31 @@ class MeasureLayer:
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Draw what lies in the slice."""
         found = (drawn(item, self._editor, plane, index) for item in self._editor.shown)
-        self._item.set_drawn(tuple(one for one in found if one is not None), plane.extent_mm)
+        self._item.set_drawn(tuple(one for one in found if one is not None))
 
     def hide(self) -> None:
         """Show nothing."""
-        self._item.set_drawn((), (0.0, 0.0))
+        self._item.set_drawn(())
 
 
-class MeasureItem(QGraphicsItem):
+class MeasureItem(Shape):
     """Draws lines with end ticks, and words that do not zoom."""
 
     def __init__(self) -> None:
-        super().__init__()
+        super().__init__(6.0)
         self.drawn: tuple[Drawn, ...] = ()
-        self._rect = QRectF()
-        self.setZValue(6)
 
-    def set_drawn(self, drawn: tuple[Drawn, ...], extent_mm: tuple[float, float]) -> None:
-        """Draw these on a plane of this size."""
-        if drawn == self.drawn:
-            return
-        self.prepareGeometryChange()
-        self.drawn = drawn
-        self._rect = QRectF(0.0, 0.0, *extent_mm) if drawn else QRectF()
-        self.update()
+    def set_drawn(self, drawn: tuple[Drawn, ...]) -> None:
+        """Draw these."""
+        if drawn != self.drawn:
+            self.drawn = drawn
+            self.touch()
 
-    def boundingRect(self) -> QRectF:
-        """Return the whole plane: words reach beyond their lines."""
-        return self._rect
-
-    def paint(
-        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
-    ) -> None:
+    def paint(self, painter: QPainter) -> None:
         """Draw everything in pixels."""
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        to_pixel = painter.worldTransform()
+        to_pixel = painter.transform()
         painter.resetTransform()
-        room = QRectF(painter.viewport() if widget is None else widget.rect())
+        room = QRectF(painter.viewport())
         taken: list[QRectF] = []
         for one in self.drawn:
             line = [to_pixel.map(point) for point in one.line]
@@ -111,7 +99,6 @@ class MeasureItem(QGraphicsItem):
                 for handle in handles:
                     _tick(painter, handle)
             _write(painter, one.text, _beside(line), room, taken)
-        painter.setWorldTransform(to_pixel)
 
 
 def drawn(

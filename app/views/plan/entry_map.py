@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
-from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.core.arrays import FloatArray
 from app.views.kit.text import tr
+from app.views.slices.drawing import Drawing, Shape
 from app.views.slices.plane import SlicePlane
 
 if TYPE_CHECKING:
@@ -72,36 +72,22 @@ def legend() -> tuple[tuple[tuple[int, int, int], str], ...]:
     )
 
 
-class _Dots(QGraphicsItem):
+class _Dots(Shape):
     """Dots and crosses of constant size."""
 
     def __init__(self) -> None:
-        super().__init__()
+        super().__init__(1.8, visible=False)
         self._places: list[tuple[float, float, int]] = []
-        self._rect, self._scale = QRectF(), 1.0
-        self.setZValue(1.8)
+        self._scale = 1.0
 
     def set_places(self, places: list[tuple[float, float, int]], scale: float) -> None:
         """Take plane points [mm] with their classes, and the zoom [px/mm]."""
-        self.prepareGeometryChange()
         self._places, self._scale = places, scale
-        if places:
-            xy = np.array([place[:2] for place in places])
-            margin = 10.0 / scale
-            low, high = xy.min(axis=0) - margin, xy.max(axis=0) + margin
-            self._rect = QRectF(QPointF(*low.tolist()), QPointF(*high.tolist()))
         self.setVisible(bool(places))
-        self.update()
+        self.touch()
 
-    def boundingRect(self) -> QRectF:
-        """Return the rectangle of all dots."""
-        return self._rect
-
-    def paint(
-        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
-    ) -> None:
+    def paint(self, painter: QPainter) -> None:
         """Draw the worst first, so that the best stay visible."""
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         rim = QPen(Qt.GlobalColor.black, 1.0)
         rim.setCosmetic(True)
         for x, y, number in sorted(self._places, key=lambda place: -(place[2] % 5)):
@@ -122,11 +108,10 @@ class _Dots(QGraphicsItem):
 class EntryMapLayer:
     """The dots in one pane."""
 
-    def __init__(self, scene: QGraphicsScene) -> None:
+    def __init__(self, drawing: Drawing) -> None:
         self._map: EntryMap | None = None
         self._dots = _Dots()
-        self._dots.setVisible(False)
-        scene.addItem(self._dots)
+        drawing.add(self._dots)
 
     def set_map(self, shown: EntryMap | None) -> None:
         """Show another map from the next `place` on, or none."""

@@ -56,7 +56,7 @@ class PathsHelper(QObject):
         self._stands_on: tuple[object, ...] = ()
         self._layers = []
         for pane in workspace.slices:
-            layer = EntryMapLayer(pane.canvas.scene())
+            layer = EntryMapLayer(pane.canvas.drawing)
             pane.canvas.add_layer(layer)
             self._layers.append(layer)
         self.panel.map_wanted.connect(self.make)

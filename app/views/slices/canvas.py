@@ -1,4 +1,4 @@
-"""One slice on the screen: the pyqtgraph view and its layers, drawn once however much changes."""
+"""One slice on the screen: picture, shapes and words, painted in one pass by one painter."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from numpy.typing import NDArray
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QHideEvent, QShowEvent
-from PySide6.QtWidgets import QFrame, QGraphicsView, QWidget
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QShowEvent
+from PySide6.QtWidgets import QWidget
 
+from app.views.kit import theme
+from app.views.slices.corners import Written
+from app.views.slices.drawing import Drawing
 from app.views.slices.items import MarkItem
 from app.views.slices.layer_stack import ALL_LAYERS, WAITED_FOR, Due, Layer, LayerStack
 from app.views.slices.looks import Turn
@@ -31,12 +34,20 @@ class SliceCanvas(PlaneView):
     anew only as often as they can be read. A canvas that nobody sees draws nothing until it is
     shown.
 
+    Attributes:
+        drawing: the shapes over the picture.
+        written: the words over everything.
+        layers: who places the shapes.
+        feed: where the picture comes from.
+
     Signals:
+        painted(): all that was due is on the screen.
         changed(): slice, window, zoom or pan is another: the read-outs are out of date.
         plane_taken(): the plane is another one, or gone.
         seen(): the pane was shown or hidden.
     """
 
+    painted = Signal()
     changed = Signal()
     plane_taken = Signal()
     seen = Signal()
@@ -52,23 +63,16 @@ class SliceCanvas(PlaneView):
         self._words = Unhurried(self._write, self)
         self.feed = PictureFeed(viewing.reformatter, self)
         self.feed.arrived.connect(self._draw)
-        self.setCentralItem(None)  # layers stand in the scene itself; its end would crash Qt
-        scene = self.scene()
-        scene.setItemIndexMethod(scene.ItemIndexMethod.NoIndex)  # a dozen items, moved often
         self._image = PictureItem()
-        scene.addItem(self._image)
-        self.layers = LayerStack(scene, viewing, self.pane)
-        self._set_up_view()
-        self._connect(viewing)
-
-    def _set_up_view(self) -> None:
-        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.drawing = Drawing(self.update)
+        self.written: list[Written] = []
+        self.layers = LayerStack(self.drawing, viewing, self.pane)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setCacheMode(QGraphicsView.CacheModeFlag.CacheNone)
-        self.setViewportUpdateMode(QGraphicsView.ViewportUpdateMode.MinimalViewportUpdate)
-        self.viewport().setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)  # nothing shows below
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)  # nothing shows below
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
+        self._background = QColor(theme.IMAGE_BACKGROUND)
+        self._connect(viewing)
 
     def _connect(self, viewing: Viewing) -> None:
         viewing.volume_changed.connect(self.show_volume)
@@ -100,7 +104,7 @@ class SliceCanvas(PlaneView):
         """Draw something more over the slice.
 
         Args:
-            layer: placed whenever slice, plane or zoom change; its items stand in `scene()`. Who
+            layer: placed whenever slice, plane or zoom change; its shapes stand in `drawing`. Who
                 changes what it shows calls `refresh`.
             marks: those of its marks whose names shall be arranged with the others'.
         """
@@ -160,6 +164,7 @@ class SliceCanvas(PlaneView):
         self.feed.drop()
         self._slice = None
         self._image.clear()
+        self.update()
         self.layers.hide()
 
     # --- drawing ------------------------------------------------------------------------------
@@ -222,6 +227,25 @@ class SliceCanvas(PlaneView):
         greys = self.viewing.greys
         window, bounds = greys.of(self.pane), self.feed.bounds_mm
         self._image.set_slice(self.feed.hu, window, bounds, greys.is_inverted)
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the picture, the shapes over it, and the words over both."""
+        painter = QPainter(self)
+        painter.fillRect(event.rect(), self._background)
+        painter.setTransform(self._to_pixels)
+        self._image.paint(painter)
+        self.drawing.paint(painter, self._to_pixels)
+        for words in self.written:
+            words.paint(painter)
+        painter.end()
+        self.painted.emit()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Write words anew in another size of the text."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "drawing"):
+            self.rewrite()
 
     def _fetch(self) -> None:
         """Want the picture of what the pane shows."""

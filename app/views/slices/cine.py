@@ -63,8 +63,8 @@ class Cine(QObject):
 
     def _watch(self, on: bool) -> None:
         """See what is pressed while it runs; else every event would come by here for nothing."""
-        for widget in (self._canvas, self._canvas.viewport()):
-            (widget.installEventFilter if on else widget.removeEventFilter)(self)
+        canvas = self._canvas
+        (canvas.installEventFilter if on else canvas.removeEventFilter)(self)
 
     def advance(self) -> None:
         """Go one slice on; turn round at the ends of the volume."""

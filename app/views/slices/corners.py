@@ -1,10 +1,13 @@
-"""Read-outs over a pane: text with a dark rim in the corners, letters on the edges, the ruler."""
+"""Read-outs over a pane: text with a dark rim in the corners, letters on the edges, the ruler.
+
+Each is drawn once, as a picture, and copied with every painting of the slice below it.
+"""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, QSize, Qt
+from PySide6.QtCore import QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen, QPixmap
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.views.kit import theme
 from app.views.kit.text import tr
@@ -15,129 +18,147 @@ RULER_PX = 110.0
 _A = Qt.AlignmentFlag
 
 
-class Overlay(QLabel):
-    """Lines of text that lie over the image and let the mouse through.
+class Written:
+    """A picture of words at a place in a pane."""
 
-    The text is drawn once, as a picture: it is painted again with every slice below it.
-    """
+    def __init__(self, pane: QWidget) -> None:
+        self._pane = pane
+        self._rect = QRect()
+        self._picture = QPixmap()
+        self._visible = True
+
+    def geometry(self) -> QRect:
+        """Place and size in the pane."""
+        return QRect(self._rect)
+
+    def pos(self) -> QPoint:
+        """Left top corner in the pane."""
+        return self._rect.topLeft()
+
+    def isVisible(self) -> bool:
+        """Whether it is painted."""
+        return self._visible
+
+    def setVisible(self, visible: bool) -> None:
+        """Paint it, or not."""
+        if visible != self._visible:
+            self._visible = visible
+            self._pane.update()
+
+    def move(self, x: int, y: int) -> None:
+        """Stand there."""
+        if (x, y) != (self._rect.x(), self._rect.y()):
+            self._rect.moveTo(x, y)
+            self._pane.update()
+
+    def paint(self, painter: QPainter) -> None:
+        """Copy the picture."""
+        if self._visible and not self._picture.isNull():
+            painter.drawPixmap(self._rect.topLeft(), self._picture)
+
+    def _blank(self, size: QSize) -> QPixmap:
+        """Become so large; return a transparent picture of that size in the screen's pixels."""
+        self._rect.setSize(size)
+        ratio = self._pane.devicePixelRatioF()
+        picture = QPixmap(size * ratio)
+        picture.setDevicePixelRatio(ratio)
+        picture.fill(Qt.GlobalColor.transparent)
+        return picture
+
+
+class Overlay(Written):
+    """Lines of text in a corner or on an edge of a pane."""
 
     def __init__(
         self,
-        parent: QWidget,
+        pane: QWidget,
         alignment: Qt.AlignmentFlag,
         colour: str = theme.IMAGE_TEXT,
         bold: bool = False,
         larger: int = 0,
     ) -> None:
-        super().__init__(parent)
-        self._outer = parent
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
-        self.setAttribute(Qt.WidgetAttribute.WA_NoSystemBackground)
+        super().__init__(pane)
         edges = (_A.AlignLeft, _A.AlignRight, _A.AlignTop, _A.AlignBottom)
         self._edges = tuple(bool(alignment & edge) for edge in edges)
         self._flags = alignment & _A.AlignHorizontal_Mask
         self._colour = QColor(colour)
-        self._room: tuple[QSize, QSize] | None = None
-        self._at = QPoint()
         self._larger, self._bold = larger, bold
-        self._font = self._sized_font()
+        self._drawn: tuple[object, ...] = ()
         self._lines: tuple[str, ...] = ()
         self._first: QColor | None = None
-
-    def _sized_font(self) -> QFont:
-        font = QFont(self.font())
-        font.setPixelSize(theme.SMALL_PX + self._larger)
-        font.setBold(self._bold)
-        return font
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Take another size of the text; told of several times for one change."""
-        if event.type() == QEvent.Type.FontChange and hasattr(self, "_lines"):
-            size = theme.SMALL_PX + self._larger
-            if size != self._font.pixelSize():
-                self._font = self._sized_font()
-                self._draw()
 
     def set_lines(self, *lines: str, first: str = "") -> None:
         """Show these lines, the first of them in the colour `first` if given."""
         if lines != self._lines:
             self._lines = lines
             self._first = QColor(first) if first else self._first
-            self._draw()
+            self.place()
 
     def text(self) -> str:
         """Return what is shown."""
         return "\n".join(self._lines)
 
-    def sizeHint(self) -> QSize:
-        """Return the room that the lines take."""
-        metrics = QFontMetrics(self._font)
-        width = max((metrics.horizontalAdvance(line) for line in self._lines), default=0)
-        return QSize(width + 4, metrics.height() * len(self._lines) + 2)
-
     def place(self) -> None:
-        """Stand at one's corner or edge of the parent, drawn for the screen it is on."""
-        if self._lines and self.pixmap().devicePixelRatio() != self.devicePixelRatioF():
+        """Stand at one's corner or edge of the pane, drawn for the screen and size of text."""
+        drawn = (self._lines, theme.SMALL_PX, self._pane.devicePixelRatioF())
+        if drawn != self._drawn:
+            self._drawn = drawn
             self._draw()
-            return
-        size, room = self.size(), (self.size(), self._outer.size())
-        if room == self._room and self.pos() == self._at:  # a view that scrolls takes it along
-            return
-        self._room = room
-        outer = self._outer.rect().adjusted(PADDING, PADDING, -PADDING, -PADDING)
-        x, y = outer.center().x() - size.width() // 2, outer.center().y() - size.height() // 2
+        width, height = self._rect.width(), self._rect.height()
+        outer = self._pane.rect().adjusted(PADDING, PADDING, -PADDING, -PADDING)
+        x, y = outer.center().x() - width // 2, outer.center().y() - height // 2
         left, right, top, bottom = self._edges
         if left:
             x = outer.left()
         elif right:
-            x = outer.right() - size.width() + 1
+            x = outer.right() - width + 1
         if top:
             y = outer.top()
         elif bottom:
-            y = outer.bottom() - size.height() + 1
+            y = outer.bottom() - height + 1
         self.move(x, y)
-        self._at = self.pos()
 
     def _draw(self) -> None:
         """Every line several times: a dark rim, then the text."""
-        self.resize(self.sizeHint())
-        picture = blank(self)
+        font = QFont(self._pane.font())
+        font.setPixelSize(theme.SMALL_PX + self._larger)
+        font.setBold(self._bold)
+        metrics = QFontMetrics(font)
+        height = metrics.height()
+        width = max((metrics.horizontalAdvance(line) for line in self._lines), default=0) + 4
+        picture = self._blank(QSize(width, height * len(self._lines) + 2))
         with QPainter(picture) as painter:
-            self._draw_on(painter)
-        self.setPixmap(picture)
-        self.place()
-
-    def _draw_on(self, painter: QPainter) -> None:
-        painter.setFont(self._font)
-        height = QFontMetrics(self._font).height()
-        for number, line in enumerate(self._lines):
-            box = QRect(1, 1 + number * height, self.width() - 2, height)
-            painter.setPen(QColor(0, 0, 0, 220))
-            for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-                painter.drawText(box.translated(dx, dy), self._flags, line)
-            first = self._first if number == 0 and self._first is not None else self._colour
-            painter.setPen(first)
-            painter.drawText(box, self._flags, line)
+            painter.setFont(font)
+            for number, line in enumerate(self._lines):
+                box = QRect(1, 1 + number * height, width - 2, height)
+                painter.setPen(QColor(0, 0, 0, 220))
+                for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+                    painter.drawText(box.translated(dx, dy), self._flags, line)
+                first = self._first if number == 0 and self._first is not None else self._colour
+                painter.setPen(first)
+                painter.drawText(box, self._flags, line)
+        self._picture = picture
+        self._pane.update()
 
 
-class Ruler(QLabel):
+class Ruler(Written):
     """A scale bar of a round length, with its length written above."""
 
-    def __init__(self, parent: QWidget) -> None:
-        super().__init__(parent)
-        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+    def __init__(self, pane: QWidget) -> None:
+        super().__init__(pane)
         self._state, self._length = (0.0, 0.0, 0), 0.0
-        self.resize(int(RULER_PX) + 8, 26)
+        self._rect.setSize(QSize(int(RULER_PX) + 8, 26))
 
     def set_scale(self, scale: float) -> None:
         """Fit the ruler to this zoom [px/mm]."""
-        state = (scale, self.devicePixelRatioF(), theme.SMALL_PX)
+        state = (scale, self._pane.devicePixelRatioF(), theme.SMALL_PX)
         if state != self._state:
             self._state, self._length = state, ruler(scale, RULER_PX)
-            picture = blank(self)
+            picture = self._blank(self._rect.size())
             with QPainter(picture) as painter:
                 self._draw_on(painter, scale)
-            self.setPixmap(picture)
+            self._picture = picture
+            self._pane.update()
 
     def text(self) -> str:
         """Return the length of the ruler."""
@@ -147,28 +168,19 @@ class Ruler(QLabel):
 
     def _draw_on(self, painter: QPainter, scale: float) -> None:
         """Draw the bar between two ticks, light on dark."""
-        right, base = self.width() - 3.0, self.height() - 4.0
+        right, base = self._rect.width() - 3.0, self._rect.height() - 4.0
         left = right - self._length * scale
         for colour, width in (("#000000", 4.0), (theme.IMAGE_TEXT, 1.5)):
             painter.setPen(QPen(QColor(colour), width))
             painter.drawLine(QPointF(left, base), QPointF(right, base))
             for x in (left, right):
                 painter.drawLine(QPointF(x, base - 5), QPointF(x, base))
-        font = QFont(self.font())
+        font = QFont(self._pane.font())
         font.setPixelSize(theme.SMALL_PX)
         painter.setFont(font)
-        box = self.rect().adjusted(0, 0, -4, -8)
+        box = QRect(QPoint(0, 0), self._rect.size()).adjusted(0, 0, -4, -8)
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop
         painter.setPen(QColor("#000000"))
         painter.drawText(box.translated(1, 1), flags, self.text())
         painter.setPen(QColor(theme.IMAGE_TEXT))
         painter.drawText(box, flags, self.text())
-
-
-def blank(widget: QWidget) -> QPixmap:
-    """Return a transparent picture of a widget's size, in its screen's pixels."""
-    ratio = widget.devicePixelRatioF()
-    picture = QPixmap(widget.size() * ratio)
-    picture.setDevicePixelRatio(ratio)
-    picture.fill(Qt.GlobalColor.transparent)
-    return picture

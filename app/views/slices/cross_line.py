@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from PySide6.QtCore import QPointF, QRectF
 from PySide6.QtGui import QPainter, QPolygonF
-from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
 from app.views.kit.theme import Mark
+from app.views.slices.drawing import Shape
 from app.views.slices.slab import chord
 
 GAP_PX = 14.0
@@ -17,16 +17,16 @@ END_SHARE = 0.06
 """Length of the ends of a line that shows nothing else, as a share of it."""
 
 
-class CrossLine(QGraphicsItem):
+class CrossLine(Shape):
     """One line of the crosshair through the whole plane, with a gap around the point."""
 
+    smooth = False
+
     def __init__(self, mark: Mark, alpha: float = 0.9) -> None:
-        super().__init__()
+        super().__init__(1.0)
         self._pen = mark.pen(alpha=alpha)
         self._state: tuple[float, ...] = ()
         self._ends: tuple[tuple[QPointF, QPointF], ...] = ()
-        self._rect = QRectF()
-        self.setZValue(1)
 
     def place(
         self,
@@ -50,7 +50,6 @@ class CrossLine(QGraphicsItem):
         self.setVisible(True)
         if state == self._state:
             return
-        self.prepareGeometryChange()
         self._state = state
         first, last = chord(at, direction, bounds_mm)
         halves = ((first, min(-gap, last)), (max(gap, first), last))
@@ -63,19 +62,14 @@ class CrossLine(QGraphicsItem):
             for a, b in halves
             if b > a
         )
-        # A narrow strip: moving an upright or flat line repaints no more than two of them.
-        half = max(0.2 * gap, 1e-3)
-        corners = [point for ends in self._ends for point in ends]
-        strip = QPolygonF(corners).boundingRect()
-        self._rect = strip.adjusted(-half, -half, half, half) if corners else QRectF()
+        self.touch()
 
     def boundingRect(self) -> QRectF:
-        """Return the line's surroundings."""
-        return self._rect
+        """Return the rectangle between its ends [mm]."""
+        corners = [point for ends in self._ends for point in ends]
+        return QPolygonF(corners).boundingRect() if corners else QRectF()
 
-    def paint(
-        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
-    ) -> None:
+    def paint(self, painter: QPainter) -> None:
         """Draw the two halves of the line."""
         painter.setPen(self._pen)
         for start, end in self._ends:

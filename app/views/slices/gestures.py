@@ -118,7 +118,7 @@ class SliceGestures(QObject):
         if over != self._over:
             self._over = over
             shape = Qt.CursorShape.OpenHandCursor if over else Qt.CursorShape.ArrowCursor
-            self._canvas.viewport().setCursor(shape)
+            self._canvas.setCursor(shape)
 
     def _go_on(self, position: QPointF, step: QPointF) -> None:
         canvas, drag = self._canvas, self._drag

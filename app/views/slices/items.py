@@ -1,8 +1,9 @@
-"""What is drawn over a slice, in plane millimetres: marks and segments."""
+"""Marks and segments over a slice."""
 
 from __future__ import annotations
 
 from functools import lru_cache
+from math import ceil
 
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import (
@@ -13,32 +14,33 @@ from PySide6.QtGui import (
     QLinearGradient,
     QPainter,
     QPen,
+    QPixmap,
 )
-from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
 from app.views.kit import theme
 from app.views.kit.theme import Mark, Symbol
+from app.views.slices.drawing import Shape
 from app.views.slices.labels import Placed, Wanted
 from app.views.slices.rimmed_text import rimmed
 
+RIM = 0.55
+"""Opacity of the dark rim of a line."""
 
-class SegmentItem(QGraphicsItem):
+
+class SegmentItem(Shape):
     """A straight piece of needle or path with a dark rim, so that it shows on bone."""
 
     def __init__(self, z: float) -> None:
-        super().__init__()
+        super().__init__(z, visible=False)
         self._start, self._end = QPointF(), QPointF()
-        self._pen, self._rim, self._bounds = QPen(), QPen(), QRectF()
+        self._pen, self._rim = QPen(), QPen()
         self._state: tuple[object, ...] = ()
-        self.setZValue(z)
-        self.setVisible(False)
 
     def place(
         self,
         start: tuple[float, float],
         end: tuple[float, float],
         pen: QPen,
-        scale: float,
         alphas: tuple[float, float] = (1.0, 1.0),
     ) -> None:
         """Run from `start` to `end` [mm] in this pen.
@@ -47,33 +49,26 @@ class SegmentItem(QGraphicsItem):
             start: one end [mm].
             end: the other [mm].
             pen: cosmetic, opaque.
-            scale: zoom [px/mm].
             alphas: opacity at either end; it changes evenly between them.
         """
-        state = (start, end, pen, scale, alphas)
+        state = (start, end, pen, alphas)
         if state == self._state:
             return
-        self.prepareGeometryChange()
         self._state = state
         self._start, self._end = QPointF(*start), QPointF(*end)
-        rim = QPen(Qt.GlobalColor.black, pen.widthF() + 2.0)
-        rim.setCosmetic(True)
-        rim.setCapStyle(pen.capStyle())
-        self._pen = self._faded(pen, alphas)
-        self._rim = self._faded(rim, (0.55 * alphas[0], 0.55 * alphas[1]))
-        m = (pen.widthF() + 4.0) / scale
-        self._bounds = QRectF(self._start, self._end).normalized().adjusted(-m, -m, m, m)
-        self.update()
+        if alphas == (1.0, 1.0):
+            self._pen, self._rim = pen, _rim_of(pen)
+        else:
+            self._pen = self._faded(pen, alphas)
+            self._rim = self._faded(_rim_of(pen), (RIM * alphas[0], RIM * alphas[1]))
+        self.touch()
 
     def boundingRect(self) -> QRectF:
-        """Return the line's surroundings."""
-        return self._bounds
+        """Return the rectangle between its ends [mm]."""
+        return QRectF(self._start, self._end).normalized()
 
-    def paint(
-        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
-    ) -> None:
+    def paint(self, painter: QPainter) -> None:
         """Draw rim and line."""
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(self._rim)
         painter.drawLine(self._start, self._end)
         painter.setPen(self._pen)
@@ -95,34 +90,37 @@ class SegmentItem(QGraphicsItem):
         return faded
 
 
-class MarkItem(QGraphicsItem):
+class MarkItem(Shape):
     """Entry, target or needle tip: a symbol of constant size with its name and its distance."""
 
     RADIUS = 7.0
 
     def __init__(self, mark: Mark, z: float, optional: bool = False) -> None:
         """Make a mark; an `optional` label is left out where there is no good place for it."""
-        super().__init__()
+        super().__init__(z)
         self._mark, self._optional = mark, optional
         self._label, self._near, self._text_px = "", True, theme.SMALL_PX
         self._size = QSizeF()
-        reach = self.RADIUS + mark.width + 2.0
-        self._symbol = self._bounds = QRectF(-reach, -reach, 2 * reach, 2 * reach)
+        self._at = QPointF()
         self._rect: QRectF | None = None
         self._last = 0
-        self.setFlag(QGraphicsItem.GraphicsItemFlag.ItemIgnoresTransformations)
-        # Drawn once, then moved as a picture: a live needle moves many times a second.
-        self.setCacheMode(QGraphicsItem.CacheMode.DeviceCoordinateCache)
-        self.setZValue(z)
+
+    def x(self) -> float:
+        """Where it stands [mm]."""
+        return self._at.x()
+
+    def y(self) -> float:
+        """Where it stands [mm]."""
+        return self._at.y()
 
     def place(self, x: float, y: float, label: str, near: bool) -> None:
         """Stand at (x, y) [mm]; faded and with a broken outline where the slice is not `near`."""
-        self.setPos(x, y)
         state = (label, near, theme.SMALL_PX)
         if state != (self._label, self._near, self._text_px):
             self._size = _text_size(label, theme.SMALL_PX)
             self._label, self._near, self._text_px = state
-            self.update()
+        self._at = QPointF(x, y)
+        self.touch()
 
     def wanted(self, at: QPointF) -> Wanted | None:
         """Say what place the label wants, the mark standing at this pixel; None without a label."""
@@ -138,61 +136,87 @@ class MarkItem(QGraphicsItem):
             self._last = placed.place
             rect = QRectF(*placed.rect).translated(-at)
         if not _alike(rect, self._rect):
-            self.prepareGeometryChange()
-            self._rect, self._bounds = rect, self._symbol
-            if rect is not None:
-                self._bounds = self._symbol.united(rect.adjusted(-1, -1, 2, 2))
-            self.update()
+            self._rect = rect
+            self.touch()
 
     @property
     def label_rect(self) -> QRectF | None:
         """Place of the label seen from the mark [px]; None while it is not shown."""
         return self._rect
 
-    def boundingRect(self) -> QRectF:
-        """Return symbol and label [px]."""
-        return self._bounds
-
-    def paint(
-        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
-    ) -> None:
-        """Draw the symbol, then the label with a dark shadow."""
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        alpha = 1.0 if self._near else 0.75
-        for colour, width in ((Qt.GlobalColor.black, self._mark.width + 2.0), (None, 0.0)):
-            pen = self._mark.pen(width or None, alpha)
-            if colour is not None:
-                pen.setColor(colour)
-            elif not self._near:
-                pen.setDashPattern([1.2, 1.2])
-            painter.setPen(pen)
-            self._draw_symbol(painter, alpha, fill=colour is None)
-        self._draw_label(painter, alpha)
-
-    def _draw_symbol(self, painter: QPainter, alpha: float, fill: bool) -> None:
-        r = self.RADIUS
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        if self._mark.symbol is Symbol.RING:
-            painter.drawEllipse(QPointF(), r, r)
-        elif self._mark.symbol is Symbol.DISC:
-            if fill and self._near:
-                painter.setBrush(self._mark.qcolor(0.35))
-            painter.drawEllipse(QPointF(), r, r)
-            painter.drawPoint(QPointF())
-        elif self._mark.symbol is Symbol.DIAMOND:
-            d = 0.7 * r
-            corners = [QPointF(0, -d), QPointF(d, 0), QPointF(0, d), QPointF(-d, 0)]
-            painter.drawPolygon(corners)
-
-    def _draw_label(self, painter: QPainter, alpha: float) -> None:
+    def paint(self, painter: QPainter) -> None:
+        """Copy the symbol, then the label with a dark shadow; neither zooms."""
+        at = painter.transform().map(self._at)
+        painter.resetTransform()
+        ratio = painter.device().devicePixelRatioF()
+        symbol = _symbol(self._mark, self._near, ratio)
+        half = _reach(self._mark)
+        painter.drawPixmap(at - QPointF(half, half), symbol)
         if self._rect is None:
             return
-        colour = self._mark.qcolor(min(1.0, alpha + 0.2)).name(QColor.NameFormat.HexArgb)
-        ratio = painter.device().devicePixelRatioF()
+        alpha = 1.0 if self._near else 0.95
+        colour = self._mark.qcolor(alpha).name(QColor.NameFormat.HexArgb)
         picture = rimmed(self._label, theme.SMALL_PX, colour, ratio)
-        middle, size = self._rect.center(), picture.deviceIndependentSize()
+        middle, size = self._rect.center() + at, picture.deviceIndependentSize()
         corner = QPointF(middle.x() - size.width() / 2, middle.y() - size.height() / 2)
         painter.drawPixmap(corner, picture)
+
+
+@lru_cache(maxsize=64)
+def _rim(width: float, cap: Qt.PenCapStyle) -> QPen:
+    pen = QPen(QColor.fromRgbF(0.0, 0.0, 0.0, RIM), width + 2.0)
+    pen.setCosmetic(True)
+    pen.setCapStyle(cap)
+    return pen
+
+
+def _rim_of(pen: QPen) -> QPen:
+    """Dark pen below a lighter one."""
+    return _rim(pen.widthF(), pen.capStyle())
+
+
+def _reach(mark: Mark) -> float:
+    """Half the side of a mark's picture [px]."""
+    return float(ceil(MarkItem.RADIUS + mark.width + 2.0))
+
+
+@lru_cache(maxsize=64)
+def _symbol(mark: Mark, near: bool, ratio: float) -> QPixmap:
+    """Picture of a mark's symbol with its rim; faded and broken where it is not near."""
+    reach = _reach(mark)
+    side = round(2.0 * reach * ratio)
+    picture = QPixmap(side, side)
+    picture.setDevicePixelRatio(ratio)
+    picture.fill(Qt.GlobalColor.transparent)
+    with QPainter(picture) as painter:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.translate(reach, reach)
+        alpha = 1.0 if near else 0.75
+        rim = mark.pen(mark.width + 2.0, alpha)
+        rim.setColor(Qt.GlobalColor.black)
+        line = mark.pen(None, alpha)
+        if not near:
+            line.setDashPattern([1.2, 1.2])
+        for pen in (rim, line):
+            painter.setPen(pen)
+            _draw_symbol(painter, mark, pen is line and near)
+    return picture
+
+
+def _draw_symbol(painter: QPainter, mark: Mark, fill: bool) -> None:
+    r = MarkItem.RADIUS
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    if mark.symbol is Symbol.RING:
+        painter.drawEllipse(QPointF(), r, r)
+    elif mark.symbol is Symbol.DISC:
+        if fill:
+            painter.setBrush(mark.qcolor(0.35))
+        painter.drawEllipse(QPointF(), r, r)
+        painter.drawPoint(QPointF())
+    elif mark.symbol is Symbol.DIAMOND:
+        d = 0.7 * r
+        corners = [QPointF(0, -d), QPointF(d, 0), QPointF(0, d), QPointF(-d, 0)]
+        painter.drawPolygon(corners)
 
 
 @lru_cache(maxsize=512)

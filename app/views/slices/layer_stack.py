@@ -10,8 +10,8 @@ from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QPointF
-from PySide6.QtWidgets import QGraphicsScene
 
+from app.views.slices.drawing import Drawing
 from app.views.slices.error_layer import ErrorLayer
 from app.views.slices.items import MarkItem
 from app.views.slices.layers import CrosshairLayer, Labels, NeedleLayer, PlanLayer
@@ -43,10 +43,10 @@ WAITED_FOR = frozenset({Due.CAMERA, Due.GREYS, Due.PLAN, Due.ADDED})
 
 
 class Layer(Protocol):
-    """Something drawn over a slice: owns graphics items in plane millimetres."""
+    """Something drawn over a slice: owns shapes of the pane's `drawing`."""
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
-        """Put the items where they belong.
+        """Put its shapes where they belong.
 
         Args:
             plane: of the pane.
@@ -67,14 +67,14 @@ class LayerStack:
         traces: the needle's planes; None in the needle's own panes.
     """
 
-    def __init__(self, scene: QGraphicsScene, viewing: Viewing, pane: PaneId) -> None:
+    def __init__(self, drawing: Drawing, viewing: Viewing, pane: PaneId) -> None:
         self._viewing, self._pane = viewing, pane
-        self.crosshair = CrosshairLayer(scene, viewing, pane)
-        self.plan, self.needle = PlanLayer(scene), NeedleLayer(scene)
-        self.errors = ErrorLayer(scene)
-        self.disc = TargetDisc(scene, viewing)
-        self.ticks = TickLayer(scene, viewing) if pane.is_needle else None
-        self.traces = None if pane.is_needle else NeedleTraces(scene, viewing)
+        self.crosshair = CrosshairLayer(drawing, viewing, pane)
+        self.plan, self.needle = PlanLayer(drawing), NeedleLayer(drawing)
+        self.errors = ErrorLayer(drawing)
+        self.disc = TargetDisc(drawing, viewing)
+        self.ticks = TickLayer(drawing, viewing) if pane.is_needle else None
+        self.traces = None if pane.is_needle else NeedleTraces(drawing, viewing)
         self._labels = Labels((self.plan.target, self.plan.entry, self.needle.tip))
         self._added: list[Layer] = []
 
@@ -118,7 +118,7 @@ class LayerStack:
         if Due.PLAN in due:
             self._place_plan(plane, index, scale)
         if Due.NEEDLE in due:
-            self._place_needle(plane, index, scale)
+            self._place_needle(plane, index)
         if self.ticks is not None and (Due.PLAN in due or Due.NEEDLE in due):
             self.ticks.place(plane, index, scale)
         if Due.ADDED in due:
@@ -128,15 +128,15 @@ class LayerStack:
     def _place_plan(self, plane: SlicePlane, index: float, scale: float) -> None:
         viewing = self._viewing
         error = viewing.target_error if viewing.shows_errors else None
-        self.plan.place(viewing.shown_draft, plane, index, scale, error is not None)
-        self.errors.place_target(error, plane, index, scale)
+        self.plan.place(viewing.shown_draft, plane, index, error is not None)
+        self.errors.place_target(error, plane, index)
         self.disc.place(plane, index, scale)
 
-    def _place_needle(self, plane: SlicePlane, index: float, scale: float) -> None:
+    def _place_needle(self, plane: SlicePlane, index: float) -> None:
         needle = self._viewing.needle
-        self.needle.place(needle, plane, index, scale)
+        self.needle.place(needle, plane, index)
         error = needle.error if needle is not None and self._viewing.shows_errors else None
-        self.errors.place_tip(error, plane, index, scale)
+        self.errors.place_tip(error, plane, index)
 
     def arrange_labels(
         self,

@@ -7,7 +7,6 @@ from itertools import pairwise
 
 import numpy as np
 from PySide6.QtCore import QPointF
-from PySide6.QtWidgets import QGraphicsScene
 
 from app.imaging.reformat import Frame, trace
 from app.planning.draft import DraftPlan
@@ -16,6 +15,7 @@ from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.kit.theme import Mark
 from app.views.slices.cross_line import CrossLine
+from app.views.slices.drawing import Drawing
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.labels import arrange
 from app.views.slices.panes import PANE_MARKS, PaneId, crossing_panes
@@ -38,13 +38,13 @@ class CrosshairLayer:
         ends_only: draw their ends alone, so that they cover nothing of the picture.
     """
 
-    def __init__(self, scene: QGraphicsScene, viewing: Viewing, pane: PaneId) -> None:
+    def __init__(self, drawing: Drawing, viewing: Viewing, pane: PaneId) -> None:
         self._viewing = viewing
         self.ends_only = False
         self._lines = {other: CrossLine(PANE_MARKS[other]) for other in crossing_panes(pane)}
         for line in self._lines.values():
             line.setVisible(False)
-            scene.addItem(line)
+            drawing.add(line)
 
     @property
     def traced(self) -> frozenset[PaneId]:
@@ -84,21 +84,21 @@ def fading(distance_mm: float, half_mm: float) -> float:
 class SegmentLayer:
     """A segment in space: solid in the slab, outside dashed and the fainter the farther off."""
 
-    def __init__(self, scene: QGraphicsScene, mark: Mark, z: float) -> None:
+    def __init__(self, drawing: Drawing, mark: Mark, z: float) -> None:
         self._solid, self._broken = mark.pen(), mark.pen()
         self._broken.setDashPattern([4.0, 3.0])
         self._items = [SegmentItem(z) for _ in range(3)]
         for item in self._items:
-            scene.addItem(item)
+            drawing.add(item)
 
-    def place(self, start: PlanePoint, end: PlanePoint, half_mm: float, scale: float) -> None:
+    def place(self, start: PlanePoint, end: PlanePoint, half_mm: float) -> None:
         """Run from `start` to `end`."""
         parts = pieces(start, end, half_mm)
         for item, part in zip(self._items, parts, strict=False):
             near, far = (fading(distance, half_mm) for distance in part.distances)
             alphas = (1.0, 1.0) if part.inside else (near, far)
             pen = self._solid if part.inside else self._broken
-            item.place(part.start, part.end, pen, scale, alphas)
+            item.place(part.start, part.end, pen, alphas)
         for number, item in enumerate(self._items):
             item.setVisible(number < len(parts))
 
@@ -115,20 +115,19 @@ class PlanLayer:
         entry, target: their marks.
     """
 
-    def __init__(self, scene: QGraphicsScene) -> None:
-        self._path = SegmentLayer(scene, theme.PATH, 2)
+    def __init__(self, drawing: Drawing) -> None:
+        self._path = SegmentLayer(drawing, theme.PATH, 2)
         self.entry = MarkItem(theme.ENTRY, 4)
         self.target = MarkItem(theme.TARGET, 4)
         for item in (self.entry, self.target):
             item.setVisible(False)
-            scene.addItem(item)
+            drawing.add(item)
 
     def place(
         self,
         draft: DraftPlan,
         plane: SlicePlane,
         index: float,
-        scale: float,
         with_error: bool = False,
     ) -> None:
         """Show what the draft has; `with_error` says what the ellipse round the target is."""
@@ -140,7 +139,7 @@ class PlanLayer:
         if entry is None or target is None:
             self._path.hide()
         else:
-            self._path.place(entry, target, plane.half_slab_mm, scale)
+            self._path.place(entry, target, plane.half_slab_mm)
 
     def hide(self) -> None:
         """Show nothing."""
@@ -156,17 +155,15 @@ class NeedleLayer:
         tip: its mark; its label is left out where there is no room beside those of the plan.
     """
 
-    def __init__(self, scene: QGraphicsScene) -> None:
-        self._scene = scene
-        self._shaft = [SegmentLayer(scene, theme.NEEDLE, 3)]
-        self._doubtful = SegmentLayer(scene, Mark(theme.IMAGE_DIM, width=2.0), 3)
+    def __init__(self, drawing: Drawing) -> None:
+        self._drawing = drawing
+        self._shaft = [SegmentLayer(drawing, theme.NEEDLE, 3)]
+        self._doubtful = SegmentLayer(drawing, Mark(theme.IMAGE_DIM, width=2.0), 3)
         self.tip = MarkItem(theme.NEEDLE_TIP, 5, optional=True)
         self.tip.setVisible(False)
-        scene.addItem(self.tip)
+        drawing.add(self.tip)
 
-    def place(
-        self, needle: NeedleOverlay | None, plane: SlicePlane, index: float, scale: float
-    ) -> None:
+    def place(self, needle: NeedleOverlay | None, plane: SlicePlane, index: float) -> None:
         """Show the needle, grey where its pose is not valid."""
         if needle is None:
             self.hide()
@@ -177,9 +174,9 @@ class NeedleLayer:
         if needle.valid:
             self._reserve(len(corners) - 1)
             for part, (start, end) in zip(self._shaft, pairwise(corners), strict=False):
-                part.place(start, end, plane.half_slab_mm, scale)
+                part.place(start, end, plane.half_slab_mm)
         else:
-            self._doubtful.place(corners[0], tip, plane.half_slab_mm, scale)
+            self._doubtful.place(corners[0], tip, plane.half_slab_mm)
         place_mark(self.tip, tip, "" if needle.valid else tr("not tracked"), plane)
 
     def hide(self) -> None:
@@ -194,7 +191,7 @@ class NeedleLayer:
     def _reserve(self, parts: int) -> None:
         """Have as many pieces as a bent shaft needs."""
         while len(self._shaft) < parts:
-            self._shaft.append(SegmentLayer(self._scene, theme.NEEDLE, 3))
+            self._shaft.append(SegmentLayer(self._drawing, theme.NEEDLE, 3))
 
 
 class Labels:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtWidgets import QGraphicsScene
 
 from app.imaging.reformat import Frame, trace
 from app.views.slices.cross_line import CrossLine
+from app.views.slices.drawing import Drawing
 from app.views.slices.panes import NEEDLE_PANES, PANE_MARKS, PaneId
 from app.views.slices.plane import SlicePlane
 from app.views.slices.viewing import Viewing
@@ -19,12 +19,12 @@ STEEPEST = float(np.cos(np.radians(10.0)))
 class NeedleTraces:
     """A line for each of the needle's panes that is seen, with a gap at the tip."""
 
-    def __init__(self, scene: QGraphicsScene, viewing: Viewing) -> None:
+    def __init__(self, drawing: Drawing, viewing: Viewing) -> None:
         self._viewing = viewing
         self.lines = {pane: CrossLine(PANE_MARKS[pane], ALPHA) for pane in NEEDLE_PANES}
         for line in self.lines.values():
             line.setVisible(False)
-            scene.addItem(line)
+            drawing.add(line)
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Draw the lines that there are in this slice."""

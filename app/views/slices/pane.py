@@ -122,7 +122,7 @@ class SlicePane(QFrame):
     def _show_tool(self) -> None:
         placing = self.viewing.tool is not Tool.NAVIGATE
         shape = Qt.CursorShape.CrossCursor if placing else Qt.CursorShape.ArrowCursor
-        self.canvas.viewport().setCursor(shape)
+        self.canvas.setCursor(shape)
 
 
 def _is_shared(event: QKeyEvent) -> bool:

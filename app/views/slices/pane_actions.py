@@ -71,7 +71,7 @@ class PaneActions:
 
     def _zoom(self, steps: int) -> None:
         canvas = self._pane.canvas
-        x, y = canvas.plane_at(QPointF(canvas.viewport().rect().center()))
+        x, y = canvas.plane_at(QPointF(canvas.rect().center()))
         canvas.set_camera(canvas.camera.zoomed(ZOOM_PER_NOTCH**steps, x, y))
 
     def _nudge(self, right: int, down: int) -> None:

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QImage, QPainter
-from PySide6.QtWidgets import QGraphicsItem, QStyleOptionGraphicsItem, QWidget
 
 from app.imaging.window import WindowLevel, to_grey
 
@@ -17,7 +16,7 @@ _OPAQUE_GREY = np.arange(256, dtype=np.uint32) * np.uint32(0x010101) + np.uint32
 """Pixel of each grey level: 32 bits scale twice as fast as 8."""
 
 
-class PictureItem(QGraphicsItem):
+class PictureItem:
     """A grey slice, scaled smoothly.
 
     Grey values are made when the slice is painted: of the many windows of a fast drag only those
@@ -25,7 +24,6 @@ class PictureItem(QGraphicsItem):
     """
 
     def __init__(self) -> None:
-        super().__init__()
         self._rect = QRectF()
         self._image = QImage()
         self._pixels: NDArray[np.uint32] | None = None  # the image's own memory
@@ -46,18 +44,13 @@ class PictureItem(QGraphicsItem):
         inverted: bool = False,
     ) -> None:
         """Show Hounsfield units, shape (rows, columns), on this left, top, width, height [mm]."""
-        rect = QRectF(*bounds_mm)
-        if rect != self._rect:
-            self.prepareGeometryChange()
-            self._rect = rect
+        self._rect = QRectF(*bounds_mm)
         if hu is self._hu and window == self._window and inverted == self._inverted:
             return
         self._hu, self._window, self._inverted, self._stale = hu, window, inverted, True
-        self.update()
 
     def clear(self) -> None:
         """Show nothing."""
-        self.prepareGeometryChange()
         self._rect, self._hu, self._stale = QRectF(), None, False
 
     def image(self) -> QImage:
@@ -74,10 +67,8 @@ class PictureItem(QGraphicsItem):
         """Return the image's place in the plane."""
         return self._rect
 
-    def paint(
-        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
-    ) -> None:
-        """Draw the image."""
+    def paint(self, painter: QPainter) -> None:
+        """Draw the image with a painter in millimetres."""
         if self._rect.isEmpty():
             return
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)

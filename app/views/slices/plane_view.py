@@ -1,37 +1,69 @@
-"""Which part of which plane a pane shows, and where its pixels lie: pan and zoom."""
+"""Which part of which plane a pane shows, and where its pixels lie: pan, zoom and the mouse."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPointF, QRectF
-from PySide6.QtGui import QResizeEvent, QTransform
-from PySide6.QtWidgets import QGraphicsView, QWidget
+from typing import Protocol
+
+from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QTransform, QWheelEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.arrays import FloatArray
 from app.views.slices.camera import Camera
-from app.views.slices.mouse_view import MouseView
 from app.views.slices.panes import PaneId
 from app.views.slices.plane import Rect, SlicePlane
 from app.views.slices.viewing import Viewing
 
 
-class PlaneView(MouseView):
+class Gestures(Protocol):
+    """What the canvas hands its mouse events to."""
+
+    def press(self, event: QMouseEvent) -> None:
+        """Take a button that went down."""
+
+    def move(self, event: QMouseEvent) -> None:
+        """Take a move, with or without a button."""
+
+    def release(self, event: QMouseEvent) -> None:
+        """Take a button that went up."""
+
+    def wheel(self, event: QWheelEvent) -> None:
+        """Take a turn of the wheel."""
+
+
+class PlaneView(QWidget):
     """Looks at the plane of one pane; places are right at once, whatever is drawn yet.
+
+    Hands over what the mouse does, and leaves the keys to the pane.
 
     Attributes:
         viewing: whose planes.
         pane: which of them.
         plane: the plane; None where there is none.
         camera: pan and zoom.
+        gestures: who takes the mouse; nobody at first.
+
+    Signals:
+        left(): the mouse left the pane.
+        double_clicked(): for maximising.
+        ctrl_double_clicked(): for the window that there was at first.
     """
+
+    left = Signal()
+    double_clicked = Signal()
+    ctrl_double_clicked = Signal()
 
     def __init__(self, viewing: Viewing, pane: PaneId, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.viewing, self.pane = viewing, PaneId(pane)
         self.plane: SlicePlane | None = None
         self.camera = Camera(0.0, 0.0, 1.0)
+        self.gestures: Gestures | None = None
         self._fitted = True
         self._size = (1, 1)
         self._visible: Rect = (0.0, 0.0, 1.0, 1.0)
+        self._to_pixels = QTransform()
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
 
     @property
     def index(self) -> float:
@@ -43,12 +75,19 @@ class PlaneView(MouseView):
         """Rectangle of the plane that the pane shows."""
         return self._visible
 
+    def sizeHint(self) -> QSize:
+        """Return a size for a pane by itself."""
+        return QSize(256, 192)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return the least that a slice is of use in."""
+        return QSize(72, 72)
+
     # --- pan and zoom -------------------------------------------------------------------------
     def fit(self) -> None:
         """Show the whole image, and keep doing so when the pane is resized."""
         if self.plane is not None:
-            size = (self.viewport().width(), self.viewport().height())
-            self.set_camera(Camera.fit(self.plane.home_mm, size))
+            self.set_camera(Camera.fit(self.plane.home_mm, (self.width(), self.height())))
             self._fitted = True
 
     def set_camera(self, camera: Camera) -> None:
@@ -56,11 +95,9 @@ class PlaneView(MouseView):
         self.camera, self._fitted = camera, False
         self._look()
 
-    def resizeEvent(self, event: QResizeEvent | None) -> None:
+    def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the image fitted, or its middle in the middle."""
-        if event is None:  # pyqtgraph calls it so while it constructs
-            return
-        QGraphicsView.resizeEvent(self, event)
+        super().resizeEvent(event)
         if self._fitted and self.plane is not None:
             self.fit()
         else:
@@ -78,17 +115,18 @@ class PlaneView(MouseView):
 
     def _look(self) -> None:
         """Take what is seen from the camera; every place is asked of it."""
-        self._size = (self.viewport().width(), self.viewport().height())
+        self._size = (self.width(), self.height())
         self._visible = self.camera.visible(self._size)
         self._camera_moved()
 
     def _camera_moved(self) -> None:
-        """Show it; who draws more than the scene's items may do so later."""
+        """Show it; who draws more than a picture may do so later."""
         self._apply_camera()
 
     def _apply_camera(self) -> None:
-        self.setSceneRect(QRectF(*self._visible))
-        self.setTransform(QTransform.fromScale(self.camera.scale, self.camera.scale))
+        """Let what is drawn from now on stand where the camera has it."""
+        scale, (left, top, _, _) = self.camera.scale, self._visible
+        self._to_pixels = QTransform(scale, 0.0, 0.0, scale, -left * scale, -top * scale)
 
     # --- places -------------------------------------------------------------------------------
     def plane_at(self, position: QPointF) -> tuple[float, float]:
@@ -106,3 +144,42 @@ class PlaneView(MouseView):
         """Pixel of the pane at a plane point [mm]."""
         left, top, _, _ = self._visible
         return QPointF((x - left) * self.camera.scale, (y - top) * self.camera.scale)
+
+    # --- mouse and keys -----------------------------------------------------------------------
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Hand over."""
+        if self.gestures is not None:
+            self.gestures.press(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Hand over."""
+        if self.gestures is not None:
+            self.gestures.move(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Hand over."""
+        if self.gestures is not None:
+            self.gestures.release(event)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:
+        """Hand over."""
+        if self.gestures is not None:
+            self.gestures.wheel(event)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Ask to be maximised or restored; with Ctrl for the first window."""
+        if event.button() is Qt.MouseButton.LeftButton:
+            ctrl = event.modifiers() & Qt.KeyboardModifier.ControlModifier
+            (self.ctrl_double_clicked if ctrl else self.double_clicked).emit()
+
+    def leaveEvent(self, event: QEvent) -> None:
+        """Tell the read-outs."""
+        self.left.emit()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Leave the keys to the pane."""
+        event.ignore()
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Leave the keys to the pane."""
+        event.ignore()

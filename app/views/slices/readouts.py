@@ -55,17 +55,18 @@ class Readouts(QObject):
         self._canvas = canvas
         self._hovered: FloatArray | None = None
         self._note, self._along = "", Along.NEEDLE
-        port = canvas.viewport()
-        self.title = Overlay(port, _A.AlignLeft | _A.AlignTop)
-        self.window = Overlay(port, _A.AlignRight | _A.AlignTop)
-        self.cursor = Overlay(port, _A.AlignLeft | _A.AlignBottom)
-        self.slice = Overlay(port, _A.AlignRight | _A.AlignBottom)
+        self.title = Overlay(canvas, _A.AlignLeft | _A.AlignTop)
+        self.window = Overlay(canvas, _A.AlignRight | _A.AlignTop)
+        self.cursor = Overlay(canvas, _A.AlignLeft | _A.AlignBottom)
+        self.slice = Overlay(canvas, _A.AlignRight | _A.AlignBottom)
         edges = (_A.AlignLeft | _A.AlignVCenter, _A.AlignRight | _A.AlignVCenter,
                  _A.AlignHCenter | _A.AlignTop, _A.AlignHCenter | _A.AlignBottom)  # fmt: skip
         self.letters = tuple(
-            Overlay(port, edge, theme.IMAGE_WARNING, bold=True, larger=3) for edge in edges
+            Overlay(canvas, edge, theme.IMAGE_WARNING, bold=True, larger=3) for edge in edges
         )
-        self.ruler = Ruler(port)
+        self.ruler = Ruler(canvas)
+        for one in (self.title, self.window, self.cursor, self.slice, *self.letters, self.ruler):
+            canvas.written.append(one)
         self._is_new = True
         canvas.changed.connect(self.refresh)
         canvas.left.connect(self.clear_cursor)
@@ -86,9 +87,9 @@ class Readouts(QObject):
             for overlay in (self.window, self.cursor, self.slice, *self.letters):
                 overlay.set_lines()
             self.title.set_lines(pane_name(pane), self._note, first=colour)
-            self.ruler.hide()
+            self.ruler.setVisible(False)
             return
-        self.ruler.show()
+        self.ruler.setVisible(True)
         note = self._note or tr("{step:.2f} mm slices", step=plane.step_mm)
         name = NAMES.shown(volume.series.pseudonym)
         lines = [pane_name(pane), name, note, *_made(volume), *self._look(plane)]
@@ -107,7 +108,7 @@ class Readouts(QObject):
 
     def _zoom(self) -> list[str]:
         """Say the zoom where there is room for it beside the title."""
-        if self._canvas.viewport().width() < _ROOMY * theme.SMALL_PX:
+        if self._canvas.width() < _ROOMY * theme.SMALL_PX:
             return []
         return [tr("Zoom {zoom:.1f} px/mm", zoom=self._canvas.camera.scale)]
 
@@ -193,10 +194,11 @@ class Readouts(QObject):
             overlay.place()
         below, words = self.letters[3], self.slice
         if below.geometry().intersects(words.geometry()):  # a narrow pane: the letter gives way
-            below.move(max(PADDING, words.x() - below.width() - PADDING), below.y())
-        port = self._canvas.viewport()
-        above = self.slice.y() - self.ruler.height() - 2
-        self.ruler.move(port.width() - PADDING - self.ruler.width(), above)
+            left = words.pos().x() - below.geometry().width() - PADDING
+            below.move(max(PADDING, left), below.pos().y())
+        bar = self.ruler.geometry()
+        above = self.slice.pos().y() - bar.height() - 2
+        self.ruler.move(self._canvas.width() - PADDING - bar.width(), above)
 
 
 def _made(volume: Volume) -> list[str]:

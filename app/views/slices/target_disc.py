@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtWidgets import QGraphicsScene
 
 from app.views.kit import theme
 from app.views.kit.theme import Mark
+from app.views.slices.drawing import Drawing
 from app.views.slices.error_layer import OutlineItem
 from app.views.slices.items import MarkItem
 from app.views.slices.plane import SlicePlane
@@ -24,11 +24,11 @@ _CIRCLE = np.column_stack([np.cos(_TURN), np.sin(_TURN)])
 class TargetDisc:
     """Rings of the viewing's tolerances: the inner one solid, the outer one dashed."""
 
-    def __init__(self, scene: QGraphicsScene, viewing: Viewing) -> None:
+    def __init__(self, drawing: Drawing, viewing: Viewing) -> None:
         self._viewing = viewing
         self.rings = (OutlineItem(INNER, 3.4), OutlineItem(OUTER, 3.3))
         for ring in self.rings:
-            scene.addItem(ring)
+            drawing.add(ring)
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Show the rings; faded where the target is not in the slice."""
@@ -41,7 +41,7 @@ class TargetDisc:
         radii = (*self._viewing.tolerances_mm, 0.0, 0.0)
         for ring, radius in zip(self.rings, radii, strict=False):
             if radius * scale >= SMALLEST_PX:
-                ring.place(at.x, at.y, radius * _CIRCLE, near, scale)
+                ring.place(at.x, at.y, radius * _CIRCLE, near)
             else:
                 ring.setVisible(False)
 

@@ -7,11 +7,11 @@ from math import hypot
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF
 from PySide6.QtGui import QPainter, QPen
-from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.core.arrays import FloatArray
 from app.views.kit import theme
 from app.views.kit.theme import Mark
+from app.views.slices.drawing import Drawing, Shape
 from app.views.slices.plane import SlicePlane
 from app.views.slices.rimmed_text import rimmed
 from app.views.slices.viewing import Viewing
@@ -31,19 +31,16 @@ _LINE_PEN, _TICK_PEN = LINE.pen(), QPen(LINE.qcolor(), 1.5)
 _TICK_PEN.setCosmetic(True)
 
 
-class TicksItem(QGraphicsItem):
+class TicksItem(Shape):
     """A dotted line with ticks and their distances from its start."""
 
     def __init__(self) -> None:
-        super().__init__()
+        super().__init__(2.5, visible=False)
         self._start, self._along = QPointF(), QPointF()
         self._length = self._step = self._scale = 0.0
         self._label_mm = STEP_MM
-        self._rect = QRectF()
         self._faded = False
         self._state: tuple[object, ...] = ()
-        self.setZValue(2.5)
-        self.setVisible(False)
 
     def place(
         self,
@@ -71,7 +68,6 @@ class TicksItem(QGraphicsItem):
         state = (start, end, length_mm, scale, faded)
         if state == self._state:
             return
-        self.prepareGeometryChange()
         self._state = state
         self._start, self._along = QPointF(*start), QPointF(run / seen, fall / seen)
         self._length, self._step = seen, STEP_MM * seen / length_mm
@@ -79,10 +75,7 @@ class TicksItem(QGraphicsItem):
         steps = (1, 2, 5, 10, 20)
         apart = self._step * scale
         self._label_mm = STEP_MM * next((n for n in steps if n * apart >= LABEL_PX), 50)
-        margin = 45.0 / scale
-        line = QRectF(QPointF(*start), QPointF(*end)).normalized()
-        self._rect = line.adjusted(-margin, -margin, margin, margin)
-        self.update()
+        self.touch()
 
     @property
     def ticks(self) -> list[QPointF]:
@@ -91,14 +84,11 @@ class TicksItem(QGraphicsItem):
         return [self._start + self._along * (n * self._step) for n in range(1, count + 1)]
 
     def boundingRect(self) -> QRectF:
-        """Return the line's surroundings."""
-        return self._rect
+        """Return the rectangle between the line's ends [mm]."""
+        return QRectF(self._start, self._start + self._along * self._length).normalized()
 
-    def paint(
-        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
-    ) -> None:
+    def paint(self, painter: QPainter) -> None:
         """Draw line, ticks and labels with a dark rim."""
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setOpacity(0.5 if self._faded else 0.95)
         painter.setPen(_LINE_PEN)
         painter.drawLine(self._start, self._start + self._along * self._length)
@@ -106,7 +96,7 @@ class TicksItem(QGraphicsItem):
         painter.setPen(_TICK_PEN)
         lines: list[QLineF] = []
         labels: list[tuple[QPointF, str]] = []
-        to_pixels = painter.worldTransform()
+        to_pixels = painter.transform()
         for number, tick in enumerate(self.ticks, start=1):
             reach = across * (LONG_TICK_PX if number % 5 == 0 else TICK_PX)
             lines.append(QLineF(tick - reach, tick + reach))
@@ -116,6 +106,7 @@ class TicksItem(QGraphicsItem):
                 labels.append((QPointF(at), f"{depth:.0f}"))
         painter.drawLines(lines)
         self._draw_labels(painter, labels)
+        painter.setOpacity(1.0)
 
     @staticmethod
     def _draw_labels(painter: QPainter, labels: list[tuple[QPointF, str]]) -> None:
@@ -131,10 +122,10 @@ class TicksItem(QGraphicsItem):
 class TickLayer:
     """Ticks ahead of the live tip; without a needle, from the entry along the planned path."""
 
-    def __init__(self, scene: QGraphicsScene, viewing: Viewing) -> None:
+    def __init__(self, drawing: Drawing, viewing: Viewing) -> None:
         self._viewing = viewing
         self.item = TicksItem()
-        scene.addItem(self.item)
+        drawing.add(self.item)
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Show the ticks where needle or path are."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QGraphicsScene
 
 from app.core.arrays import FloatArray
 from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.kit.theme import Mark, Symbol
+from app.views.slices.drawing import Drawing
 from app.views.slices.items import MarkItem
 from app.views.slices.layers import SegmentLayer, place_mark
 from app.views.slices.needle_source import Along, NeedlePlanes
@@ -40,7 +40,7 @@ class TwoPoints(QObject):
 
     def show_in(self, pane: SlicePane) -> None:
         """Draw the points in a pane."""
-        layer = PointsLayer(pane.canvas.scene(), self)
+        layer = PointsLayer(pane.canvas.drawing, self)
         pane.canvas.add_layer(layer, layer.marks)
         self._panes.append(pane)
 
@@ -85,13 +85,13 @@ class TwoPoints(QObject):
 class PointsLayer:
     """Both points and the line between them."""
 
-    def __init__(self, scene: QGraphicsScene, source: TwoPoints) -> None:
+    def __init__(self, drawing: Drawing, source: TwoPoints) -> None:
         self._source = source
-        self._line = SegmentLayer(scene, LINE, 2)
+        self._line = SegmentLayer(drawing, LINE, 2)
         self.marks = (MarkItem(POINT, 4), MarkItem(POINT, 4))
         for mark in self.marks:
             mark.setVisible(False)
-            scene.addItem(mark)
+            drawing.add(mark)
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Show what has been chosen."""
@@ -101,7 +101,7 @@ class PointsLayer:
             at = places[number] if number < len(places) else None
             place_mark(mark, at, names[number], plane)
         if len(places) == 2:
-            self._line.place(places[0], places[1], plane.half_slab_mm, scale)
+            self._line.place(places[0], places[1], plane.half_slab_mm)
         else:
             self._line.hide()
 

@@ -20,7 +20,7 @@ class WindowBox:
 
     def __init__(self, canvas: SliceCanvas) -> None:
         self._canvas = canvas
-        self._band = QRubberBand(QRubberBand.Shape.Rectangle, canvas.viewport())
+        self._band = QRubberBand(QRubberBand.Shape.Rectangle, canvas)
         self._from = QPointF()
 
     def begin(self, position: QPointF) -> None:

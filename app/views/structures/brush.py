@@ -7,8 +7,7 @@ from enum import StrEnum
 
 import numpy as np
 from PySide6.QtCore import QObject, QPointF, Qt, Signal
-from PySide6.QtGui import QColor, QMouseEvent, QPen
-from PySide6.QtWidgets import QGraphicsEllipseItem
+from PySide6.QtGui import QColor, QMouseEvent, QPainter, QPen
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
@@ -16,6 +15,7 @@ from app.imaging.structures.structure import free_name
 from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.slices.canvas import SliceCanvas
+from app.views.slices.drawing import Shape
 from app.views.structures.book import StructureBook
 
 
@@ -65,6 +65,28 @@ class Brush(QObject):
         self.changed.emit()
 
 
+class Ring(Shape):
+    """The brush's size round the mouse."""
+
+    smooth = False
+
+    def __init__(self) -> None:
+        super().__init__(6.0, visible=False)
+        self._middle, self._radius_mm = QPointF(), 0.0
+        self._pen = QPen(QColor(theme.IMAGE_TEXT), 1.5)
+        self._pen.setCosmetic(True)
+
+    def place(self, x: float, y: float, radius_mm: float) -> None:
+        """Stand round (x, y) [mm]."""
+        self._middle, self._radius_mm = QPointF(x, y), radius_mm
+        self.touch()
+
+    def paint(self, painter: QPainter) -> None:
+        """Draw the ring."""
+        painter.setPen(self._pen)
+        painter.drawEllipse(self._middle, self._radius_mm, self._radius_mm)
+
+
 class BrushGrip:
     """Takes the left button of one pane while the brush is on; one drag is one step to undo."""
 
@@ -72,13 +94,8 @@ class BrushGrip:
         self._canvas, self._book, self._brush = canvas, book, brush
         self._name, self._fresh = "", False
         self._last: FloatArray | None = None
-        self._ring = QGraphicsEllipseItem()
-        ring = QPen(QColor(theme.IMAGE_TEXT), 1.5)
-        ring.setCosmetic(True)
-        self._ring.setPen(ring)
-        self._ring.setZValue(6)
-        self._ring.setVisible(False)
-        canvas.scene().addItem(self._ring)
+        self._ring = Ring()
+        canvas.drawing.add(self._ring)
         canvas.left.connect(lambda: self._ring.setVisible(False))
 
     def grab(self, position: QPointF, event: QMouseEvent) -> bool:
@@ -111,9 +128,7 @@ class BrushGrip:
         shown = settings.mode in (Mode.PAINT, Mode.ERASE) and not self._book.locked
         self._ring.setVisible(shown)
         if shown:
-            x, y = self._canvas.plane_at(position)
-            r = settings.radius_mm
-            self._ring.setRect(x - r, y - r, 2 * r, 2 * r)
+            self._ring.place(*self._canvas.plane_at(position), settings.radius_mm)
         return shown
 
     def _work(self, position: QPointF) -> None:

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QFontMetrics, QPainter, QPainterPath, QPen, QPolygonF, QTransform
-from PySide6.QtWidgets import QGraphicsItem, QGraphicsScene, QStyleOptionGraphicsItem, QWidget
 
 from app.core.arrays import FloatArray
 from app.imaging.structures.contours import contours
 from app.imaging.structures.structure import Mask, Structure
 from app.views.slices.canvas import SliceCanvas
+from app.views.slices.drawing import Drawing, Shape
 from app.views.slices.items import label_font
 from app.views.slices.plane import SlicePlane
 from app.views.slices.resting import RestingLayer
@@ -24,19 +24,17 @@ SMALLEST_NAMED_PX = 14.0
 """Outlines smaller than this carry no name."""
 
 
-class OutlineItem(QGraphicsItem):
+class OutlineItem(Shape):
     """One structure in one slice."""
 
     def __init__(self, z: float) -> None:
-        super().__init__()
+        super().__init__(z)
         self._path, self._top = QPainterPath(), QPointF()
         self._structure: Structure | None = None
         self._scale, self._bold = 1.0, False
-        self.setZValue(z)
 
     def set_lines(self, structure: Structure, lines: Sequence[FloatArray]) -> None:
         """Show closed lines of plane points [mm]."""
-        self.prepareGeometryChange()
         self._structure = structure
         path = QPainterPath()
         path.setFillRule(Qt.FillRule.OddEvenFill)
@@ -49,13 +47,13 @@ class OutlineItem(QGraphicsItem):
             x, y = points[int(np.argmin(points[:, 1]))].tolist()
             self._top = QPointF(x, y)
         self.setVisible(bool(len(lines)))
+        self.touch()
 
     def set_look(self, structure: Structure, scale: float, bold: bool) -> None:
         """Take the colours of `structure` and the zoom [px/mm]."""
         if (structure, scale, bold) != (self._structure, self._scale, self._bold):
-            self.prepareGeometryChange()
             self._structure, self._scale, self._bold = structure, scale, bold
-            self.update()
+            self.touch()
 
     def boundingRect(self) -> QRectF:
         """Return the outline with its name."""
@@ -76,14 +74,11 @@ class OutlineItem(QGraphicsItem):
             height / self._scale,
         )
 
-    def paint(
-        self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None = None
-    ) -> None:
+    def paint(self, painter: QPainter) -> None:
         """Draw hatching, a dark rim, the line and the name."""
         structure = self._structure
         if structure is None:
             return
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         style = HATCHES[structure.kind]
         if style is not Qt.BrushStyle.NoBrush:
             brush = QBrush(colour(structure, HATCH_ALPHA), style)
@@ -119,8 +114,8 @@ class OutlineItem(QGraphicsItem):
 class StructureLayer:
     """The outlines in one pane; computed anew only where mask or plane changed."""
 
-    def __init__(self, scene: QGraphicsScene, book: StructureBook) -> None:
-        self._scene, self._book = scene, book
+    def __init__(self, drawing: Drawing, book: StructureBook) -> None:
+        self._drawing, self._book = drawing, book
         self._items: dict[str, OutlineItem] = {}
         self._shown: dict[str, tuple[Mask, SlicePlane, float]] = {}
 
@@ -133,7 +128,7 @@ class StructureLayer:
             item = self._items.get(structure.name)
             if item is None:
                 item = self._items[structure.name] = OutlineItem(1.5)
-                self._scene.addItem(item)
+                self._drawing.add(item)
             known = self._shown.get(structure.name)
             if (
                 known is None
@@ -155,11 +150,11 @@ class StructureLayer:
 
     def _drop(self, kept: set[str]) -> None:
         for name in set(self._items) - kept:
-            self._scene.removeItem(self._items.pop(name))
+            self._drawing.remove(self._items.pop(name))
             self._shown.pop(name, None)
 
 
 def draw_in(canvas: SliceCanvas, book: StructureBook) -> None:
     """Draw the structures in a pane; in a needle's only at rest: they cannot follow it live."""
-    layer = StructureLayer(canvas.scene(), book)
+    layer = StructureLayer(canvas.drawing, book)
     canvas.add_layer(RestingLayer(layer, canvas) if canvas.pane.is_needle else layer)
