@@ -3,22 +3,29 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-STAMP := $(VENV)/.installed
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt
+TRAINER := $(VENV)/.trainer
+TESTS := $(VENV)/.tests
 
-.PHONY: setup demo run test by-hand careless check bench fuzz docs-pictures wheel clean
+.PHONY: setup demo run test by-hand careless check bench fuzz docs docs-pictures wheel clean
 
-setup: $(STAMP)  ## make .venv and install what the system lacks
+setup: $(TESTS)  ## make .venv with all that tests and checks need, and install what the system lacks
 
-$(STAMP): pyproject.toml constraints.txt tools/install-system
+$(TRAINER): pyproject.toml constraints.txt tools/install-system
 	./tools/install-system
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
-	touch $(STAMP)
+	$(PIP) --editable '.[trainer]'
+	touch $@
 
-demo: setup  ## the trainer on the built-in patient; with no display a whole exercise, written to out/demo
+$(TESTS): $(TRAINER)
+	./tools/install-system tests
+	$(PIP) --editable '.[dev]'
+	touch $@
+
+demo: $(TRAINER)  ## the trainer on the built-in patient; with no display a whole exercise, written to out/demo
 	$(BIN)/acus demo $(DEMO)
 
-run: setup  ## the trainer
+run: $(TRAINER)  ## the trainer
 	$(BIN)/acus run
 
 test: setup  ## the tests (no display and no network needed), a file at a time on each core
@@ -48,8 +55,11 @@ fuzz: setup  ## ten thousand mutated files of every kind through their readers
 docs-pictures: setup  ## the pictures of README and docs
 	./tools/with-display $(BIN)/python -m tools.docs_pictures
 
-wheel: setup  ## a wheel that runs anywhere
+docs: setup  ## the user guide as a site, in app/site: Help and F1 open it
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --quiet --strict
+
+wheel: docs  ## a wheel that runs anywhere, with the user guide in it
 	$(BIN)/python -m build --wheel
 
 clean:
-	rm -rf $(VENV) build dist out
+	rm -rf $(VENV) build dist out app/site

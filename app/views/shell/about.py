@@ -1,17 +1,89 @@
-"""What this is and what it is not."""
+"""What this is and what it is not, and the parts that it is built of."""
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QMessageBox, QWidget
+from PySide6.QtCore import QSize, Qt, qVersion
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 
 from app import __version__
 from app.views.kit.text import disclaimer, tr
+from app.views.shell.application import icon
+
+_ICON_PX = 96
 
 
-def about(parent: QWidget) -> QMessageBox:
-    """Return the box that says what this is and what it is not."""
-    text = tr("Acus {version}", version=__version__)
-    box = QMessageBox(QMessageBox.Icon.NoIcon, tr("About Acus"), text, parent=parent)
-    box.setInformativeText(disclaimer())
-    box.finished.connect(box.deleteLater)
-    return box
+def about(parent: QWidget) -> QDialog:
+    """Return the dialog that says what this is and what it is not."""
+    dialog = AboutDialog(parent)
+    dialog.finished.connect(dialog.deleteLater)
+    return dialog
+
+
+class AboutDialog(QDialog):
+    """Version, disclaimer, licence, and the libraries with their versions and licences."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("About Acus"))
+        layout = QVBoxLayout(self)
+        head = QHBoxLayout()
+        picture = QLabel()
+        picture.setPixmap(icon().pixmap(QSize(_ICON_PX, _ICON_PX), self.devicePixelRatioF()))
+        head.addWidget(picture, 0, Qt.AlignmentFlag.AlignTop)
+        words = QVBoxLayout()
+        for text in (f"<h2>{tr('Acus {version}', version=__version__)}</h2>", *_sentences()):
+            label = QLabel(text)
+            label.setWordWrap(True)
+            words.addWidget(label)
+        head.addLayout(words, 1)
+        layout.addLayout(head)
+        layout.addWidget(QLabel(tr("Libraries, as installed:")))
+        self.table = _table()
+        layout.addWidget(self.table, 1)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons.rejected.connect(self.reject)
+        layout.addWidget(buttons)
+        self.resize(680, 620)
+
+
+def _sentences() -> tuple[str, ...]:
+    return (
+        disclaimer(),
+        tr("Acus is under the Apache License 2.0 (LICENSE, NOTICE)."),
+        tr(
+            "Qt {version} and PySide6 are used under the GNU Lesser General Public License (LGPL), "
+            "version 3: they lie beside the program as libraries of their own, and you may replace "
+            "them by versions that you have changed.",
+            version=qVersion(),
+        ),
+    )
+
+
+def _table() -> QTableWidget:
+    from app.core.parts import parts  # reads the metadata of every library
+
+    rows = parts()
+    table = QTableWidget(len(rows), 3)
+    table.setHorizontalHeaderLabels([tr("Library"), tr("Version"), tr("Licence")])
+    table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
+    table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
+    table.verticalHeader().hide()
+    table.setFocusPolicy(Qt.FocusPolicy.ClickFocus)  # no row is chosen until somebody does
+    for row, part in enumerate(rows):
+        for column, text in enumerate((part.name, part.version, part.licence)):
+            item = QTableWidgetItem(text)
+            item.setToolTip(text)
+            table.setItem(row, column, item)
+    table.resizeColumnsToContents()
+    table.horizontalHeader().setSectionResizeMode(2, QHeaderView.ResizeMode.Stretch)
+    return table

@@ -9,11 +9,13 @@ import sys
 from typing import Final
 
 from PySide6.QtCore import QTimer, QtMsgType, qInstallMessageHandler
+from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
 from app import __version__
 from app.core.errors import AcusError
 from app.core.log_file import LogFile
+from app.core.paths import resources
 from app.views.kit.names import NAMES
 from app.views.kit.text import install_translation
 from app.views.kit.theme import apply_theme
@@ -34,6 +36,11 @@ def has_display() -> bool:
     if sys.platform != "linux":
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def icon() -> QIcon:
+    """Return the program's icon, of its windows and of the desktop entry."""
+    return QIcon(str(resources() / "icons" / "acus.svg"))
 
 
 def _open_log(application: QApplication) -> None:
@@ -77,6 +84,8 @@ def start(offscreen: bool = False) -> QApplication:
     application.setApplicationName("acus")
     application.setApplicationDisplayName("Acus")
     application.setApplicationVersion(__version__)
+    application.setDesktopFileName("acus")  # its desktop entry has the icon for Wayland
+    application.setWindowIcon(icon())
     apply_theme(application)
     install_translation(application)
     _open_log(application)

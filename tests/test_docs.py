@@ -1,0 +1,134 @@
+"""The pages for people: links, anchors and pictures exist, the site needs no other host."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from app.views.shell.help import HOME, PAGES, anchor
+
+ROOT = Path(__file__).resolve().parents[1]
+DOCS = ROOT / "docs"
+SOURCES = [ROOT / "README.md", *sorted(DOCS.rglob("*.md"))]
+
+
+def prose(file):
+    """The page without its blocks of code."""
+    return re.sub(r"^```.*?^```", "", file.read_text(encoding="utf-8"), flags=re.DOTALL | re.M)
+
+
+def anchors(file):
+    return {anchor(line.lstrip("# ")) for line in prose(file).splitlines() if line.startswith("#")}
+
+
+def links(file):
+    return re.findall(r"\]\(([^)\s]+)\)", prose(file))
+
+
+@pytest.mark.parametrize("file", SOURCES, ids=lambda file: str(file.relative_to(ROOT)))
+def test_links_anchors_and_pictures_of_a_page_exist(file):
+    broken = []
+    for link in links(file):
+        if re.match(r"[a-z]+:", link):
+            continue
+        name, _, heading = link.partition("#")
+        target = (file.parent / name).resolve() if name else file
+        if not target.is_file() or (heading and heading not in anchors(target)):
+            broken.append(link)
+    assert broken == []
+
+
+def test_every_page_stands_in_the_navigation_once():
+    text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+    entries = re.findall(r"^ +- (\S+\.md)$", text.split("\nnav:")[1], flags=re.M)
+    entries += re.findall(r"^  - (\S+\.md)$", text.split("\nnav:")[1], flags=re.M)
+    pages = {str(file.relative_to(DOCS)) for file in DOCS.rglob("*.md")}
+    records = {page for page in pages if re.match(r"decisions/\d", page)}  # added by the build
+    assert set(entries) == pages - records
+    assert len(set(entries)) == len(pages - records)
+
+
+def test_every_decision_stands_in_their_list():
+    listed = set(links(DOCS / "decisions" / "README.md"))
+    assert {file.name for file in (DOCS / "decisions").glob("0*.md")} <= listed
+
+
+def test_every_feature_has_a_page_of_help_and_it_is_there():
+    views = ROOT / "app" / "views"
+    features = {one.name for one in views.iterdir() if (one / "__init__.py").is_file()}
+    assert set(PAGES) == features - {"kit", "shell"}
+    for page in (*PAGES.values(), HOME):
+        name, _, heading = page.partition("#")
+        assert not heading or heading in anchors(DOCS / name), page
+        assert (DOCS / name).is_file()
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    pytest.importorskip("mkdocs", reason="the extra `docs` is not installed")
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--strict", "-d", str(folder)]
+    nowhere = dict.fromkeys(("http_proxy", "https_proxy"), "http://127.0.0.1:9")
+    own = os.environ | nowhere | {"ACUS_DOCS_REFERENCE": "false", "NO_MKDOCS_2_WARNING": "1"}
+    done = subprocess.run(command, cwd=ROOT, env=own, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+def test_no_page_of_the_site_takes_anything_from_another_host(site):
+    taken = set()
+    for file in site.rglob("*.html"):
+        text = file.read_text(encoding="utf-8")
+        taken |= set(re.findall(r'<(?:script|img|iframe)[^>]*src="?((?:https?:)?//[^">]*)', text))
+        taken |= set(re.findall(r'<link[^>]*href="?((?:https?:)?//[^">]*)', text))
+        assert 'class="mermaid"' not in text  # the theme would fetch what draws it
+    for file in site.rglob("*.css"):
+        taken |= set(re.findall(r"(?:@import|url\()\s*[\"']?((?:https?:)?//[^\"')]*)",
+                                file.read_text(encoding="utf-8")))  # fmt: skip
+    assert taken == set()
+
+
+def test_help_finds_its_pages_and_headings_in_the_site(site):
+    for page in (*PAGES.values(), HOME):
+        name, _, heading = page.partition("#")
+        text = (site / name).with_suffix(".html").read_text(encoding="utf-8")
+        assert not heading or f'id="{heading}"' in text, page
+
+
+def test_the_search_works_without_a_server(site):
+    assert (site / "search" / "search_index.js").is_file()
+    assert "search_in_files.js" in (site / "index.html").read_text(encoding="utf-8")
+    assert (site / "search_in_files.js").is_file()
+
+
+def test_the_reference_lists_every_room_and_what_others_import_from_it(site):
+    text = (site / "reference" / "core.html").read_text(encoding="utf-8")
+    assert "RigidTransform" in text
+    assert "Latest" in text
+    rooms = {one.parent.name for one in (ROOT / "app").glob("*/__init__.py")} - {"commands"}
+    assert {one.stem for one in (site / "reference").glob("*.html")} == rooms | {"index"}
+
+
+def test_the_desktop_entry_starts_the_program_and_names_its_icon():
+    text = (ROOT / "resources" / "acus.desktop").read_text(encoding="utf-8")
+    entry = dict(line.split("=", 1) for line in text.splitlines() if "=" in line)
+    assert (entry["Exec"], entry["Icon"], entry["Type"]) == ("acus run", "acus", "Application")
+    assert (ROOT / "resources" / "icons" / "acus.svg").is_file()
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    assert "share/applications/acus.desktop" in project
+    assert "share/icons/hicolor/scalable/apps/acus.svg" in project
+
+
+def test_no_file_of_the_build_names_a_host_to_install_from():
+    for name in (
+        "pyproject.toml",
+        "constraints.txt",
+        "Makefile",
+        "mkdocs.yml",
+        "tools/install-system",
+    ):
+        text = (ROOT / name).read_text(encoding="utf-8")
+        assert not re.search(r"index-url|://", text), name
