@@ -1,5 +1,6 @@
 """Values as JSON can hold them."""
 
+import json
 from math import isfinite
 from typing import Any
 
@@ -20,3 +21,21 @@ def finite(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [finite(item) for item in value]
     return value if isinstance(value, int | str | bool | None) else str(value)
+
+
+def compact(document: Any) -> str:
+    """JSON of a document in one line, a number that is not finite as null.
+
+    Nearly every document is JSON already and is written as it is; only one that is not is copied.
+    """
+    try:
+        return json.dumps(document, separators=(",", ":"), allow_nan=False, default=_plain)
+    except (TypeError, ValueError):
+        return json.dumps(finite(document), separators=(",", ":"), allow_nan=False)
+
+
+def _plain(value: Any) -> Any:
+    """Return what stands for a value that JSON does not know; its contents are asked for next."""
+    if isinstance(value, np.integer | np.floating | np.bool_ | np.ndarray):
+        return value.tolist()
+    return dict(value.items()) if hasattr(value, "items") else str(value)

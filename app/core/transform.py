@@ -8,7 +8,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.core.arrays import FloatArray, frozen, unit
+from app.core.arrays import FloatArray, cross, frozen, unit
 from app.core.errors import NumericalError
 from app.core.rotation import rotation_exp, rotation_log, skew
 
@@ -119,13 +119,13 @@ def rotation_between(start: ArrayLike, end: ArrayLike) -> FloatArray:
         axis = _common_perpendicular(u, v)
         half_turn = 2.0 * np.outer(axis, axis) - np.eye(3)
         return rotation_between(-u, v) @ half_turn
-    w = skew(np.cross(u, v))
+    w = skew(cross(u, v))
     return np.eye(3) + w + w @ w / (1.0 + float(np.dot(u, v)))
 
 
 def _common_perpendicular(u: FloatArray, v: FloatArray) -> FloatArray:
     """Direction of u x v, exactly perpendicular to u; any one where u and v lie on one line."""
-    axis = np.cross(u, v)
+    axis = cross(u, v)
     length = float(np.linalg.norm(axis))
     if length < 1e-12:
         return _any_perpendicular(u)
@@ -134,7 +134,7 @@ def _common_perpendicular(u: FloatArray, v: FloatArray) -> FloatArray:
 
 
 def _any_perpendicular(u: FloatArray) -> FloatArray:
-    return unit(np.cross(u, np.eye(3)[int(np.argmin(np.abs(u)))]))
+    return unit(cross(u, np.eye(3)[int(np.argmin(np.abs(u)))]))
 
 
 def _left_jacobian(omega: FloatArray) -> FloatArray:

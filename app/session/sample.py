@@ -4,7 +4,6 @@ A value that is not finite is written as null where our own schema allows it; a 
 that could not be written without one is left out. NaN never stands in JSON.
 """
 
-import json
 from dataclasses import dataclass
 from math import isfinite, sqrt
 from typing import Any, Final
@@ -14,7 +13,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.events import Event
 from app.core.frames import Frame
-from app.core.json_values import finite
+from app.core.json_values import compact
 from app.core.transform import RigidTransform, rotation_between
 from app.session.machine import State
 from app.session.needle import DOWN, NeedlePose
@@ -71,7 +70,7 @@ class Sample:
 
 def encode(document: Any) -> bytes:
     """JSON without NaN or infinity; such a number becomes null."""
-    return json.dumps(finite(document), separators=(",", ":"), allow_nan=False).encode()
+    return compact(document).encode()
 
 
 def messages(sample: Sample, stamp: dict[str, int]) -> list[tuple[str, bytes]]:
