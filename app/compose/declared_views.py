@@ -8,18 +8,32 @@ declarations here and hand them to the scene compiler.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 from typing import Final
 
 from app import views
-from app.core.declarations import read_source
 from app.core.errors import ConfigurationError
-from app.core.state_vector import INDEX
+from app.core.plugins import SLOTS, TEXT, Declaration, Kind
 from app.simulation.consumers import Consumer
 
-KEYS: Final = ("view", "title", "reads")
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclaredView(Declaration):
+    """What a view says about itself: its name for exercises, and the slots that it reads."""
+
+    view: str
+    reads: tuple[str, ...]
+
+
+KIND: Final[Kind[DeclaredView]] = Kind(
+    noun="a view",
+    declares=DeclaredView,
+    fields={"view": TEXT, "title": TEXT, "reads": SLOTS},
+    error=ConfigurationError,
+)
 VIEWS: Final = Path(views.__file__).parent
 _MARK: Final = b"\nDECLARATION"
 
@@ -40,21 +54,9 @@ def declared_views(folder: Path = VIEWS) -> Mapping[str, Consumer]:
     for path in sorted(folder.rglob("*.py")):
         if _MARK not in path.read_bytes():
             continue
-        name, reads = _declared(path)
+        declared = KIND.read(path)
+        name = declared.view
         if name in found:
             raise ConfigurationError(f"view {name!r} is declared twice: {files[name]} and {path}")
-        found[name], files[name] = Consumer(f"view {name} shows it", reads), path
+        found[name], files[name] = Consumer(f"view {name} shows it", declared.reads), path
     return MappingProxyType(found)
-
-
-def _declared(path: Path) -> tuple[str, tuple[str, ...]]:
-    document = read_source(path, "a view", KEYS, ConfigurationError).document
-    name, title, reads = (document[key] for key in KEYS)
-    if not (isinstance(name, str) and name and isinstance(title, str) and title):
-        raise ConfigurationError(f"{path}: view and title must be texts that are not empty")
-    if not isinstance(reads, tuple) or not all(slot in INDEX for slot in reads):
-        raise ConfigurationError(
-            f"{path}: reads must be a tuple of slots of core.state_vector in lower case; got "
-            f"{reads!r}"
-        )
-    return name, reads

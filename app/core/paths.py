@@ -54,9 +54,12 @@ def settings() -> Path:
     return Path(os.environ.get("ACUS_SETTINGS") or _of_user("config"))
 
 
-def laws() -> Path:
-    """Per-user folder of a laboratory's own force laws (`ACUS_LAWS` overrides)."""
-    return Path(os.environ.get("ACUS_LAWS") or data() / "laws")
+def plugins(kind: str) -> Path:
+    """Per-user folder of a laboratory's own files: `laws`, `effects`, `metrics` or `studies`.
+
+    `ACUS_LAWS`, `ACUS_EFFECTS`, `ACUS_METRICS` and `ACUS_STUDIES` override.
+    """
+    return Path(os.environ.get(f"ACUS_{kind.upper()}") or data() / kind)
 
 
 def _of_user(kind: str) -> str:

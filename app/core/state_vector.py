@@ -259,6 +259,27 @@ INDEX: Final[dict[str, int]] = {
 }
 """Slot name in lower case -> index."""
 
+_NAMES: Final = {index: name for name, index in INDEX.items()}
+
+VECTORS: Final[dict[str, tuple[str, ...]]] = {
+    name.lower(): tuple(_NAMES[slot] for slot in range(value.start, value.stop))
+    for name, value in list(globals().items())
+    if name.isupper() and isinstance(value, slice)
+}
+"""Vector name in lower case -> names of its slots."""
+
+
+def slots_named(name: str) -> tuple[str, ...]:
+    """Return the slots of a name in lower case: one slot, or those of a vector; none if unknown.
+
+    What no vector is called is taken by its components: `hand` is hand_x and hand_y.
+    """
+    if name in INDEX:
+        return (name,)
+    return VECTORS.get(name) or tuple(
+        slot for slot in (f"{name}_{axis}" for axis in "xyz") if slot in INDEX
+    )
+
 
 def empty_state() -> FloatArray:
     """Return a state of zeros, shape (SLOTS,)."""

@@ -9,10 +9,9 @@ from graphlib import CycleError, TopologicalSorter
 
 from app.core import state_vector as sv
 from app.simulation.consumers import Consumer, DevicePort
-from app.simulation.declaration import Declaration
+from app.simulation.effects import Effect, declaration
 from app.simulation.errors import SimulationError
 from app.simulation.plan import Dropped, Kept, SimulationPlan
-from app.simulation.registry import declaration
 from app.simulation.scene import EffectRequest, Scene
 
 
@@ -55,11 +54,11 @@ def compile(
     )
 
 
-def _checked(request: EffectRequest, declared: Declaration) -> tuple[str, dict[str, float]]:
+def _checked(request: EffectRequest, declared: Effect) -> tuple[str, dict[str, float]]:
     return declared.model(request.model), declared.checked(request.parameters)
 
 
-def _senseless(request: EffectRequest, declared: Declaration, scene: Scene) -> str:
+def _senseless(request: EffectRequest, declared: Effect, scene: Scene) -> str:
     """Why the scene itself has no use for an effect; empty if it has."""
     for need in declared.needs:
         if not getattr(scene, need):
@@ -70,7 +69,7 @@ def _senseless(request: EffectRequest, declared: Declaration, scene: Scene) -> s
 
 
 def _demanded(
-    candidates: dict[str, Declaration], consumers: Sequence[Consumer]
+    candidates: dict[str, Effect], consumers: Sequence[Consumer]
 ) -> dict[str, tuple[str, ...]]:
     """Effect -> labels of its consumers, for the effects that have one, walked to the fixpoint."""
     found: dict[str, tuple[str, ...]] = {}
@@ -93,11 +92,11 @@ def _feeds(name: str) -> str:
     return f"effect {name} builds on it"
 
 
-def _because(declared: Declaration, consumers: tuple[str, ...]) -> str:
+def _because(declared: Effect, consumers: tuple[str, ...]) -> str:
     return f"simulated: it writes {_slots(declared.writes)}; {'; '.join(consumers)}"
 
 
-def _nobody(declared: Declaration, device: DevicePort) -> str:
+def _nobody(declared: Effect, device: DevicePort) -> str:
     axes = ", ".join(sorted(device.renders)) or "no"
     return (
         f"dropped: it writes {_slots(declared.writes)}, which nobody reads: device {device.name} "
@@ -111,7 +110,7 @@ def _slots(names: Sequence[str]) -> str:
     return ", ".join(dict.fromkeys(stems))
 
 
-def _ordered(kept: dict[str, Declaration]) -> list[str]:
+def _ordered(kept: dict[str, Effect]) -> list[str]:
     """Writers before readers; otherwise in the scene's order.
 
     Raises:

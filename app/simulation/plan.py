@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.simulation.declaration import Declaration, class_name
+from app.simulation.effects import Effect, implementation, parameters_of
 from app.simulation.errors import SimulationError
-from app.simulation.registry import implementation, parameters_needed
 from app.simulation.scene import Binding, Scene
 
 Stage = tuple[str, Any, FloatArray]
@@ -20,7 +19,7 @@ Stage = tuple[str, Any, FloatArray]
 class Kept:
     """An effect that is simulated: with which model, which parameters, for whom, and why."""
 
-    declaration: Declaration
+    declaration: Effect
     model: str
     parameters: dict[str, float]
     consumers: tuple[str, ...]
@@ -91,12 +90,6 @@ class SimulationPlan:
         return bound
 
     def _stage(self, kept: Kept) -> Stage:
-        module = implementation(kept.name)
-        effect = getattr(module, class_name(kept.name))(**kept.parameters)
-        array = effect.parameters(Binding(self.scene, self.depth_slot, kept.model))
-        if (needed := parameters_needed(kept.name)) > len(array):
-            raise SimulationError(
-                f"effect {kept.name}: step() uses {needed} parameters, parameters() gives"
-                f" {len(array)}"
-            )
-        return kept.name, module.step, array
+        binding = Binding(self.scene, self.depth_slot, kept.model)
+        array = parameters_of(kept.name, kept.parameters, binding)
+        return kept.name, implementation(kept.name).step, array

@@ -1,4 +1,4 @@
-"""A force law is added just the way docs/architecture.md says: the file on the page, no more."""
+"""A force law is added just the way docs/extending.md says: the file on the page, no more."""
 
 import re
 from pathlib import Path
@@ -10,7 +10,7 @@ from app.core import state_vector as sv
 from app.device.control import laws
 from app.device.errors import LawError
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "architecture.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
 
 
 def from_the_page(heading: str) -> tuple[str, str]:

@@ -12,7 +12,7 @@ from app.exercises.schema import Exercise
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.metrics import available
 from app.scoring.rows import Rules
-from app.simulation.registry import effect_names
+from app.simulation.effects import effect_names
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "exercises.md").read_text(encoding="utf-8")
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from simulation.effect_rig import memory_of
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
@@ -26,8 +27,8 @@ QUICK = settings(derandomize=True, deadline=None, max_examples=60)
 
 
 def friction(layer: Layer, **parameters: float) -> FloatArray:
-    effect = shaft_friction.ShaftFriction(**parameters)
-    return effect.parameters(Binding(Scene(layers=(layer,)), sv.PLANT_DEPTH))
+    binding = Binding(Scene(layers=(layer,)), sv.PLANT_DEPTH)
+    return memory_of("shaft_friction", parameters, binding)
 
 
 def rub(memory: FloatArray, depth: float, dt: float = 1e-3) -> float:
@@ -79,7 +80,7 @@ def test_explicit_euler_explodes_where_the_exponential_does_not() -> None:
 
 
 def test_a_still_needle_on_an_encoder_edge_does_not_chatter() -> None:
-    memory = shaft_friction.ShaftFriction().parameters(Binding(Scene(layers=(Layer("x", 0.2),))))
+    memory = memory_of("shaft_friction", {}, Binding(Scene(layers=(Layer("x", 0.2),))))
     state, forces, count = sv.empty_state(), [], 33e-6
     for k in range(2000):
         state[sv.DEPTH], state[sv.DT], state[sv.AXIAL_FORCE] = 0.051 + count * (k % 2), 1e-3, 0.0
@@ -116,7 +117,7 @@ def test_friction_at_rest_leaves_no_subnormals() -> None:
 
 # --- lateral tissue -------------------------------------------------------------------------------
 def tissue(*layers: Layer, model: str = "winkler") -> FloatArray:
-    return lateral_tissue.LateralTissue().parameters(Binding(Scene(layers=layers), model=model))
+    return memory_of("lateral_tissue", {}, Binding(Scene(layers=layers), model=model))
 
 
 def test_at_zero_and_negative_depth_there_is_no_tissue() -> None:
@@ -188,7 +189,7 @@ def test_a_breath_without_a_period_is_refused(period: float) -> None:
 @QUICK
 @given(st.lists(ANY, max_size=20))
 def test_breathing_stays_within_its_amplitudes_at_any_time(times: list[float]) -> None:
-    memory = breathing.Breathing().parameters(Binding(Scene()))
+    memory = memory_of("breathing", {}, Binding(Scene()))
     state = sv.empty_state()
     for time in times:
         state[sv.TARGET_SHIFT] = 0.0

@@ -1,4 +1,4 @@
-"""A metric is added in just the way that docs/architecture.md says: one file, nothing else."""
+"""A metric is added in just the way that docs/extending.md says: one file, nothing else."""
 
 import re
 import sys
@@ -11,7 +11,7 @@ from app.scoring import metrics
 from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "architecture.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
 
 
 def from_the_page() -> str:

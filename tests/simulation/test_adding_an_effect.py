@@ -1,4 +1,4 @@
-"""An effect is added just the way docs/architecture.md says: the file on the page, nothing else."""
+"""An effect is added just the way docs/extending.md says: the file on the page, nothing else."""
 
 import re
 from pathlib import Path
@@ -10,11 +10,11 @@ from app.core import state_vector as sv
 from app.simulation import effects
 from app.simulation.compiler import compile
 from app.simulation.consumers import DevicePort
+from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
-from app.simulation.registry import declaration, effect_names
 from app.simulation.scene import EffectRequest, Scene
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "architecture.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
 
 
 def from_the_page(heading: str) -> tuple[str, str]:
@@ -27,15 +27,61 @@ def from_the_page(heading: str) -> tuple[str, str]:
     return name.group(1), code.group(1)
 
 
+FORM_BEFORE = """'''Shaking of the needle's side force: a sine, for tests of steadiness.'''
+
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+
+from app.core import state_vector as sv
+from app.core.arrays import FloatArray
+from app.core.compiled import stage
+from app.simulation.scene import Binding
+
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Shaking side force",
+    "reads": ("time",),
+    "writes": ("force_x",),
+    "consumers": ("device axis lateral",),
+    "needs": (),
+    "models": {"sine": "one frequency, exact in time"},
+    "energy": ("active", "driven by time"),
+    "cost_class": "A",
+    "parameters": {
+        "amplitude": ("N", 0.0, 2.0, "largest force"),
+        "frequency": ("Hz", 0.1, 20.0, "of the shaking"),
+    },
+}
+
+
+@dataclass(frozen=True, slots=True)
+class HandTremor:
+    '''Amplitude [N] and frequency [Hz].'''
+
+    amplitude: float = 0.2
+    frequency: float = 9.0
+
+    def parameters(self, binding: Binding) -> FloatArray:
+        '''Return a fresh parameters array.'''
+        return np.array([self.amplitude, 2.0 * np.pi * self.frequency])
+
+
+@stage
+def step(state: FloatArray, parameters: FloatArray) -> None:
+    '''Add the force to FORCE_X.'''
+    if np.isfinite(state[sv.TIME]):
+        state[sv.FORCE_X] += parameters[0] * np.sin(parameters[1] * state[sv.TIME])
+"""
+
+
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr(effects, "__path__", [*effects.__path__, str(tmp_path)])
     return tmp_path
 
 
-def test_an_effect_is_added_just_the_way_the_page_says(folder: Path) -> None:
-    name, code = from_the_page("How to add an effect")
-    (folder / name).write_text(code, encoding="utf-8")
+def shakes_as_the_page_says() -> None:
     assert "hand_tremor" in effect_names()
     scene = Scene(effects=(EffectRequest("hand_tremor", {"amplitude": 0.3}),))
     plan = compile(scene, DevicePort("icube"))
@@ -45,6 +91,26 @@ def test_an_effect_is_added_just_the_way_the_page_says(folder: Path) -> None:
     for _, function, parameters in plan.stages():
         function(state, parameters)
     assert state[sv.FORCE_X] == pytest.approx(0.3 * np.sin(2.0 * np.pi * 0.09))
+
+
+def test_an_effect_in_the_users_own_folder_is_found_just_the_way_the_page_says(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ACUS_EFFECTS", str(tmp_path))
+    name, code = from_the_page("How to add an effect")
+    (tmp_path / name).write_text(code, encoding="utf-8")
+    shakes_as_the_page_says()
+
+
+def test_an_effect_in_a_folder_appended_to_the_path_is_found_too(folder: Path) -> None:
+    name, code = from_the_page("How to add an effect")
+    (folder / name).write_text(code, encoding="utf-8")
+    shakes_as_the_page_says()
+
+
+def test_an_effect_of_the_form_before_is_still_read(folder: Path) -> None:
+    (folder / "hand_tremor.py").write_text(FORM_BEFORE, encoding="utf-8")
+    shakes_as_the_page_says()
 
 
 @pytest.mark.parametrize(
@@ -71,8 +137,27 @@ def test_a_broken_effect_file_is_named(folder: Path, code: str, message: str) ->
         ("amplitude: float = 0.2", "size: float = 0.2", "differ in"),
     ],
 )
+def test_a_wrong_declaration_of_the_form_before_is_named(
+    folder: Path, old: str, new: str, message: str
+) -> None:
+    assert old in FORM_BEFORE
+    (folder / "hand_tremor.py").write_text(FORM_BEFORE.replace(old, new), encoding="utf-8")
+    with pytest.raises(SimulationError, match=message):
+        declaration("hand_tremor")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('("force",)', '("force_w",)', r"line 16: writes: 'force_w' is not a slot .*near: .*force_x"),
+        ("def parameters", "def values", r"has no function parameters\(\)"),
+        ("(0.2, ", "('low', [0], ", r"line 23: parameter 'amplitude' is \('low'.* give \{name: "),
+        ('("active"', '("free"', r"energy is \('free', .*one of potential, dissipative, active"),
+    ],
+)
 def test_a_wrong_declaration_is_named(folder: Path, old: str, new: str, message: str) -> None:
     name, code = from_the_page("How to add an effect")
+    assert old in code
     (folder / name).write_text(code.replace(old, new), encoding="utf-8")
     with pytest.raises(SimulationError, match=message):
         declaration("hand_tremor")
@@ -83,8 +168,8 @@ def test_a_wrong_declaration_is_named(folder: Path, old: str, new: str, message:
     [
         ("    state[sv.ENABLED] = 1.0\n", "it writes enabled, which it does not declare"),
         ("    while True:\n        pass\n", "a while loop may never end"),
-        ("    parameters[int(state[sv.TIME])] = 1.0\n", "neither a constant nor counted"),
-        ("    parameters[7] = 1.0\n", "uses 8 parameters, parameters.. gives 2"),
+        ("    p[int(state[sv.TIME])] = 1.0\n", "neither a constant nor counted"),
+        ("    p[7] = 1.0\n", "uses 8 parameters, parameters.. gives 2"),
     ],
 )
 def test_an_effect_of_somebody_else_that_could_do_harm_is_refused(

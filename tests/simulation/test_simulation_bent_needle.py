@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
+from simulation.effect_rig import memory_of
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
@@ -19,7 +20,7 @@ def tissue(
     gauge: int = 18, model: str = "beam", layers: tuple[Layer, ...] = DEFAULT_LAYERS
 ) -> FloatArray:
     scene = Scene(layers=layers, needle=Needle(outer_diameter=OUTER_DIAMETER[gauge]))
-    return effect.LateralTissue().parameters(Binding(scene, model=model))
+    return memory_of("lateral_tissue", {}, Binding(scene, model=model))
 
 
 def leaning(tilt: float, azimuth: float = 0.0) -> FloatArray:

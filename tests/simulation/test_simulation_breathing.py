@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from simulation.effect_rig import memory_of
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
@@ -12,7 +13,7 @@ SUPINE = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]])  # L→+x, S→+y, A
 
 
 def shifts(times: FloatArray, **parameters: float) -> FloatArray:
-    memory = effect.Breathing(**parameters).parameters(Binding(Scene(R_world_patient=SUPINE)))
+    memory = memory_of("breathing", parameters, Binding(Scene(R_world_patient=SUPINE)))
     rows = []
     for time in times:
         state = sv.empty_state()

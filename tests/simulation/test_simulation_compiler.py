@@ -7,9 +7,9 @@ import pytest
 
 from app.simulation.compiler import compile
 from app.simulation.consumers import Consumer, DevicePort
+from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
-from app.simulation.registry import declaration, effect_names
-from app.simulation.scene import EffectRequest, Layer, Scene
+from app.simulation.scene import Binding, EffectRequest, Layer, Scene
 
 ALL = tuple(EffectRequest(n) for n in ("breathing", "shaft_friction", "lateral_tissue"))
 REAL = DevicePort("icube")
@@ -98,16 +98,28 @@ def test_an_unknown_device_axis_is_refused() -> None:
         DevicePort("x", frozenset({"twist"}))
 
 
+class Asked(dict[str, float]):
+    """Parameters that note which of them were asked for."""
+
+    def __init__(self, values: dict[str, float]) -> None:
+        super().__init__(values)
+        self.names: set[str] = set()
+
+    def __getitem__(self, name: str) -> float:
+        self.names.add(name)
+        return super().__getitem__(name)
+
+
 @pytest.mark.parametrize("name", effect_names())
 def test_what_is_declared_is_what_the_effect_has(name: str) -> None:
-    from app.simulation.declaration import class_name
-    from app.simulation.registry import implementation
+    from app.simulation.effects import parameters_of
 
     declared = declaration(name)
-    effect = getattr(implementation(name), class_name(name))()
-    for field, parameter in declared.parameters.items():
-        assert getattr(effect, field) == parameter.default
+    for parameter in declared.parameters.values():
         assert parameter.minimum <= parameter.default <= parameter.maximum
+    asked = Asked(declared.checked({}))
+    parameters_of(name, asked, Binding(Scene()))
+    assert asked.names == set(declared.parameters)
 
 
 DROPPED = """

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from simulation.effect_rig import memory_of
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
@@ -15,7 +16,7 @@ LAYERS = (Layer("a", 0.01, 30e3), Layer("b", 0.0, 9e9), Layer("c", 0.19, 20e3))
 
 
 def tissue(model: str = "winkler") -> FloatArray:
-    return effect.LateralTissue().parameters(Binding(Scene(layers=LAYERS), model=model))
+    return memory_of("lateral_tissue", {}, Binding(Scene(layers=LAYERS), model=model))
 
 
 @pytest.fixture(params=["winkler", "beam"])
@@ -47,15 +48,15 @@ def test_the_moment_about_the_fulcrum_is_the_sum_over_layers_of_k_cubes_over_thr
 
 
 def test_one_layer_of_20_kpa_at_100_mm_feels_as_published() -> None:
-    memory = effect.LateralTissue().parameters(
-        Binding(Scene(layers=(Layer("x", 0.2, 20e3),)), model="winkler")
+    memory = memory_of(
+        "lateral_tissue", {}, Binding(Scene(layers=(Layer("x", 0.2, 20e3),)), model="winkler")
     )
     assert effect.rotational_stiffness(memory, 0.1) == pytest.approx(6.67, abs=0.01)
 
 
 def test_the_beam_table_is_that_of_the_closed_form_in_one_layer() -> None:
     scene = Scene(layers=(Layer("x", 0.15, 20e3),), needle=Needle(outer_diameter=0.718e-3))
-    memory = effect.LateralTissue().parameters(Binding(scene, model="beam"))
+    memory = memory_of("lateral_tissue", {}, Binding(scene, model="beam"))
     ei = bending_stiffness(0.718e-3)
     for depth in (0.02, 0.05, 0.1, 0.14):
         exact = beam_moment(20e3, ei, depth, 1.0)
@@ -65,7 +66,7 @@ def test_the_beam_table_is_that_of_the_closed_form_in_one_layer() -> None:
 
 def test_a_thick_needle_bends_little_where_it_is_shallow() -> None:
     scene = Scene(layers=LAYERS, needle=Needle(outer_diameter=10e-3))
-    beam = effect.LateralTissue().parameters(Binding(scene, model="beam"))
+    beam = memory_of("lateral_tissue", {}, Binding(scene, model="beam"))
     assert effect.rotational_stiffness(beam, 0.06) == pytest.approx(
         effect.rotational_stiffness(tissue(), 0.06), rel=2e-3
     )

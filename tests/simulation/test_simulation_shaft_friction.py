@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from simulation.effect_rig import memory_of
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
@@ -12,9 +13,7 @@ LAYERS = (Layer("a", 0.2, friction=10.0, static_friction=18.0, viscous_friction=
 
 
 def friction(**parameters: float) -> FloatArray:
-    return effect.ShaftFriction(**parameters).parameters(
-        Binding(Scene(layers=LAYERS), sv.PLANT_DEPTH)
-    )
+    return memory_of("shaft_friction", parameters, Binding(Scene(layers=LAYERS), sv.PLANT_DEPTH))
 
 
 def tick(memory: FloatArray, depth: float, dt: float = 1e-3) -> float:
@@ -78,7 +77,7 @@ def test_a_cycle_dissipates_all_but_the_presliding_energy() -> None:
 
 def test_a_measured_depth_has_its_speed_smoothed() -> None:
     scene = Scene(layers=LAYERS)
-    memory = effect.ShaftFriction().parameters(Binding(scene))
+    memory = memory_of("shaft_friction", {}, Binding(scene))
     assert memory[effect.SMOOTHING] == pytest.approx(0.03)
     assert friction()[effect.SMOOTHING] == 0.0
 

@@ -1,4 +1,4 @@
-"""A study is added just the way docs/architecture.md says: the file on the page, nothing else."""
+"""A study is added just the way docs/extending.md says: the file on the page, nothing else."""
 
 import re
 from pathlib import Path
@@ -9,7 +9,7 @@ from app import studies
 from app.studies.errors import StudyError
 from app.studies.runner import find_study, run, study_names
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "architecture.md"
+PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
 
 
 @pytest.fixture

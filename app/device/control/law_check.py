@@ -16,9 +16,9 @@ from pathlib import Path
 from typing import Any, Final
 
 from app.core import compiled, paths
-from app.core.declarations import read_statements
 from app.core.errors import AcusError
 from app.core.files import write_atomically
+from app.core.plugins import read_statements
 from app.core.stage_check import Checked, RefusedStageError, check_stage
 from app.device.control import law_trial
 from app.device.control.law import Law

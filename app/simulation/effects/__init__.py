@@ -1,5 +1,191 @@
-"""Effects, one file each. See 'How to add an effect' in docs/architecture.md.
+"""Effects, one file each. See 'How to add an effect' in docs/extending.md.
 
-Nothing here imports them: the registry reads their declarations as text and imports only what a
-plan keeps.
+Nothing here imports them: their declarations are read as text (`core.plugins`), and only what a
+plan keeps is imported. The compiled code of one that is not the program's own is checked before.
+
+In the form before, parameters stood twice: defaults in a dataclass named as the file, which made
+the array, and (unit, least, most, meaning) in the declaration. Such files are still read.
 """
+
+import ast
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any, Final
+
+from app.core.arrays import FloatArray
+from app.core.plugins import (
+    CHOICES,
+    ENERGY,
+    PARAMETERS,
+    SLOTS,
+    TEXT,
+    TEXTS,
+    Kind,
+    Source,
+    StageDeclaration,
+    complete,
+    read_statements,
+)
+from app.core.stage_check import RefusedStageError, check_stage
+from app.simulation.errors import SimulationError
+from app.simulation.scene import Binding
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Effect(StageDeclaration):
+    """What an effect reads, writes and needs, and who could consume it.
+
+    Attributes:
+        consumers: kinds of consumer that could use it, for display; the compiler looks at slots.
+        needs: parts of the scene that must not be empty (`layers`).
+        models: way to compute it -> what that way is; the first is the default.
+        cost_class: A (< 50 ns), B (1-5 µs), C (frame or event rate), D (offline).
+    """
+
+    consumers: tuple[str, ...]
+    needs: tuple[str, ...]
+    models: Mapping[str, str]
+    cost_class: str
+
+    def checked(self, given: Mapping[str, float]) -> dict[str, float]:
+        """Complete `given` with the defaults and check every value.
+
+        Raises:
+            SimulationError: for an unknown name, or a value that is no number or out of range.
+        """
+        return complete(KIND, self, given)
+
+    def model(self, asked: str) -> str:
+        """Return the way to compute it: the one asked for, or the default.
+
+        Raises:
+            SimulationError: naming the ways that exist.
+        """
+        if asked and asked not in self.models:
+            raise SimulationError(
+                f"effect {self.name!r} has no model {asked!r}; it has {', '.join(self.models)}"
+            )
+        return asked or next(iter(self.models))
+
+
+def effect_names() -> tuple[str, ...]:
+    """Names of all effects, sorted."""
+    return KIND.names()
+
+
+def declaration(name: str) -> Effect:
+    """Read what an effect says about itself, without importing it.
+
+    Raises:
+        SimulationError: for an unknown name, listing the known ones, or a broken file.
+    """
+    return KIND.find(name)
+
+
+def parameters_of(name: str, values: Mapping[str, float], binding: Binding) -> FloatArray:
+    """Return a fresh array of parameters of an effect, its memory included.
+
+    Args:
+        name: of the effect.
+        values: of all its parameters, see `Effect.checked`.
+        binding: what it is bound to.
+
+    Raises:
+        SimulationError: if its file cannot be used, or gives fewer than its stage uses.
+    """
+    module = implementation(name)
+    if hasattr(module, "parameters"):
+        array: FloatArray = module.parameters(values, binding)
+    else:
+        array = getattr(module, _class_name(name))(**values).parameters(binding)
+    if (needed := _needed(declaration(name))) > len(array):
+        raise SimulationError(
+            f"effect {name}: step() uses {needed} parameters, parameters() gives {len(array)}"
+        )
+    return array
+
+
+def implementation(name: str) -> ModuleType:
+    """Import an effect. Only for effects that the plan keeps.
+
+    Raises:
+        SimulationError: for one that is not the program's own if its compiled code could do harm
+            (`core.stage_check`); says where and why.
+    """
+    return KIND.load(declaration(name), before=_needed)
+
+
+def _needed(effect: Effect) -> int:
+    """Parameters that an effect's stage uses at least; 0 for the program's own."""
+    if KIND.is_own(effect.path):
+        return 0
+    try:
+        return check_stage(effect.path, read_statements(effect.path), effect.writes).parameters
+    except RefusedStageError as refusal:
+        raise SimulationError(str(refusal)) from refusal
+
+
+def _class_name(effect: str) -> str:
+    """Name of the dataclass in a file of the form before: `hand_tremor` -> `HandTremor`."""
+    return "".join(part.capitalize() for part in effect.split("_"))
+
+
+def _older(path: Path, source: Source) -> Source:
+    """Rewrite a declaration of the form before, whose rows have no default, into today's."""
+    rows = (source.document or {}).get("parameters")
+    defined = {node.name for node in source.body if isinstance(node, ast.FunctionDef)}
+    if source.document is None or not isinstance(rows, dict) or "parameters" in defined:
+        return source
+    defaults = _defaults(source.body, path)
+    if set(rows) != set(defaults):
+        raise SimulationError(
+            f"{path}: the fields of the dataclass and DECLARATION['parameters'] differ in "
+            f"{sorted(set(rows) ^ set(defaults))}"
+        )
+    completed: dict[str, Any] = {name: (defaults[name], *rows[name]) for name in defaults}
+    return source._replace(document=source.document | {"parameters": completed})
+
+
+def _defaults(body: list[ast.stmt], path: Path) -> dict[str, float]:
+    wanted = _class_name(path.stem)
+    for node in body:
+        if isinstance(node, ast.ClassDef) and node.name == wanted:
+            fields = [item for item in node.body if isinstance(item, ast.AnnAssign)]
+            try:
+                return {
+                    item.target.id: float(ast.literal_eval(item.value))
+                    for item in fields
+                    if isinstance(item.target, ast.Name) and item.value is not None
+                }
+            except (ValueError, TypeError) as error:
+                raise SimulationError(
+                    f"{path}: a field of {wanted} has no literal number as default"
+                ) from error
+    raise SimulationError(
+        f"{path} has no function parameters(), and (the form before) has no dataclass {wanted};"
+        " see 'How to add an effect'"
+    )
+
+
+KIND: Final[Kind[Effect]] = Kind(
+    noun="an effect",
+    declares=Effect,
+    fields={
+        "title": TEXT,
+        "reads": SLOTS,
+        "writes": SLOTS,
+        "consumers": TEXTS,
+        "needs": TEXTS,
+        "models": CHOICES,
+        "energy": ENERGY,
+        "cost_class": TEXT,
+        "parameters": PARAMETERS,
+    },
+    error=SimulationError,
+    package=__name__,
+    folder="effects",
+    functions=("step",),
+    older=_older,
+)

@@ -10,7 +10,7 @@ Median amplitudes of the liver: SI 11.9, AP 3.8, LR 1.3 mm.
 Driven by time, so declared active: it is not counted in energy balances.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
@@ -23,43 +23,32 @@ from app.simulation.scene import Binding
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Breathing moves the target",
     "reads": ("time",),
-    "writes": ("target_shift_x", "target_shift_y", "target_shift_z"),
+    "writes": ("target_shift",),
     "consumers": ("view target_motion", "score of tip to target"),
     "needs": (),
     "models": {"lujan": "sin^2n along inferior and left, lagging along anterior; exact in time"},
     "energy": ("active", "driven by time"),
     "cost_class": "A",
     "parameters": {
-        "superior_inferior": ("m", 0.0, 0.06, "amplitude towards the feet"),
-        "anterior_posterior": ("m", 0.0, 0.03, "amplitude towards the front"),
-        "left_right": ("m", 0.0, 0.03, "amplitude towards the patient's left"),
-        "period": ("s", 0.5, 60.0, "of one breath"),
-        "shape": ("-", 1.0, 10.0, "n of sin^2n: higher rests longer at exhalation"),
-        "anterior_lag": ("rad", 0.0, 1.5708, "phase by which the anterior part lags"),
+        "superior_inferior": (0.0119, "m", 0.0, 0.06, "amplitude towards the feet"),
+        "anterior_posterior": (0.0038, "m", 0.0, 0.03, "amplitude towards the front"),
+        "left_right": (0.0013, "m", 0.0, 0.03, "amplitude towards the patient's left"),
+        "period": (4.0, "s", 0.5, 60.0, "of one breath"),
+        "shape": (2.0, "-", 1.0, 10.0, "n of sin^2n: higher rests longer at exhalation"),
+        "anterior_lag": (0.392699, "rad", 0.0, 1.5708, "phase by which the anterior part lags"),
     },
 }
 
 PERIOD, SHAPE, LAG, START, FIRST, SECOND = 0, 1, 2, 3, 4, 7
 
 
-@dataclass(frozen=True, slots=True)
-class Breathing:
-    """Amplitudes [m], period [s] and shape of the breath."""
-
-    superior_inferior: float = 0.0119
-    anterior_posterior: float = 0.0038
-    left_right: float = 0.0013
-    period: float = 4.0
-    shape: float = 2.0
-    anterior_lag: float = 0.392699
-
-    def parameters(self, binding: Binding) -> FloatArray:
-        """Return a fresh parameters array; breathing starts at exhalation at its first tick."""
-        left, posterior, superior = binding.scene.R_world_patient.T
-        in_phase = self.left_right * left - self.superior_inferior * superior
-        lagging = -self.anterior_posterior * posterior
-        head = [self.period, self.shape, self.anterior_lag, np.nan]
-        return np.concatenate([head, in_phase, lagging])
+def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
+    """Return a fresh parameters array; breathing starts at exhalation at its first tick."""
+    left, posterior, superior = binding.scene.R_world_patient.T
+    in_phase = values["left_right"] * left - values["superior_inferior"] * superior
+    lagging = -values["anterior_posterior"] * posterior
+    head = [values["period"], values["shape"], values["anterior_lag"], np.nan]
+    return np.concatenate([head, in_phase, lagging])
 
 
 @njit

@@ -28,7 +28,7 @@ Withdrawing forgets. A depth that nobody measured (DEPTH_SOURCE 0, the model's) 
 tissue stays as it was last known, and before the first measurement there is none.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
@@ -53,16 +53,19 @@ from app.simulation.errors import SimulationError
 from app.simulation.needles import bending_stiffness
 from app.simulation.scene import Binding
 
-__all__ = ["BIN", "DEPTH", "LateralTissue", "energy_bound", "rotational_stiffness", "step"]
+__all__ = ["BIN", "DEPTH", "energy_bound", "parameters", "rotational_stiffness", "step"]
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Side stiffness of layered tissue about the fulcrum",
-    "reads": ("axis_x", "axis_y", "axis_z", "depth", "depth_source", "l_out", "kinematics"),
+    "reads": ("axis", "depth", "depth_source", "l_out", "kinematics"),
     "writes": (
-        "force_x", "force_y", "force_z", "potential", "gain_work",
-        "tip_offset_x", "tip_offset_y", "tip_offset_z",
-        "tip_slope_x", "tip_slope_y", "tip_slope_z",
-        "root_curvature_x", "root_curvature_y", "root_curvature_z", "bent_length",
+        "force",
+        "potential",
+        "gain_work",
+        "tip_offset",
+        "tip_slope",
+        "root_curvature",
+        "bent_length",
     ),
     "consumers": ("device axis lateral", "score of felt force", "views and score of the tip"),
     "needs": ("layers", "needle"),
@@ -76,37 +79,30 @@ DECLARATION: Final[dict[str, Any]] = {
     ),
     "cost_class": "A",
     "parameters": {
-        "stiffness_scale": ("-", 0.0, 100.0, "factor on the side stiffness of every layer"),
-        "shortest_lever": ("m", 0.005, 0.2, "L_out below which the force stops growing"),
+        "stiffness_scale": (1.0, "-", 0.0, 100.0, "factor on the side stiffness of every layer"),
+        "shortest_lever": (0.02, "m", 0.005, 0.2, "L_out below which the force stops growing"),
     },
-}  # fmt: skip
+}
 
 _LONGEST: Final = 1.0  # [m] of layers; longer than any needle
 
 
-@dataclass(frozen=True, slots=True)
-class LateralTissue:
-    """Parameters of the effect; layers and needle come from the scene."""
+def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
+    """Return a fresh parameters array: tissue not yet pierced.
 
-    stiffness_scale: float = 1.0
-    shortest_lever: float = 0.02
-
-    def parameters(self, binding: Binding) -> FloatArray:
-        """Return a fresh parameters array: tissue not yet pierced.
-
-        Raises:
-            SimulationError: if the layers together are thicker than a metre.
-        """
-        layers = binding.scene.layers
-        ends = np.cumsum([layer.thickness for layer in layers])
-        if ends[-1] > _LONGEST:
-            raise SimulationError(
-                f"the layers are {ends[-1]:g} m thick together; at most {_LONGEST:g} m"
-            )
-        stiffness = np.array([self.stiffness_scale * layer.side_stiffness for layer in layers])
-        rigid = binding.model == "winkler"
-        flexibility = 0.0 if rigid else 1.0 / bending_stiffness(binding.scene.needle.outer_diameter)
-        return empty(ends, stiffness, flexibility, self.shortest_lever)
+    Raises:
+        SimulationError: if the layers together are thicker than a metre.
+    """
+    scene, scale = binding.scene, values["stiffness_scale"]
+    ends = np.cumsum([layer.thickness for layer in scene.layers])
+    if ends[-1] > _LONGEST:
+        raise SimulationError(
+            f"the layers are {ends[-1]:g} m thick together; at most {_LONGEST:g} m"
+        )
+    stiffness = np.array([scale * layer.side_stiffness for layer in scene.layers])
+    rigid = binding.model == "winkler"
+    flexibility = 0.0 if rigid else 1.0 / bending_stiffness(scene.needle.outer_diameter)
+    return empty(ends, stiffness, flexibility, values["shortest_lever"])
 
 
 @stage

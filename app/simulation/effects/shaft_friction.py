@@ -17,7 +17,7 @@ creep, and a depth that flickers by one count moves f by at most σ times that c
 Energy: dissipative but for the presliding spring, which gives back at most g²/(2σ).
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
@@ -37,9 +37,27 @@ DECLARATION: Final[dict[str, Any]] = {
     "energy": ("dissipative", "the presliding spring returns at most g²/(2σ) of what it took"),
     "cost_class": "A",
     "parameters": {
-        "presliding_stiffness": ("N/m²", 1.0, 1e9, "spring before sliding, per inserted length"),
-        "stribeck_speed": ("m/s", 1e-5, 1.0, "speed at which break-away has fallen to kinetic"),
-        "speed_smoothing": ("s", 0.0, 1.0, "time constant of the speed where depth is measured"),
+        "presliding_stiffness": (
+            1e5,
+            "N/m²",
+            1.0,
+            1e9,
+            "before sliding, per inserted length",
+        ),
+        "stribeck_speed": (
+            0.002,
+            "m/s",
+            1e-5,
+            1.0,
+            "at which break-away has fallen to kinetic",
+        ),
+        "speed_smoothing": (
+            0.03,
+            "s",
+            0.0,
+            1.0,
+            "time constant of a measured depth's speed",
+        ),
     },
 }
 
@@ -49,35 +67,26 @@ _FASTEST: Final = 10.0  # [m/s]; faster is a jump of the measurement
 _SNAP: Final = 1e-12  # below this a decaying value becomes 0: subnormal numbers cost 20 times more
 
 
-@dataclass(frozen=True, slots=True)
-class ShaftFriction:
-    """Parameters of the effect; the layers come from the scene."""
+def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
+    """Return a fresh parameters array: needle at rest.
 
-    presliding_stiffness: float = 1e5
-    stribeck_speed: float = 0.002
-    speed_smoothing: float = 0.03
-
-    def parameters(self, binding: Binding) -> FloatArray:
-        """Return a fresh parameters array: needle at rest.
-
-        The true depth of a simulated needle is
-        differenced as it is; a measured depth comes in steps of a camera frame, so its speed is
-        smoothed over `speed_smoothing`.
-        """
-        smoothing = 0.0 if binding.depth_slot == sv.PLANT_DEPTH else self.speed_smoothing
-        scene = binding.scene
-        ends = np.cumsum([layer.thickness for layer in scene.layers])
-        layers = [
-            (
-                end,
-                layer.friction,
-                max(layer.static_friction, layer.friction),
-                layer.viscous_friction,
-            )
-            for end, layer in zip(ends, scene.layers, strict=True)
-        ]
-        head = [binding.depth_slot, self.presliding_stiffness, self.stribeck_speed, smoothing]
-        return np.concatenate([head, [len(ends), np.nan, 0.0, 0.0], np.ravel(layers)])
+    The true depth of a simulated needle is differenced as it is; a measured depth comes in steps
+    of a camera frame, so its speed is smoothed over `speed_smoothing`.
+    """
+    simulated = binding.depth_slot == sv.PLANT_DEPTH
+    smoothing = 0.0 if simulated else values["speed_smoothing"]
+    layers = []
+    ends = np.cumsum([layer.thickness for layer in binding.scene.layers])
+    for end, layer in zip(ends, binding.scene.layers, strict=True):
+        static = max(layer.static_friction, layer.friction)
+        layers.append((end, layer.friction, static, layer.viscous_friction))
+    head = [
+        binding.depth_slot,
+        values["presliding_stiffness"],
+        values["stribeck_speed"],
+        smoothing,
+    ]
+    return np.concatenate([head, [len(ends), np.nan, 0.0, 0.0], np.ravel(layers)])
 
 
 @njit

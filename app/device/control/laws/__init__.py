@@ -1,18 +1,14 @@
-"""Force laws, one file each. See 'How to add a force law' in docs/architecture.md.
+"""Force laws, one file each. See 'How to add a force law' in docs/extending.md.
 
-The folder is listed, then every folder appended to this package's `__path__`, then the user's own
-(`core.paths.laws`). What a law says about itself is read as text; only the laws that are asked for
-are imported. A law that is not the program's own is checked before (`control.law_check`).
+Only the laws that are asked for are imported (`core.plugins`). A law that is not the program's own
+is checked before (`control.law_check`).
 
 A request names a law and the parameters that differ from its defaults: `{"fixture": {}}`.
 """
 
 from __future__ import annotations
 
-import importlib.util
 import math
-import sys
-import threading
 from collections.abc import Mapping
 from pathlib import Path
 from types import ModuleType
@@ -20,23 +16,20 @@ from typing import Any
 
 import numpy as np
 
-from app.core import paths
 from app.core.arrays import FloatArray
 from app.core.compiled import STAGE_SIGNATURE
 from app.device.control import law_check
-from app.device.control.law import Law, read_law
+from app.device.control.law import KIND, Law, read_law
 from app.device.errors import LawError
 from app.mechanisms.profile import DeviceProfile
 
 Requests = Mapping[str, Mapping[str, float]]
 """Law -> parameters that replace its defaults."""
 
-_IMPORTING = threading.RLock()
-
 
 def law_names() -> tuple[str, ...]:
     """Names of all laws, sorted."""
-    return tuple(sorted({path.stem for path in files()}))
+    return KIND.names()
 
 
 def declaration(name: str) -> Law:
@@ -46,12 +39,7 @@ def declaration(name: str) -> Law:
         LawError: for an unknown name, listing the known ones; for a name that two files have; for
             a broken file, naming it and what is wrong.
     """
-    found = [path for path in files() if path.stem == name]
-    if not found:
-        raise LawError(f"there is no force law {name!r}; there are {', '.join(law_names())}")
-    if len(found) > 1:
-        raise LawError(f"two files are the law {name!r}: {found[0]} and {found[1]}; rename one")
-    return read_law(found[0])
+    return KIND.find(name)
 
 
 def stages_of(requests: Requests, profile: DeviceProfile) -> list[tuple[str, Any, FloatArray]]:
@@ -83,13 +71,7 @@ def energy_bound(requests: Requests, profile: DeviceProfile) -> float:
 
 def files() -> list[Path]:
     """Files of all laws: the program's own, appended folders', then the user's."""
-    folders = [*map(Path, __path__), paths.laws()]
-    return [
-        path
-        for folder in dict.fromkeys(folders)
-        for path in sorted(folder.glob("*.py"))
-        if not path.stem.startswith("_")
-    ]
+    return KIND.files()
 
 
 def _stage(
@@ -119,7 +101,7 @@ def _bound(name: str, given: Mapping[str, float], profile: DeviceProfile) -> flo
 
 def is_own(law: Law) -> bool:
     """Whether a law is one of the program's own."""
-    return law.path.parent == Path(__file__).parent
+    return KIND.is_own(law.path)
 
 
 def refused() -> dict[Path, str]:
@@ -147,28 +129,11 @@ def _needed(law: Law) -> int:
 
 def _implementation(law: Law) -> ModuleType:
     """Import a law's file, once; one that is not the program's own is checked first."""
-    name = f"{__name__}.{law.name}"
-    with _IMPORTING:
-        known = sys.modules.get(name)
-        if known is not None and known.__file__ == str(law.path):
-            return known
-        if not is_own(law):
-            law_check.check(law)
-        specification = importlib.util.spec_from_file_location(name, law.path)
-        if specification is None or specification.loader is None:
-            raise LawError(f"law file {law.path} cannot be imported")
-        module = sys.modules[name] = importlib.util.module_from_spec(specification)
-        try:
-            specification.loader.exec_module(module)
-            _check_step(module, law)
-        except BaseException as error:  # whatever somebody's file does: no half of it stays
-            sys.modules.pop(name, None)
-            if isinstance(error, LawError) or not isinstance(error, Exception):
-                raise
-            raise LawError(f"law file {law.path} cannot be imported: {error}") from error
-    return module
 
+    def compiled(module: ModuleType) -> None:
+        if STAGE_SIGNATURE.args not in getattr(module.step, "signatures", ()):
+            raise LawError(
+                f"{law.path}: step is not compiled; put @stage of core.compiled before it"
+            )
 
-def _check_step(module: ModuleType, law: Law) -> None:
-    if STAGE_SIGNATURE.args not in getattr(module.step, "signatures", ()):
-        raise LawError(f"{law.path}: step is not compiled; put @stage of core.compiled before it")
+    return KIND.load(law, None if is_own(law) else law_check.check, compiled)

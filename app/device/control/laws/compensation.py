@@ -26,20 +26,8 @@ from app.mechanisms.profile import DeviceProfile
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Compensation of gravity and joint friction",
-    "reads": (
-        "kinematics",
-        "q_left",
-        "q_right",
-        "qd_left",
-        "qd_right",
-        "p3_x",
-        "p3_y",
-        "axis",
-        "l_out",
-        "depth",
-        "dt",
-    ),
-    "writes": ("joint_left", "joint_right", "potential", "gain_work", "friction_work"),
+    "reads": ("kinematics", "q", "qd", "p3", "axis", "l_out", "depth", "dt"),
+    "writes": ("joint", "potential", "gain_work", "friction_work"),
     "energy": (
         "active",
         "gravity's share stores what gravity loses; friction's gives at most its share of what the"

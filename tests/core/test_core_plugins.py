@@ -1,29 +1,36 @@
 """Literal declarations of plug-in files, read without importing them."""
 
+from dataclasses import dataclass
+
 import pytest
 
-from app.core.declarations import number_within, read_source
 from app.core.errors import AcusError
+from app.core.plugins import TEXT, Declaration, Field, Kind, number_within
 
 
 class GadgetError(AcusError):
     pass
 
 
+@dataclass(frozen=True, kw_only=True)
+class Gadget(Declaration):
+    size: tuple[int, float]
+
+
+KIND = Kind("a gadget", Gadget, {"title": TEXT, "size": Field("a size", tuple)}, GadgetError)
+
+
 def read(folder, text):
     path = folder / "gadget.py"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return read_source(path, "a gadget", ("title", "size"), GadgetError)
+    return KIND.read(path)
 
 
 @pytest.mark.parametrize("annotation", ["", ": Final[dict[str, Any]]"])
 def test_a_declaration_is_read_and_the_file_is_not_run(tmp_path, annotation):
     head = "raise SystemExit\nother, DECLARED = 1, 2\n"
-    document, body = read(
-        tmp_path, f"{head}DECLARATION{annotation} = {{'title': 'A', 'size': (1, 2.5)}}"
-    )
-    assert document == {"title": "A", "size": (1, 2.5)}
-    assert len(body) == 3
+    found = read(tmp_path, f"{head}DECLARATION{annotation} = {{'title': 'A', 'size': (1, 2.5)}}")
+    assert (found.name, found.title, found.size) == ("gadget", "A", (1, 2.5))
 
 
 @pytest.mark.parametrize(
@@ -36,6 +43,8 @@ def test_a_declaration_is_read_and_the_file_is_not_run(tmp_path, annotation):
         ("DECLARATION = {[]: 1}", "not a literal"),
         ("DECLARATION = {'title': 'A'}", r"exactly the keys title, size; check \['size'\]"),
         ("DECLARATION = {'title': 'A', 'size': 1, 'x': 2}", r"check \['x'\]"),
+        ("DECLARATION = {'title': 'A',\n 'size': 1}", "line 2: size is 1; give a size"),
+        ("DECLARATION = {'title': '', 'size': ()}", "line 1: title is ''; give a text that is"),
         ("def", "gadget file .* cannot be read"),
         (b"\xff\xfe", "gadget file .* cannot be read"),
     ],

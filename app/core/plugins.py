@@ -1,0 +1,468 @@
+"""Plug-ins: force laws, effects, metrics, studies and views, one file each, all read the same way.
+
+A plug-in says what it is in a literal `DECLARATION = {...}` at its top. It is read as text: a file
+that is not chosen is never imported. A `Kind` says for one sort of plug-in what must be declared,
+where its files lie (the program's folder, folders appended to its package's `__path__`, the user's
+own folder) and which error is raised. Every message has file, line, field, value and what would be
+valid. See docs/extending.md.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import importlib.util
+import math
+import sys
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import lru_cache
+from operator import attrgetter
+from pathlib import Path
+from sys import float_info
+from types import MappingProxyType, ModuleType
+from typing import Any, Final, Generic, NamedTuple, TypeVar
+
+from app.core import paths
+from app.core.errors import AcusError
+from app.core.state_vector import INDEX, VECTORS, slots_named
+
+ENERGIES: Final = ("potential", "dissipative", "active")
+"""A stage stores energy and gives it back; only takes it; or can give out more than it took."""
+
+_NAME: Final = "DECLARATION"
+_IMPORTING = threading.RLock()
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One SI parameter of a plug-in.
+
+    Attributes:
+        default: a number, a field of the device profile such as `fixture.stiffness`, or None: it
+            must be given.
+        unit: for display.
+        minimum, maximum: the closed range it must lie in.
+        meaning: one line.
+    """
+
+    default: float | str | None
+    unit: str
+    minimum: float
+    maximum: float
+    meaning: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Declaration:
+    """What every plug-in says about itself; kinds add fields of their own.
+
+    Attributes:
+        name: of its file, without `.py`.
+        path: of its file.
+        title: one line for display.
+    """
+
+    name: str
+    path: Path
+    title: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StageDeclaration(Declaration):
+    """What a plug-in says that runs in a tick: a force law or an effect.
+
+    Attributes:
+        reads, writes: slots of the state vector, lower case; vectors by their components.
+        energy: one of `ENERGIES`, and the statement behind it.
+        parameters: name -> Parameter.
+    """
+
+    reads: tuple[str, ...]
+    writes: tuple[str, ...]
+    energy: tuple[str, str]
+    parameters: Mapping[str, Parameter]
+
+
+class Field(NamedTuple):
+    """One key of a declaration.
+
+    Attributes:
+        valid: what may stand there, in words.
+        read: value -> what the declaration holds; raises ValueError or TypeError, whose message
+            may say which part of the value is wrong.
+    """
+
+    valid: str
+    read: Callable[[Any], Any]
+
+
+D = TypeVar("D", bound=Declaration)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Kind(Generic[D]):
+    """One sort of plug-in.
+
+    Attributes:
+        noun: what it is, with its article, as the documentation says it: `an effect`.
+        declares: made of a file's declaration.
+        fields: key -> what must stand there; exactly these keys.
+        error: makes the error of the room that asks.
+        package: whose folders hold such files; empty if they are found otherwise.
+        folder: name of the user's own folder; empty if there is none.
+        functions: that a file must define at its top level.
+        older: rewrites what a file of an earlier form says into this form; None leaves a file
+            without a declaration refused.
+        marks: a file of the program's folder counts only if one of these is in it; empty: all do.
+    """
+
+    noun: str
+    declares: type[D]
+    fields: Mapping[str, Field]
+    error: Callable[[str], AcusError]
+    package: str = ""
+    folder: str = ""
+    functions: tuple[str, ...] = ()
+    older: Callable[[Path, Source], Source] | None = None
+    marks: tuple[bytes, ...] = ()
+
+    @property
+    def word(self) -> str:
+        """The noun without its article."""
+        return self.noun.split(" ", 1)[1]
+
+    def files(self) -> list[Path]:
+        """Files of all plug-ins: the program's own, appended folders', then the user's."""
+        package = importlib.import_module(self.package)
+        folders = [*map(Path, package.__path__), paths.plugins(self.folder)]
+        return [
+            path
+            for folder in dict.fromkeys(folders)
+            for path in sorted(folder.glob("*.py"))
+            if not path.stem.startswith("_") and (not self.is_own(path) or self._counts(path))
+        ]
+
+    def names(self) -> tuple[str, ...]:
+        """Names of all plug-ins, sorted."""
+        return tuple(sorted({path.stem for path in self.files()}))
+
+    def find(self, name: str) -> D:
+        """Read what a plug-in says about itself, without importing it.
+
+        Raises:
+            AcusError: made by `error`: for an unknown name, listing the known ones; for a name
+                that two files have; for a file that is broken.
+        """
+        return self.read(self.file(name))
+
+    def file(self, name: str) -> Path:
+        """Return the file of a plug-in.
+
+        Raises:
+            AcusError: made by `error`: for an unknown name, or one that two files have.
+        """
+        found = [path for path in self.files() if path.stem == name]
+        if not found:
+            raise self.error(f"there is no {self.word} {name!r}; there are {self._known()}")
+        if len(found) > 1:
+            raise self.error(
+                f"two files are the {self.word.split()[-1]} {name!r}:"
+                f" {found[0]} and {found[1]}; rename one"
+            )
+        return found[0]
+
+    def read(self, path: Path) -> D:
+        """Read the declaration of a file, without importing it; once while it does not change.
+
+        Raises:
+            AcusError: made by `error`, with file, line, field, value and what would be valid.
+        """
+        try:
+            found: D = _read(self, path, path.read_text(encoding="utf-8"))
+        except (OSError, SyntaxError, ValueError) as reason:
+            if isinstance(reason, AcusError):
+                raise
+            raise self.error(f"{self.word} file {path} cannot be read: {reason}") from reason
+        return found
+
+    def is_own(self, path: Path) -> bool:
+        """Whether a file is one of the program's own."""
+        package = importlib.import_module(self.package)
+        return package.__file__ is not None and path.parent == Path(package.__file__).parent
+
+    def load(
+        self,
+        declared: D,
+        before: Callable[[D], object] | None = None,
+        after: Callable[[ModuleType], object] | None = None,
+    ) -> ModuleType:
+        """Import a plug-in's file, once; of a file that fails nothing stays.
+
+        Args:
+            declared: its declaration.
+            before: checks the file before it is imported; raises if it must not be.
+            after: checks the module; raises if it cannot be used.
+
+        Raises:
+            AcusError: made by `error`, naming the file and what went wrong in it.
+        """
+        name = f"{self.package}.{declared.name}"
+        with _IMPORTING:
+            known = sys.modules.get(name)
+            if known is not None and known.__file__ == str(declared.path):
+                return known
+            if before is not None:
+                before(declared)
+            specification = importlib.util.spec_from_file_location(name, declared.path)
+            if specification is None or specification.loader is None:
+                raise self.error(f"{self.word} file {declared.path} cannot be imported")
+            module = sys.modules[name] = importlib.util.module_from_spec(specification)
+            try:
+                specification.loader.exec_module(module)
+                if after is not None:
+                    after(module)
+            except BaseException as reason:  # whatever somebody's file does: no half of it stays
+                sys.modules.pop(name, None)
+                if isinstance(reason, AcusError) or not isinstance(reason, Exception):
+                    raise
+                raise self.error(
+                    f"{self.word} file {declared.path} cannot be imported: {reason}"
+                ) from reason
+            setattr(sys.modules[self.package], declared.name, module)
+        return module
+
+    def _counts(self, path: Path) -> bool:
+        if not self.marks:
+            return True
+        content = path.read_bytes()
+        return any(mark in content for mark in self.marks)
+
+    def _known(self) -> str:
+        return ", ".join(self.names()) or "none"
+
+
+class Source(NamedTuple):
+    """A file that was read.
+
+    Attributes:
+        document: the literal; None if there is none.
+        lines: key, or the name of a parameter, -> line on which its value stands.
+        body: the statements of the file.
+    """
+
+    document: dict[str, Any] | None
+    lines: Mapping[str, int]
+    body: list[ast.stmt]
+
+
+def read_statements(path: Path) -> list[ast.stmt]:
+    """Read the statements of a file without running it.
+
+    Raises:
+        OSError, SyntaxError, ValueError: if it cannot be read as Python.
+    """
+    return ast.parse(path.read_text(encoding="utf-8"), str(path)).body
+
+
+@lru_cache(maxsize=512)
+def _read(kind: Kind[Any], path: Path, text: str) -> Any:
+    body = ast.parse(text, str(path)).body
+    source = _literal(kind, body, path)
+    if kind.older is not None:
+        source = kind.older(path, source)
+    if source.document is None:
+        raise kind.error(f"{path} has no {_NAME} = {{...}}; see 'How to add {kind.noun}'")
+    if set(source.document) != set(kind.fields):
+        raise kind.error(
+            f"{path}, line {source.lines.get('', 1)}: {_NAME} must have exactly the keys"
+            f" {', '.join(kind.fields)}; check {sorted(set(source.document) ^ set(kind.fields))}"
+        )
+    defined = {node.name for node in body if isinstance(node, ast.FunctionDef)}
+    if missing := [name for name in kind.functions if name not in defined]:
+        raise kind.error(f"{path} has no function {missing[0]}(); see 'How to add {kind.noun}'")
+    values = {key: _value(kind, key, source, path) for key in kind.fields}
+    return kind.declares(name=path.stem, path=path, **values)
+
+
+def _literal(kind: Kind[Any], body: list[ast.stmt], path: Path) -> Source:
+    for node in body:
+        if not isinstance(node, ast.AnnAssign | ast.Assign) or node.value is None:
+            continue
+        target = node.targets[0] if isinstance(node, ast.Assign) else node.target
+        if isinstance(target, ast.Name) and target.id == _NAME:
+            try:
+                document = ast.literal_eval(node.value)
+            except (ValueError, TypeError) as reason:
+                raise kind.error(
+                    f"{path}, line {node.lineno}: {_NAME} is not a literal: {reason}"
+                ) from reason
+            if isinstance(document, dict) and isinstance(node.value, ast.Dict):
+                return Source(document, {"": node.lineno, **_lines(node.value)}, body)
+    return Source(None, {}, body)
+
+
+def _lines(node: ast.Dict) -> dict[str, int]:
+    found: dict[str, int] = {}
+    for key, value in zip(node.keys, node.values, strict=True):
+        if isinstance(key, ast.Constant) and isinstance(key.value, str):
+            found.setdefault(key.value, value.lineno)
+            if key.value == "parameters" and isinstance(value, ast.Dict):
+                rows = _lines(value)
+                found |= {f"parameter {name!r}": line for name, line in rows.items()}
+    return found
+
+
+def _value(kind: Kind[Any], key: str, source: Source, path: Path) -> Any:
+    document = source.document or {}
+    field, value = kind.fields[key], document[key]
+    line = source.lines.get(key, 1)
+    try:
+        return field.read(value)
+    except _WrongPartError as wrong:
+        line = source.lines.get(wrong.part or key, line)
+        what = wrong if wrong.part else f"{key}: {wrong}"
+        raise kind.error(f"{path}, line {line}: {what}; give {field.valid}") from wrong
+    except (TypeError, ValueError, AttributeError, KeyError) as wrong:
+        raise kind.error(f"{path}, line {line}: {key} is {value!r}; give {field.valid}") from wrong
+
+
+class _WrongPartError(ValueError):
+    """One part of a value is wrong: which (a key of `Source.lines`, or empty), and what with it."""
+
+    def __init__(self, part: str, words: str) -> None:
+        super().__init__(words)
+        self.part = part
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str) or not value:
+        raise ValueError
+    return value
+
+
+def _flag(value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise TypeError
+    return value
+
+
+def _texts(value: Any) -> tuple[str, ...]:
+    if not isinstance(value, tuple | list) or not all(isinstance(part, str) for part in value):
+        raise TypeError
+    return tuple(value)
+
+
+def _choices(value: Any) -> Mapping[str, str]:
+    if not isinstance(value, dict) or not value or not all(map(_text, (*value, *value.values()))):
+        raise ValueError
+    return MappingProxyType(dict(value))
+
+
+def _slots(value: Any) -> tuple[str, ...]:
+    found: list[str] = []
+    for name in _texts(value):
+        slots = slots_named(name)
+        if not slots:
+            near = get_close_matches(name, (*INDEX, *VECTORS), 3, 0.5)
+            hint = f" (near: {', '.join(near)})" if near else ""
+            raise _WrongPartError("", f"{name!r} is not a slot of core.state_vector{hint}")
+        found += slots
+    return tuple(dict.fromkeys(found))
+
+
+def _energy(value: Any) -> tuple[str, str]:
+    kind, statement = value
+    if kind not in ENERGIES or not isinstance(value, tuple | list):
+        raise ValueError
+    return kind, str(statement)
+
+
+def _parameters(value: Any) -> Mapping[str, Parameter]:
+    return MappingProxyType({_text(name): _parameter(name, row) for name, row in value.items()})
+
+
+def _parameter(name: str, row: Any) -> Parameter:
+    try:
+        default, unit, minimum, maximum, meaning = row
+        found = Parameter(default, unit, float(minimum), float(maximum), meaning)
+        usable = math.isfinite(found.minimum) and math.isfinite(found.maximum)
+    except (TypeError, ValueError):
+        usable = False
+    if not (usable and isinstance(default, int | float | str | None)):
+        raise _WrongPartError(f"parameter {name!r}", f"parameter {name!r} is {row!r}")
+    return found
+
+
+TEXT: Final = Field("a text that is not empty", _text)
+FLAG: Final = Field("True or False", _flag)
+TEXTS: Final = Field("a tuple of texts", _texts)
+CHOICES: Final = Field("{name: what it is, ...}, one at least", _choices)
+SLOTS: Final = Field(
+    "a tuple of slots or vectors in lower case, such as ('depth', 'force', 'target_shift')", _slots
+)
+ENERGY: Final = Field(
+    f"(kind, statement), the kind one of {', '.join(ENERGIES)}, the statement a text", _energy
+)
+PARAMETERS: Final = Field(
+    "{name: (default, unit, least, most, meaning), ...}, the default a number, None if it must be"
+    " given, or for a force law a field of the device profile",
+    _parameters,
+)
+
+
+def complete(
+    kind: Kind[Any],
+    declared: StageDeclaration,
+    given: Mapping[str, float],
+    profile: object | None = None,
+) -> dict[str, float]:
+    """Complete the parameters that were given with the defaults, and check every value.
+
+    Args:
+        kind: of the plug-in.
+        declared: its declaration.
+        given: values that replace its defaults.
+        profile: whose fields a default may name; None if there is none.
+
+    Raises:
+        AcusError: made by the kind's `error`: for an unknown name, or a value that is no number,
+            out of range, or missing.
+    """
+    what = f"{kind.word.split()[-1]} {declared.name!r}"
+    if unknown := sorted(set(given) - set(declared.parameters)):
+        raise kind.error(
+            f"{what} has no parameter {unknown[0]!r}; "
+            f"it has {', '.join(sorted(declared.parameters)) or 'none'}"
+        )
+    found = {}
+    for name, limit in declared.parameters.items():
+        value: object = given.get(name, limit.default)
+        if name not in given and isinstance(value, str):
+            try:
+                value = float(attrgetter(value)(profile))
+            except AttributeError as error:
+                raise kind.error(
+                    f"{declared.path}: {name} takes {limit.default!r} from the device profile, "
+                    "which has no such field"
+                ) from error
+        if value is None:
+            raise kind.error(f"{what} needs {name} [{limit.unit}]: {limit.meaning}")
+        number = number_within(value, limit.minimum, limit.maximum)
+        if number is None:
+            raise kind.error(
+                f"{what}: {name} is {value!r}; "
+                f"give {limit.minimum:g} to {limit.maximum:g} {limit.unit}"
+            )
+        found[name] = number
+    return found
+
+
+def number_within(value: object, minimum: float, maximum: float) -> float | None:
+    """Return a value as a number if it is a finite one within a closed range; else None."""
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return None
+    usable = minimum <= value <= maximum and abs(value) <= float_info.max
+    return float(value) if usable else None
