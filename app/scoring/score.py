@@ -5,6 +5,7 @@ from math import isfinite
 
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import (
+    MetricError,
     MetricNotAskedError,
     MetricUnavailableError,
     ToleranceError,
@@ -47,11 +48,14 @@ def check_names(
     Raises:
         UnknownMetricError: naming the metrics that exist.
         ToleranceError: naming the bands and the direction.
+        MetricError: for a metric of the user's own whose file is broken; says why.
     """
     metrics = available() if metrics is None else metrics
     for name, limits in tolerances.items():
         if name not in metrics:
             raise UnknownMetricError(f"no metric {name!r}; there are {', '.join(metrics)}")
+        if metrics[name].fault:
+            raise MetricError(f"metric {name!r} cannot be used: {metrics[name].fault}")
         if limits.higher_is_better != metrics[name].higher_is_better:
             way = "higher" if metrics[name].higher_is_better else "lower"
             raise ToleranceError(
@@ -73,7 +77,7 @@ def _row(metric: Metric, trajectory: Trajectory, limits: Tolerance | None) -> Ro
         value, note = None, str(error)
     if value is not None and not isfinite(value):
         value, note = None, "the value is too large to be written as a number"
-    return Row(metric.name, metric.label, metric.unit, value, note, limits)
+    return Row(metric.name, metric.title, metric.unit, value, note, limits)
 
 
 def _attempt_void(trajectory: Trajectory, rules: Rules) -> str:

@@ -8,7 +8,8 @@ import pytest
 from scoring_attempts import Attempt
 
 from app.scoring import metrics
-from app.scoring.score import score
+from app.scoring.errors import MetricError
+from app.scoring.score import check_names, score
 from app.scoring.tolerance import Tolerance
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
@@ -21,10 +22,32 @@ def from_the_page() -> str:
     return block.group(1)
 
 
-@pytest.fixture
-def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
-    (tmp_path / "deepest_point.py").write_text(from_the_page(), encoding="utf-8")
-    monkeypatch.setattr(metrics, "__path__", [*metrics.__path__, str(tmp_path)])
+FORM_BEFORE = """\"\"\"Largest depth that the tip reached in the body.\"\"\"
+
+from app.core.units import MILLIMETRE
+from app.scoring.trajectory import Trajectory
+
+NAME = "deepest_point"
+LABEL = "Deepest point"
+UNIT = "mm"
+HIGHER_IS_BETTER = False
+READS = ("force_x", "force_y")
+
+
+def compute(trajectory: Trajectory) -> float:
+    trajectory.insertions()
+    return float(trajectory.depth[trajectory.inserted].max()) / MILLIMETRE
+"""
+
+
+@pytest.fixture(params=["appended", "own", "form before"])
+def added(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    code = FORM_BEFORE if request.param == "form before" else from_the_page()
+    (tmp_path / "deepest_point.py").write_text(code, encoding="utf-8")
+    if request.param == "appended":
+        monkeypatch.setattr(metrics, "__path__", [*metrics.__path__, str(tmp_path)])
+    else:
+        monkeypatch.setenv("ACUS_METRICS", str(tmp_path))
     yield "deepest_point"  # type: ignore[misc]
     sys.modules.pop("app.scoring.metrics.deepest_point", None)
 
@@ -47,3 +70,28 @@ def test_the_metric_of_the_page_says_why_it_has_no_value(added: str) -> None:
     row = score(Attempt().trajectory(phase=phase)).row(added)
     assert row.value is None
     assert row.note == "the needle was never inserted"
+
+
+def test_a_metric_of_the_users_own_that_is_broken_breaks_no_score_and_says_why(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ACUS_METRICS", str(tmp_path))
+    good = from_the_page()
+    (tmp_path / "upside.py").write_text(good.replace("False", "3"), encoding="utf-8")
+    (tmp_path / "raises.py").write_text(good.replace("    return", "    1 / 0\n    return"))
+    result = score(Attempt().trajectory())
+    assert result.row("target_error").value == pytest.approx(0.0, abs=1e-9)
+    assert "line 11: higher_is_better is 3; give True or False" in result.row("upside").note
+    assert "raises.py: compute() fails: ZeroDivisionError" in result.row("raises").note
+    limits = Tolerance.model_validate({"expert": 1.0, "good": 2.0, "pass": 3.0})
+    with pytest.raises(MetricError, match=r"upside.py, line 11: higher_is_better is 3"):
+        check_names({"upside": limits})
+
+
+def test_a_metric_with_the_name_of_another_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ACUS_METRICS", str(tmp_path))
+    (tmp_path / "target_error.py").write_text(from_the_page(), encoding="utf-8")
+    with pytest.raises(MetricError, match="two files are the metric 'target_error'"):
+        metrics.available()

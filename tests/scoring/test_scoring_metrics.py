@@ -25,7 +25,7 @@ def test_every_file_in_the_folder_is_a_metric() -> None:
     expected = {"target_error", "lateral_error", "depth_error", "angle_error", "path_length"}
     assert expected <= set(NAMES)
     for metric in metrics.available().values():
-        assert metric.label
+        assert metric.title
         assert metric.definition
 
 

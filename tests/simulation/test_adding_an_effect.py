@@ -149,7 +149,11 @@ def test_a_wrong_declaration_of_the_form_before_is_named(
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('("force",)', '("force_w",)', r"line 16: writes: 'force_w' is not a slot .*near: .*force_x"),
+        (
+            '("force",)',
+            '("force_w",)',
+            r"line 16: writes: 'force_w' is not .*near: .*force_x",
+        ),
         ("def parameters", "def values", r"has no function parameters\(\)"),
         ("(0.2, ", "('low', [0], ", r"line 23: parameter 'amplitude' is \('low'.* give \{name: "),
         ('("active"', '("free"', r"energy is \('free', .*one of potential, dissipative, active"),

@@ -1,50 +1,79 @@
-"""Metrics, one file each. A file in this folder is a metric; there is no list to edit."""
+"""Metrics, one file each. See 'How to add a metric' in docs/extending.md.
+
+They are listed and read as text (`core.plugins`); a metric is imported when it is computed. One of
+the user's own that is broken breaks no score: it has no value, and says why.
+
+In the form before, a metric said NAME, LABEL, UNIT, HIGHER_IS_BETTER and READS in constants of
+their own. Such files are still read.
+"""
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
-from collections.abc import Callable
+import ast
 from dataclasses import dataclass
-from types import ModuleType
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
 
-from app.core.state_vector import INDEX
-from app.scoring.errors import MetricError, UnknownMetricError
-from app.scoring.trajectory import Trajectory
+from app.core import paths
+from app.core.plugins import FLAG, SLOTS, Declaration, Field, Kind, Source, read_statements
+from app.scoring.errors import MetricError, MetricUnavailableError, UnknownMetricError
+
+if TYPE_CHECKING:
+    from app.scoring.trajectory import Trajectory
 
 
-@dataclass(frozen=True, slots=True)
-class Metric:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Metric(Declaration):
     """One number about an attempt.
 
     Attributes:
-        name: name of its file, used in tolerances.
-        label: for display.
         unit: of the value.
         higher_is_better: direction; for a signed value (depth) the distance from zero counts.
         reads: slots of the loop's state that it uses beyond the needle's pose; the scene compiler
             keeps the effects that write them.
-        definition: its docstring.
-        compute: the value of a trajectory; never NaN.
+        fault: why its file cannot be used; empty if it can.
     """
 
-    name: str
-    label: str
     unit: str
     higher_is_better: bool
     reads: tuple[str, ...]
-    definition: str
-    compute: Callable[[Trajectory], float]
+    fault: str = ""
+
+    @property
+    def definition(self) -> str:
+        """What is measured, in words: the text at the top of its file."""
+        return ast.get_docstring(ast.Module(read_statements(self.path), [])) or ""
+
+    def compute(self, trajectory: Trajectory) -> float:
+        """Return the value of an attempt; never NaN.
+
+        Raises:
+            MetricUnavailableError: if the attempt does not allow it, or a file of the user's own
+                cannot be used or fails; says why.
+            MetricError: if one of the program's own files cannot be used.
+        """
+        if self.fault:
+            raise MetricUnavailableError(self.fault)
+        try:
+            return float(KIND.load(self).compute(trajectory))
+        except MetricUnavailableError:
+            raise
+        except Exception as error:  # whatever somebody's file does: the other metrics stand
+            if KIND.is_own(self.path):
+                raise
+            raise MetricUnavailableError(
+                f"{self.path}: compute() fails: {type(error).__name__}: {error}"
+            ) from error
 
 
 def available() -> dict[str, Metric]:
-    """Every metric on the search path of this package, by name.
+    """Every metric by name: the program's own, appended folders', then the user's.
 
     Raises:
-        MetricError: if a file is not a metric; names the file and what it lacks.
+        MetricError: if a file that is not the user's is no metric, or two files have one name;
+            names the file and what it lacks.
     """
-    names = sorted(module.name for module in pkgutil.iter_modules(__path__))
-    return {name: _metric(name) for name in names}
+    return {name: _readable(KIND.file(name)) for name in KIND.names()}
 
 
 def find(name: str) -> Metric:
@@ -52,34 +81,80 @@ def find(name: str) -> Metric:
 
     Raises:
         UnknownMetricError: listing the metrics that exist.
+        MetricError: as `available`.
     """
-    names = [module.name for module in pkgutil.iter_modules(__path__)]
-    if name not in names:
-        raise UnknownMetricError(f"no metric {name!r}; there are {', '.join(sorted(names))}")
-    return _metric(name)
+    if name not in (names := KIND.names()):
+        raise UnknownMetricError(f"no metric {name!r}; there are {', '.join(names)}")
+    return _readable(KIND.file(name))
 
 
-def _metric(name: str) -> Metric:
-    module = importlib.import_module(f"{__name__}.{name}")
+def _readable(path: Path) -> Metric:
     try:
-        if name != module.NAME:
-            raise MetricError(f"{module.__file__}: NAME is {module.NAME!r}, the file is {name!r}")
+        return KIND.read(path)
+    except MetricError as error:
+        if path.parent != paths.plugins("metrics"):
+            raise
         return Metric(
-            name=name,
-            label=module.LABEL,
-            unit=module.UNIT,
-            higher_is_better=module.HIGHER_IS_BETTER,
-            reads=_reads(module),
-            definition=(module.__doc__ or "").strip(),
-            compute=module.compute,
+            name=path.stem,
+            path=path,
+            title=path.stem,
+            unit="",
+            higher_is_better=False,
+            reads=(),
+            fault=str(error),
         )
-    except AttributeError as error:
-        raise MetricError(f"{module.__file__} is not a metric: {error}") from error
 
 
-def _reads(module: ModuleType) -> tuple[str, ...]:
-    reads = tuple(getattr(module, "READS", ()))
-    unknown = [slot for slot in reads if slot not in INDEX]
-    if unknown:
-        raise MetricError(f"{module.__file__}: READS names {unknown[0]!r}, which is no state slot")
-    return reads
+_BEFORE: Final = {"title": "LABEL", "unit": "UNIT", "higher_is_better": "HIGHER_IS_BETTER"}
+
+
+def _older(path: Path, source: Source) -> Source:
+    """Rewrite the constants of the form before into a declaration."""
+    nodes = {
+        target.id: node.value
+        for node in source.body
+        if isinstance(node, ast.Assign | ast.AnnAssign) and node.value is not None
+        for target in (node.targets if isinstance(node, ast.Assign) else [node.target])
+        if isinstance(target, ast.Name)
+    }
+    if source.document is not None or "NAME" not in nodes:
+        return source
+    if missing := [name for name in _BEFORE.values() if name not in nodes]:
+        raise MetricError(f"{path} is not a metric: it has no {', '.join(missing)}")
+    said: dict[str, Any] = {}
+    for name in ("NAME", *_BEFORE.values(), "READS"):
+        try:
+            said[name] = ast.literal_eval(nodes[name]) if name in nodes else ()
+        except ValueError as error:
+            raise MetricError(
+                f"{path}, line {nodes[name].lineno}: {name} is {ast.unparse(nodes[name])}; give a"
+                " literal value"
+            ) from error
+    if said["NAME"] != path.stem:
+        raise MetricError(f"{path}: NAME is {said['NAME']!r}, the file is {path.stem!r}")
+    lines = {key: nodes[name].lineno for key, name in _BEFORE.items()}
+    document = {key: said[name] for key, name in _BEFORE.items()} | {"reads": said["READS"]}
+    return Source(document, lines, source.body)
+
+
+def _label(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError
+    return value
+
+
+KIND: Final[Kind[Metric]] = Kind(
+    noun="a metric",
+    declares=Metric,
+    fields={
+        "title": Field("a text", _label),
+        "unit": Field("a text, empty for a number without unit", _label),
+        "higher_is_better": FLAG,
+        "reads": SLOTS,
+    },
+    error=MetricError,
+    package=__name__,
+    folder="metrics",
+    functions=("compute",),
+    older=_older,
+)

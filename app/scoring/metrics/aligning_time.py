@@ -1,12 +1,16 @@
 """Time in the phase aligning: the needle is outside the body."""
 
+from typing import Any, Final
+
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Phase, Trajectory
 
-NAME = "aligning_time"
-LABEL = "Aligning time"
-UNIT = "s"
-HIGHER_IS_BETTER = False
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Aligning time",
+    "unit": "s",
+    "higher_is_better": False,
+    "reads": (),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -4,14 +4,18 @@ It asks for no motion of the target by itself: where nobody shows or scores the 
 target, the path is the planned one.
 """
 
+from typing import Any, Final
+
 from app.core.arrays import angle_between
 from app.core.units import DEGREE
 from app.scoring.trajectory import Trajectory
 
-NAME = "angle_error"
-LABEL = "Angle error"
-UNIT = "°"
-HIGHER_IS_BETTER = False
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Angle error",
+    "unit": "°",
+    "higher_is_better": False,
+    "reads": (),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

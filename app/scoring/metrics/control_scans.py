@@ -1,12 +1,16 @@
 """Number of control scans that the student took."""
 
+from typing import Any, Final
+
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 
-NAME = "control_scans"
-LABEL = "Control scans"
-UNIT = "scans"
-HIGHER_IS_BETTER = False
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Control scans",
+    "unit": "scans",
+    "higher_is_better": False,
+    "reads": (),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -1,20 +1,16 @@
 """Part of tip − target along the path at the end; positive beyond the target."""
 
+from typing import Any, Final
+
 from app.core.units import MILLIMETRE
 from app.scoring.trajectory import Trajectory
 
-NAME = "depth_error"
-LABEL = "Depth error"
-UNIT = "mm"
-HIGHER_IS_BETTER = False
-READS = (
-    "target_shift_x",
-    "target_shift_y",
-    "target_shift_z",
-    "tip_offset_x",
-    "tip_offset_y",
-    "tip_offset_z",
-)
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Depth error",
+    "unit": "mm",
+    "higher_is_better": False,
+    "reads": ("target_shift", "tip_offset"),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

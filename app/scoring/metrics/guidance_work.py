@@ -4,16 +4,19 @@ Positive: the fixture moved the needle, so it did part of the student's task; ne
 worked against it. Off its path a spring gives back what it took, so the sum over a detour is small.
 """
 
+from typing import Any, Final
+
 import numpy as np
 
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 
-NAME = "guidance_work"
-LABEL = "Guidance work"
-UNIT = "mJ"
-HIGHER_IS_BETTER = False
-READS = ("guide_x", "guide_y", "guide_z")
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Guidance work",
+    "unit": "mJ",
+    "higher_is_better": False,
+    "reads": ("guide",),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

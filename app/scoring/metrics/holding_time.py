@@ -1,12 +1,16 @@
 """Time in the phase holding: the tip rests near the target."""
 
+from typing import Any, Final
+
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Phase, Trajectory
 
-NAME = "holding_time"
-LABEL = "Holding time"
-UNIT = "s"
-HIGHER_IS_BETTER = False
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Holding time",
+    "unit": "s",
+    "higher_is_better": False,
+    "reads": (),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

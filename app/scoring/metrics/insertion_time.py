@@ -1,12 +1,16 @@
 """Time with the needle in the body: inserting and holding, over all insertions."""
 
+from typing import Any, Final
+
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 
-NAME = "insertion_time"
-LABEL = "Insertion time"
-UNIT = "s"
-HIGHER_IS_BETTER = False
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Insertion time",
+    "unit": "s",
+    "higher_is_better": False,
+    "reads": (),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

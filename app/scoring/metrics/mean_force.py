@@ -1,14 +1,17 @@
 """Mean over time of the force that the hand felt while the needle was in the body."""
 
+from typing import Any, Final
+
 import numpy as np
 
 from app.scoring.trajectory import Trajectory
 
-NAME = "mean_force"
-LABEL = "Mean force, estimated"
-UNIT = "N"
-HIGHER_IS_BETTER = False
-READS = ("felt_x", "felt_y", "felt_z")
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Mean force, estimated",
+    "unit": "N",
+    "higher_is_better": False,
+    "reads": ("felt",),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

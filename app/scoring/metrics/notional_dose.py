@@ -1,12 +1,16 @@
 """Sum of the notional dose-length products of the control scans: a teaching estimate."""
 
+from typing import Any, Final
+
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 
-NAME = "notional_dose"
-LABEL = "Dose (teaching estimate)"
-UNIT = "mGy·cm"
-HIGHER_IS_BETTER = False
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Dose (teaching estimate)",
+    "unit": "mGy·cm",
+    "higher_is_better": False,
+    "reads": (),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

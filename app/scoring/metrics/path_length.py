@@ -4,15 +4,18 @@ Positions are averaged over blocks of half a second first (`scoring.paths`): the
 samples grows with noise and sampling rate. `path_length_raw` is that plain sum.
 """
 
+from typing import Any, Final
+
 from app.core.units import MILLIMETRE
 from app.scoring.paths import smooth_length
 from app.scoring.trajectory import Trajectory
 
-NAME = "path_length"
-LABEL = "Path length"
-UNIT = "mm"
-HIGHER_IS_BETTER = False
-READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Path length",
+    "unit": "mm",
+    "higher_is_better": False,
+    "reads": ("tip_offset",),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -3,15 +3,18 @@
 It grows with measurement noise and with the sampling rate: compare only attempts recorded alike.
 """
 
+from typing import Any, Final
+
 from app.core.units import MILLIMETRE
 from app.scoring.paths import raw_length
 from app.scoring.trajectory import Trajectory
 
-NAME = "path_length_raw"
-LABEL = "Path length, raw"
-UNIT = "mm"
-HIGHER_IS_BETTER = False
-READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Path length, raw",
+    "unit": "mm",
+    "higher_is_better": False,
+    "reads": ("tip_offset",),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -1,5 +1,7 @@
 """Length of the tip's path in the last insertion over the straight line between its two ends."""
 
+from typing import Any, Final
+
 import numpy as np
 
 from app.core.units import MILLIMETRE
@@ -7,11 +9,12 @@ from app.scoring.errors import MetricUnavailableError
 from app.scoring.paths import smooth_length
 from app.scoring.trajectory import Trajectory
 
-NAME = "path_ratio"
-LABEL = "Path ratio"
-UNIT = ""
-HIGHER_IS_BETTER = False
-READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Path ratio",
+    "unit": "",
+    "higher_is_better": False,
+    "reads": ("tip_offset",),
+}
 SHORTEST = 1.0 * MILLIMETRE
 
 

@@ -1,14 +1,17 @@
 """Largest force that the hand felt while the needle was in the body."""
 
+from typing import Any, Final
+
 import numpy as np
 
 from app.scoring.trajectory import Trajectory
 
-NAME = "peak_force"
-LABEL = "Peak force, estimated"
-UNIT = "N"
-HIGHER_IS_BETTER = False
-READS = ("felt_x", "felt_y", "felt_z")
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Peak force, estimated",
+    "unit": "N",
+    "higher_is_better": False,
+    "reads": ("felt",),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

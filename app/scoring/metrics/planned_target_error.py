@@ -4,16 +4,19 @@ Equals the target error where the target does not move; with breathing, the diff
 well the student chose the moment.
 """
 
+from typing import Any, Final
+
 import numpy as np
 
 from app.core.units import MILLIMETRE
 from app.scoring.trajectory import Trajectory
 
-NAME = "planned_target_error"
-LABEL = "Error to the planned target"
-UNIT = "mm"
-HIGHER_IS_BETTER = False
-READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Error to the planned target",
+    "unit": "mm",
+    "higher_is_better": False,
+    "reads": ("tip_offset",),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -1,13 +1,16 @@
 """By how much the needle came nearer to a risk structure than allowed, at the worst of them."""
 
+from typing import Any, Final
+
 from app.scoring.errors import MetricNotAskedError
 from app.scoring.trajectory import Trajectory
 
-NAME = "risk_breach"
-LABEL = "Too near to risk"
-UNIT = "mm"
-HIGHER_IS_BETTER = False
-READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Too near to risk",
+    "unit": "mm",
+    "higher_is_better": False,
+    "reads": ("tip_offset",),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

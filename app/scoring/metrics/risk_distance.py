@@ -1,13 +1,16 @@
 """Smallest distance of the needle from a structure marked as risk; 0 where it was inside one."""
 
+from typing import Any, Final
+
 from app.scoring.errors import MetricNotAskedError
 from app.scoring.trajectory import Trajectory
 
-NAME = "risk_distance"
-LABEL = "Distance from risk"
-UNIT = "mm"
-HIGHER_IS_BETTER = True
-READS = ("tip_offset_x", "tip_offset_y", "tip_offset_z")
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Distance from risk",
+    "unit": "mm",
+    "higher_is_better": True,
+    "reads": ("tip_offset",),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -1,22 +1,18 @@
 """Distance from the tip to the target where it is at the end: |tip − target|."""
 
+from typing import Any, Final
+
 import numpy as np
 
 from app.core.units import MILLIMETRE
 from app.scoring.trajectory import Trajectory
 
-NAME = "target_error"
-LABEL = "Target error"
-UNIT = "mm"
-HIGHER_IS_BETTER = False
-READS = (
-    "target_shift_x",
-    "target_shift_y",
-    "target_shift_z",
-    "tip_offset_x",
-    "tip_offset_y",
-    "tip_offset_z",
-)
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Target error",
+    "unit": "mm",
+    "higher_is_better": False,
+    "reads": ("target_shift", "tip_offset"),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

@@ -1,12 +1,16 @@
 """Time from the begin to the end of the attempt: aligning, inserting and holding together."""
 
+from typing import Any, Final
+
 from app.scoring.errors import MetricUnavailableError
 from app.scoring.trajectory import Trajectory
 
-NAME = "total_time"
-LABEL = "Total time"
-UNIT = "s"
-HIGHER_IS_BETTER = False
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Total time",
+    "unit": "s",
+    "higher_is_better": False,
+    "reads": (),
+}
 
 
 def compute(trajectory: Trajectory) -> float:

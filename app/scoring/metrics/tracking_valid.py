@@ -1,11 +1,15 @@
 """Share of the time in the body, pauses included, during which the tip's depth was measured."""
 
+from typing import Any, Final
+
 from app.scoring.trajectory import Trajectory
 
-NAME = "tracking_valid"
-LABEL = "Tracking valid"
-UNIT = "%"
-HIGHER_IS_BETTER = True
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Tracking valid",
+    "unit": "%",
+    "higher_is_better": True,
+    "reads": (),
+}
 
 
 def compute(trajectory: Trajectory) -> float:
