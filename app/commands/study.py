@@ -77,11 +77,17 @@ def _print(result: "Result | SurveyResult", console: "Console") -> None:
 
 
 def _list() -> Answer:
-    from app.studies.runner import find_study, study_names
+    from app.studies.errors import StudyError
+    from app.studies.runner import declaration, study_names
 
-    found = [find_study(name) for name in study_names()]
-    rows = [{"name": s.name, "title": s.title, "question": s.question} for s in found]
-    lines = [f"{item.name:24} {item.question}" for item in found]
+    rows = []
+    for name in study_names():
+        try:
+            title, question = (found := declaration(name)).title, found.question
+        except StudyError as error:
+            title, question = name, f"cannot be used: {error}"
+        rows.append({"name": name, "title": title, "question": question})
+    lines = [f"{row['name']:24} {row['question']}" for row in rows]
     return Answer({"studies": rows}, lines, first_form=rows)
 
 

@@ -24,6 +24,12 @@ from app.tracking.calibration.sharpness import edge_width
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.simulated.board import BoardRenderer
 
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Corners of a board: the window that refines them, by square, slant, edge and noise",
+    "question": "How wide a window refines a board's corners best?",
+    "reference": "rendered boards with known truth, through a distorted lens",
+}
+
 SQUARES: Final = (8.0, 11.0, 14.0, 18.0, 26.0, 40.0)
 SLANTS: Final = (0.0, 40.0, 60.0)
 BLURS: Final = (0.6, 1.1, 1.8, 2.5)
@@ -219,10 +225,6 @@ def _draw(figure: Any, kinds: list[Tried]) -> None:
 
 
 STUDY: Final = Survey(
-    name="corners",
-    title="Corners of a board: the window that refines them, by square, slant, edge and noise",
-    question="How wide a window refines a board's corners best?",
-    reference="rendered boards with known truth, through a distorted lens",
     measure=_measure,
 )
 """Corner error against window, edge and square."""

@@ -19,6 +19,12 @@ from app.tracking.motion.depth_filter import DepthFilter
 from app.tracking.motion.hold import Hold
 from app.tracking.motion.one_euro import OneEuro
 
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "The tip on the screen: newest fix, Kalman, one euro",
+    "question": "Which filter shows the tip where it is when the picture is seen?",
+    "reference": "the motion itself, exact",
+}
+
 _PERIOD: Final = 1.0 / 30.0
 _NOISE: Final = 0.06 * MILLIMETRE
 _LATENCY: Final = 0.045  # [s] from capture to the fix
@@ -128,10 +134,6 @@ def _lags() -> Findings:
 
 
 STUDY: Final = Study(
-    name="depth_motion",
-    title="The tip on the screen: newest fix, Kalman, one euro",
-    question="Which filter shows the tip where it is when the picture is seen?",
-    reference="the motion itself, exact",
     error_label="RMS error of the shown depth [mm]",
     ways=tuple(
         Way(name, family, _way(make), "75 ms from capture to screen")

@@ -3,6 +3,7 @@
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any, Final
 
 from app.core.progress import Progress
 from app.imaging.series import Ignored
@@ -24,6 +25,15 @@ from app.studies.dicom_cases.comparison import (
 from app.studies.dicom_cases.peer import Peer
 from app.studies.dicom_cases.reasons import justified, meaning
 from app.studies.findings import Cell, Findings, Sheet, Survey
+
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Reading DICOM: Acus against GDCM through SimpleITK",
+    "question": "Is every CT series read as GDCM reads it, or refused for a right reason?",
+    "reference": (
+        "GDCM through SimpleITK for voxels; each file's own position, orientation and "
+        "spacing, read by pydicom, for places"
+    ),
+}
 
 _COLUMNS = (
     "series or file",
@@ -139,11 +149,6 @@ def _lines(
 
 
 STUDY = Survey(
-    name="dicom",
-    title="Reading DICOM: Acus against GDCM through SimpleITK",
-    question="Is every CT series read as GDCM reads it, or refused for a right reason?",
-    reference="GDCM through SimpleITK for voxels; each file's own position, orientation and "
-    "spacing, read by pydicom, for places",
     measure=measure,
     inputs="folders of DICOM files",
 )

@@ -58,25 +58,26 @@ class Findings:
     lines: tuple[str, ...] = ()
 
 
+def _nothing(*_: Any) -> Findings:
+    raise StudyError("this survey has no measure=...; see 'How to add a study'")
+
+
 @dataclass(frozen=True, slots=True)
 class Survey:
     """A study that answers by maps and tables instead of error against time.
 
     Attributes:
-        name: of the file, for the command line.
-        title: one line.
-        question: what it decides.
-        reference: what is compared with what, and how good that is.
+        name, title, question, reference: as the file's declaration says; the runner fills them in.
         measure: does the work; may report how far it is, and be cancelled. Where there are
             `inputs` it is called with them as well.
         inputs: what the paths are that may be given to it; empty if it takes none.
     """
 
-    name: str
-    title: str
-    question: str
-    reference: str
-    measure: Callable[..., Findings]
+    name: str = ""
+    title: str = ""
+    question: str = ""
+    reference: str = ""
+    measure: Callable[..., Findings] = _nothing
     inputs: str = ""
 
 

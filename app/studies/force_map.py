@@ -18,6 +18,12 @@ from app.mechanisms.profile import DeviceProfile, load_profile
 from app.studies.findings import Cell, Figure, Findings, Sheet
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Force at the hand: printed law and virtual work against closed-loop statics",
+    "question": "Which law turns a wanted force at the hand into motor torques?",
+    "reference": "MuJoCo's statics of the closed loop, hub held, to about 2e-6 N",
+}
+
 _DEVICE: Final = "icube"
 _WANTED: Final = 2.0  # [N]
 _FELT: Final = 0.1  # [N]
@@ -164,10 +170,6 @@ def _draw(figure: Any, sheet: Sheet) -> None:
 
 
 STUDY: Final = Study(
-    name="force_map",
-    title="Force at the hand: printed law and virtual work against closed-loop statics",
-    question="Which law turns a wanted force at the hand into motor torques?",
-    reference="MuJoCo's statics of the closed loop, hub held, to about 2e-6 N",
     error_label=f"error of the felt force [N], {_WANTED:g} N wanted",
     ways=tuple(_way(name, printed) for name, printed in _WAYS.items()),
     settings=tuple(

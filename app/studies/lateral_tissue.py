@@ -6,7 +6,7 @@ at 100 mm above it. Rigid needle on springs against a beam on an elastic foundat
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -21,6 +21,12 @@ from app.simulation.foundation import (
 )
 from app.simulation.needles import OUTER_DIAMETER, bending_stiffness
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
+
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Lateral tissue: rigid needle on springs against a beam on an elastic foundation",
+    "question": "Must the side force know that the needle bends?",
+    "reference": "closed form of the beam on an elastic foundation, relative error < 1e-12",
+}
 
 _STIFFNESS: Final = 20e3  # [N/m²] liver
 _TURN: Final = float(np.deg2rad(5.0))
@@ -144,10 +150,6 @@ _SETTINGS: Final = tuple(
 )
 
 STUDY: Final = Study(
-    name="lateral_tissue",
-    title="Lateral tissue: rigid needle on springs against a beam on an elastic foundation",
-    question="Must the side force know that the needle bends?",
-    reference="closed form of the beam on an elastic foundation, relative error < 1e-12",
     error_label="error of the force at the hand [N], 5° turn, 20 kPa",
     ways=_WAYS,
     settings=_SETTINGS,

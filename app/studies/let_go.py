@@ -16,6 +16,12 @@ from app.mechanisms.profile import DeviceProfile, LetGoLimit, load_profile
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
 from app.studies.releasing.device import Release, Rule, poses, release, upright
 
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Letting go of the needle: force to be had against run-away",
+    "question": "What force is left if a needle let go must stay slow, and how slow does it stay?",
+    "reference": "the simulated device beside its twin without motors, 160 forces per depth",
+}
+
 PROFILES: Final = ("icube", "haply-2diy")
 POSES: Final = 20
 AROUND: Final = 8  # directions of the force at a pose
@@ -219,9 +225,5 @@ def _lines(released: Sheet) -> tuple[str, ...]:
 
 
 STUDY: Final = Survey(
-    name="let_go",
-    title="Letting go of the needle: force to be had against run-away",
-    question="What force is left if a needle let go must stay slow, and how slow does it stay?",
-    reference="the simulated device beside its twin without motors, 160 forces per depth",
     measure=_measure,
 )

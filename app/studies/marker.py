@@ -25,6 +25,12 @@ from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import NeedleRenderer
 from app.tracking.simulated.scene import MarkerScene
 
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "The marker in a picture: four extractors and two Cramér-Rao bounds",
+    "question": "Which extractor finds the marker exactly enough?",
+    "reference": "the rendered band's centre, exact to the 55 rays of a pixel",
+}
+
 _RIG: Final = "wide"
 _FULCRUM: Final = np.array([0.0, 0.16056, 0.090])
 _SEEN: Final = 0.1  # [mm]
@@ -205,10 +211,6 @@ def _findings() -> Findings:
 
 
 STUDY: Final = Study(
-    name="marker",
-    title="The marker in a picture: four extractors and two Cramér-Rao bounds",
-    question="Which extractor finds the marker exactly enough?",
-    reference="the rendered band's centre, exact to the 55 rays of a pixel",
     error_label="RMS distance from the band's centre [mm at its distance]",
     ways=tuple(
         Way(name.value, name.value, _way(name), "one find near a predicted pixel")

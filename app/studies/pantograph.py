@@ -7,12 +7,18 @@ public code has them. At the end: what joint torque the largest force at the han
 
 from collections.abc import Callable
 from functools import partial
-from typing import Final
+from typing import Any, Final
 
 from app.core.progress import Progress
 from app.mechanisms.profile import load_profile
 from app.studies.findings import Figure, Findings, Sheet, Survey
 from app.studies.validation import numbers, pictures
+
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "The pantograph's formulas: closure, and the errors of the printed ones",
+    "question": "Are the formulas right, everywhere? How wrong are the printed ones?",
+    "reference": "each map against its inverse, derivatives against differences; icube geometry",
+}
 
 _DEVICE: Final = "icube"
 
@@ -69,9 +75,5 @@ def _lines(
 
 
 STUDY: Final = Survey(
-    name="pantograph",
-    title="The pantograph's formulas: closure, and the errors of the printed ones",
-    question="Are the formulas right, everywhere? How wrong are the printed ones?",
-    reference="each map against its inverse, derivatives against differences; icube geometry",
     measure=_measure,
 )

@@ -11,6 +11,12 @@ from app.studies.webcam.setups import SETUPS, Setup
 from app.studies.webcam.trials import Outcome, rendered, trials
 from app.tracking.confidence import chi_square_quantile
 
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "A pen with printed markers before one webcam",
+    "question": "How well is a needle known that is a pen before a webcam?",
+    "reference": "rendered pictures with known truth; trials with everything declared drawn anew",
+}
+
 _LIMIT: Final = 0.95
 
 
@@ -74,9 +80,5 @@ def _draw(figure: Any, outcomes: list[Outcome]) -> None:
 
 
 STUDY: Final = Survey(
-    name="pen",
-    title="A pen with printed markers before one webcam",
-    question="How well is a needle known that is a pen before a webcam?",
-    reference="rendered pictures with known truth; trials with everything declared drawn anew",
     measure=_measure,
 )

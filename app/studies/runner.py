@@ -1,46 +1,105 @@
 """Find studies and run them."""
 
-import importlib
+import ast
 import math
-import pkgutil
 import statistics
 import time
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Final
 
-from app import studies
 from app.core.errors import AcusError
+from app.core.plugins import TEXT, Declaration, Kind, Source
 from app.core.progress import Progress
 from app.studies.errors import StudyError
 from app.studies.findings import Survey, SurveyResult
 from app.studies.study import Case, Failure, Point, Prepared, Result, Setting, Study, Way
 
 REPEATS = 9
-_MACHINERY = {"errors", "findings", "plot", "runner", "study", "table"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclaredStudy(Declaration):
+    """What a study says about itself.
+
+    Attributes:
+        question: what it decides.
+        reference: what its answers are measured against or compared with, and how good that is.
+    """
+
+    question: str
+    reference: str
 
 
 def study_names() -> tuple[str, ...]:
-    """Names of all studies, sorted; a folder appended to `studies.__path__` counts as well.
+    """Names of all studies, sorted; a folder within is none: it holds what one study needs."""
+    return KIND.names()
 
-    A folder within is no study: it holds what one study needs beside its file.
+
+def declaration(name: str) -> DeclaredStudy:
+    """Read what a study says about itself, without importing it.
+
+    Raises:
+        StudyError: for an unknown name, listing the known ones, or a broken file.
     """
-    found = pkgutil.iter_modules(studies.__path__)
-    names = {module.name for module in found if not module.ispkg}
-    return tuple(sorted(names - _MACHINERY))
+    return KIND.find(name)
 
 
 def find_study(name: str) -> Study | Survey:
-    """Return a study by name.
+    """Import a study by name.
 
     Raises:
         StudyError: for an unknown name, listing the known ones, or a file without `STUDY`.
     """
-    if name not in study_names():
-        raise StudyError(f"there is no study {name!r}; there are {', '.join(study_names())}")
-    found = getattr(importlib.import_module(f"{studies.__name__}.{name}"), "STUDY", None)
-    if not isinstance(found, Study | Survey) or found.name != name:
-        raise StudyError(f"study file {name}.py must define STUDY, a Study or Survey of that name")
-    return found
+    declared = KIND.find(name)
+    found = getattr(KIND.load(declared), "STUDY", None)
+    if not isinstance(found, Study | Survey) or found.name not in ("", name):
+        raise StudyError(
+            f"study file {declared.path} must define STUDY, a Study or Survey"
+            + (f"; it is named {found.name!r} there" if hasattr(found, "name") else "")
+        )
+    if found.name:  # a file of the form before
+        return found
+    return replace(
+        found,
+        name=name,
+        title=declared.title,
+        question=declared.question,
+        reference=declared.reference,
+    )
+
+
+def _older(path: Path, source: Source) -> Source:
+    """Read title, question and reference of the form before, where they stand in `STUDY`."""
+    stated = [
+        node.value
+        for node in source.body
+        if isinstance(node, ast.Assign | ast.AnnAssign)
+        for target in (node.targets if isinstance(node, ast.Assign) else [node.target])
+        if isinstance(target, ast.Name) and target.id == "STUDY"
+    ]
+    if source.document is not None or not stated:
+        return source
+    given = {key.arg: key.value for key in getattr(stated[0], "keywords", [])}
+    texts = {key: given.get(key) for key in KIND.fields}
+    document = {
+        key: text.value if isinstance(text, ast.Constant) and text.value else path.stem
+        for key, text in texts.items()
+    }
+    return source._replace(document=document)
+
+
+KIND: Final[Kind[DeclaredStudy]] = Kind(
+    noun="a study",
+    declares=DeclaredStudy,
+    fields={"title": TEXT, "question": TEXT, "reference": TEXT},
+    error=StudyError,
+    package="app.studies",
+    folder="studies",
+    older=_older,
+    marks=(b"\nSTUDY", b"\nDECLARATION"),
+)
 
 
 def run(

@@ -17,6 +17,12 @@ from app.imaging.series import Series
 from app.imaging.volume import Volume
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Oblique slices: nearest, trilinear, cubic",
+    "question": "Which interpolation is good enough to look at, and fast enough to scroll?",
+    "reference": "analytic band-limited field, exact to 1e-10 HU; its float32 samples to 6e-5 HU",
+}
+
 _SPACING_MM: Final = (0.8, 0.8, 1.5)
 _SIZE: Final = (256, 256, 128)
 _PICTURE: Final = 512
@@ -94,10 +100,6 @@ _WAYS: Final = tuple(
 )
 
 STUDY: Final = Study(
-    name="slice_interpolation",
-    title="Oblique slices: nearest, trilinear, cubic",
-    question="Which interpolation is good enough to look at, and fast enough to scroll?",
-    reference="analytic band-limited field, exact to 1e-10 HU; its float32 samples to 6e-5 HU",
     error_label="RMS error of the picture [HU], contrast 100 HU",
     ways=_WAYS,
     settings=tuple(

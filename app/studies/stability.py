@@ -36,6 +36,14 @@ from app.studies.rendering.sweep import (
     regions,
 )
 
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Stable (K, B) of the free device over rate and delay",
+    "question": "How stiff a spring can the device render before it oscillates by itself?",
+    "reference": (
+        "reduction to one direction, solved exactly; Colgate-Schenkel bound and delay form"
+    ),
+}
+
 _DEVICE: Final = "icube"
 _EXAMPLES: Final = ((300.0, 1.0), (3000.0, 1.0))  # K, B: on both sides of the limit
 
@@ -96,9 +104,5 @@ def _draw_examples(figure: Any, tracks: dict[tuple[float, float], FloatArray]) -
 
 
 STUDY: Final = Survey(
-    name="stability",
-    title="Stable (K, B) of the free device over rate and delay",
-    question="How stiff a spring can the device render before it oscillates by itself?",
-    reference="reduction to one direction, solved exactly; Colgate-Schenkel bound and delay form",
     measure=_measure,
 )

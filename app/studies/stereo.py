@@ -20,6 +20,12 @@ from app.tracking.stereo import triangulation
 from app.tracking.stereo.rays import normalised
 from app.tracking.stereo.reprojection import reprojection
 
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Triangulation: three ways, and figure 42 redone",
+    "question": "How exact is a triangulated point, and which way is good enough?",
+    "reference": "the point itself, exact; noise of the published reprojection errors",
+}
+
 RMS_PX: Final = (0.29904, 0.23065)
 """Reprojection errors of the laboratory's two cameras [px], 2D."""
 
@@ -184,10 +190,6 @@ def draw(figure: Any) -> None:
 
 
 STUDY: Final = Study(
-    name="stereo",
-    title="Triangulation: three ways, and figure 42 redone",
-    question="How exact is a triangulated point, and which way is good enough?",
-    reference="the point itself, exact; noise of the published reprojection errors",
     error_label="RMS distance from the true point [mm]",
     ways=tuple(
         Way(way.value, way.value, _way(way), "one point from two pictures")

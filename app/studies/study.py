@@ -72,15 +72,12 @@ class Limit:
     label: str
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Study:
     """Ways against a reference.
 
     Attributes:
-        name: of the file, for the command line.
-        title: one line.
-        question: what it decides.
-        reference: what errors are measured against, and how good that is.
+        name, title, question, reference: as the file's declaration says; the runner fills them in.
         error_label: of the axis, with unit.
         ways, settings: what is run; names are unique.
         case: makes a setting ready.
@@ -90,10 +87,10 @@ class Study:
         findings: further tables and pictures, made after the points; none if left out.
     """
 
-    name: str
-    title: str
-    question: str
-    reference: str
+    name: str = ""
+    title: str = ""
+    question: str = ""
+    reference: str = ""
     error_label: str
     ways: tuple[Way, ...]
     settings: tuple[Setting, ...]

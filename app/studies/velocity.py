@@ -26,6 +26,12 @@ from app.studies.estimation.motions import MOTIONS, Motion, motion
 from app.studies.findings import Cell, Figure, Findings, Sheet
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Velocity from encoder angles",
+    "question": "Which estimator of the joint velocities?",
+    "reference": "the motion's own speed, in closed form",
+}
+
 _DEVICES: Final = ("icube", "haply-2diy")
 _RATES: Final = (500.0, 1000.0)
 _FELT: Final = 10.0  # [mm/s]
@@ -171,10 +177,6 @@ def _traces(figure: Any, seen: dict[tuple[str, float], Motion], count: float) ->
 
 
 STUDY: Final = Study(
-    name="velocity",
-    title="Velocity from encoder angles",
-    question="Which estimator of the joint velocities?",
-    reference="the motion's own speed, in closed form",
     error_label="RMS error of the tool's speed, as a share of what is noticed [-]",
     ways=tuple(_way(name) for name in _MAKERS),
     settings=tuple(

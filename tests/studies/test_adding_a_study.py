@@ -7,7 +7,7 @@ import pytest
 
 from app import studies
 from app.studies.errors import StudyError
-from app.studies.runner import find_study, run, study_names
+from app.studies.runner import declaration, find_study, run, study_names
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
 
@@ -18,17 +18,47 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_study_is_added_just_the_way_the_page_says(folder: Path) -> None:
+def from_the_page() -> tuple[str, str]:
+    """Name and content of the file that the page says to save."""
     section = PAGE.read_text(encoding="utf-8").split("## How to add a study\n")[1].split("\n## ")[0]
     name = re.search(r"Save this as\s+`[\w/]+/(\w+)\.py`", section)
     code = re.search(r"```python\n(.*?)```", section, re.DOTALL)
     assert name is not None
     assert code is not None
-    (folder / f"{name.group(1)}.py").write_text(code.group(1), encoding="utf-8")
-    assert name.group(1) in study_names()
-    result = run(name.group(1), repeats=1)
+    return name.group(1), code.group(1)
+
+
+def works_as_the_page_says(folder: Path, name: str, code: str) -> None:
+    (folder / f"{name}.py").write_text(code, encoding="utf-8")
+    assert name in study_names()
+    assert declaration(name).question == "How many terms are enough?"
+    result = run(name, repeats=1)
     assert result.failures == ()
     assert result.too_coarse() == ("1 terms", "2 terms")
+    said = (result.study.name, result.study.title, result.study.reference)
+    assert said == ("sine_series", "Sine by its series", "math.sin, 1e-16")
+
+
+def test_a_study_is_added_just_the_way_the_page_says(folder: Path) -> None:
+    works_as_the_page_says(folder, *from_the_page())
+
+
+def test_a_study_in_the_users_own_folder_is_found_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ACUS_STUDIES", str(tmp_path))
+    works_as_the_page_says(tmp_path, *from_the_page())
+
+
+def test_a_study_of_the_form_before_is_still_read(folder: Path) -> None:
+    name, code = from_the_page()
+    head, rest = code.split("DECLARATION")
+    stated = (
+        'STUDY = Study(\n    name="sine_series",\n    title="Sine by its series",\n'
+        '    question="How many terms are enough?",\n    reference="math.sin, 1e-16",\n'
+    )
+    body = rest.split("}\n", 1)[1].replace("STUDY: Final = Study(\n", stated)
+    works_as_the_page_says(folder, name, head + body)
 
 
 def test_a_file_without_a_study_is_named(folder: Path) -> None:
