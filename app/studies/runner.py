@@ -56,8 +56,7 @@ def find_study(name: str) -> Study | Survey:
     found = getattr(KIND.load(declared), "STUDY", None)
     if not isinstance(found, Study | Survey) or found.name not in ("", name):
         raise StudyError(
-            f"study file {declared.path} must define STUDY, a Study or Survey"
-            + (f"; it is named {found.name!r} there" if hasattr(found, "name") else "")
+            f"study file {declared.path} must define STUDY, a Study or Survey of {name!r}"
         )
     if found.name:  # a file of the form before
         return found
