@@ -53,7 +53,7 @@ def mono(
 
     With --out one camera's lens is written, as `acus pen calibrate --lens` and `pen.yaml` take it.
     """
-    from app.commands.calibrate import with_progress
+    from app.commands.calibrate_parts import with_progress
     from app.commands.calibrate_report import mono_document, mono_lines
     from app.core.errors import ConfigurationError
     from app.tracking.calibration.boards import parse_board
@@ -132,7 +132,7 @@ def stereo(
     with camera1_3.png; one without a partner helps its own lens. A known baseline or a second board
     contradicts a wrong board size. Exit code 3: it is not good enough, nothing was written or kept.
     """
-    from app.commands.calibrate import with_progress
+    from app.commands.calibrate_parts import with_progress
     from app.commands.calibrate_report import stereo_document, stereo_lines
     from app.tracking.calibration.boards import parse_board
     from app.tracking.calibration.sets import stereo_set

@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 
 from app.commands.answer import Answer
-from app.commands.calibrate import app
 from app.commands.calibrate_history import Id
+from app.commands.calibrate_parts import app
 from app.core.errors import AcusError
 
 BoardOption = Annotated[

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer
-from app.commands.calibrate import app
+from app.commands.calibrate_parts import app
 
 if TYPE_CHECKING:
     from app.tracking.calibration.history import CalibrationHistory, Entry

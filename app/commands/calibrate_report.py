@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from app.commands.calibrate import view_document
+from app.commands.calibrate_parts import view_document
 
 if TYPE_CHECKING:
     from app.tracking.calibration.checks import Check

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer
-from app.commands.calibrate import BoardSpec, app, with_progress
+from app.commands.calibrate_parts import BoardSpec, app, with_progress
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -81,7 +81,7 @@ def _show(
     from app.views.shell.collector import collect_for
     from app.views.shell.demonstration import Demonstration
     from app.views.shell.demonstration_script import Script
-    from app.views.shell.window import MainWindow
+    from app.views.shell.window import open_window
 
     known = library().ids()
     if exercise not in known:
@@ -91,12 +91,12 @@ def _show(
     chosen = parse_cameras(cameras)
     application = start(offscreen=hidden)
     sessions = None if out is None else out / "sessions"
-    window = MainWindow(Desktop(skill.value, seed, sessions))
+    window = open_window(Desktop(skill.value, seed, sessions))
     if pen:
-        window.robot.take_pen("simulated")
+        window.equipment.take_pen("simulated")
     else:
-        window.robot.take("")  # nobody stands beside the robot that is remembered
-    window.cameras.take(chosen)
+        window.equipment.take("")  # nobody stands beside the robot that is remembered
+    window.equipment.take_cameras(chosen)
     script = Script(exercise, ct, pictures=out)
     collector = collect_for(window)
     show = Demonstration(window, script)

@@ -43,7 +43,7 @@ def import_ct(
 
     As DICOM PS3.15 says, whole or not at all.
     """
-    from app.commands.calibrate import with_progress
+    from app.commands.calibrate_parts import with_progress
     from app.imaging.library import CtLibrary
     from app.imaging.reading import choose
     from app.imaging.scanning import scan_folder

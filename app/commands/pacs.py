@@ -168,7 +168,7 @@ def _take(
     mask: list[str] | None,
     remedy: str | None,
 ) -> Answer:
-    from app.commands.calibrate import with_progress
+    from app.commands.calibrate_parts import with_progress
     from app.commands.library import boxes_of, imported_answer, remedy_of
     from app.imaging.library import CtLibrary
     from app.imaging.pacs.client import Pacs

@@ -44,19 +44,19 @@ def run(
     from app.tracking.cameras.source import parse_source
     from app.views.shell.application import start
     from app.views.shell.collector import collect_for
-    from app.views.shell.window import MainWindow
+    from app.views.shell.window import open_window
 
     if pen is not None:
         parse_source(pen)
     chosen = None if cameras is None else parse_cameras(cameras)
     application = start()
-    window = MainWindow(Desktop())
+    window = open_window(Desktop())
     if device is not None:
-        window.robot.take(device)
+        window.equipment.take(device)
     if chosen is not None:
-        window.cameras.take(chosen)
+        window.equipment.take_cameras(chosen)
     if pen is not None:
-        window.robot.take_pen(pen)
+        window.equipment.take_pen(pen)
     collector = collect_for(window)
     window.show()
     if exercise:

@@ -1,16 +1,15 @@
 """Raw DICOM elements as plain values: quick, without pydicom's conversions and their warnings."""
 
-import contextlib
 import math
 import re
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, BinaryIO, Final
 
 from app.imaging.deflated import inflated_head
 from app.imaging.element_walk import OddError, Walk
-from app.imaging.errors import FileDamagedError, brief
+from app.imaging.errors import FileDamagedError
 from app.imaging.pixel_data import (
     DECODERS,
     DEFLATED,
@@ -44,35 +43,7 @@ class Elements:
     start: int = 0
 
 
-def read_elements(
-    stream: BinaryIO, wanted: Sequence[int], forced: bool, sound: bool = False
-) -> Elements:
-    """Read the wanted elements before the pixels; the stream then stands at the pixels.
-
-    Args:
-        stream: the file, at its start.
-        wanted: tags.
-        forced: read although the DICOM preamble is missing.
-        sound: only if it can be done without pydicom.
-
-    Raises:
-        FileDamagedError: if the header cannot be parsed.
-        OddError: if only what is sound was asked for, and this is not.
-    """
-    if not forced:
-        with contextlib.suppress(OddError):
-            return _sound(stream, frozenset(wanted))
-    if sound:
-        raise OddError
-    try:
-        from app.imaging.odd_elements import read_odd
-
-        return read_odd(stream, wanted, forced)
-    except Exception as error:  # hostile bytes make the parser raise nearly anything
-        raise FileDamagedError(f"its header cannot be read ({brief(error)})") from error
-
-
-def _sound(stream: BinaryIO, wanted: frozenset[int]) -> Elements:
+def read_sound(stream: BinaryIO, wanted: frozenset[int]) -> Elements:
     """Read a file that is what it says, and says so as the standard does.
 
     Raises:
@@ -188,3 +159,18 @@ def _integer_string(value: bytes, name: str) -> int | None:
         return int(float(string))
     except (ValueError, OverflowError):
         raise FileDamagedError(f"{name} is not an integer") from None
+
+
+def check_orientation(orientation: tuple[float, ...]) -> None:
+    """See that direction cosines are what they should be, to a thousandth.
+
+    Raises:
+        FileDamagedError: if they are not two perpendicular unit vectors.
+    """
+    row, column = orientation[:3], orientation[3:]
+    norms = [sum(v * v for v in vector) ** 0.5 for vector in (row, column)]
+    dot = sum(a * b for a, b in zip(row, column, strict=True))
+    if max(abs(norm - 1.0) for norm in norms) > 1e-3 or abs(dot) > 1e-3:
+        raise FileDamagedError(
+            f"ImageOrientationPatient {orientation} is not two perpendicular unit vectors"
+        )

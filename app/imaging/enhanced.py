@@ -13,9 +13,9 @@ from typing import Any, BinaryIO
 import pydicom
 from pydicom.dataset import Dataset
 
+from app.imaging.elements import check_orientation
 from app.imaging.errors import FileDamagedError, brief
 from app.imaging.header import MULTI_FRAME, Plane, Rescale, SliceHeader
-from app.imaging.header_reading import check_orientation
 
 _SHARED, _EACH, _REAL_WORLD = 0x52009229, 0x52009230, 0x00409096
 _MOST_FRAMES = 1 << 16

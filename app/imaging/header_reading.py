@@ -1,12 +1,14 @@
 """Reading the header of one DICOM image file: one image, or one for each frame."""
 
+import contextlib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import BinaryIO, Final
 
 from app.imaging import elements
 from app.imaging.element_walk import OddError
 from app.imaging.elements import Elements
-from app.imaging.errors import FileDamagedError
+from app.imaging.errors import FileDamagedError, brief
 from app.imaging.header import MULTI_FRAME, Plane, Rescale, SliceHeader
 from app.imaging.header_identity import identity_of
 from app.imaging.header_tags import TAG_LIST, TAGS
@@ -44,7 +46,7 @@ def read_headers(
         FileDamagedError: if the header cannot be parsed.
         OddError: if only what is sound was asked for, and this is not.
     """
-    header = elements.read_elements(stream, TAG_LIST, forced, sound)
+    header = _elements(stream, TAG_LIST, forced, sound)
     if not elements.text(header, TAGS["SeriesInstanceUID"]):
         return ()
     found = _slice_header(path, stream, header)
@@ -55,6 +57,34 @@ def read_headers(
     from app.imaging.enhanced import frames_of
 
     return frames_of(found, stream)
+
+
+def _elements(
+    stream: BinaryIO, wanted: Sequence[int], forced: bool, sound: bool = False
+) -> Elements:
+    """Read the wanted elements before the pixels; the stream then stands at the pixels.
+
+    Args:
+        stream: the file, at its start.
+        wanted: tags.
+        forced: read although the DICOM preamble is missing.
+        sound: only if it can be done without pydicom.
+
+    Raises:
+        FileDamagedError: if the header cannot be parsed.
+        OddError: if only what is sound was asked for, and this is not.
+    """
+    if not forced:
+        with contextlib.suppress(OddError):
+            return elements.read_sound(stream, frozenset(wanted))
+    if sound:
+        raise OddError
+    try:
+        from app.imaging.odd_elements import read_odd
+
+        return read_odd(stream, wanted, forced)
+    except Exception as error:  # hostile bytes make the parser raise nearly anything
+        raise FileDamagedError(f"its header cannot be read ({brief(error)})") from error
 
 
 def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader:
@@ -144,23 +174,8 @@ def _plane(header: Elements) -> Plane | None:
         return None
     if min(spacing) <= 0.0:
         raise FileDamagedError(f"PixelSpacing is {spacing}; both must be above zero")
-    check_orientation(orientation)
+    elements.check_orientation(orientation)
     return Plane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
-
-
-def check_orientation(orientation: tuple[float, ...]) -> None:
-    """See that direction cosines are what they should be, to a thousandth.
-
-    Raises:
-        FileDamagedError: if they are not two perpendicular unit vectors.
-    """
-    row, column = orientation[:3], orientation[3:]
-    norms = [sum(v * v for v in vector) ** 0.5 for vector in (row, column)]
-    dot = sum(a * b for a, b in zip(row, column, strict=True))
-    if max(abs(norm - 1.0) for norm in norms) > 1e-3 or abs(dot) > 1e-3:
-        raise FileDamagedError(
-            f"ImageOrientationPatient {orientation} is not two perpendicular unit vectors"
-        )
 
 
 def _rescale(header: Elements) -> Rescale | None:

@@ -31,7 +31,7 @@ def both(data):
     """What the quick reader says, None where it does not vouch for it, and what pydicom says."""
     stream, other = io.BytesIO(data), io.BytesIO(data)
     try:
-        quick = said(elements._sound(stream, frozenset(TAG_LIST)), stream)
+        quick = said(elements.read_sound(stream, frozenset(TAG_LIST)), stream)
     except OddError:
         return None, None
     with warnings.catch_warnings():
@@ -106,7 +106,7 @@ def test_what_is_nested_in_sequences_is_passed_over_whatever_marks_its_end(tmp_p
 def test_a_header_that_ends_too_early_is_not_vouched_for(tmp_path, cut):
     (path,) = Slices(offsets=(0.0,)).write(tmp_path)
     with pytest.raises(OddError):
-        elements._sound(io.BytesIO(path.read_bytes()[:cut]), frozenset(TAG_LIST))
+        elements.read_sound(io.BytesIO(path.read_bytes()[:cut]), frozenset(TAG_LIST))
 
 
 def test_values_across_the_borders_of_what_is_read_at_once_are_whole(tmp_path, monkeypatch):
