@@ -11,16 +11,18 @@ from PySide6.QtWidgets import QApplication
 from views_exercise_fakes import FakeTrainer, run, snapshot
 
 from app.views.exercise.bullseye import Bullseye
-from app.views.exercise.hands import choice, gamepad_driver
+from app.views.exercise.hands import choice
+from app.views.exercise.hands import gamepad as gamepad_module
 from app.views.exercise.hands.gamepad import (
     DEAD_ZONE,
     FASTEST_DEPTH,
     FASTEST_TILT,
+    GamepadError,
     GamepadHand,
+    PygamePads,
     Sticks,
     deflection,
 )
-from app.views.exercise.hands.gamepad_driver import GamepadError, PygamePads
 from app.views.exercise.hands.source import STEP_MS
 from app.views.exercise.hands.tablet import FASTEST, RESTING_PRESSURE, pressed_speed
 from app.views.exercise.readings import pad_view
@@ -303,7 +305,7 @@ def test_the_driver_reads_the_first_controller_and_finds_another_after_a_loss(mo
 
 def test_the_real_library_opens_and_closes_without_a_gamepad():
     pytest.importorskip("pygame")
-    pads = gamepad_driver.PygamePads()
+    pads = gamepad_module.PygamePads()
     pads.open()
     pads.open()
     assert pads.read() is None or isinstance(pads.read(), Sticks)

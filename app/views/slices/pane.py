@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 
-from PySide6.QtCore import QEvent, QPoint, Qt, Signal
-from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPaintEvent
-from PySide6.QtWidgets import QFrame, QMenu, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt, Signal
+from PySide6.QtGui import QAction, QColor, QKeyEvent, QPainter, QPaintEvent
+from PySide6.QtWidgets import QFrame, QInputDialog, QMenu, QVBoxLayout, QWidget
 
 from app.views.kit import theme
-from app.views.slices.bindings import digit
+from app.views.kit.text import tr
+from app.views.slices.bindings import Action, digit
 from app.views.slices.canvas import SliceCanvas
-from app.views.slices.cine import Cine
-from app.views.slices.gestures import SliceGestures
-from app.views.slices.pane_actions import PaneActions
-from app.views.slices.pane_menu import build_menu
+from app.views.slices.cine import RATES, Cine
+from app.views.slices.gestures import ZOOM_PER_NOTCH, SliceGestures, thicken
+from app.views.slices.looks import KINDS, Slab, Turn, kind_name
 from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
-from app.views.slices.presets import default_window, keyed_window
+from app.views.slices.presets import default_window, keyed_window, menu_windows
 from app.views.slices.readouts import Readouts
+from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool, Viewing
 
 EDGE_PX = 2
@@ -128,3 +131,240 @@ class SlicePane(QFrame):
 def _is_shared(event: QKeyEvent) -> bool:
     """Whether an attempt's keys are the same, so that who is there for them decides."""
     return event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Escape)
+
+
+# --- keys ----------------------------------------------------------------------------------------
+PAGE = 10
+"""Slices that the Page keys move."""
+
+NUDGE_MM = 1.0
+"""How far a key moves the crosshair."""
+
+END = 1e9
+
+
+class PaneActions:
+    """Carries out the actions of one pane."""
+
+    def __init__(self, pane: SlicePane) -> None:
+        self._pane = pane
+        scroll, zoom, nudge = self._scroll, self._zoom, self._nudge
+        self._table: dict[Action, Callable[[], object]] = {
+            Action.NEXT: lambda: scroll(1), Action.PREVIOUS: lambda: scroll(-1),
+            Action.TEN_ON: lambda: scroll(PAGE), Action.TEN_BACK: lambda: scroll(-PAGE),
+            Action.FIRST: lambda: scroll(-END), Action.LAST: lambda: scroll(END),
+            Action.ZOOM_IN: lambda: zoom(1), Action.ZOOM_OUT: lambda: zoom(-1),
+            Action.FIT: pane.canvas.fit, Action.RESET: self.reset,
+            Action.ZOOM_TOOL: self._zoom_tool, Action.INVERT: self.invert,
+            Action.TURN_RIGHT: lambda: self.turn(1), Action.TURN_LEFT: lambda: self.turn(-1),
+            Action.MIRROR: lambda: self.mirror(False),
+            Action.MIRROR_UPRIGHT: lambda: self.mirror(True),
+            Action.SLAB_KIND: self.next_kind, Action.THICKER: lambda: thicken(pane.canvas, 1),
+            Action.THINNER: lambda: thicken(pane.canvas, -1), Action.CINE: pane.cine.toggle,
+            Action.PANE_ON: lambda: pane.leave_wanted.emit(True),
+            Action.PANE_BACK: lambda: pane.leave_wanted.emit(False),
+            Action.MAXIMISE: pane.maximise_wanted.emit,
+            Action.LEFT: lambda: nudge(-1, 0), Action.RIGHT: lambda: nudge(1, 0),
+            Action.UP: lambda: nudge(0, -1), Action.DOWN: lambda: nudge(0, 1),
+            Action.MENU: self._menu,
+        }  # fmt: skip
+
+    def do(self, action: Action) -> bool:
+        """Carry it out; False if it means nothing now and the key is somebody else's."""
+        viewing = self._pane.viewing
+        if action is Action.CANCEL:
+            return self._cancel()
+        if action is Action.PLACE:
+            return self._place()
+        if viewing.volume is not None or action in (Action.PANE_ON, Action.PANE_BACK):
+            self._table[action]()
+        return True
+
+    # --- slices, zoom, crosshair --------------------------------------------------------------
+    def _scroll(self, slices: float) -> None:
+        canvas = self._pane.canvas
+        canvas.viewing.show_slice(canvas.pane, canvas.index + slices)
+
+    def _zoom(self, steps: int) -> None:
+        canvas = self._pane.canvas
+        x, y = canvas.plane_at(QPointF(canvas.rect().center()))
+        canvas.set_camera(canvas.camera.zoomed(ZOOM_PER_NOTCH**steps, x, y))
+
+    def _nudge(self, right: int, down: int) -> None:
+        canvas, viewing = self._pane.canvas, self._pane.viewing
+        if canvas.plane is not None:
+            at = canvas.plane.point(viewing.cursor_mm, canvas.index)
+            x, y = at.x + right * NUDGE_MM, at.y + down * NUDGE_MM
+            viewing.set_cursor(canvas.plane.lps_mm(x, y, canvas.index))
+
+    def _zoom_tool(self) -> None:
+        self._pane.viewing.left_zooms = not self._pane.viewing.left_zooms
+
+    def _cancel(self) -> bool:
+        viewing = self._pane.viewing
+        going = (
+            viewing.tool is not Tool.NAVIGATE or viewing.left_zooms or self._pane.cine.is_running
+        )
+        viewing.left_zooms = False
+        viewing.set_tool(Tool.NAVIGATE)
+        self._pane.cine.stop()
+        return going
+
+    def _place(self) -> bool:
+        """Place entry or target at the crosshair, without a mouse."""
+        viewing = self._pane.viewing
+        if viewing.tool is Tool.NAVIGATE:
+            return False
+        viewing.point_refused = False
+        viewing.point_placed.emit(viewing.tool, as_point(viewing.cursor_mm), True)
+        if not viewing.point_refused:
+            viewing.set_tool(Tool.NAVIGATE)
+        return True
+
+    # --- greys, slab, turn --------------------------------------------------------------------
+    def reset(self) -> None:
+        """Fit the image, one slice thick, in the window that was there at first."""
+        viewing, pane = self._pane.viewing, self._pane.pane
+        viewing.set_look(pane, replace(viewing.look(pane), slab=Slab()))
+        self._pane.canvas.fit()
+        if not viewing.greys.is_locked:
+            viewing.set_window(default_window(), pane)
+
+    def invert(self) -> None:
+        """Swap bright and dark in all panes."""
+        greys = self._pane.viewing.greys
+        greys.set_inverted(not greys.is_inverted)
+
+    def turn(self, quarters: int) -> None:
+        """Turn what is seen clockwise."""
+        self._take_turn(self._turn.turned(quarters))
+
+    def mirror(self, upright: bool) -> None:
+        """Swap left and right, or top and bottom."""
+        self._take_turn(self._turn.flipped(upright))
+
+    def upright(self) -> None:
+        """Turn back to the radiological convention."""
+        self._take_turn(Turn())
+
+    def next_kind(self) -> None:
+        """Project the slab in the next way."""
+        self.take_slab(self._slab.next_kind())
+
+    def take_slab(self, slab: Slab) -> None:
+        """Look at another slab."""
+        viewing, pane = self._pane.viewing, self._pane.pane
+        viewing.set_look(pane, replace(viewing.look(pane), slab=slab))
+
+    @property
+    def _turn(self) -> Turn:
+        return self._pane.viewing.look(self._pane.pane).turn
+
+    @property
+    def _slab(self) -> Slab:
+        return self._pane.viewing.look(self._pane.pane).slab
+
+    def _take_turn(self, turn: Turn) -> None:
+        viewing, pane = self._pane.viewing, self._pane.pane
+        viewing.set_look(pane, replace(viewing.look(pane), turn=turn))
+
+    def _menu(self) -> None:
+        canvas = self._pane.canvas
+        self._pane.show_menu(canvas.mapToGlobal(canvas.rect().center()))
+
+
+# --- context menu --------------------------------------------------------------------------------
+THICKNESSES_MM = (0.0, 3.0, 5.0, 10.0, 20.0, 40.0)
+
+
+def fill_windows(menu: QMenu, pane: SlicePane) -> None:
+    """Add every window with its key; they cannot be chosen while they are locked."""
+    greys = pane.viewing.greys
+    for name, key, window in menu_windows(pane.viewing.volume, greys.kept):
+        action = menu.addAction(f"{name}  {window.width:g} / {window.level:g}\t{key}")
+        action.setEnabled(not greys.is_locked)
+        action.triggered.connect(lambda _=False, w=window: pane.viewing.set_window(w, pane.pane))
+
+
+def build_menu(pane: SlicePane) -> QMenu:
+    """Return the menu of a pane as things are now."""
+    menu, greys = QMenu(pane), pane.viewing.greys
+    fill_windows(menu, pane)
+    _entry(menu, tr("Keep this window…"), lambda: _ask_name(pane))
+    if greys.kept:
+        forget = menu.addMenu(tr("Forget a kept window"))
+        for name in greys.kept:
+            _entry(forget, name, partial(greys.forget, name))
+    menu.addSeparator()
+    _switch(menu, tr("Invert grey") + "\tI", greys.is_inverted, pane.actions_of.invert)
+    _switch(menu, tr("One window for all panes"), greys.is_linked,
+            lambda: greys.set_linked(not greys.is_linked))  # fmt: skip
+    lock = _switch(menu, tr("Lock window and level"), greys.is_locked,
+                   lambda: greys.set_locked(not greys.is_locked))  # fmt: skip
+    lock.setEnabled(not greys.is_fixed)
+    menu.addSeparator()
+    slabs = menu.addMenu(tr("Slab"))
+    _slabs(slabs, pane)
+    slabs.setEnabled(not pane.viewing.is_slab_fixed)
+    _turns(menu.addMenu(tr("Turn and mirror")), pane)
+    cine = menu.addMenu(tr("Cine"))
+    _switch(cine, tr("Run through the slices") + "\tC", pane.cine.is_running, pane.cine.toggle)
+    cine.addSeparator()
+    for rate in RATES:
+        _switch(cine, tr("{rate} slices a second", rate=rate), rate == pane.cine.rate,
+                partial(pane.cine.set_rate, rate))  # fmt: skip
+    menu.addSeparator()
+    _entry(menu, tr("Fit to pane") + "\t=", pane.canvas.fit)
+    _entry(menu, tr("Reset view") + "\t" + tr("Space"), pane.reset)
+    _entry(menu, tr("Maximise or restore") + "\tX", pane.maximise_wanted.emit)
+    return menu
+
+
+def _entry(menu: QMenu, text: str, command: Callable[[], object]) -> None:
+    menu.addAction(text).triggered.connect(lambda _=False: command())
+
+
+def _switch(menu: QMenu, text: str, on: bool, command: Callable[[], object]) -> QAction:
+    action = menu.addAction(text)
+    action.setCheckable(True)
+    action.setChecked(on)
+    action.triggered.connect(lambda _=False: command())
+    return action
+
+
+def _slabs(menu: QMenu, pane: SlicePane) -> None:
+    slab, take = pane.viewing.look(pane.pane).slab, pane.actions_of.take_slab
+    for kind in KINDS:
+        wanted = Slab(kind, slab.thickness_mm or 10.0)
+        _switch(menu, kind_name(kind), slab == wanted, partial(take, wanted))
+    menu.addSeparator()
+    for thickness in THICKNESSES_MM:
+        text = tr("{thickness:g} mm", thickness=thickness) if thickness else tr("One slice")
+        wanted = replace(slab, thickness_mm=thickness)
+        _switch(menu, text, slab == wanted, partial(take, wanted))
+
+
+def _turns(menu: QMenu, pane: SlicePane) -> None:
+    actions = pane.actions_of
+    _entry(menu, tr("Right by 90°"), lambda: actions.turn(1))
+    _entry(menu, tr("Left by 90°"), lambda: actions.turn(-1))
+    _entry(menu, tr("By 180°: from the other side of the table"), lambda: actions.turn(2))
+    _entry(menu, tr("Mirror left-right"), lambda: actions.mirror(False))
+    _entry(menu, tr("Mirror top-bottom"), lambda: actions.mirror(True))
+    menu.addSeparator()
+    _entry(menu, tr("As radiologists read it"), actions.upright)
+
+
+def _ask_name(pane: SlicePane) -> None:
+    """Ask for the name of the present window; the window goes on meanwhile."""
+    window = pane.viewing.greys.of(pane.pane)
+    dialog = QInputDialog(pane)
+    dialog.setWindowTitle(tr("Keep this window"))
+    dialog.setLabelText(
+        tr("Name for W {width:.0f}  L {level:.0f}", width=window.width, level=window.level)
+    )
+    dialog.textValueSelected.connect(
+        lambda name: pane.viewing.greys.keep(name.strip()[:40], window) if name.strip() else None
+    )
+    dialog.finished.connect(dialog.deleteLater)
+    dialog.open()

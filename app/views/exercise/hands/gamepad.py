@@ -1,11 +1,17 @@
-"""A gamepad: the left stick tilts the needle, the right one moves it along."""
+"""A gamepad: the left stick tilts the needle, the right one moves it along.
 
+Gamepads are read through pygame-ce, which is the extra `gamepad`, loaded only when one is chosen.
+"""
+
+import os
 from dataclasses import dataclass
 from math import hypot, isfinite, radians
-from typing import ClassVar, Final, Protocol
+from types import ModuleType
+from typing import Any, ClassVar, Final, Protocol
 
 from PySide6.QtCore import QTimer
 
+from app.core.errors import AcusError
 from app.views.exercise.hands.source import STEP_MS, HandSource
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.kit.text import tr
@@ -19,6 +25,14 @@ FASTEST_TILT: Final = radians(24.0)
 FASTEST_DEPTH: Final = 0.02
 """Speed along the needle with the stick at its end [m/s]."""
 
+_QUIET: Final = {
+    "PYGAME_HIDE_SUPPORT_PROMPT": "1",
+    "SDL_VIDEODRIVER": "dummy",  # its event queue is needed, a window of its own is not
+    "SDL_JOYSTICK_ALLOW_BACKGROUND_EVENTS": "1",
+    "SDL_NO_SIGNAL_HANDLERS": "1",  # Ctrl+C in the terminal stays ours
+}
+_FULL: Final = 32767.0
+
 
 @dataclass(frozen=True, slots=True)
 class Sticks:
@@ -31,7 +45,7 @@ class Sticks:
 
 
 class Pads(Protocol):
-    """Gamepads of the computer; see `gamepad_driver`."""
+    """Gamepads of the computer: `PygamePads`, or those of a test."""
 
     def open(self) -> None:
         """Look for gamepads.
@@ -83,8 +97,6 @@ class GamepadHand(HandSource):
             GamepadError: if the gamepad library is not installed.
         """
         if self._pads is None:
-            from app.views.exercise.hands.gamepad_driver import PygamePads
-
             self._pads = PygamePads()
         self._pads.open()
         self._present = None
@@ -118,3 +130,82 @@ class GamepadHand(HandSource):
         if sticks.home and not self._home:
             self.homed.emit()
         self._home = sticks.home
+
+
+class GamepadError(AcusError):
+    """No gamepad can be used on this computer."""
+
+
+class PygamePads:
+    """The first gamepad that is plugged in; another one when that is pulled out."""
+
+    def __init__(self) -> None:
+        self._pygame: ModuleType | None = None
+        self._controllers: Any = None
+        self._pad: Any = None
+
+    def open(self) -> None:
+        """Load the library and look for gamepads; idempotent.
+
+        Raises:
+            GamepadError: if pygame-ce is not installed, or finds no way to gamepads.
+        """
+        if self._pygame is not None:
+            return
+        for name, value in _QUIET.items():
+            os.environ.setdefault(name, value)
+        try:
+            import pygame
+            from pygame._sdl2 import controller
+        except ImportError as error:
+            raise GamepadError(
+                "a gamepad needs the package pygame-ce, which is not installed here;"
+                " run `pip install 'acus[gamepad]'`, or choose mouse or tablet"
+            ) from error
+        try:
+            pygame.display.init()
+            controller.init()
+        except pygame.error as error:
+            raise GamepadError(
+                f"gamepads cannot be read: {error}; choose mouse or tablet"
+            ) from error
+        self._pygame, self._controllers = pygame, controller
+
+    def close(self) -> None:
+        """Let go of the gamepad and the library."""
+        if self._pygame is not None:
+            self._pad = None
+            self._controllers.quit()
+            self._pygame.display.quit()
+            self._pygame = None
+
+    def read(self) -> Sticks | None:
+        """Where the sticks stand; None while no gamepad is plugged in."""
+        if self._pygame is None:
+            return None
+        self._pygame.event.pump()
+        self._pygame.event.clear()
+        if self._pad is not None and not self._pad.attached():
+            self._pad = None
+        if self._pad is None:
+            self._pad = self._first()
+        return None if self._pad is None else self._sticks(self._pad, self._pygame)
+
+    def _first(self) -> Any:
+        for index in range(self._controllers.get_count()):
+            if self._controllers.is_controller(index):
+                return self._controllers.Controller(index)
+        return None
+
+    @staticmethod
+    def _sticks(pad: Any, names: ModuleType) -> Sticks:
+        x, y, along = (
+            pad.get_axis(axis) / _FULL
+            for axis in (
+                names.CONTROLLER_AXIS_LEFTX,
+                names.CONTROLLER_AXIS_LEFTY,
+                names.CONTROLLER_AXIS_RIGHTY,
+            )
+        )
+        # SDL counts downwards: pushing the right stick away from oneself pushes the needle in.
+        return Sticks(x, -y, -along, bool(pad.get_button(names.CONTROLLER_BUTTON_A)))
