@@ -14,6 +14,7 @@ from PySide6.QtWidgets import QApplication, QDialog
 
 from app.compose.desktop import Desktop
 from app.planning.proposal import demonstration_plan
+from app.views.series.feature import SeriesFeature
 from app.views.shell.application import start
 from app.views.shell.window import MainWindow
 
@@ -57,8 +58,8 @@ def attempt(window: MainWindow, ct: Path) -> None:
 
 def take_in(window: MainWindow, ct: Path) -> None:
     """Import the CT through the dialogs."""
-    intake = window.menus.library.intake
-    window.menus.library.import_from(ct)
+    intake = window.feature(SeriesFeature).library.intake
+    window.feature(SeriesFeature).library.import_from(ct)
     wait(lambda: intake.mask is not None)
     intake.mask.take.click()
     wait(lambda: intake.report is not None)
@@ -69,8 +70,8 @@ def fail(window: MainWindow, broken: Path) -> int:
     """Open and import what cannot be; return how often that was said, in the bar or a browser."""
     told: list[object] = []
     window.open_ct.failed.connect(told.append)
-    window.menus.library.failed.connect(told.append)
-    for begin in (window.open_ct.open_folder, window.menus.library.import_from):
+    window.feature(SeriesFeature).library.failed.connect(told.append)
+    for begin in (window.open_ct.open_folder, window.feature(SeriesFeature).library.import_from):
         for path in sorted(broken.iterdir()):
             count = len(told)
             begin(path)

@@ -9,6 +9,7 @@ from math import radians
 from pathlib import Path
 
 from app.compose import Desktop
+from app.views.checks.feature import ChecksFeature
 from app.views.shell.application import start
 from app.views.shell.window import MainWindow
 from app.views.slices.camera import Camera
@@ -55,8 +56,8 @@ def tracker(window: MainWindow, folder: Path) -> None:
 
 def morning(window: MainWindow, folder: Path) -> None:
     """Make the morning check, its point touched by the simulated tip."""
-    window.checks.open_morning()
-    page = window.checks.morning
+    window.feature(ChecksFeature).open_morning()
+    page = window.feature(ChecksFeature).morning
     if page is None:
         raise RuntimeError("the morning check did not open")
     page.move_tip.click()
@@ -72,8 +73,8 @@ def morning(window: MainWindow, folder: Path) -> None:
 
 def registration(window: MainWindow, folder: Path) -> None:
     """All fiducials of the plate touched by the simulated tip; then what students see."""
-    window.checks.open_registration()
-    dialog = window.checks.registration
+    window.feature(ChecksFeature).open_registration()
+    dialog = window.feature(ChecksFeature).registration
     if dialog is None:
         raise RuntimeError("the registration check did not open")
     for row in range(len(dialog.plate.names)):
@@ -85,7 +86,7 @@ def registration(window: MainWindow, folder: Path) -> None:
     keep(dialog, folder / "eyes-registration.png")
     dialog.save()
     dialog.close()
-    window.cursor_to_target()
+    window.view_menu.cursor_to_target()
     pause(2.0)
     for pane in window.workspace.panes:
         canvas = pane.canvas

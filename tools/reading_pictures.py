@@ -20,11 +20,14 @@ from app.imaging.structures.edit import brushed
 from app.imaging.structures.structure import Kind, Structure
 from app.imaging.window import WindowLevel
 from app.planning.measurements import Angle, Distance, Probe, Region
+from app.views.plan.feature import PlanFeature
+from app.views.plan.paths import PathsFeature
 from app.views.shell.application import start
 from app.views.slices.looks import Look, Slab
 from app.views.slices.operator_side import Side
 from app.views.slices.panes import PaneId
 from app.views.slices.turning import StartingPlanes, straighten, turn_planes
+from app.views.structures.feature import StructuresFeature
 from tools.dialog_pictures import pacs, report, series
 from tools.docs_pictures import CHEST
 from tools.reading_studio import Studio, chest_of
@@ -36,7 +39,7 @@ LUNG = WindowLevel(1500.0, -600.0)
 def structures(studio: Studio) -> None:
     """Make ribs by threshold, a lesion and a vessel by the brush; show the path's distances."""
     window = studio.window
-    desk, draft = window.structures, window.editor.edit.draft
+    desk, draft = window.feature(StructuresFeature), window.editor.edit.draft
     if draft.target_mm is None or draft.entry_mm is None:
         raise RuntimeError("there is no plan to measure structures against")
     target, entry = np.array(draft.target_mm), np.array(draft.entry_mm)
@@ -59,7 +62,7 @@ def structures(studio: Studio) -> None:
 def _paint(
     studio: Studio, name: str, dabs: Sequence[np.ndarray], radius: float, kind: Kind, warn: float
 ) -> None:
-    book = studio.window.structures.book
+    book = studio.window.editors.structures
     painted: Structure | None = None
     for dab in dabs:
         found = brushed(painted, book.volume, dab, radius, add=True)
@@ -72,26 +75,26 @@ def _paint(
 def entry_map(studio: Studio) -> None:
     """Score every path to the target and look at one."""
     window = studio.window
-    window.paths.make()
-    wait(lambda: window.paths.scores is not None)
+    window.feature(PathsFeature).make()
+    wait(lambda: window.feature(PathsFeature).scores is not None)
     window.workspace.show_plan()
-    table = window.paths.panel.table
+    table = window.feature(PathsFeature).panel.table
     table.selectRow(0)
     pause(0.3)
-    window.workspace.plan_panel.parentWidget().parentWidget().ensureWidgetVisible(
-        window.paths.panel.take
+    window.feature(PlanFeature).panel.parentWidget().parentWidget().ensureWidgetVisible(
+        window.feature(PathsFeature).panel.take
     )
     studio.zoom(2.0)
     studio.keep_window("planning-map")
-    window.paths.clear()
-    window.cursor_to_target()
-    for structure in tuple(window.structures.book.structures):
-        window.structures.book.remove(structure.name)
+    window.feature(PathsFeature).clear()
+    window.view_menu.cursor_to_target()
+    for structure in tuple(window.editors.structures.structures):
+        window.editors.structures.remove(structure.name)
 
 
 def measurements(studio: Studio) -> None:
     """Take one of each kind, with their list."""
-    workspace, editor = studio.window.workspace, studio.window.workspace.measure
+    workspace, editor = studio.window.workspace, studio.window.editors.measures
     x, y, z = workspace.viewing.cursor_mm.tolist()
     editor.add(Distance((x - 42.0, y + 5.0, z), (x + 40.0, y + 5.0, z), "Across"))
     editor.add(Angle((x - 40.0, y - 40.0, z), (x, y, z), (x - 5.0, y - 62.0, z), "To the skin"))
@@ -152,10 +155,10 @@ def looks(studio: Studio) -> None:
     turn_planes(viewing, StartingPlanes.of(viewing, turned), (0.0, 0.0, 1.0), radians(24.0))
     studio.keep("reading-oblique")
     straighten(viewing)
-    side = studio.window.menus.view.operator[Side.HEAD]
+    side = studio.window.view_menu.operator[Side.HEAD]
     side.trigger()
     studio.keep("reading-operator")
-    studio.window.menus.view.operator[Side.CONVENTION].trigger()
+    studio.window.view_menu.operator[Side.CONVENTION].trigger()
 
 
 def scanning(studio: Studio) -> None:

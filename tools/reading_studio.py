@@ -13,6 +13,7 @@ from app.exercises.library import load_exercise
 from app.exercises.parts import Ct, PlanPoints
 from app.exercises.schema import Exercise
 from app.imaging.privacy.key import BYTES, key_path
+from app.views.exercise.feature import ExerciseFeature
 from app.views.shell.window import MainWindow
 from app.views.slices.camera import Camera
 from tools.palette import small_png
@@ -55,7 +56,7 @@ class Studio:
     def begin(self, identifier: str) -> None:
         """Open an exercise with its patient, and wait until all of it is there."""
         window, conductor = self.window, self.window.conductor
-        window.exercises[identifier] = self.exercise(identifier)
+        window.feature(ExerciseFeature).exercises[identifier] = self.exercise(identifier)
         window.begin_exercise(identifier)
         wait(lambda: conductor.exercise is not None and conductor.exercise.id == identifier)
         pause(0.5)

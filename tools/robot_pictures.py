@@ -19,6 +19,7 @@ from app.compose import Desktop
 from app.core.progress import Progress
 from app.mechanisms.profile import load_profile
 from app.views.exercise.energy_gauge import GaugeMode
+from app.views.robot.feature import RobotFeature
 from app.views.robot.wizard import Wizard
 from app.views.shell.application import start
 from app.views.shell.window import MainWindow
@@ -53,8 +54,8 @@ def keep(widget: QWidget, path: Path) -> None:
 
 def attempt(window: MainWindow, folder: Path) -> None:
     """Push against the simulated robot with the switch held; gauge and health."""
-    window.robot.set_practise_holding(True)
-    window.robot.set_gauge(GaugeMode.SHOWN)
+    window.feature(RobotFeature).set_practise_holding(True)
+    window.feature(RobotFeature).set_gauge(GaugeMode.SHOWN)
     window.begin_exercise("first-insertion")
     wait(lambda: window.conductor.controller.run is not None)
     wait(lambda: window.conductor.settled)  # surfaces in 3D too

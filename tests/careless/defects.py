@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QLabel
 
 from app.core.arrays import FloatArray
 from app.device.control.kinematics import _AT, Kinematics
+from app.views.plan.feature import PlanFeature
 from app.views.shell.window import MainWindow
 
 
@@ -80,7 +81,9 @@ def force(window: MainWindow) -> None:
 
 def text(window: MainWindow) -> None:
     """A label of the plan has no room for its words."""
-    label = QLabel("A planted label that is wider than its place", window.workspace.plan_panel)
+    label = QLabel(
+        "A planted label that is wider than its place", window.feature(PlanFeature).panel
+    )
     label.setGeometry(4, 4, 60, 16)
     label.show()
 

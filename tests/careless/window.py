@@ -24,6 +24,8 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtWidgets import QApplication, QFileDialog, QMenu
 
 from app.compose import Desktop
+from app.views.debrief.feature import DebriefFeature
+from app.views.exercise.feature import ExerciseFeature
 from app.views.shell.application import start
 from app.views.shell.collector import collect_for
 from app.views.shell.window import MainWindow
@@ -180,7 +182,7 @@ class CarelessUser(threading.Thread):
             front=None if box is None else Target(path_of(front), words_of(front), box),
             is_main=main,
             is_file_dialog=is_file_dialog(front),
-            exercises=tuple(window.exercises),
+            exercises=tuple(window.feature(ExerciseFeature).exercises),
             cts=tuple(str(path) for path in self._options.ct),
         )
 
@@ -253,9 +255,12 @@ class CarelessUser(threading.Thread):
         elif action.kind == "ct":
             window.open_ct.open_folder(Path(action.words))
         elif action.kind == "page":
-            (window.show_start, window.show_workspace, window.show_sessions, window.show_debrief)[
-                action.number
-            ]()
+            (
+                window.show_start,
+                window.show_workspace,
+                window.feature(DebriefFeature).show_sessions,
+                window.feature(DebriefFeature).show,
+            )[action.number]()
         elif action.kind == "size":
             window.resize(*action.to)
 

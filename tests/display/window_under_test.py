@@ -17,6 +17,7 @@ from PySide6.QtWidgets import QPushButton, QWidget
 
 from app.compose import Desktop
 from app.core.files import write_atomically
+from app.views.debrief.feature import DebriefFeature
 from app.views.shell.application import start
 from app.views.shell.collector import collect_for
 from app.views.shell.window import MainWindow
@@ -60,7 +61,7 @@ def look(window: MainWindow) -> dict[str, Any]:
         "needle_shown": workspace.viewing.needle is not None,
         "scan": scan(window),
         "scan_panel": scan_panel(window),
-        "debrief_scans": window.debrief_page.scans.rowCount(),
+        "debrief_scans": window.feature(DebriefFeature).page.scans.rowCount(),
         "state": None if snapshot is None else snapshot.state.value,
         "measured": snapshot is not None and snapshot.pose.measured,
         "remaining_mm": None if snapshot is None else 1e3 * snapshot.offset.remaining,

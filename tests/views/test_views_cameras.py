@@ -10,6 +10,7 @@ from app.session.machine import State
 from app.tracking.cameras.settings import CameraSettings, OneCamera, load_settings, save_settings
 from app.tracking.cameras.watch import CameraState
 from app.tracking.errors import CameraError
+from app.views.cameras.feature import CamerasFeature
 
 REAL = CameraSettings(left=OneCamera(source="usb:1-1"), right=OneCamera(source="usb:1-2"))
 
@@ -18,7 +19,7 @@ REAL = CameraSettings(left=OneCamera(source="usb:1-1"), right=OneCamera(source="
 def running(window, patient, services, settle):
     """A window with a run on the real cameras."""
     save_settings(REAL)
-    window.cameras.use_real(True)
+    window.feature(CamerasFeature).use_real(True)
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
@@ -26,70 +27,70 @@ def running(window, patient, services, settle):
 
 
 def test_without_a_choice_the_cameras_are_simulated_and_real_ones_are_asked_for(window, settle):
-    menu = window.menus.cameras
+    menu = window.feature(CamerasFeature).menu
     assert menu.simulated.isChecked()
     assert menu.real.text() == "Real cameras: choose…"
     menu.real.trigger()
-    assert window.cameras.dialog is not None
+    assert window.equipment.dialog is not None
     assert menu.simulated.isChecked()
-    window.cameras.dialog.reject()
+    window.equipment.dialog.reject()
 
 
 def test_choosing_real_cameras_begins_a_run_on_them_and_is_remembered(running, services):
     assert services.opened[-1].setup.cameras == REAL
-    assert running.menus.cameras.real.isChecked()
-    assert running.menus.cameras.real.text() == "Real cameras: usb:1-1, usb:1-2"
+    assert running.feature(CamerasFeature).menu.real.isChecked()
+    assert running.feature(CamerasFeature).menu.real.text() == "Real cameras: usb:1-1, usb:1-2"
     assert str(running.settings.value("cameras/real")).lower() == "true"
 
 
 def test_simulated_cameras_can_be_taken_for_this_start_only(running, services, settle):
-    running.cameras.take(CameraSettings())
+    running.equipment.take_cameras(CameraSettings())
     assert settle(lambda: services.opened[-1].setup.cameras is None, 10.0)
     assert str(running.settings.value("cameras/real")).lower() == "true"
 
 
 def test_the_cameras_stay_while_an_attempt_runs(running):
     running.runs.run.trainer.state = State.INSERTING
-    running.cameras.use_real(False)
+    running.feature(CamerasFeature).use_real(False)
     assert "An attempt is running" in running.message_bar.text
-    running.menus.cameras.set_up.trigger()
-    assert running.cameras.dialog is None
-    assert running.cameras.real
+    running.feature(CamerasFeature).menu.set_up.trigger()
+    assert running.equipment.dialog is None
+    assert running.equipment.uses_real_cameras
 
 
 def test_what_was_refused_in_an_attempt_goes_when_the_attempt_is_over(running):
     running.runs.run.trainer.state = State.INSERTING
-    running.cameras.use_real(False)
+    running.feature(CamerasFeature).use_real(False)
     assert "An attempt is running" in running.message_bar.text
     running.runs.run.trainer.state = State.READY
-    running.cameras.use_real(False)
+    running.feature(CamerasFeature).use_real(False)
     assert running.message_bar.isHidden()
 
 
 def test_what_kept_the_cameras_away_goes_with_the_choice_of_others(window, services, settle):
     services.refuses = "no camera at usb:1-1; none is plugged in"
     save_settings(REAL)
-    window.cameras.use_real(True)
+    window.feature(CamerasFeature).use_real(True)
     window.runs.failed.emit(CameraError(services.refuses))
     assert "none is plugged in" in window.message_bar.text
-    window.cameras.use_real(False)
+    window.feature(CamerasFeature).use_real(False)
     assert window.message_bar.isHidden()
 
 
 def test_asking_for_real_cameras_where_none_are_chosen_is_over_once_they_are(window, services):
-    window.cameras.aim()
+    window.feature(CamerasFeature).aim()
     assert "Only simulated cameras are chosen" in window.message_bar.text
-    window.cameras.set_up()
+    window.feature(CamerasFeature).set_up()
     assert window.message_bar.isHidden()
-    window.cameras.dialog.reject()
+    window.equipment.dialog.reject()
 
 
 def test_aiming_lets_the_run_go_shows_the_cone_and_gives_the_cameras_back(
     running, services, settle
 ):
     run = services.opened[-1]
-    running.menus.cameras.aim.trigger()
-    dialog = running.cameras.dialog
+    running.feature(CamerasFeature).menu.aim.trigger()
+    dialog = running.equipment.dialog
     assert run.closed.wait(5.0)
     assert settle(lambda: len(services.lives) == 2 and "51 %" in dialog.share.text(), 10.0)
     assert "everything at -30 to 25 mm" in dialog.losses.text()
@@ -105,8 +106,8 @@ def test_a_cone_that_nobody_measured_is_not_told_as_seen(running, services, sett
     found = services.aim(None, "icube", None)
     found.assumed, found.cone.share = True, 1.0
     monkeypatch.setattr(services, "aim", lambda *_: found)
-    running.menus.cameras.aim.trigger()
-    dialog = running.cameras.dialog
+    running.feature(CamerasFeature).menu.aim.trigger()
+    dialog = running.equipment.dialog
     assert settle(lambda: "would see 100 %" in dialog.share.text(), 10.0)
     assert dialog.share.text().startswith("▲")
     assert dialog.titles[0].text() == "Left: would see 100 %"
@@ -114,29 +115,29 @@ def test_a_cone_that_nobody_measured_is_not_told_as_seen(running, services, sett
 
 
 def test_a_camera_that_stops_is_said_below_its_darkened_picture(running, services, settle):
-    running.cameras.aim()
-    preview = running.cameras.dialog.previews[1]
+    running.feature(CamerasFeature).aim()
+    preview = running.equipment.dialog.previews[1]
     assert settle(lambda: preview.camera is not None, 10.0)
     preview.camera.state = CameraState.STALLED
     assert settle(lambda: "check its cable" in preview.note.text(), 5.0)
     assert preview.picture._dimmed
-    running.cameras.dialog.reject()
+    running.equipment.dialog.reject()
 
 
 def test_a_camera_that_cannot_be_opened_is_said_where_its_picture_would_be(
     running, services, settle
 ):
     services.refuses = "no camera at usb:1-1; none is plugged in"
-    running.cameras.set_up()
-    editor = running.cameras.dialog.sides[0]
+    running.feature(CamerasFeature).set_up()
+    editor = running.equipment.dialog.sides[0]
     assert settle(lambda: "none is plugged in" in editor.preview.note.text(), 10.0)
     services.refuses = ""
-    running.cameras.dialog.reject()
+    running.equipment.dialog.reject()
 
 
 def test_the_settings_take_what_is_chosen_and_refuse_what_cannot_work(window, services, settle):
-    window.cameras.set_up()
-    dialog = window.cameras.dialog
+    window.feature(CamerasFeature).set_up()
+    dialog = window.equipment.dialog
     left, right = dialog.sides
     left.source.setCurrentIndex(0)
     assert left.camera().source == "usb:1-1"
@@ -154,14 +155,14 @@ def test_the_settings_take_what_is_chosen_and_refuse_what_cannot_work(window, se
     assert saved.size == (1280, 720)
     assert saved.left.exposure_ms == 5.0
     assert saved.right.source == "usb:1-1"
-    assert window.menus.cameras.real.isChecked()
+    assert window.feature(CamerasFeature).menu.real.isChecked()
     assert settle(lambda: all(live.closed.is_set() for live in services.lives), 10.0)
 
 
 def test_what_was_measured_goes_with_its_camera(window):
     save_settings(REAL.model_copy(update={"left": OneCamera(source="usb:1-1", latency_ms=40.0)}))
-    window.cameras.set_up()
-    dialog = window.cameras.dialog
+    window.feature(CamerasFeature).set_up()
+    dialog = window.equipment.dialog
     dialog.swap.click()
     assert dialog.settings().right.latency_ms == 40.0
     dialog.sides[1].source.setEditText("usb:9-9")
@@ -170,8 +171,8 @@ def test_what_was_measured_goes_with_its_camera(window):
 
 
 def test_the_latency_is_measured_by_the_blinking_patch_and_kept(running, services, settle):
-    running.cameras.measure_latency("right")
-    dialog = running.cameras.dialog
+    running.feature(CamerasFeature).measure_latency("right")
+    dialog = running.equipment.dialog
     dialog._seconds = 5.0
     assert settle(lambda: dialog.start.isEnabled(), 10.0)
     dialog.preview.camera.patch = dialog.patch
@@ -187,11 +188,11 @@ def test_the_latency_is_measured_by_the_blinking_patch_and_kept(running, service
 def test_a_settings_file_that_cannot_be_read_is_told_not_replaced(window, services, tmp_path):
     path = save_settings(REAL)
     path.write_text("left: nonsense\n")
-    window.cameras.use_real(True)
+    window.feature(CamerasFeature).use_real(True)
     assert "left" in window.message_bar.text
     assert path.read_text() == "left: nonsense\n"
-    if window.cameras.dialog is not None:
-        window.cameras.dialog.reject()
+    if window.equipment.dialog is not None:
+        window.equipment.dialog.reject()
     QApplication.processEvents()
 
 
@@ -199,8 +200,8 @@ def test_calibrating_lets_the_run_go_searches_both_pictures_and_gives_the_camera
     running, services, settle
 ):
     run = services.opened[-1]
-    running.menus.cameras.calibrate.trigger()
-    dialog = running.cameras.dialog
+    running.feature(CamerasFeature).menu.calibrate.trigger()
+    dialog = running.equipment.dialog
     dialog.show_page(1)
     dialog.capture_page.begin_live()
     assert run.closed.wait(5.0)
@@ -214,8 +215,8 @@ def test_calibrating_lets_the_run_go_searches_both_pictures_and_gives_the_camera
 
 
 def test_without_real_cameras_a_calibration_is_made_from_folders(window):
-    window.menus.cameras.calibrate.trigger()
-    dialog = window.cameras.dialog
+    window.feature(CamerasFeature).menu.calibrate.trigger()
+    dialog = window.equipment.dialog
     assert not dialog.capture_page.live.isEnabled()
     assert dialog.capture_page.folder.isEnabled()
     dialog.reject()
@@ -232,9 +233,9 @@ def test_what_a_first_start_waits_for_is_said_in_the_dialog_and_cancel_ends_it(
 
     monkeypatch.setattr(services, "open_camera", wait_long)
     monkeypatch.setattr(services, "aim", wait_long)
-    cameras = running.cameras
+    cameras = running.feature(CamerasFeature)
     cameras.aim() if which == "aim" else cameras.measure_latency("left")
-    dialog = cameras.dialog
+    dialog = running.equipment.dialog
     previews = dialog.previews if which == "aim" else (dialog.preview,)
     assert settle(lambda: "waiting 12 s" in previews[0].note.text(), 10.0)
     row = dialog.waiting.layout().itemAt(0).widget()
@@ -245,12 +246,12 @@ def test_what_a_first_start_waits_for_is_said_in_the_dialog_and_cancel_ends_it(
 
 
 def test_the_board_chosen_last_is_remembered_between_starts(window):
-    window.menus.cameras.calibrate.trigger()
-    window.cameras.dialog.board_page.square.setValue(31.5)
-    spec = window.cameras.dialog.job.board.spec
-    window.cameras.dialog.reject()
+    window.feature(CamerasFeature).menu.calibrate.trigger()
+    window.equipment.dialog.board_page.square.setValue(31.5)
+    spec = window.equipment.dialog.job.board.spec
+    window.equipment.dialog.reject()
     QApplication.processEvents()
-    window.menus.cameras.calibrate.trigger()
-    assert window.cameras.dialog.job.board.spec == spec
+    window.feature(CamerasFeature).menu.calibrate.trigger()
+    assert window.equipment.dialog.job.board.spec == spec
     assert "31.5mm" in spec
-    window.cameras.dialog.reject()
+    window.equipment.dialog.reject()

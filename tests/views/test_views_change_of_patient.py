@@ -32,8 +32,11 @@ from app.planning.measurements import Distance
 from app.planning.placement import Placement
 from app.session.control_scan import ControlScan
 from app.session.machine import State
+from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.shown import Shown
+from app.views.robot.feature import RobotFeature
+from app.views.series.feature import SeriesFeature
 from app.views.series.patient import Patient
 from app.views.shell.window import MainWindow
 from app.views.slices.viewing import Tool
@@ -65,10 +68,19 @@ def texts(window: QWidget, health: bool = True) -> dict[str, list[str]]:
     `health` also without ages and rates, which change by themselves.
     """
     said: dict[str, list[str]] = {"seen": [window.windowTitle()], "hidden": []}
-    pages = [window.start_page, window.debrief_page, window.sessions_page]
+    pages = [
+        window.start_page,
+        window.feature(DebriefFeature).page,
+        window.feature(DebriefFeature).sessions,
+    ]
     if not health:
         shown = window.workspace
-        pages += [shown.status, shown.health_panel, shown.tracker_panel, window.progress]
+        pages += [
+            shown.status,
+            window.feature(RobotFeature).panel,
+            shown.tracker_panel,
+            window.progress,
+        ]
     side = window.workspace.side
     for tab in range(side.count()):
         side.setCurrentIndex(tab)
@@ -82,7 +94,8 @@ def texts(window: QWidget, health: bool = True) -> dict[str, list[str]]:
         window.undo.can_undo, window.undo.can_redo, workspace.grid.maximised, viewing.needle,
         viewing.target_now_mm, viewing.draft, viewing.target_error, viewing.tool,
         window.conductor.controller.run, window.editor.path, window.editor.edit.placement,
-        workspace.measure.items, window.structures.book.structures, workspace.scan_view.scan,
+        window.editors.measures.items, window.editors.structures.structures,
+        workspace.scan_view.scan,
     )]  # fmt: skip
     return {key: sorted(found) for key, found in said.items()}
 
@@ -146,14 +159,14 @@ def fill(window, settle, live=True):
         tabs.setCurrentIndex(tab)
         settle(timeout=0.02)
         controller = window.conductor.controller
-        workspace.tracker_panel._shown = workspace.health_panel._shown = -1e9
+        workspace.tracker_panel._shown = window.feature(RobotFeature).panel._shown = -1e9
         controller._display._status_time = controller._display._figures_time = -1.0
         controller.look()
     assert settle(lambda: not window.conductor.scans.is_busy, 20.0)
-    workspace.measure.add(Distance((0.0, 0.0, 130.0), (3.0, 2.0, 131.0), "oldnote"))
+    window.editors.measures.add(Distance((0.0, 0.0, 130.0), (3.0, 2.0, 131.0), "oldnote"))
     volume = window.conductor.patient.volume
     vessel = brushed(None, volume, (5.0, -5.0, 140.0), 4.0, True)
-    window.structures.book.put("oldvessel", *vessel)
+    window.editors.structures.put("oldvessel", *vessel)
     workspace.viewing.set_tool(Tool.ENTRY)
     pane = workspace.grid.pane("bullseye") if not live else workspace.panes[1]
     workspace.grid.toggle(pane)
@@ -337,7 +350,7 @@ def test_start_waits_while_a_patient_is_loaded_and_says_why(
     panel, run = window.workspace.exercise_panel, window.runs.run
     assert panel.buttons.start.isEnabled()
     given.append(QMessageBox.StandardButton.Discard)
-    window.open_phantom()
+    window.feature(SeriesFeature).open_phantom()
     assert not panel.buttons.start.isEnabled()
     assert "another patient" in panel.buttons.start.toolTip()
     assert "another patient" in panel._note.text()

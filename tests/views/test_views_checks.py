@@ -18,6 +18,7 @@ from app.planning.registration.record import Registrations
 from app.session.touch import Touch
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.inspection import Inspection
+from app.views.checks.feature import ChecksFeature
 from app.views.checks.registration_dialog import RegistrationDialog
 from app.views.checks.words import agreement_item
 from app.views.exercise.status_items import Verdict
@@ -266,15 +267,15 @@ def test_the_ellipse_round_the_target_is_drawn_where_it_was_checked(application,
 
 
 def test_the_window_opens_both_checks_without_a_run(window, settle):
-    assert window.checks.items(None) == ()
-    window.checks.open_morning()
-    window.checks.open_registration()
+    assert window.feature(ChecksFeature).items(None) == ()
+    window.feature(ChecksFeature).open_morning()
+    window.feature(ChecksFeature).open_registration()
     settle()
-    assert window.checks.morning.isVisible()
-    assert window.checks.registration.isVisible()
+    assert window.feature(ChecksFeature).morning.isVisible()
+    assert window.feature(ChecksFeature).registration.isVisible()
     told = []
-    window.checks.failed.connect(told.append)
-    window.checks.use_place(RigidTransform.identity())
+    window.feature(ChecksFeature).failed.connect(told.append)
+    window.feature(ChecksFeature).use_place(RigidTransform.identity())
     assert "plan is needed" in str(told[0])
-    window.checks.close()
-    assert not window.checks.morning.isVisible()
+    window.feature(ChecksFeature).close()
+    assert not window.feature(ChecksFeature).morning.isVisible()

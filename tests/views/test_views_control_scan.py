@@ -23,10 +23,14 @@ from app.imaging.structures.edit import brushed
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import CtFacts
 from app.session.machine import State
+from app.views.debrief.feature import DebriefFeature
+from app.views.exercise.feature import ExerciseFeature
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.scan_view import ScanView
 from app.views.exercise.shown import Shown, veiled
+from app.views.robot.feature import RobotFeature
 from app.views.series.patient import Patient
+from app.views.structures.feature import StructuresFeature
 
 
 def scan_event(number=1, tip=(5.0, 0.0, 140.0), order=None, time=3.0):
@@ -40,7 +44,7 @@ def scan_event(number=1, tip=(5.0, 0.0, 140.0), order=None, time=3.0):
 @pytest.fixture
 def guided(window, patient: Patient, settle, services):
     """A window with a run in which control scans guide, and its trainer."""
-    window.conductor.set_exercise(next(iter(window.exercises.values())))
+    window.conductor.set_exercise(next(iter(window.feature(ExerciseFeature).exercises.values())))
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None and window.conductor.settled, 20.0)
@@ -76,7 +80,7 @@ def shown_with(window, trainer, snapshot) -> dict[str, object]:
     controller = window.conductor.controller
     controller._clock = SimpleNamespace(now=lambda: 5.0)  # ages are no truth about the needle
     controller._display._status_time = -1.0
-    window.workspace.health_panel._shown = -1e9
+    window.feature(RobotFeature).panel._shown = -1e9
     window.workspace.tracker_panel._shown = -1e9
     controller.look()
     return telling(window)
@@ -90,7 +94,7 @@ def test_no_widget_tells_where_the_needle_is(guided, tab, settle) -> None:
     assert window.workspace.side.count() == 6
     window.workspace.side.setCurrentIndex(tab)
     add_structure(window, placed.plan)
-    window.menus.follow.setChecked(True)
+    window.view_menu.follow.setChecked(True)
     settle(timeout=0.3)
     near = snapshot_of(placed, state=State.INSERTING, pose=pose_of(placed, 0.01, 0.02))
     far = snapshot_of(
@@ -108,21 +112,21 @@ def test_no_widget_tells_where_the_needle_is(guided, tab, settle) -> None:
     assert different == [], [(first[key], second.get(key)) for key in different
                              if "picture" not in key]  # fmt: skip
     assert window.workspace.viewing.needle is None
-    assert window.structures.panel.live.text() == ""
+    assert window.feature(StructuresFeature).panel.live.text() == ""
 
 
 def test_structures_are_said_nothing_of_while_scans_guide(guided, settle) -> None:
     window, trainer = guided
     add_structure(window, trainer.placed.plan)
     breaches = []
-    window.structures.watch.breached.connect(breaches.append)
+    window.feature(StructuresFeature).watch.breached.connect(breaches.append)
     for depth in (0.0, 0.01, 0.02):
         trainer.now = snapshot_of(trainer.placed, pose=pose_of(trainer.placed, 0.0, depth))
         window.conductor.controller.look()
         settle(timeout=0.08)
     assert breaches == []
-    assert window.structures.watch.needle is None
-    assert window.structures.watch.items(trainer.now) == ()
+    assert window.feature(StructuresFeature).watch.needle is None
+    assert window.feature(StructuresFeature).watch.items(trainer.now) == ()
     window.conductor._attach(replace(window.conductor.controller.run, shown=Shown(), inspect=None))
     settle(lambda: bool(breaches), 2.0)
     assert breaches  # the same needle, shown live
@@ -130,7 +134,7 @@ def test_structures_are_said_nothing_of_while_scans_guide(guided, settle) -> Non
 
 def add_structure(window, path) -> None:
     """Mark a ball of risk in the middle of the path."""
-    book = window.structures.book
+    book = window.editors.structures
     volume = window.conductor.patient.volume
     middle = 0.5 * (np.asarray(path.entry_mm) + np.asarray(path.target_mm))
     book.put("vessel", *brushed(None, volume, middle, 6.0, True))
@@ -275,7 +279,7 @@ def test_the_hand_still_moves_where_nothing_is_drawn(guided) -> None:
 
 
 def test_a_live_exercise_shows_neither_panel_nor_scan(window, patient, settle) -> None:
-    window.conductor.set_exercise(next(iter(window.exercises.values())))
+    window.conductor.set_exercise(next(iter(window.feature(ExerciseFeature).exercises.values())))
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None and window.conductor.settled, 20.0)
@@ -286,7 +290,7 @@ def test_a_live_exercise_shows_neither_panel_nor_scan(window, patient, settle) -
 
 
 def test_an_assessment_guides_by_scans_unless_it_says_otherwise(window) -> None:
-    exercise = next(iter(window.exercises.values()))
+    exercise = next(iter(window.feature(ExerciseFeature).exercises.values()))
     assert exercise.guidance_mode is GuidanceMode.LIVE
     assessment = type(exercise).model_validate(exercise.model_dump() | {"purpose": "assessment"})
     assert assessment.guidance_mode is GuidanceMode.CONTROL_CT
@@ -305,7 +309,7 @@ def reviewed(**changes):
 
 
 def test_the_debrief_lists_every_scan_with_what_it_showed(window) -> None:
-    page = window.debrief_page
+    page = window.feature(DebriefFeature).page
     page.show_review(reviewed())
     rows = [
         [page.scans.item(row, column).text() for column in range(page.scans.columnCount())]
@@ -322,13 +326,13 @@ def test_the_debrief_lists_every_scan_with_what_it_showed(window) -> None:
 
 def test_the_debrief_shows_a_scan_again_beside_the_truth(guided, settle) -> None:
     window, _ = guided
-    window.debrief_page.show_review(reviewed())
-    window.debrief_page.scans.cellActivated.emit(0, 0)
-    assert settle(lambda: window.scan_pictures.dialog is not None, 60.0)
-    view = window.scan_pictures.dialog.findChild(ScanView)
+    window.feature(DebriefFeature).page.show_review(reviewed())
+    window.feature(DebriefFeature).page.scans.cellActivated.emit(0, 0)
+    assert settle(lambda: window.feature(DebriefFeature).scan_pictures.dialog is not None, 60.0)
+    view = window.feature(DebriefFeature).scan_pictures.dialog.findChild(ScanView)
     assert view.viewing.needle is not None
     assert view.viewing.draft.complete
-    window.scan_pictures.dialog.close()
+    window.feature(DebriefFeature).scan_pictures.dialog.close()
 
 
 def test_the_debrief_reads_the_ct_again_as_it_was_in_the_attempt(
@@ -345,19 +349,19 @@ def test_the_debrief_reads_the_ct_again_as_it_was_in_the_attempt(
     monkeypatch.setattr("app.imaging.resampling.read_again", read_again)
     pseudonym = volume.series.pseudonym
     for recipe in (volume.recipe, None, Recipe(Remedy.HALVE, (2, 2, 1))):
-        window.scan_pictures.dialog = None
-        window.debrief_page.show_review(reviewed(ct=CtFacts(pseudonym, (), recipe)))
-        window.debrief_page.scans.cellActivated.emit(0, 0)
-        assert settle(lambda: window.scan_pictures.dialog is not None, 60.0)
-        window.scan_pictures.dialog.close()
+        window.feature(DebriefFeature).scan_pictures.dialog = None
+        window.feature(DebriefFeature).page.show_review(reviewed(ct=CtFacts(pseudonym, (), recipe)))
+        window.feature(DebriefFeature).page.scans.cellActivated.emit(0, 0)
+        assert settle(lambda: window.feature(DebriefFeature).scan_pictures.dialog is not None, 60.0)
+        window.feature(DebriefFeature).scan_pictures.dialog.close()
     assert asked == [(volume.series, Recipe(Remedy.HALVE, (2, 2, 1)))]
 
 
 def test_a_scan_of_another_ct_is_not_made_of_this_one(guided, settle) -> None:
     window, _ = guided
-    window.debrief_page.show_review(reviewed(ct=CtFacts("CT-OTHER")))
+    window.feature(DebriefFeature).page.show_review(reviewed(ct=CtFacts("CT-OTHER")))
     failures = []
     window.conductor.failed.connect(failures.append)
-    window.debrief_page.scans.cellActivated.emit(0, 0)
+    window.feature(DebriefFeature).page.scans.cellActivated.emit(0, 0)
     assert "CT-OTHER" in str(failures)
-    assert window.scan_pictures.dialog is None
+    assert window.feature(DebriefFeature).scan_pictures.dialog is None

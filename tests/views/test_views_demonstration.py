@@ -5,6 +5,7 @@ import pytest
 from window_rig import plan
 
 from app.exercises.parts import OwnPlan
+from app.views.exercise.feature import ExerciseFeature
 from app.views.exercise.shown import Shown
 from app.views.shell.demonstration import FRESH_S, Demonstration, has_fresh_fix
 from app.views.shell.demonstration_script import DemonstrationError, Script
@@ -14,11 +15,11 @@ from app.views.shell.demonstration_script import DemonstrationError, Script
 def own(window, monkeypatch):
     """A window with an exercise that gives the target alone."""
     monkeypatch.setattr(window.conductor, "fits", lambda _: True)
-    first = next(iter(window.exercises.values()))
+    first = next(iter(window.feature(ExerciseFeature).exercises.values()))
 
     def shown(patient, target):
         exercise = first.model_copy(update={"plan": OwnPlan(own=True, target_mm=target)})
-        window.exercises[exercise.id] = exercise
+        window.feature(ExerciseFeature).exercises[exercise.id] = exercise
         window.conductor.set_exercise(exercise)
         window.show_patient(patient)
         return Demonstration(window, Script(exercise.id))

@@ -73,13 +73,13 @@ def test_a_maximised_pane_has_the_whole_room_and_gives_it_back(application, dest
 
 def test_the_menu_and_the_keys_choose_layouts(window, patient):
     window.show_patient(patient)
-    workspace, actions = window.workspace, window.menus.view.layouts
+    workspace, actions = window.workspace, window.view_menu.layouts
     actions["1+3"].trigger()
     assert workspace.grid.shown is LAYOUTS["1+3"][0]
     assert actions["1+3"].isChecked()
-    window.menus.bullseye.trigger()
+    window.view_menu.bullseye.trigger()
     assert workspace.grid.shown is LAYOUTS["1+3"][1]
-    window.menus.bullseye.trigger()
+    window.view_menu.bullseye.trigger()
     assert SCENE in workspace.grid.shown.panes
     assert actions["2x2"].shortcut().toString() == "Ctrl+1"
 

@@ -26,7 +26,7 @@ from app.imaging.pacs.settings import keep
 from app.imaging.privacy.burned_in import Box
 from app.imaging.reading import load_ct
 from app.imaging.scanning import scan_folder
-from app.views.series.library_desk import LibraryDesk
+from app.views.series.library_import import LibraryImport
 from app.views.series.pacs_panel import PacsPanel
 
 
@@ -38,7 +38,7 @@ class NoIndicator:
 @pytest.fixture
 def desk(qapp_or_own):
     window = QWidget()
-    yield LibraryDesk(NoIndicator(), window)
+    yield LibraryImport(NoIndicator(), window)
     window.deleteLater()
 
 

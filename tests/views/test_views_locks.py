@@ -158,11 +158,11 @@ def test_an_assessment_keeps_window_slab_and_layout_whatever_one_does(opened, se
     pane.actions_of.next_kind()
     pane.actions_of.reset()
     workspace.show_layout("6-up")
-    for action in window.menus.view.layouts.values():
+    for action in window.view_menu.layouts.values():
         assert not action.isEnabled()
         action.trigger()
-    assert "assessment" in window.menus.view.layouts["needle"].toolTip()
-    window.menus.view._locked.trigger()
+    assert "assessment" in window.view_menu.layouts["needle"].toolTip()
+    window.view_menu._locked.trigger()
     assert reading_of(window) == before
     greys.set_linked(True)
 
@@ -192,7 +192,7 @@ def test_leaving_an_assessment_gives_everything_back(opened):
     assert viewing.look(PaneId.AXIAL).slab == Slab("mip", 20.0)
     assert not viewing.greys.is_locked
     assert source.box.isEnabled()
-    assert window.menus.view.layouts["needle"].isEnabled()
+    assert window.view_menu.layouts["needle"].isEnabled()
 
 
 # --- hand -------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@ from window_rig import plan
 
 from app.planning.measurements import Angle, Distance, Probe, Region
 from app.views.measure.editor import MeasureEditor, MeasureTool
+from app.views.measure.feature import MeasureFeature
 from app.views.shell.undo import UndoOrder
 from app.views.slices.viewing import Tool
 
@@ -50,7 +51,7 @@ A, B, C = (0.0, -5.0, 140.0), (12.0, 4.0, 140.0), (12.0, -8.0, 140.0)
 
 
 def test_a_drag_measures_a_distance_and_lays_the_tool_down(shown) -> None:
-    pane, editor = shown.workspace.panes[0], shown.workspace.measure
+    pane, editor = shown.workspace.panes[0], shown.editors.measures
     editor.set_tool(MeasureTool.DISTANCE)
     drag(pane, A, (3.0, 0.0, 140.0), B)
     (item,) = editor.items
@@ -58,11 +59,11 @@ def test_a_drag_measures_a_distance_and_lays_the_tool_down(shown) -> None:
     np.testing.assert_allclose(item.points, (A, B), atol=1e-6)
     assert editor.measured(item).text == "15.0 mm"
     assert editor.tool is MeasureTool.NONE
-    assert shown.workspace.measure_panel.table.item(0, 1).text() == "15.0 mm"
+    assert shown.feature(MeasureFeature).panel.table.item(0, 1).text() == "15.0 mm"
 
 
 def test_an_angle_is_two_drags_or_a_drag_and_a_click(shown) -> None:
-    pane, editor = shown.workspace.panes[0], shown.workspace.measure
+    pane, editor = shown.workspace.panes[0], shown.editors.measures
     for second in ((C,), ((5.0, 5.0, 140.0), C)):
         editor.set_tool(MeasureTool.ANGLE)
         drag(pane, A, B)
@@ -77,7 +78,7 @@ def test_an_angle_is_two_drags_or_a_drag_and_a_click(shown) -> None:
 
 
 def test_a_click_probes_and_a_drag_makes_a_region(shown) -> None:
-    pane, editor = shown.workspace.panes[0], shown.workspace.measure
+    pane, editor = shown.workspace.panes[0], shown.editors.measures
     editor.set_tool(MeasureTool.PROBE)
     drag(pane, A)
     assert isinstance(editor.items[0], Probe)
@@ -92,7 +93,7 @@ def test_a_click_probes_and_a_drag_makes_a_region(shown) -> None:
 
 
 def test_a_click_with_distance_or_region_measures_nothing(shown) -> None:
-    pane, editor = shown.workspace.panes[0], shown.workspace.measure
+    pane, editor = shown.workspace.panes[0], shown.editors.measures
     for tool in (MeasureTool.DISTANCE, MeasureTool.REGION, MeasureTool.ANGLE):
         editor.set_tool(tool)
         drag(pane, A)
@@ -101,7 +102,7 @@ def test_a_click_with_distance_or_region_measures_nothing(shown) -> None:
 
 
 def test_a_handle_is_dragged_as_one_step_to_undo(shown) -> None:
-    pane, editor = shown.workspace.panes[0], shown.workspace.measure
+    pane, editor = shown.workspace.panes[0], shown.editors.measures
     editor.add(Distance(A, B))
     drag(pane, B, (6.0, 0.0, 140.0), C)
     np.testing.assert_allclose(editor.items[0].points, (A, C), atol=1e-6)
@@ -110,7 +111,7 @@ def test_a_handle_is_dragged_as_one_step_to_undo(shown) -> None:
 
 
 def test_a_measurement_is_drawn_in_its_slice_only(shown) -> None:
-    editor, viewing = shown.workspace.measure, shown.workspace.viewing
+    editor, viewing = shown.editors.measures, shown.workspace.viewing
     pane = shown.workspace.panes[0]
     layer = next(one for one in pane.canvas.layers._added if hasattr(one, "drawn"))
     editor.add(Distance(A, B))
@@ -128,7 +129,7 @@ def test_a_measurement_is_drawn_in_its_slice_only(shown) -> None:
 
 
 def test_undo_takes_back_the_last_step_whoever_made_it(shown) -> None:
-    editor, planner = shown.workspace.measure, shown.editor
+    editor, planner = shown.editors.measures, shown.editor
     plan(shown)
     editor.add(Distance(A, B))
     planner.place(Tool.TARGET, (4.0, 4.0, 140.0), True)
@@ -145,7 +146,7 @@ def test_undo_takes_back_the_last_step_whoever_made_it(shown) -> None:
 
 
 def test_a_locked_plan_forbids_no_undo_of_a_measurement(shown) -> None:
-    editor, planner = shown.workspace.measure, shown.editor
+    editor, planner = shown.editors.measures, shown.editor
     editor.add(Distance(A, B))
     plan(shown)
     planner.set_locked(True)
@@ -170,7 +171,7 @@ def test_a_new_step_forgets_what_the_same_editor_could_redo(application) -> None
 
 
 def test_esc_lays_the_tool_down_and_a_plan_tool_takes_its_place(shown) -> None:
-    pane, editor = shown.workspace.panes[0], shown.workspace.measure
+    pane, editor = shown.workspace.panes[0], shown.editors.measures
     editor.set_tool(MeasureTool.ANGLE)
     drag(pane, A, B)
     QTest.keyClick(pane, Qt.Key.Key_Escape)
@@ -184,7 +185,7 @@ def test_esc_lays_the_tool_down_and_a_plan_tool_takes_its_place(shown) -> None:
 
 
 def test_names_are_typed_in_the_list_and_rows_removed(shown) -> None:
-    editor, panel = shown.workspace.measure, shown.workspace.measure_panel
+    editor, panel = shown.editors.measures, shown.feature(MeasureFeature).panel
     editor.add(Distance(A, B))
     editor.add(Probe(A))
     panel.table.item(0, 0).setText("  lesion ")
@@ -201,28 +202,28 @@ def test_names_are_typed_in_the_list_and_rows_removed(shown) -> None:
 
 
 def test_another_ct_begins_an_empty_list(shown, patient) -> None:
-    shown.workspace.measure.add(Distance(A, B))
+    shown.editors.measures.add(Distance(A, B))
     shown.workspace.viewing.set_volume(patient.volume)
-    assert shown.workspace.measure.items == ()
+    assert shown.editors.measures.items == ()
     assert not shown.undo.can_undo
 
 
 def test_the_list_is_written_as_table_or_markups_by_its_name(shown, tmp_path) -> None:
-    shown.workspace.measure.add(Distance(A, B))
-    shown.measuring.write(tmp_path / "m.csv")
-    shown.measuring.write(tmp_path / "m.mrk.json")
+    shown.editors.measures.add(Distance(A, B))
+    shown.feature(MeasureFeature).write(tmp_path / "m.csv")
+    shown.feature(MeasureFeature).write(tmp_path / "m.mrk.json")
     assert "distance 1" in (tmp_path / "m.csv").read_text(encoding="utf-8")
     assert "Line" in (tmp_path / "m.mrk.json").read_text(encoding="utf-8")
     failures = []
-    shown.measuring.failed.connect(failures.append)
-    shown.measuring.write(tmp_path / "m.pdf")
+    shown.feature(MeasureFeature).failed.connect(failures.append)
+    shown.feature(MeasureFeature).write(tmp_path / "m.pdf")
     assert "csv" in str(failures[0])
 
 
 def test_the_keys_of_the_tools_are_those_of_the_table(shown) -> None:
-    menu = shown.menus.measure
+    menu = shown.feature(MeasureFeature).menu
     keys = {tool.value: action.shortcut().toString() for tool, action in menu.tools.items()}
     scheme = shown.workspace.viewing.scheme
     assert keys == {name: scheme.menu_keys[name] for name in keys}
     menu.tools[MeasureTool.REGION].trigger()
-    assert shown.workspace.measure.tool is MeasureTool.REGION
+    assert shown.editors.measures.tool is MeasureTool.REGION

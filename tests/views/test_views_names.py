@@ -12,6 +12,7 @@ from app.core.events import Event
 from app.core.identifiers import HIDDEN
 from app.imaging.pacs.query import FoundSeries, FoundStudy
 from app.imaging.series import Ignored, Listing
+from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.messages import MessageList
 from app.views.kit.names import NAMES, Names
 from app.views.kit.progress_strip import ProgressStrip
@@ -146,7 +147,7 @@ def test_the_pacs_browser_shows_nobodys_name_before_a_room(application, destroy,
 
 
 def test_the_debrief_and_the_list_of_sessions_name_nobody(window):
-    page = window.debrief_page
+    page = window.feature(DebriefFeature).page
     page.show_review(review(problems=("cannot read /records/smith/a.mcap: truncated",)))
     window.projector.hide_names(True)
     words = " ".join(label.text() for label in page.findChildren(QLabel))

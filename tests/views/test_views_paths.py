@@ -9,6 +9,7 @@ import app.imaging.skin as skin
 from app.core.arrays import frozen
 from app.planning.draft import DraftPlan
 from app.planning.paths import Block, PathScores, best
+from app.views.plan.paths import PathsFeature
 from app.views.plan.paths_panel import PathsPanel
 from app.views.series.patient import Patient
 
@@ -114,25 +115,25 @@ def test_a_map_without_structures_says_that_it_knows_none(panel):
 def test_there_is_no_map_without_a_target(window, patient):
     window.show_patient(patient)
     window.editor.start(None)
-    assert not window.paths.panel.make.isEnabled()
-    window.paths.make()
+    assert not window.feature(PathsFeature).panel.make.isEnabled()
+    window.feature(PathsFeature).make()
     assert window.progress.count == 0
 
 
 def test_a_map_is_made_shown_and_changes_no_plan_until_a_path_is_taken(planned, settle):
     before = planned.editor.edit.draft
-    planned.paths.make()
-    assert settle(lambda: planned.paths.scores is not None, 60.0)
+    planned.feature(PathsFeature).make()
+    assert settle(lambda: planned.feature(PathsFeature).scores is not None, 60.0)
     assert planned.editor.edit.draft == before
-    table = planned.paths.panel.table
+    table = planned.feature(PathsFeature).panel.table
     assert table.rowCount() > 0
     assert table.selectedItems() == []
     table.selectRow(0)
     assert planned.editor.edit.draft == before  # looking is not choosing
-    number = best(planned.paths.scores)[0]
-    entry = planned.paths.scores.entries_mm[number]
+    number = best(planned.feature(PathsFeature).scores)[0]
+    entry = planned.feature(PathsFeature).scores.entries_mm[number]
     np.testing.assert_allclose(planned.workspace.viewing.cursor_mm, entry, atol=1.0)
-    planned.paths.panel.take.click()
+    planned.feature(PathsFeature).panel.take.click()
     np.testing.assert_allclose(planned.editor.edit.draft.entry_mm, entry)
     planned.editor.undo()
     assert planned.editor.edit.draft == before
@@ -149,21 +150,21 @@ def test_cancelling_leaves_neither_map_nor_message(planned, settle, monkeypatch)
         return real(body, progress=progress)
 
     monkeypatch.setattr(skin, "skin_points", slow)
-    planned.paths.make()
+    planned.feature(PathsFeature).make()
     assert settle(begun.is_set, 20.0)
-    assert not planned.paths.panel.make.isEnabled()
-    planned.paths._task.cancel()
-    assert settle(lambda: planned.paths.panel.make.isEnabled(), 20.0)
-    assert planned.paths.scores is None
+    assert not planned.feature(PathsFeature).panel.make.isEnabled()
+    planned.feature(PathsFeature)._task.cancel()
+    assert settle(lambda: planned.feature(PathsFeature).panel.make.isEnabled(), 20.0)
+    assert planned.feature(PathsFeature).scores is None
     assert planned.message_bar.text == ""
 
 
 def test_another_target_takes_the_map_away(planned, settle):
-    planned.paths.make()
-    assert settle(lambda: planned.paths.scores is not None, 60.0)
+    planned.feature(PathsFeature).make()
+    assert settle(lambda: planned.feature(PathsFeature).scores is not None, 60.0)
     planned.editor.start(DraftPlan(None, (-7.0, 6.0, 140.0), "another"))
-    assert planned.paths.scores is None
-    assert planned.paths.panel.table.rowCount() == 0
+    assert planned.feature(PathsFeature).scores is None
+    assert planned.feature(PathsFeature).panel.table.rowCount() == 0
 
 
 def test_a_failure_is_told_and_another_try_is_possible(planned, settle, monkeypatch):
@@ -171,27 +172,27 @@ def test_a_failure_is_told_and_another_try_is_possible(planned, settle, monkeypa
         raise ValueError("no skin here")
 
     monkeypatch.setattr(skin, "skin_points", fails)
-    planned.paths.make()
+    planned.feature(PathsFeature).make()
     assert settle(lambda: "no skin here" in planned.message_bar.text, 20.0)
-    assert planned.paths.panel.make.isEnabled()
+    assert planned.feature(PathsFeature).panel.make.isEnabled()
 
 
 def test_the_map_reaches_panes_that_a_later_layout_shows(planned, settle):
-    planned.paths.make()
-    assert settle(lambda: planned.paths.scores is not None, 60.0)
+    planned.feature(PathsFeature).make()
+    assert settle(lambda: planned.feature(PathsFeature).scores is not None, 60.0)
     planned.editor.take(
         planned.editor.edit.draft.with_entry((-6.0, -18.0, 140.0)), planned.editor.edit.placement
     )
-    assert planned.paths.scores is not None  # another entry, the same target
+    assert planned.feature(PathsFeature).scores is not None  # another entry, the same target
     planned.workspace.show_layout("needle")
     pane = planned.workspace.needle_panes[0]
     assert settle(lambda: pane.canvas.plane is not None, 5.0)
-    layer = planned.paths._layers[planned.workspace.slices.index(pane)]
+    layer = planned.feature(PathsFeature)._layers[planned.workspace.slices.index(pane)]
     assert settle(lambda: layer._dots.isVisible() and len(layer._dots._places) > 0, 5.0)
 
 
 def test_patients_that_come_and_go_leave_no_map(planned, patient, settle):
-    planned.paths.make()
-    assert settle(lambda: planned.paths.scores is not None, 60.0)
+    planned.feature(PathsFeature).make()
+    assert settle(lambda: planned.feature(PathsFeature).scores is not None, 60.0)
     planned.show_patient(Patient(patient.volume, patient.body, "CT-OTHER"))
-    assert planned.paths.scores is None
+    assert planned.feature(PathsFeature).scores is None

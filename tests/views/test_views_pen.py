@@ -22,8 +22,10 @@ from app.tracking.pen.webcam import guessed_webcam
 from app.tracking.simulated.pen_scene import rocked
 from app.views.exercise.status_items import Verdict
 from app.views.pen.directions_view import DirectionsView
+from app.views.pen.feature import PenFeature
 from app.views.pen.tip_step import TipStep
 from app.views.pen.words import accuracy_line, status_lines
+from app.views.robot.feature import RobotFeature
 
 MODEL = camera()
 
@@ -52,8 +54,8 @@ def page(window, services, settle, seen):
     """The page with a pen before a webcam."""
     services.seen = seen
     save_settings(PenSettings(source="usb:1-1"))
-    window.menus.pen.page.trigger()
-    opened = window.pen.dialog
+    window.feature(PenFeature).menu.page.trigger()
+    opened = window.feature(PenFeature).dialog
     assert settle(lambda: opened.tip.begin.isEnabled(), 10.0)
     yield opened
     opened.tip.end()
@@ -178,8 +180,8 @@ def test_a_fault_of_the_tracker_is_said(page, services, settle):
 
 def test_a_webcam_that_is_missing_is_said_and_can_be_tried_again(window, services, settle):
     services.refuses = "no camera at usb:1-1; none is plugged in"
-    window.pen.open()
-    page = window.pen.dialog
+    window.feature(PenFeature).open()
+    page = window.feature(PenFeature).dialog
     assert settle(lambda: "none is plugged in" in page.preview.note.text(), 10.0)
     assert "could not be opened" in page.status.accuracy.text()
     assert not page.tip.begin.isEnabled()
@@ -291,33 +293,33 @@ def test_using_the_pen_begins_a_run_on_it_is_remembered_and_the_robot_comes_back
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
-    window.pen.open()
-    page = window.pen.dialog
+    window.feature(PenFeature).open()
+    page = window.feature(PenFeature).dialog
     page.choice.source.setEditText("usb:1-1")
     page.use.click()
     assert settle(lambda: services.opened[-1].setup.robot.pen == "usb:1-1", 10.0)
     assert settle(lambda: window.runs.run is not None, 10.0)
     assert load_settings().source == "usb:1-1"
-    assert window.menus.pen.pen.isChecked()
-    assert "usb:1-1" in window.menus.pen.pen.text()
+    assert window.feature(PenFeature).menu.pen.isChecked()
+    assert "usb:1-1" in window.feature(PenFeature).menu.pen.text()
     assert "The pen is the needle now" in window.message_bar.text
-    window.menus.pen.robot.trigger()
+    window.feature(PenFeature).menu.robot.trigger()
     assert settle(lambda: services.opened[-1].setup.robot.pen == "", 10.0)
-    assert window.menus.pen.robot.isChecked()
-    window.menus.pen.pen.trigger()
+    assert window.feature(PenFeature).menu.robot.isChecked()
+    window.feature(PenFeature).menu.pen.trigger()
     assert settle(lambda: services.opened[-1].setup.robot.pen == "usb:1-1", 10.0)
 
 
 def test_the_run_on_the_pen_lets_its_webcam_go_while_the_page_is_open(
     window, patient, services, settle
 ):
-    window.robot.use_pen("usb:1-1")
+    window.equipment.use_pen("usb:1-1")
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
     run = services.opened[-1]
-    window.pen.open()
-    page = window.pen.dialog
+    window.feature(PenFeature).open()
+    page = window.feature(PenFeature).dialog
     assert run.closed.wait(5.0)
     assert settle(lambda: bool(services.pens), 10.0)
     page.close_button.click()
@@ -327,30 +329,34 @@ def test_the_run_on_the_pen_lets_its_webcam_go_while_the_page_is_open(
 
 
 def test_the_page_leads_back_to_the_robot(window, patient, services, settle):
-    window.robot.use_pen("usb:1-1")
+    window.equipment.use_pen("usb:1-1")
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
-    window.pen.open()
-    window.pen.dialog.back.click()
+    window.feature(PenFeature).open()
+    window.feature(PenFeature).dialog.back.click()
     assert settle(lambda: services.opened[-1].setup.robot.pen == "", 10.0)
-    assert not window.pen.used
+    assert not window.feature(PenFeature).used
 
 
 def test_without_a_pen_of_last_time_the_menu_opens_the_page(window):
-    assert window.menus.pen.robot.isChecked()
-    window.menus.pen.pen.trigger()
-    assert window.pen.dialog is not None
-    assert window.menus.pen.robot.isChecked()
-    window.pen.dialog.reject()
+    assert window.feature(PenFeature).menu.robot.isChecked()
+    window.feature(PenFeature).menu.pen.trigger()
+    assert window.feature(PenFeature).dialog is not None
+    assert window.feature(PenFeature).menu.robot.isChecked()
+    window.feature(PenFeature).dialog.reject()
 
 
 def test_the_robot_s_menu_opens_the_same_page(window):
-    window.menus.robot.robots.aboutToShow.emit()
-    entry = next(a for a in window.menus.robot.robots.actions() if "pen and webcam" in a.text())
+    window.feature(RobotFeature).menu.robots.aboutToShow.emit()
+    entry = next(
+        a
+        for a in window.feature(RobotFeature).menu.robots.actions()
+        if "pen and webcam" in a.text()
+    )
     entry.trigger()
-    assert window.pen.dialog is not None
-    window.pen.dialog.reject()
+    assert window.feature(PenFeature).dialog is not None
+    window.feature(PenFeature).dialog.reject()
 
 
 def test_pen_and_page_stay_closed_while_an_attempt_runs(window, patient, settle):
@@ -358,19 +364,19 @@ def test_pen_and_page_stay_closed_while_an_attempt_runs(window, patient, settle)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
     window.runs.run.trainer.state = State.INSERTING
-    window.pen.open()
-    assert window.pen.dialog is None
+    window.feature(PenFeature).open()
+    assert window.feature(PenFeature).dialog is None
     assert "An attempt is running" in window.message_bar.text
-    assert not window.robot.use_pen("usb:0")
+    assert not window.equipment.use_pen("usb:0")
 
 
 def test_real_cameras_are_let_go_for_the_page(window, patient, services, settle):
     one = OneCamera(source="usb:1-1"), OneCamera(source="usb:1-2")
-    window.cameras.take(CameraSettings(left=one[0], right=one[1]))
+    window.equipment.take_cameras(CameraSettings(left=one[0], right=one[1]))
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
-    window.pen.open()
+    window.feature(PenFeature).open()
     assert services.opened[-1].closed.wait(5.0)
-    window.pen.dialog.reject()
+    window.feature(PenFeature).dialog.reject()
     assert settle(lambda: len(services.opened) == 2, 10.0)

@@ -7,7 +7,7 @@ from window_rig import plan
 
 from app.exchange.transforms import read_tfm, write_tfm
 from app.planning.placement import PatientOrientation, Placement, placement_of
-from app.views.shell.drops import open_dropped
+from app.views.plan.position import PositionFeature
 
 
 @pytest.fixture
@@ -22,8 +22,8 @@ def placed(window, patient, settle):
 @pytest.fixture
 def told(placed):
     notes, errors = [], []
-    placed.plan_files.noted.connect(notes.append)
-    placed.plan_files.failed.connect(errors.append)
+    placed.feature(PositionFeature).noted.connect(notes.append)
+    placed.feature(PositionFeature).failed.connect(errors.append)
     return notes, errors
 
 
@@ -34,9 +34,9 @@ def test_what_is_exported_comes_back_and_can_be_undone(placed, told, tmp_path, m
     )
     monkeypatch.setattr(QFileDialog, "getOpenFileName", staticmethod(lambda *_: (str(path), "")))
     before = placed.editor.edit.placement
-    placed.menus.position.ask_export()
+    placed.feature(PositionFeature).ask_export()
     placed.editor.set_placement(Placement())
-    placed.menus.position.ask_open()
+    placed.feature(PositionFeature).ask_open()
     after = placed.editor.edit.placement
     assert after.orientation is PatientOrientation.PRONE
     np.testing.assert_allclose(after.rotation, before.rotation, atol=1e-12)
@@ -52,30 +52,30 @@ def test_the_other_direction_is_refused_and_a_shift_that_cannot_be_kept_is_said(
 ):
     notes, errors = told
     path = tmp_path / "placed.tfm"
-    placed.menus.position.export(path)
+    placed.feature(PositionFeature).export(path)
     T_patient_world = read_tfm(path)
     placed.editor.set_placement(Placement())
     write_tfm(path, T_patient_world.inverse())
-    placed.menus.position.open(path)
+    placed.feature(PositionFeature).open(path)
     assert "other direction" in str(errors[-1])
     assert placed.editor.edit.placement == Placement()
     shifted = type(T_patient_world)(
         T_patient_world.rotation, T_patient_world.translation + [0.0, 0.003, 0.004]
     )
     write_tfm(path, shifted)
-    open_dropped(placed, path)
+    placed.open_dropped(path)
     assert "5.0 mm" in notes[-1]
     assert placed.editor.edit.placement.orientation is PatientOrientation.PRONE
 
 
 def test_without_a_plan_and_with_a_file_that_is_none_it_says_so(window, patient, tmp_path):
     errors = []
-    window.plan_files.failed.connect(errors.append)
-    window.menus.position.export(tmp_path / "a.tfm")
+    window.feature(PositionFeature).failed.connect(errors.append)
+    window.feature(PositionFeature).export(tmp_path / "a.tfm")
     window.show_patient(patient)
-    window.menus.position.export(tmp_path / "a.tfm")
+    window.feature(PositionFeature).export(tmp_path / "a.tfm")
     (tmp_path / "b.tfm").write_text("nothing")
-    window.menus.position.open(tmp_path / "b.tfm")
+    window.feature(PositionFeature).open(tmp_path / "b.tfm")
     assert len(errors) == 3
     assert "exercise" in str(errors[0])
     assert "b.tfm" in str(errors[2])

@@ -326,7 +326,7 @@ def test_the_arrows_go_through_the_panes_and_the_menu_key_opens_the_menu(window,
 
 
 def test_schemes_are_chosen_in_the_menu_and_change_its_keys(window):
-    view = window.menus.view
+    view = window.view_menu
     assert view.follow.shortcut().toString() == "F"
     view.schemes["slicer"].trigger()
     assert window.workspace.viewing.scheme is SLICER

@@ -14,9 +14,13 @@ from app.exercises.reading import ReadingPart
 from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.window import PRESETS, WindowLevel
 from app.planning.placement import PatientOrientation
+from app.views.debrief.feature import DebriefFeature
+from app.views.exercise.feature import ExerciseFeature
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.themes import DARK, LIGHT, THEMES, restyled, translated
+from app.views.plan.paths import PathsFeature
+from app.views.robot.feature import RobotFeature
 from app.views.robot.health_panel import _Line
 from app.views.shell.window import MainWindow
 from app.views.slices.looks import Look, Slab, Turn
@@ -99,8 +103,8 @@ def test_projector_mode_is_light_large_and_without_names_and_ends(window, patien
 def test_titles_of_the_robots_health_are_whole_in_large_text(window, patient, desk_again, settle):
     window.show_patient(patient)
     plan(window)
-    panel = window.workspace.health_panel
-    window.workspace.show_health()
+    panel = window.feature(RobotFeature).panel
+    window.feature(RobotFeature).show_health()
     assert settle(lambda: len(titles_of(panel)) > 0, 20.0)
     for large in (False, True, False):
         window.projector.set_large(large)
@@ -126,14 +130,14 @@ def test_pictures_stay_on_black_and_keep_their_colours(window, patient, desk_aga
 # --- remembered -------------------------------------------------------------------------------
 def with_reading(shown, number, /, **reading):
     """Exercise of the list that says how it is read."""
-    exercise = list(shown.exercises.values())[number]
+    exercise = list(shown.feature(ExerciseFeature).exercises.values())[number]
     return exercise.model_copy(update={"reading": ReadingPart.model_validate(reading)})
 
 
 def test_the_lock_is_kept_for_each_exercise_alone(window, patient):
     window.show_patient(patient)
     greys = window.workspace.viewing.greys
-    first, second, *_ = window.exercises.values()
+    first, second, *_ = window.feature(ExerciseFeature).exercises.values()
     window.conductor.set_exercise(first)
     greys.set(WindowLevel(800.0, 12.0))
     greys.set_locked(True)
@@ -158,7 +162,7 @@ def test_an_exercise_says_what_one_begins_with_and_later_what_one_left_counts(wi
     assert not greys.is_locked
     greys.set(WindowLevel(500.0, 5.0))
     workspace.show_layout("needle")
-    window.conductor.set_exercise(window.exercises["first-insertion"])
+    window.conductor.set_exercise(window.feature(ExerciseFeature).exercises["first-insertion"])
     window.conductor.set_exercise(third)
     assert greys.common == WindowLevel(500.0, 5.0)
     assert workspace.layout_name == "needle"
@@ -166,7 +170,7 @@ def test_an_exercise_says_what_one_begins_with_and_later_what_one_left_counts(wi
 
 def test_what_an_exercise_locks_can_be_changed_by_nobody_until_the_next(window, patient):
     window.show_patient(patient)
-    workspace, greys, menu = window.workspace, window.workspace.viewing.greys, window.menus.view
+    workspace, greys, menu = window.workspace, window.workspace.viewing.greys, window.view_menu
     fixed = with_reading(window, 3, window="lung", layout="1+3", locked=True)
     window.conductor.set_exercise(fixed)
     greys.set_locked(False)
@@ -184,7 +188,7 @@ def test_what_an_exercise_locks_can_be_changed_by_nobody_until_the_next(window, 
     assert not any(action.isEnabled() for action in menu.layouts.values())
     lock = [a for a in workspace.panes[0].build_menu().actions() if "Lock" in a.text()]
     assert not lock[0].isEnabled()
-    window.conductor.set_exercise(window.exercises["first-insertion"])
+    window.conductor.set_exercise(window.feature(ExerciseFeature).exercises["first-insertion"])
     assert not greys.is_locked
     greys.set(WindowLevel(500.0, 5.0))
     workspace.show_layout("2x2")
@@ -203,7 +207,7 @@ def test_what_an_exercise_does_not_name_it_does_not_lock(window, patient):
 
 def test_the_debrief_and_the_map_stay_readable_when_the_light_goes_on(window, patient, desk_again):
     window.show_patient(patient)
-    page = window.debrief_page
+    page = window.feature(DebriefFeature).page
     page.show_review(review())
     window.workspace.messages.add_event(Event(1.0, "state", "holding"))
     window.projector.set_light(True)
@@ -211,7 +215,7 @@ def test_the_debrief_and_the_map_stay_readable_when_the_light_goes_on(window, pa
     assert contrast(line, LIGHT.field) >= 4.5
     words = [page.table.item(0, column).foreground().color().name() for column in range(4)]
     assert all(contrast(word, LIGHT.field) >= 4.5 for word in words), words
-    key = window.paths.panel._key.findChildren(QLabel)
+    key = window.feature(PathsFeature).panel._key.findChildren(QLabel)
     colours = [label.styleSheet().split("#")[1][:6] for label in key]
     assert all(contrast(f"#{colour}", LIGHT.background) >= 3.0 for colour in colours), colours
     assert len(set(colours)) == len(colours)
@@ -220,7 +224,7 @@ def test_the_debrief_and_the_map_stay_readable_when_the_light_goes_on(window, pa
 def test_each_exercise_is_read_as_it_was_read_before(window, patient):
     window.show_patient(patient)
     workspace, viewing = window.workspace, window.workspace.viewing
-    first, second, *_ = window.exercises.values()
+    first, second, *_ = window.feature(ExerciseFeature).exercises.values()
     window.conductor.set_exercise(first)
     workspace.show_layout("1+3")
     look = Look(Slab("mip", 8.0), Turn(1, True))
@@ -238,7 +242,7 @@ def test_each_exercise_is_read_as_it_was_read_before(window, patient):
 
 def test_scheme_hand_and_kept_windows_are_remembered(services, window, patient, destroy):
     window.show_patient(patient)
-    window.menus.view.schemes["slicer"].trigger()
+    window.view_menu.schemes["slicer"].trigger()
     window.workspace.set_left_handed(True)
     window.workspace.viewing.greys.keep("Mine", window.workspace.viewing.window)
     window.close()
@@ -304,7 +308,7 @@ def test_from_the_head_left_and_right_change_places(volume):
 
 def test_the_menu_turns_the_slices_and_back(window, patient):
     window.show_patient(patient)
-    viewing, operator = window.workspace.viewing, window.menus.view.operator
+    viewing, operator = window.workspace.viewing, window.view_menu.operator
     operator["right"].trigger()
     assert viewing.look(PaneId.CORONAL).turn == Turn(3)
     operator["convention"].trigger()
@@ -377,7 +381,7 @@ def test_a_turned_slice_is_shown_whole_and_in_the_middle(window, patient, settle
     viewing = window.workspace.viewing
     viewing.set_cursor(patient.volume.lps_mm((3.0, 3.0, 3.0)))  # far from the middle
     settle(timeout=0.1)
-    window.menus.view.operator[side].trigger()
+    window.view_menu.operator[side].trigger()
     settle(timeout=0.1)
     for pane in window.workspace.panes:
         canvas = pane.canvas

@@ -90,7 +90,7 @@ def test_the_bullseye_is_empty_without_its_view_and_says_no_offset(shows):
 def test_the_bullseyes_cell_is_gone_where_nothing_would_be_in_it(shows):
     window = shows(frozenset({View.THREE_D}), interactive=False)
     assert not window.workspace.has_bullseye
-    window.menus.view.bullseye.trigger()
+    window.view_menu.bullseye.trigger()
     assert not window.workspace.has_bullseye
     assert shows(frozenset({View.FORCE_GAUGE}), interactive=False).workspace.has_bullseye
 
@@ -165,7 +165,7 @@ def test_a_student_switches_views_in_practice_and_the_run_is_built_anew_with_the
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 20.0)
-    action = window.menus.view.shown[View.FORCE_GAUGE]
+    action = window.view_menu.shown[View.FORCE_GAUGE]
     assert action.isEnabled()
     assert not action.isChecked()
     before = len(services.opened)
@@ -182,7 +182,7 @@ def test_locked_views_stay_and_say_why(window, patient, settle):
     window.show_patient(patient)
     said = []
     window.conductor.failed.connect(lambda error: said.append(str(error)))
-    for view, action in window.menus.view.shown.items():
+    for view, action in window.view_menu.shown.items():
         assert not action.isEnabled()
         assert "First insertion" in action.toolTip()
         action.trigger()

@@ -13,12 +13,14 @@ from app.imaging.volume import Volume
 from app.planning.clearance import Nearness
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
+from app.views.exercise.feature import ExerciseFeature
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Tool, Viewing
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip, Mode
+from app.views.structures.feature import StructuresFeature
 from app.views.structures.layer import StructureLayer
 from app.views.structures.panel import StructurePanel
 from app.views.structures.table import NAME, PATH
@@ -227,7 +229,7 @@ def test_a_warning_has_words(book, volume):
 def test_one_undo_takes_back_plan_and_structures_in_order(window, patient, settle) -> None:
     window.show_patient(patient)
     plan(window)
-    book, edit = window.structures.book, window.editor
+    book, edit = window.editors.structures, window.editor
     entry = edit.edit.draft.entry_mm
     book.put("a", *ball(patient.volume, (5.0, 0.0, 140.0), 5.0))
     window.editor.place(Tool.ENTRY, (8.0, -18.0, 140.0), True)
@@ -259,7 +261,7 @@ def with_structures(window, patient, tmp_path):
             for name, centre in parts]  # fmt: skip
     path = tmp_path / "a.seg.nrrd"
     write_structures(path, StructureSet(tuple(made)), patient.volume)
-    first = next(iter(window.exercises.values()))
+    first = next(iter(window.feature(ExerciseFeature).exercises.values()))
 
     def exercise(name="vessel", file=path):
         part = StructurePart(file=file, risks={name: 4.0})
@@ -281,15 +283,15 @@ def test_structures_of_an_exercise_come_with_its_ct(
     monkeypatch.setattr(window.conductor, "fits", lambda _: True)
     window.conductor.set_exercise(with_structures())
     window.show_patient(patient)
-    book = window.structures.book
+    book = window.editors.structures
     assert settle(lambda: len(book.structures) == 2, 20.0)
     vessel, liver = book.structures.find("vessel"), book.structures.find("liver")
     assert (vessel.kind, vessel.warn_mm) == (Kind.RISK, 4.0)
     assert liver.kind is not Kind.RISK
     assert not window.undo.can_undo
     plan(window)
-    assert settle(lambda: "vessel" in window.structures.watch.path, 20.0)
-    other = next(e for e in window.exercises.values() if not e.structures)
+    assert settle(lambda: "vessel" in window.feature(StructuresFeature).watch.path, 20.0)
+    other = next(e for e in window.feature(ExerciseFeature).exercises.values() if not e.structures)
     window.conductor.set_exercise(other)
     assert settle(lambda: len(book.structures) == 0, 5.0)
 
@@ -299,7 +301,7 @@ def test_structures_that_an_exercise_lacks_are_said(
 ) -> None:
     monkeypatch.setattr(window.conductor, "fits", lambda _: True)
     said = []
-    window.structures.failed.connect(said.append)
+    window.feature(StructuresFeature).failed.connect(said.append)
     window.conductor.set_exercise(with_structures("spleen"))
     window.show_patient(patient)
     assert settle(lambda: bool(said), 20.0)

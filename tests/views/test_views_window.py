@@ -15,6 +15,8 @@ from app.imaging.series import Listing
 from app.planning.needle_overlay import NeedleOverlay
 from app.planning.plan import Plan
 from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS, Cause
+from app.views.exercise.feature import ExerciseFeature
+from app.views.plan.feature import PlanFeature
 from app.views.reading.layouts import FIVE
 from app.views.series.browser import SeriesBrowser
 from app.views.shell.shortcuts import ShortcutSheet
@@ -26,7 +28,7 @@ from app.views.slices.viewing import Tool
 def test_the_start_page_carries_the_disclaimer_and_the_exercises(window):
     texts = {label.text() for label in window.start_page.findChildren(QLabel)}
     assert DISCLAIMER in texts
-    assert window.start_page.exercises.count() == len(window.exercises)
+    assert window.start_page.exercises.count() == len(window.feature(ExerciseFeature).exercises)
     assert window.pages.currentWidget() is window.start_page
 
 
@@ -71,7 +73,7 @@ def test_the_plan_is_locked_while_an_attempt_runs(window, patient, services, set
     assert "attempt" in window.message_bar.text
     before = window.editor.edit
     window.message_bar.clear()
-    window.plan_files.new()  # the menu, Ctrl+N, and the panel's button
+    window.feature(PlanFeature).files.new()  # the menu, Ctrl+N, and the panel's button
     assert "attempt" in window.message_bar.text
     window.editor.opened(Path("other.mrk.json"), Plan((0, 0, 0), (0, 0, 50)))
     assert window.editor.edit == before
@@ -216,7 +218,7 @@ def test_a_force_law_that_is_refused_is_listed_with_the_reason(window, services,
 def test_every_key_of_the_menus_is_used_once(window):
     keys = [
         key.toString()
-        for action in window.findChildren(type(window.menus.undo))
+        for action in window.findChildren(type(window.undo_action))
         for key in action.shortcuts()
     ]
     assert len(keys) == len(set(keys))
@@ -235,7 +237,7 @@ def test_nothing_sticks_out_of_the_window_at_1366_by_768(window, patient, settle
     settle(timeout=0.1)
     assert window.width() == 1366
     assert window.height() == 768
-    panel = window.workspace.plan_panel
+    panel = window.feature(PlanFeature).panel
     for child in panel.findChildren(QWidget):
         if child.isVisible():
             right = child.mapTo(panel, child.rect().topRight()).x()

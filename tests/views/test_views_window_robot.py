@@ -4,6 +4,7 @@ from pathlib import Path
 
 from window_rig import plan
 
+from app.views.robot.feature import RobotFeature
 from app.views.robot.wizard_pages import ConnectionPage
 from app.views.shell.window import MainWindow
 
@@ -12,77 +13,79 @@ def test_another_robot_ends_the_run_and_begins_one_on_it(window, patient, servic
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
-    window.menus.robot.robots.aboutToShow.emit()
-    texts = [action.text() for action in window.menus.robot.robots.actions()]
+    window.feature(RobotFeature).menu.robots.aboutToShow.emit()
+    texts = [action.text() for action in window.feature(RobotFeature).menu.robots.actions()]
     assert texts == [
         "Simulated robot", "icube A17 on /dev/ttyACM0", "", "Other port…",
         "No robot: pen and webcam…",
     ]  # fmt: skip
-    window.menus.robot.robots.actions()[1].trigger()
+    window.feature(RobotFeature).menu.robots.actions()[1].trigger()
     assert services.opened[0].closed.wait(5.0)
     assert settle(lambda: window.runs.run is not None, 10.0)
     assert len(services.opened) == 2
     assert services.opened[1].setup.robot.port == "/dev/ttyACM0"
     assert services.opened[1].setup.robot.held_arming
     assert not window.workspace.exercise_panel.enable.isHidden()
-    assert window.robot.settings.port == "/dev/ttyACM0"
+    assert window.feature(RobotFeature).settings.port == "/dev/ttyACM0"
 
 
 def test_a_robot_that_was_chosen_is_offered_though_it_is_gone(window, services):
-    window.robot.choose("/dev/ttyACM0")
+    window.feature(RobotFeature).choose("/dev/ttyACM0")
     services.ports = ()
-    assert [robot.title for robot in window.robot.ports()] == ["/dev/ttyACM0 – not plugged in"]
-    window.robot.choose("")
+    assert [robot.title for robot in window.feature(RobotFeature).ports()] == [
+        "/dev/ttyACM0 – not plugged in"
+    ]
+    window.feature(RobotFeature).choose("")
 
 
 def test_choosing_a_robot_again_tries_again(window, patient, services, settle):
     services.refuses = "there is no port"
-    window.robot.choose("/dev/ttyACM0")
+    window.feature(RobotFeature).choose("/dev/ttyACM0")
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: "no port" in window.message_bar.text, 10.0)
-    empty = window.workspace.health_panel._empty
+    empty = window.feature(RobotFeature).panel._empty
     assert "No robot is running" in empty.text()
     services.refuses = ""
-    window.robot.choose("/dev/ttyACM0")
+    window.feature(RobotFeature).choose("/dev/ttyACM0")
     assert "starting" in empty.text()
     assert settle(lambda: window.runs.run is not None, 10.0)
     assert window.message_bar.isHidden()
     assert "starting" not in empty.text()
-    window.robot.choose("")
+    window.feature(RobotFeature).choose("")
 
 
 def test_a_robot_is_taken_for_once_without_being_remembered(window, patient, services, settle):
-    window.robot.choose("/dev/ttyACM0")
-    window.robot.take("/tmp/robot")
-    assert window.robot.settings.port == "/dev/ttyACM0"
+    window.feature(RobotFeature).choose("/dev/ttyACM0")
+    window.equipment.take("/tmp/robot")
+    assert window.feature(RobotFeature).settings.port == "/dev/ttyACM0"
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
     assert services.opened[-1].setup.robot.port == "/tmp/robot"
-    window.robot.choose("")
-    assert window.robot.port == ""
+    window.feature(RobotFeature).choose("")
+    assert window.feature(RobotFeature).port == ""
 
 
 def test_a_pen_takes_the_robot_s_place_until_a_robot_is_chosen(window, patient, services, settle):
-    window.robot.take_pen("usb:0")
+    window.equipment.take_pen("usb:0")
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
     chosen = services.opened[-1].setup.robot
     assert (chosen.pen, chosen.port, chosen.held_arming) == ("usb:0", "", False)
-    window.robot.choose("")
-    assert window.robot.pen == ""
+    window.feature(RobotFeature).choose("")
+    assert window.feature(RobotFeature).pen == ""
 
 
 def test_holding_can_be_practised_on_the_simulated_robot(window, patient, services, settle):
-    window.robot.set_practise_holding(True)
+    window.feature(RobotFeature).set_practise_holding(True)
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
     assert services.opened[0].setup.robot.held_arming
-    assert window.menus.robot.holding.isChecked()
-    window.robot.set_practise_holding(False)
+    assert window.feature(RobotFeature).menu.holding.isChecked()
+    window.feature(RobotFeature).set_practise_holding(False)
     assert settle(lambda: len(services.opened) == 2, 10.0)
 
 
@@ -92,10 +95,10 @@ def test_the_robot_stays_while_an_attempt_runs(window, patient, services, settle
     assert settle(lambda: window.runs.run is not None, 10.0)
     window.workspace.exercise_panel.buttons.start.click()
     assert settle(lambda: window.editor.locked, 5.0)
-    window.robot.choose("/dev/ttyACM0")
-    window.robot.commission()
+    window.feature(RobotFeature).choose("/dev/ttyACM0")
+    window.feature(RobotFeature).commission()
     assert "end it first" in window.message_bar.text
-    assert window.robot.settings.port == ""
+    assert window.feature(RobotFeature).settings.port == ""
     assert services.benches == []
 
 
@@ -103,14 +106,14 @@ def test_the_wizard_has_the_robot_for_itself_and_gives_it_back(window, patient, 
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
-    window.robot.choose("/dev/ttyACM0")
+    window.feature(RobotFeature).choose("/dev/ttyACM0")
     assert settle(lambda: len(services.opened) == 2 and window.runs.run is not None, 10.0)
-    window.robot.commission()
-    assert settle(lambda: window.robot.wizard is not None, 10.0)
+    window.feature(RobotFeature).commission()
+    assert settle(lambda: window.feature(RobotFeature).wizard is not None, 10.0)
     assert services.opened[1].closed.is_set()
     assert window.runs.run is None
-    assert isinstance(window.robot.wizard.page, ConnectionPage)
-    window.robot.wizard.reject()
+    assert isinstance(window.feature(RobotFeature).wizard.page, ConnectionPage)
+    window.feature(RobotFeature).wizard.reject()
     assert services.benches[0].closed == 1
     assert settle(lambda: window.runs.run is not None, 10.0)
     assert len(services.opened) == 3
@@ -118,7 +121,7 @@ def test_the_wizard_has_the_robot_for_itself_and_gives_it_back(window, patient, 
 
 def test_the_simulated_robot_needs_no_commissioning(window, patient, services):
     window.show_patient(patient)
-    window.robot.commission()
+    window.feature(RobotFeature).commission()
     assert "needs no commissioning" in window.message_bar.text
     assert services.benches == []
 
@@ -129,20 +132,20 @@ def test_a_robot_that_does_not_open_is_told_and_the_run_comes_back(
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None, 10.0)
-    window.robot.choose("/dev/ttyACM0")
+    window.feature(RobotFeature).choose("/dev/ttyACM0")
     assert settle(lambda: len(services.opened) == 2 and window.runs.run is not None, 10.0)
     services.refuses = "nobody answers on /dev/ttyACM0: check cable and power"
-    window.robot.commission()
+    window.feature(RobotFeature).commission()
     assert settle(lambda: "nobody answers" in window.message_bar.text, 10.0)
     services.refuses = ""
-    assert window.robot.wizard is None
+    assert window.feature(RobotFeature).wizard is None
 
 
 def test_the_robots_health_stands_beside_the_panes(window, patient, services, settle):
     window.show_patient(patient)
     plan(window)
-    window.menus._show_health()
-    panel = window.workspace.health_panel
+    window.feature(RobotFeature).show_health()
+    panel = window.feature(RobotFeature).panel
     assert settle(lambda: panel.groups != (), 10.0)
     assert window.workspace.side.currentWidget() is panel
     window.editor.saved(Path("kept"))

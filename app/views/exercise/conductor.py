@@ -51,6 +51,14 @@ class Conductor(QObject):
         patient_changed(): another patient is shown.
         exercise_taken(str): identifier of the exercise that is being prepared.
         views_changed(): other views are on, or may be switched.
+
+    Attributes:
+        controller: serves the attempt.
+        runs: the trainer that runs, if one does.
+        views: the widgets of the exercise.
+        scans: the control scans of this attempt.
+        patient: who is shown; None before one is.
+        exercise: that is prepared; None before one is.
     """
 
     failed = Signal(object)
@@ -68,9 +76,10 @@ class Conductor(QObject):
         parent: QObject,
     ) -> None:
         super().__init__(parent)
-        self._workspace, self._editor, self._runs = workspace, editor, runs
+        self._workspace, self._editor, self.runs = workspace, editor, runs
         self._indicator = indicator
-        self.controller = ExerciseController(workspace.exercise_views, parent=self)
+        self.views = workspace.exercise_views
+        self.controller = ExerciseController(self.views, parent=self)
         self.patient: Patient | None = None
         self.exercise: Exercise | None = None
         self._robot, self._released, self._leaving = RobotChoice(), False, False
@@ -78,7 +87,7 @@ class Conductor(QObject):
         self._profile: DeviceProfile | None = None
         self._surfaces = SurfaceExtraction(workspace.scene, self)
         self._needle, self._motion = LiveNeedle(workspace), TargetMotion(workspace)
-        self.scans = ScanSource(self, workspace)
+        self.scans = ScanSource(self.controller, workspace, lambda: self.patient, self)
         self._connect()
 
     def _connect(self) -> None:
@@ -87,14 +96,16 @@ class Conductor(QObject):
         scene.clicked.connect(self._click_in_scene)
         self._editor.changed.connect(self._show_plan)
         self._editor.refused.connect(lambda _: viewing.refuse_point())
-        self._runs.ready.connect(self._attach)
-        self._runs.moved.connect(self._moved)
-        self._runs.gone.connect(self._detach)
+        self.runs.ready.connect(self._attach)
+        self.runs.moved.connect(self._moved)
+        self.runs.gone.connect(self._detach)
         self._surfaces.failed.connect(self.failed)
         self.controller.snapshot_taken.connect(self.show_snapshot)
         self.controller.attached.connect(self._show_views)
         self.controller.beginning.connect(self._as_the_exercise_says)
-        self.scans.connect_all()
+        self.controller.began.connect(lambda _: self._workspace.show_exercise())
+        self.patient_changed.connect(self._workspace.scan_view.clear)
+        self.scans.failed.connect(self.failed)
 
     @property
     def profile(self) -> DeviceProfile | None:
@@ -133,7 +144,7 @@ class Conductor(QObject):
             return
         self._leaving = True  # no run may be wanted for a plan that is about to go
         try:
-            self._runs.abort(tr("another patient was opened"))
+            self.runs.abort(tr("another patient was opened"))
             self.patient = None
             self._editor.set_locked(False)
             self._editor.set_keeps_target(False)
@@ -229,7 +240,7 @@ class Conductor(QObject):
     def let_go(self) -> None:
         """End the run, so that somebody else can have the robot; the plan stays."""
         self._released = True
-        self._runs.want(None)
+        self.runs.want(None)
 
     def take_again(self) -> None:
         """Have a run again after `let_go`."""
@@ -277,13 +288,13 @@ class Conductor(QObject):
         workspace.scene.set_plan(editor.edit.draft)
         placed = editor.verdict.placed
         note = "" if placed is not None else tr("Finish a plan that the robot can follow first.")
-        workspace.exercise_panel.set_ready(placed is not None and self._runs.run is not None, note)
+        workspace.exercise_panel.set_ready(placed is not None and self.runs.run is not None, note)
         if editor.locked or self._released or self._leaving or placed is None:
             return  # a run that is open stays with its plan until there is a better one
         if self.exercise is None or self.patient is None:
             return
         ct = CtFacts.of_volume(self.patient.volume)
-        self._runs.want(
+        self.runs.want(
             RunSetup(self.exercise, placed, ct, self._robot, self._cameras, self.patient.volume)
         )
 
@@ -340,5 +351,5 @@ class Conductor(QObject):
         """Let go of everything that runs; idempotent."""
         self.controller.detach()
         self._surfaces.close()
-        self._runs.close()
+        self.runs.close()
         self._workspace.scene.close_renderer()

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from collections.abc import Callable
+from typing import Any, Final
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 
 from app.core.events import Event
 from app.core.progress import Progress
 from app.imaging.volume import Volume
 from app.session.control_scan import ControlScan
+from app.views.exercise.controller import ExerciseController
 from app.views.exercise.scan_range import attach
 from app.views.kit.background import run_in_background
 from app.views.reading.workspace import Workspace
-
-if TYPE_CHECKING:
-    from app.views.exercise.conductor import Conductor
+from app.views.series.patient import Patient
 
 DECLARATION: Final[dict[str, Any]] = {
     "view": "control_scan",
@@ -33,25 +33,32 @@ DECLARATION: Final[dict[str, Any]] = {
 
 
 class ScanSource(QObject):
-    """Connects controller, scan panel and scan view; the newest scan wins."""
+    """Connects controller, scan panel and scan view; the newest scan wins.
 
-    def __init__(self, conductor: Conductor, workspace: Workspace) -> None:
-        super().__init__(conductor)
-        self._conductor, self._workspace = conductor, workspace
+    Signals:
+        failed(object): why a picture could not be made.
+    """
+
+    failed = Signal(object)
+
+    def __init__(
+        self,
+        controller: ExerciseController,
+        workspace: Workspace,
+        patient: Callable[[], Patient | None],
+        parent: QObject,
+    ) -> None:
+        super().__init__(parent)
+        self._controller, self._workspace, self._patient = controller, workspace, patient
         self._panel, self._view = workspace.exercise_panel.scan, workspace.scan_view
         self._panes = workspace.panes
         self.ranges = tuple(attach(pane) for pane in self._panes)
         self._busy, self._waiting = False, False
         self._newest: ControlScan | None = None
         self._origin: float | None = None  # of the attempt: its first event
-
-    def connect_all(self) -> None:
-        """Listen; once the conductor has its controller."""
-        controller = self._conductor.controller
         controller.event_seen.connect(self._take)
         controller.began.connect(self._begin)
         controller.attached.connect(self._attached)
-        self._conductor.patient_changed.connect(self._view.clear)
         self._panel.order_changed.connect(self._show_range)
         self._panel.crosshair_wanted.connect(
             lambda: self._panel.set_table(float(self._workspace.viewing.cursor_mm[2]))
@@ -63,14 +70,14 @@ class ScanSource(QObject):
         return self._busy
 
     def _attached(self) -> None:
-        run = self._conductor.controller.run
+        run = self._controller.run
         scanning = run is not None and not run.shown.live
         self._show_range()
         if not scanning:
             self._view.clear()
 
     def _show_range(self) -> None:
-        run = self._conductor.controller.run
+        run = self._controller.run
         scanning = run is not None and not run.shown.live
         for pane, layer in zip(self._panes, self.ranges, strict=True):
             layer.set_order(self._panel.order if scanning else None)
@@ -87,7 +94,7 @@ class ScanSource(QObject):
         self._view.clear()
 
     def _take(self, event: Event) -> None:
-        run = self._conductor.controller.run
+        run = self._controller.run
         self._origin = event.time if self._origin is None else self._origin
         scan = ControlScan.of(event)
         if scan is None or run is None or run.shown.live:
@@ -100,7 +107,7 @@ class ScanSource(QObject):
             self._make(scan)
 
     def _make(self, scan: ControlScan) -> None:
-        patient, run = self._conductor.patient, self._conductor.controller.run
+        patient, run = self._patient(), self._controller.run
         if patient is None or run is None:
             return
         self._busy, self._waiting = True, False
@@ -121,7 +128,7 @@ class ScanSource(QObject):
 
     def _fail(self, error: Exception) -> None:
         self._done()
-        self._conductor.failed.emit(error)
+        self.failed.emit(error)
 
     def _done(self) -> None:
         self._busy = False

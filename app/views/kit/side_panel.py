@@ -83,8 +83,11 @@ class SidePanel(QWidget):
         self.changed.emit(index)
 
     def setCurrentWidget(self, panel: QWidget) -> None:
-        """Show a panel that was added."""
-        self.setCurrentIndex(self._panels.indexOf(panel))
+        """Show a panel that was added, or the one that it is in."""
+        for index in range(self.count()):
+            there = self._panels.widget(index)
+            if there is not None and (there is panel or there.isAncestorOf(panel)):
+                self.setCurrentIndex(index)
 
     def names(self) -> tuple[str, ...]:
         """Names of the panels in their order."""

@@ -136,13 +136,7 @@ class PlanPanel(QWidget):
         column.addLayout(self._position())
         column.addWidget(self.verdict)
         column.addWidget(self.remedy)
-        self._below = QVBoxLayout()
-        column.addLayout(self._below)
         column.addStretch(1)
-
-    def add_below(self, widget: QWidget) -> None:
-        """Show something more under the plan."""
-        self._below.addWidget(widget)
 
     def _points(self) -> QGridLayout:
         grid = QGridLayout()

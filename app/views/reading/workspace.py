@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QBoxLayout,
     QHBoxLayout,
-    QSplitter,
+    QLineEdit,
     QVBoxLayout,
     QWidget,
 )
 
 from app.core.units import MILLIMETRE
 from app.exercises.parts import View
+from app.planning.draft import DraftPlan
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseViews
 from app.views.exercise.messages import MessageList
@@ -23,16 +24,14 @@ from app.views.exercise.scan_view import ScanView
 from app.views.exercise.shown import Shown
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.tracker_panel import TrackerPanel
-from app.views.kit.side_panel import SidePanel, scrolled
-from app.views.kit.text import tr
-from app.views.measure.editor import MeasureEditor
-from app.views.measure.panel import MeasurePanel
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.side_panel import SidePanel
 from app.views.plan.editor import PlanEditor
-from app.views.plan.panel import PlanPanel
 from app.views.reading.grid import Cell, ViewGrid
 from app.views.reading.layouts import BULLSEYE, FOUR, SCENE, chosen, possible
 from app.views.reading.lock_words import off_words
-from app.views.robot.health_panel import HealthPanel
+from app.views.reading.patient_views import PatientViews
 from app.views.scene.renderer import SceneRenderer
 from app.views.scene.view import SceneView
 from app.views.shell.shortcuts import disclaimer_label
@@ -43,7 +42,7 @@ from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, NEEDLE_PANES
 from app.views.slices.presets import default_window
 from app.views.slices.two_points import TwoPoints
-from app.views.slices.viewing import Viewing
+from app.views.slices.viewing import Tool, Viewing
 
 SIDE_WIDTH = 376
 _LEFT_TO_RIGHT, _RIGHT_TO_LEFT = QBoxLayout.Direction.LeftToRight, QBoxLayout.Direction.RightToLeft
@@ -86,21 +85,24 @@ class Workspace(QWidget):
         self._set_up_needle_panes()
         self.needle_planes.refused.connect(editor.refused)
         self.scene.maximise_wanted.connect(lambda: self.grid.toggle(self.scene))
-        self.measure = MeasureEditor(self)
-        self.measure_panel = MeasurePanel(self.measure, self)
-        self.plan_panel = PlanPanel(editor, self.viewing, self)
         self.exercise_panel = ExercisePanel(self)
         self.tracker_panel = TrackerPanel(self)
-        self.health_panel = HealthPanel(self)
         self.messages = MessageList(self)
         self.status = StatusStrip(self)
-        self.side = self._side()
+        self.side = SidePanel(self)
+        self.side.setFixedWidth(SIDE_WIDTH)
+        self.setFocusProxy(self.panes[0].canvas)
         self._lay_out()
 
     @property
     def slices(self) -> tuple[SlicePane, ...]:
         """All slice panes of the planning CT, whether the layout shows them or not."""
         return (*self.panes, *self.needle_panes)
+
+    @property
+    def views(self) -> PatientViews:
+        """Where the patient is seen, for those who draw there."""
+        return PatientViews(self.viewing, self.panes, self.needle_panes, self.scene)
 
     @property
     def exercise_views(self) -> ExerciseViews:
@@ -205,46 +207,42 @@ class Workspace(QWidget):
             shown[(shown.index(pane) + step) % len(shown)].setFocus()
 
     # --- panels -------------------------------------------------------------------------------
-
-    def add_panel(self, panel: QWidget, title: str) -> None:
-        """Give one more panel its tab at the end."""
-        self.side.addTab(scrolled(panel), title)
-
     def show_exercise(self) -> None:
         """Bring the exercise panel and the bull's-eye to the front."""
-        self.side.setCurrentIndex(1)
+        self.side.setCurrentWidget(self.exercise_panel)
         self.show_bullseye(True)
 
     def show_cameras(self) -> None:
         """Bring the camera pictures to the front."""
-        self.side.setCurrentIndex(2)
+        self.side.setCurrentWidget(self.tracker_panel)
 
-    def show_health(self) -> None:
-        """Bring the robot's health to the front."""
-        self.side.setCurrentIndex(3)
+    # --- patient and room ---------------------------------------------------------------------
+    def forget(self) -> None:
+        """Empty everything that belongs to the patient who leaves."""
+        self.share_room()
+        self.viewing.set_tool(Tool.NAVIGATE)
+        self.viewing.set_needle(None)
+        self.viewing.set_draft(DraftPlan())
+        self.scene.set_surfaces(None)
+        self.scene.set_needle(None)
+        self.scene.set_plan(DraftPlan())
+        self.scene.set_note("")
+        self.exercise_panel.forget()
+        self.bullseye.set_scene(None, False)
+        self.needle_cell.gauge.show_force(None)
+        self.tracker_panel.forget()
+        self.status.show_items(())
+        self.messages.clear()
 
-    def show_measurements(self) -> None:
-        """Bring the list of measurements to the front."""
-        self.side.setCurrentWidget(self.measure_panel)
-
-    def show_plan(self) -> None:
-        """Bring the plan panel to the front."""
-        self.side.setCurrentIndex(0)
-
-    def _side(self) -> SidePanel:
-        cameras = QSplitter(Qt.Orientation.Vertical)
-        cameras.addWidget(self.tracker_panel)
-        cameras.addWidget(self.messages)
-        cameras.setStretchFactor(0, 3)
-        cameras.setStretchFactor(1, 1)
-        tabs = SidePanel(self)
-        tabs.setFixedWidth(SIDE_WIDTH)
-        tabs.addTab(scrolled(self.plan_panel), tr("Plan"))
-        tabs.addTab(scrolled(self.exercise_panel), tr("Exercise"))
-        tabs.addTab(cameras, tr("Cameras"))
-        tabs.addTab(self.health_panel, tr("Robot"))
-        tabs.addTab(self.measure_panel, tr("Measure"))
-        return tabs
+    def suit_room(self) -> None:
+        """Take another size of text, and hide the student's name or show it."""
+        self.side.setFixedWidth(round(SIDE_WIDTH * theme.scale()))
+        mode = QLineEdit.EchoMode.Password if NAMES.are_hidden else QLineEdit.EchoMode.Normal
+        self.exercise_panel.student.setEchoMode(mode)
+        self.bullseye.source.suit_text()
+        self.viewing.plan_changed.emit()  # names of marks are as large as the text
+        self.viewing.needle_changed.emit()
+        self.messages.suit_room()
 
     def _lay_out(self) -> None:
         right = QVBoxLayout()

@@ -34,6 +34,7 @@ class OpenCt(QObject):
         reading(bool): one is being looked for or read, or no more.
 
     Attributes:
+        recents: those opened before.
         may_replace: asked before one is read, whether it may take the place of what is open.
     """
 
@@ -44,7 +45,7 @@ class OpenCt(QObject):
 
     def __init__(self, recents: Recents, indicator: Indicator, window: QWidget) -> None:
         super().__init__(window)
-        self._recents, self._indicator, self._window = recents, indicator, window
+        self.recents, self._indicator, self._window = recents, indicator, window
         self._task: Task | None = None
         self._listing: Listing | None = None
         self.may_replace: Callable[[], bool] = lambda: True
@@ -89,7 +90,7 @@ class OpenCt(QObject):
         )
 
     def _start_folder(self) -> Path:
-        recent = self._recents.paths()
+        recent = self.recents.paths()
         return NAMES.folder(recent[0].parent if recent else Path.home())
 
     def browse(self) -> None:
@@ -178,7 +179,7 @@ class OpenCt(QObject):
     def _finish(self, patient: Patient) -> None:
         self._set_task(None)
         if patient.folder is not None:
-            self._recents.add(patient.folder)
+            self.recents.add(patient.folder)
         self.opened.emit(patient)
 
     def _fail(self, error: Exception) -> None:

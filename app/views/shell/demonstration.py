@@ -19,6 +19,8 @@ from app.session.machine import State
 from app.session.needle import DepthSource
 from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
+from app.views.debrief.feature import DebriefFeature
+from app.views.exercise.feature import ExerciseFeature
 from app.views.series.patient import Patient
 from app.views.shell.demonstration_pictures import StillPictures
 from app.views.shell.demonstration_script import DemonstrationError, Script
@@ -67,8 +69,9 @@ class Demonstration(QObject):
         self._waited = self._settled_at = 0.0
         self._pictures = StillPictures(window, script.pictures)
         self._result: AttemptResult | None = None
+        self._debrief = window.feature(DebriefFeature)
         self._drawn = False
-        window.debrief_page.curves.drawn.connect(self._note_drawn)
+        self._debrief.page.curves.drawn.connect(self._note_drawn)
         window.conductor.controller.finished.connect(self._take_result)
         for failure in (
             window.open_ct.failed,
@@ -84,7 +87,9 @@ class Demonstration(QObject):
         if self._script.ct is None:
             self._window.begin_exercise(self._script.exercise)
         else:
-            self._window.conductor.set_exercise(self._window.exercises[self._script.exercise])
+            self._window.conductor.set_exercise(
+                self._window.feature(ExerciseFeature).exercises[self._script.exercise]
+            )
             self._window.open_ct.open_folder(self._script.ct)
         self._timer.start()
 
@@ -165,14 +170,14 @@ class Demonstration(QObject):
         if self._result is None or not self._drawn:
             return False
         self._pictures.take("5-debrief")
-        self._window.show_sessions()
+        self._debrief.show_sessions()
         return self._then("listing the sessions", self._sessions_are_listed)
 
     def _sessions_are_listed(self) -> bool:
-        if self._result is None or not self._window.sessions_page.model.rowCount():
+        if self._result is None or not self._debrief.sessions.model.rowCount():
             return False
         self._pictures.take("6-sessions")
-        self._window.show_debrief()
+        self._debrief.show()
         self._timer.stop()
         self._pictures.write(self._result)
         self.finished.emit(self._result)

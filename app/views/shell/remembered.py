@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from PySide6.QtCore import QSettings, QSize
+from PySide6.QtWidgets import QWidget
 
 from app.core.errors import AcusError
 from app.exercises.locks import Lock
 from app.imaging.window import WindowLevel
+from app.views.exercise.conductor import Conductor
 from app.views.reading.fixed_reading import apply, let_go
 from app.views.reading.layouts import LAYOUTS
+from app.views.reading.workspace import Workspace
+from app.views.shell.projector import Projector
 from app.views.slices.bindings import SCHEMES
 from app.views.slices.looks import KINDS, THICKEST_MM, Look, Slab, Turn
 from app.views.slices.panes import PaneId
-
-if TYPE_CHECKING:
-    from app.views.reading.workspace import Workspace
-    from app.views.shell.window import MainWindow
 
 SMALLEST = (1180, 700)
 PREFERRED = (1400, 900)
@@ -34,8 +34,16 @@ class Remembered:
     whatever comes next; how one works (mouse and keys, hand, projector, kept windows) for all.
     """
 
-    def __init__(self, window: MainWindow, settings: QSettings) -> None:
+    def __init__(
+        self,
+        window: QWidget,
+        settings: QSettings,
+        workspace: Workspace,
+        conductor: Conductor,
+        projector: Projector,
+    ) -> None:
         self._window, self._settings = window, settings
+        self._workspace, self._conductor, self._projector = workspace, conductor, projector
         self._exercise = ""
 
     def restore(self) -> None:
@@ -48,7 +56,7 @@ class Remembered:
         if geometry is not None:
             window.restoreGeometry(geometry)
         self._take("work", self._set_work)
-        self._take("reading", lambda state: set_reading(window.workspace, state))
+        self._take("reading", lambda state: set_reading(self._workspace, state))
 
     def remember(self) -> None:
         """Keep everything."""
@@ -67,10 +75,10 @@ class Remembered:
         if self._exercise:
             self._keep_reading()
         self._exercise = exercise
-        workspace, key = self._window.workspace, f"exercises/{exercise}"
+        workspace, key = self._workspace, f"exercises/{exercise}"
         let_go(workspace)
         self._take(key, lambda state: set_reading(workspace, state))
-        taken = self._window.conductor.exercise
+        taken = self._conductor.exercise
         if taken is None:
             return
         held = taken.reading.locked or Lock.READING in taken.locked
@@ -78,7 +86,7 @@ class Remembered:
             apply(workspace, taken)
 
     def _keep_reading(self) -> None:
-        state = json.dumps(reading(self._window.workspace))
+        state = json.dumps(reading(self._workspace))
         self._settings.setValue("reading", state)
         if self._exercise:
             self._settings.setValue(f"exercises/{self._exercise}", state)
@@ -93,23 +101,23 @@ class Remembered:
             return
 
     def _work(self) -> dict[str, Any]:
-        window, viewing = self._window, self._window.workspace.viewing
+        projector, viewing = self._projector, self._workspace.viewing
         return {
             "scheme": viewing.scheme.name, "reversed": viewing.level_reversed,
-            "left_handed": window.workspace.is_left_handed, "traces": viewing.shows_traces,
-            "light": window.projector.is_light, "large": window.projector.is_large,
+            "left_handed": self._workspace.is_left_handed, "traces": viewing.shows_traces,
+            "light": projector.is_light, "large": projector.is_large,
             "kept": {name: [w.width, w.level] for name, w in viewing.greys.kept.items()},
         }  # fmt: skip
 
     def _set_work(self, state: Mapping[str, Any]) -> None:
-        workspace, viewing = self._window.workspace, self._window.workspace.viewing
+        workspace, viewing = self._workspace, self._workspace.viewing
         viewing.level_reversed = bool(state["reversed"])
         viewing.set_scheme(SCHEMES[state["scheme"]])
         viewing.set_shows_traces(bool(state.get("traces", True)))
         workspace.set_left_handed(bool(state["left_handed"]))
         for name, (width, level) in state["kept"].items():
             viewing.greys.keep(str(name), WindowLevel(float(width), float(level)))
-        self._window.projector.set(light=bool(state["light"]), large=bool(state["large"]))
+        self._projector.set(light=bool(state["light"]), large=bool(state["large"]))
 
 
 def reading(workspace: Workspace) -> dict[str, Any]:

@@ -4,25 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu
 
 from app.exercises.locks import Lock
 from app.exercises.parts import View
+from app.views.exercise.conductor import Conductor
 from app.views.kit.text import tr
+from app.views.plan.editor import PlanEditor
 from app.views.reading.layouts import LAYOUTS, layout_title
 from app.views.reading.lock_words import view_title, why_locked
+from app.views.reading.workspace import Workspace
+from app.views.shell.projector import Projector
 from app.views.slices.bindings import SCHEMES
 from app.views.slices.needle_menu import fill_needle_menu
 from app.views.slices.operator_side import Side, side_name, turns
-from app.views.slices.pane import SlicePane
-from app.views.slices.pane_menu import fill_windows
+from app.views.slices.pane import SlicePane, fill_windows
 from app.views.slices.turning import straighten
-
-if TYPE_CHECKING:
-    from app.views.shell.window import MainWindow
 
 
 class ViewMenu:
@@ -36,10 +35,18 @@ class ViewMenu:
         operator: the places that the slices can be turned to, by name.
     """
 
-    def __init__(self, menu: QMenu, window: MainWindow) -> None:
-        self._menu, self._window = menu, window
+    def __init__(
+        self,
+        menu: QMenu,
+        workspace: Workspace,
+        conductor: Conductor,
+        editor: PlanEditor,
+        projector: Projector,
+    ) -> None:
+        self._menu, self._workspace, self._conductor = menu, workspace, conductor
+        self._editor, self._projector = editor, projector
         menu.setToolTipsVisible(True)
-        viewing, workspace = window.workspace.viewing, window.workspace
+        viewing = workspace.viewing
         self._greys = viewing.greys
         self.layouts = self._layout_menu(menu.addMenu(tr("Layout")))
         presets = menu.addMenu(tr("Window presets"))
@@ -53,7 +60,7 @@ class ViewMenu:
             tr("Bull's-eye beside the slices"), "", workspace.show_bullseye
         )
         self.shown = self._shown_menu(menu.addMenu(tr("Shown by the exercise")))
-        self._entry(tr("Crosshair to target"), "", window.cursor_to_target)
+        self._entry(tr("Crosshair to target"), "", self.cursor_to_target)
         needle = menu.addMenu(tr("Needle's planes"))
         needle.aboutToShow.connect(lambda: self._fill_needle(needle))
         self._entry(tr("Straighten all planes"), "", lambda: straighten(viewing))
@@ -61,19 +68,19 @@ class ViewMenu:
         menu.addSeparator()
         self.schemes = self._scheme_menu(menu.addMenu(tr("Mouse and keys")))
         self._screen_entries()
-        window.conductor.views_changed.connect(self.refresh)
+        conductor.views_changed.connect(self.refresh)
         for changed in (workspace.arranged, viewing.window_changed, viewing.scheme_changed):
             changed.connect(self.refresh)
         self.refresh()
 
     def _fill_needle(self, menu: QMenu) -> None:
-        workspace = self._window.workspace
+        workspace = self._workspace
         menu.clear()
         fill_needle_menu(menu, workspace.needle_planes, workspace.viewing)
 
     def _screen_entries(self) -> None:
         """Full screen and what a room asks for."""
-        projector, menu = self._window.projector, self._menu.addMenu(tr("Projector"))
+        projector, menu = self._projector, self._menu.addMenu(tr("Projector"))
         self._room: list[tuple[QAction, Callable[[], bool]]] = []
         for text, key, is_on, command in (
             (tr("Projector mode: all three"), "Ctrl+P", lambda: projector.is_on, projector.set_all),
@@ -87,7 +94,21 @@ class ViewMenu:
             action.triggered.connect(command)
             self._room.append((action, is_on))
         projector.changed.connect(self.refresh)
-        self._entry(tr("Full screen"), "F11", self._window.toggle_full_screen)
+        self._entry(tr("Full screen"), "F11", self._toggle_full_screen)
+
+    def cursor_to_target(self) -> None:
+        """Let the slices pass through the target."""
+        target = self._editor.edit.draft.target_mm
+        if target is not None:
+            self._workspace.viewing.set_cursor(target)
+
+    def _toggle_full_screen(self) -> None:
+        """Fill the screen, or stop doing so."""
+        window = self._workspace.window()
+        if window.isFullScreen():
+            window.showNormal()
+        else:
+            window.showFullScreen()
 
     def _entry(self, text: str, key: str, command: Callable[[], object]) -> QAction:
         action = self._menu.addAction(text)
@@ -105,7 +126,7 @@ class ViewMenu:
         return action
 
     def _layout_menu(self, menu: QMenu) -> dict[str, QAction]:
-        workspace, actions = self._window.workspace, {}
+        workspace, actions = self._workspace, {}
         menu.setToolTipsVisible(True)
         group = QActionGroup(menu)
         for number, name in enumerate(LAYOUTS, start=1):
@@ -121,7 +142,7 @@ class ViewMenu:
         return actions
 
     def _shown_menu(self, menu: QMenu) -> dict[View, QAction]:
-        conductor, actions = self._window.conductor, {}
+        conductor, actions = self._conductor, {}
         menu.setToolTipsVisible(True)
         for view in View:
             action = menu.addAction(view_title(view))
@@ -131,7 +152,7 @@ class ViewMenu:
         return actions
 
     def _scheme_menu(self, menu: QMenu) -> dict[str, QAction]:
-        viewing, actions = self._window.workspace.viewing, {}
+        viewing, actions = self._workspace.viewing, {}
         group = QActionGroup(menu)
         for scheme in SCHEMES.values():
             action = group.addAction(menu.addAction(tr("As in {scheme}", scheme=scheme.title)))
@@ -153,23 +174,23 @@ class ViewMenu:
 
     def _stand(self, side: Side) -> None:
         """Turn the slices to where the operator stands, as the patient lies now."""
-        lies = self._window.editor.edit.placement.orientation
-        viewing = self._window.workspace.viewing
+        lies = self._editor.edit.placement.orientation
+        viewing = self._workspace.viewing
         for pane, turn in turns(side, lies).items():
             viewing.set_look(pane, replace(viewing.look(pane), turn=turn))
 
     def _reverse_level(self, reverse: bool) -> None:
-        self._window.workspace.viewing.level_reversed = reverse
+        self._workspace.viewing.level_reversed = reverse
 
     def refresh(self) -> None:
         """Check what is shown; a layout whose panes are not there cannot be chosen."""
-        workspace, greys = self._window.workspace, self._greys
+        workspace, greys = self._workspace, self._greys
         for name, action in self.layouts.items():
             action.setVisible(name in workspace.layouts)
             action.setEnabled(name in workspace.layouts and not workspace.is_layout_fixed)
             action.setChecked(name == workspace.layout_name)
         self._locked.setEnabled(not greys.is_fixed)
-        why = why_locked(self._window.conductor.exercise, Lock.READING)
+        why = why_locked(self._conductor.exercise, Lock.READING)
         for action in (*self.layouts.values(), self._locked):
             action.setToolTip("" if action.isEnabled() else why)
         self._refresh_views()
@@ -191,7 +212,7 @@ class ViewMenu:
 
     def _refresh_views(self) -> None:
         """Check the views that the exercise shows; say why one cannot be switched."""
-        conductor, workspace = self._window.conductor, self._window.workspace
+        conductor, workspace = self._conductor, self._workspace
         for view, action in self.shown.items():
             why = conductor.why_view_stays(view)
             action.setChecked(conductor.shown.shows(view))
@@ -207,5 +228,5 @@ class ViewMenu:
         fill_windows(menu, self._pane())
 
     def _pane(self) -> SlicePane:
-        panes = self._window.workspace.panes
+        panes = self._workspace.panes
         return next((pane for pane in panes if pane.canvas.hasFocus()), panes[0])

@@ -1,13 +1,11 @@
-"""What the menu Checks does, and the check that is in force: status strip and ellipse."""
+"""The checks in the window, and the one in force: status strip and ellipse."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import SignalInstance
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
@@ -17,12 +15,11 @@ from app.planning.draft import DraftPlan
 from app.planning.error_overlay import ErrorOverlay
 from app.session.snapshot import Snapshot
 from app.views.checks.words import agreement_item
-from app.views.exercise.conductor import Conductor
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status_items import StatusItem
+from app.views.kit.menu_entries import add_entries
 from app.views.kit.text import tr
-from app.views.plan.editor import PlanEditor
-from app.views.reading.workspace import Workspace
+from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
     from app.planning.registration.check import RegistrationCheck
@@ -34,48 +31,50 @@ FURTHEST_MM = 10.0
 """A measured place that moves the entry farther than this is not this patient's."""
 
 
-class ChecksDesk(QObject):
-    """Opens the pages; keeps the registration check that holds for the present cameras and CT.
+class ChecksFeature(Feature):
+    """Opens the pages; keeps the registration check that holds for the present cameras and CT."""
 
-    Signals:
-        failed(object): an error to show.
-        noted(str): something worked.
-    """
+    topic: ClassVar[str] = "checks"
 
-    failed = Signal(object)
-    noted = Signal(str)
-
-    def __init__(
-        self,
-        conductor: Conductor,
-        editor: PlanEditor,
-        workspace: Workspace,
-        run: Callable[[], ExerciseRun | None],
-        parent: QWidget,
-    ) -> None:
-        super().__init__(parent)
-        self._conductor, self._editor, self._workspace = conductor, editor, workspace
-        self._run, self._window = run, parent
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._conductor, self._runs = context.conductor, context.runs
+        self._editor, self._viewing = context.editors.plan, context.views.viewing
+        self._window = context.shell.dialog_parent
         self.morning: MorningPage | None = None
         self.registration: RegistrationDialog | None = None
         self.record: RegistrationRecord | None = None
         self._check: RegistrationCheck | None = None
         self._looked, self._known = False, True
-        conductor.controller.add_items(self.items)
-        conductor.patient_changed.connect(self.forget)
+        self._conductor.controller.add_items(self.items)
+        self._conductor.patient_changed.connect(self.forget)
+        self._runs.ready.connect(lambda _: self.forget())
+        *_, errors = add_entries(context.shell.menu(tr("&Checks")), [
+            (tr("Morning check…"), "F9", self.open_morning),
+            (tr("Registration check…"), "", self.open_registration),
+            None,
+            (tr("Draw errors of target and tip"), "", lambda: None),
+        ])  # fmt: skip
+        errors.setCheckable(True)
+        errors.setChecked(True)
+        errors.toggled.connect(self._viewing.set_shows_errors)
+
+    def over(self) -> tuple[SignalInstance, ...]:
+        """Return what ends a message of this feature."""
+        return (self.noted, self._editor.changed, self._conductor.controller.finished)
 
     # --- what the dialog needs ----------------------------------------------------------------
     def run(self) -> ExerciseRun | None:
         """Return what runs now."""
-        return self._run()
+        return self._runs.run
 
     def volume(self) -> Volume | None:
         """Return the CT that is shown."""
-        return self._workspace.viewing.volume
+        return self._viewing.volume
 
     def cursor_mm(self) -> FloatArray:
         """Return the crosshair in the CT (LPS, mm), shape (3,)."""
-        return self._workspace.viewing.cursor_mm
+        return self._viewing.cursor_mm
 
     # --- pages --------------------------------------------------------------------------------
     def open_morning(self) -> None:
@@ -119,7 +118,7 @@ class ChecksDesk(QObject):
     def forget(self) -> None:
         """Look for the check anew at the next look: patient or cameras are others."""
         self._looked, self.record, self._check = False, None, None
-        self._workspace.viewing.set_target_error(None)
+        self._viewing.set_target_error(None)
 
     def items(self, snapshot: Snapshot) -> tuple[StatusItem, ...]:
         """Line of the status strip about how well screen and needle agree at the target."""
@@ -189,7 +188,7 @@ class ChecksDesk(QObject):
         self._looked, self.record, self._check = True, record, record.check()
 
     def _show_error(self, run: ExerciseRun, check: RegistrationCheck) -> None:
-        viewing, target = self._workspace.viewing, self._editor.edit.draft.target_mm
+        viewing, target = self._viewing, self._editor.edit.draft.target_mm
         if target is None:
             return
         shown = viewing.target_error

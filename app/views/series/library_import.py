@@ -1,4 +1,4 @@
-"""The library in the window: ways for a CT in, and what it holds."""
+"""The library of CTs: ways for a CT in, and what it holds."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from app.imaging.pacs.taking import Fetched
 
 
-class LibraryDesk(QObject):
+class LibraryImport(QObject):
     """Takes CTs into the library, from a folder, an archive, a file or a PACS, beside the window.
 
     Signals:

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import ClassVar
 
 import numpy as np
-from PySide6.QtCore import QObject
+from PySide6.QtCore import SignalInstance
 from PySide6.QtWidgets import QFileDialog
 
 from app.core.arrays import FloatArray
@@ -19,23 +19,40 @@ from app.core.units import MILLIMETRE
 from app.exchange.errors import TransformError
 from app.exchange.transforms import read_tfm, write_tfm
 from app.planning.placement import placement_of
+from app.views.kit.menu_entries import add_entries
 from app.views.kit.text import tr
-
-if TYPE_CHECKING:
-    from app.views.shell.window import MainWindow
+from app.views.shell.feature import Context, Feature
 
 SUFFIX = ".tfm"
 _NEAR_MM = 0.1
 _FAR_MM = 1.0
 
 
-class PositionFiles(QObject):
+class PositionFeature(Feature):
     """Exports and imports the position; failures and notes are told as those of plans are."""
 
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        self._window = window
-        self._editor, self._told = window.editor, window.plan_files
+    topic: ClassVar[str] = "plan"
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._editor, self._conductor = context.editors.plan, context.conductor
+        self._window = context.shell.dialog_parent
+        add_entries(context.shell.menu(tr("&File"), tr("3D Slicer")), [
+            None,
+            (tr("Import position of the patient (.tfm)…"), "", self.ask_open),
+            (tr("Export position of the patient (.tfm)…"), "", self.ask_export),
+        ])  # fmt: skip
+
+    def over(self) -> tuple[SignalInstance, ...]:
+        """Return what ends a message of this feature."""
+        return (self.noted,)
+
+    def opens(self, path: Path) -> bool:
+        """Take the position from a dropped file."""
+        if path.suffix != SUFFIX:
+            return False
+        self.open(path)
+        return True
 
     def ask_export(self) -> None:
         """Ask where, and write the position of the present plan."""
@@ -66,10 +83,10 @@ class PositionFiles(QObject):
         try:
             work()
         except AcusError as error:
-            self._told.failed.emit(error)
+            self.failed.emit(error)
 
     def _fulcrum(self) -> FloatArray:
-        profile = self._window.conductor.profile
+        profile = self._conductor.profile
         if profile is None:
             raise TransformError(
                 tr("choose an exercise first: its device says where its fulcrum is")
@@ -80,7 +97,7 @@ class PositionFiles(QObject):
         edit, fulcrum = self._editor.edit, self._fulcrum()
         T_world_patient = edit.placement.T_world_patient(edit.draft.plan(), fulcrum)
         write_tfm(path, T_world_patient.inverse())
-        self._told.noted.emit(tr("Exported {name}", name=path.name))
+        self.noted.emit(tr("Exported {name}", name=path.name))
 
     def _open(self, path: Path) -> None:
         T_patient_world, fulcrum = read_tfm(path), self._fulcrum()
@@ -96,7 +113,7 @@ class PositionFiles(QObject):
                    "invert it in Slicer", name=path.name)
             )  # fmt: skip
         self._editor.set_placement(placement_of(T_patient_world.inverse().rotation))
-        self._told.noted.emit(self._note(path, off_mm))
+        self.noted.emit(self._note(path, off_mm))
 
     def _note(self, path: Path, off_mm: float) -> str:
         if off_mm <= _NEAR_MM:

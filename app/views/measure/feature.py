@@ -4,56 +4,67 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import ClassVar
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
-from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtCore import QEvent, QObject, Qt, SignalInstance
+from PySide6.QtGui import QKeyEvent, QKeySequence
+from PySide6.QtWidgets import QFileDialog, QMenu
 
 from app.core.errors import AcusError
 from app.exchange.measurements import write_measurements
 from app.planning.measurements import Measurement
+from app.views.kit.menu_entries import add_entries
 from app.views.kit.text import tr
 from app.views.measure.editor import MeasureEditor, MeasureTool
 from app.views.measure.grip import MeasureGrip
 from app.views.measure.layer import MeasureLayer
+from app.views.measure.panel import TOOLS, MeasurePanel
+from app.views.measure.words import tool_help, tool_title
+from app.views.shell.feature import Context, Feature
 from app.views.slices.pane import SlicePane
 from app.views.slices.viewing import Tool
-
-if TYPE_CHECKING:
-    from app.views.shell.window import MainWindow
 
 KINDS = "Table (*.csv);;3D Slicer markups (*.mrk.json)"
 
 
-class MeasureDesk(QObject):
-    """Owns nothing but the connections.
+class MeasureFeature(Feature):
+    """Tools in the panes, the list as a panel, its files."""
 
-    Signals:
-        failed(object): why the list was not written.
-        noted(str): what was written.
-    """
+    topic: ClassVar[str] = "measure"
 
-    failed = Signal(object)
-    noted = Signal(str)
-
-    def __init__(self, window: MainWindow) -> None:
-        super().__init__(window)
-        workspace = window.workspace
-        editor, panel, viewing = workspace.measure, workspace.measure_panel, workspace.viewing
-        self._editor, self._viewing, self._window = editor, viewing, window
-        self.attach(workspace.slices)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self.editor, self._viewing = context.editors.measures, context.views.viewing
+        self._window, editor, viewing = context.shell.dialog_parent, self.editor, self._viewing
+        self.panel = panel = MeasurePanel(editor)
+        context.shell.add_panel(panel, tr("Measure"), scrolls=False)
+        self.attach(context.views.slices)
         viewing.volume_changed.connect(lambda: editor.set_volume(viewing.volume))
         viewing.tool_changed.connect(self._plan_tool_taken)
         editor.tool_changed.connect(self._measure_tool_taken)
         panel.jump_wanted.connect(self._jump)
         panel.export_wanted.connect(self.export)
+        self.menu = MeasureMenu(context.shell.menu(tr("&Measure")), self)
+        slicer = context.shell.menu(tr("&File"), tr("3D Slicer"))
+        add_entries(slicer, [(tr("Export measurements (.mrk.json)…"), "", self.export)])
+
+    def over(self) -> tuple[SignalInstance, ...]:
+        """Return what ends a message of this feature."""
+        return (self.noted,)
+
+    def forget(self) -> None:
+        """Let go of the measurements of the patient who leaves."""
+        self.editor.set_volume(None)
+
+    def show(self) -> None:
+        """Bring the list to the front."""
+        self.context.shell.show_panel(self.panel)
 
     def attach(self, panes: Sequence[SlicePane]) -> None:
         """Let these panes draw and take measurements."""
         for pane in panes:
-            attach(pane, self._editor)
+            attach(pane, self.editor)
 
     def export(self) -> None:
         """Ask where, and write the list."""
@@ -69,10 +80,10 @@ class MeasureDesk(QObject):
 
     def write(self, path: Path) -> None:
         """Write the list to a file; its name says how."""
-        volume = self._editor.volume
+        volume = self.editor.volume
         try:
             if volume is not None:
-                write_measurements(path, self._editor.items, volume)
+                write_measurements(path, self.editor.items, volume)
                 self.noted.emit(tr("Saved {name}", name=str(path)))
         except AcusError as error:
             self.failed.emit(error)
@@ -82,10 +93,10 @@ class MeasureDesk(QObject):
 
     def _plan_tool_taken(self) -> None:
         if self._viewing.tool is not Tool.NAVIGATE:
-            self._editor.set_tool(MeasureTool.NONE)
+            self.editor.set_tool(MeasureTool.NONE)
 
     def _measure_tool_taken(self) -> None:
-        if self._editor.tool is not MeasureTool.NONE:
+        if self.editor.tool is not MeasureTool.NONE:
             self._viewing.set_tool(Tool.NAVIGATE)
 
 
@@ -122,3 +133,29 @@ def attach(pane: SlicePane, editor: MeasureEditor) -> MeasureLayer:
     editor.tool_changed.connect(show_tool)
     pane.installEventFilter(_Escape(editor, pane))
     return layer
+
+
+class MeasureMenu:
+    """Fills a menu: tools, the list, export."""
+
+    def __init__(self, menu: QMenu, measure: MeasureFeature) -> None:
+        self._viewing, editor = measure.context.views.viewing, measure.editor
+        self.tools = {}
+        for tool in TOOLS:
+            action = menu.addAction(tool_title(tool))
+            action.setToolTip(tool_help(tool))
+            action.triggered.connect(lambda _=False, tool=tool: editor.set_tool(tool))
+            self.tools[tool] = action
+        menu.setToolTipsVisible(True)
+        self._viewing.scheme_changed.connect(self.refresh)
+        self.refresh()
+        menu.addSeparator()
+        add_entries(menu, [
+            (tr("List of measurements"), "", measure.show),
+            (tr("Export measurements…"), "", measure.export),
+        ])  # fmt: skip
+
+    def refresh(self) -> None:
+        """Take the keys of the scheme that is chosen."""
+        for tool, action in self.tools.items():
+            action.setShortcut(QKeySequence(self._viewing.scheme.menu_keys[tool.value]))

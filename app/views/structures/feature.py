@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QTimer, SignalInstance
 
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.structures.structure import Index, Mask, Structure, free_name
 from app.planning.clearance import Clearance
 from app.planning.draft import DraftPlan
-from app.views.exercise.conductor import Conductor
-from app.views.kit.background import Indicator, Task, run_in_background
+from app.views.kit.background import Task, run_in_background
 from app.views.kit.text import tr
-from app.views.plan.editor import PlanEditor
-from app.views.reading.workspace import Workspace
-from app.views.structures.book import StructureBook
+from app.views.shell.feature import Context, Feature
 from app.views.structures.brush import Brush, BrushGrip
 from app.views.structures.files import StructureFiles
 from app.views.structures.layer import draw_in
@@ -35,52 +32,51 @@ SETTLE_MS = 400
 """Distances are computed anew this long after the last stroke."""
 
 
-class StructuresDesk(QObject):
-    """Owns the book and connects it with panes, 3D view, plan, needle and files.
+class StructuresFeature(Feature):
+    """Connects the structures with panel, panes, 3D view, plan, needle and files."""
 
-    Signals:
-        failed(object): something could not be read, written or done.
-    """
+    topic: ClassVar[str] = "structures"
 
-    failed = Signal(object)
-
-    def __init__(
-        self,
-        conductor: Conductor,
-        editor: PlanEditor,
-        workspace: Workspace,
-        indicator: Indicator,
-        parent: QObject,
-    ) -> None:
-        super().__init__(parent)
-        self._conductor, self._editor, self._workspace = conductor, editor, workspace
-        self._indicator = indicator
-        self.book = StructureBook(self)
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._conductor, self._editor = context.conductor, context.editors.plan
+        self._views, self._progress = context.views, context.shell.progress
+        self.book = context.editors.structures
         self.brush = Brush(self)
         self.watch = StructureWatch(self.book, self)
         self.panel = StructurePanel(self.book, self.watch, self.brush)
-        self.files = StructureFiles(self.book, self.panel, workspace, indicator, self)
+        self.files = StructureFiles(
+            self.book, self.panel, context.shell.dialog_parent, self._progress, self
+        )
         self._meshes: dict[int, Mesh] = {}
         self._belongs: tuple[object, ...] = ()
         self._task: Task | None = None
         self._settle = QTimer(self, interval=SETTLE_MS, singleShot=True)
         self._settle.timeout.connect(self._measure)
-        workspace.add_panel(self.panel, tr("Structures"))
-        for pane in workspace.slices:
+        context.shell.add_panel(self.panel, tr("Structures"))
+        for pane in self._views.slices:
             draw_in(pane.canvas, self.book)
-        for pane in workspace.panes:
+        for pane in self._views.panes:
             pane.gestures.add_grip(BrushGrip(pane.canvas, self.book, self.brush))
         self._connect()
 
+    def over(self) -> tuple[SignalInstance, ...]:
+        """Return what ends a message of this feature."""
+        return (self.book.changed,)
+
+    def suit_room(self) -> None:
+        """Write the table anew: names are hidden, or shown again."""
+        self.panel.refresh()
+
     def _connect(self) -> None:
-        viewing, conductor = self._workspace.viewing, self._conductor
+        viewing, conductor = self._views.viewing, self._conductor
         conductor.patient_changed.connect(self._take_patient)
         conductor.exercise_taken.connect(lambda _: self._take_patient())
         self._editor.changed.connect(self._take_plan)
         viewing.needle_changed.connect(lambda: self.watch.set_needle(viewing.needle))
         conductor.controller.add_items(self.watch.items)
         self.watch.needle_changed.connect(self._warn)
-        self.watch.breached.connect(self._workspace.messages.add_event)
+        self.watch.breached.connect(self._conductor.views.messages.add_event)
         self.book.changed.connect(self._show)
         self.book.refused.connect(self._refused)
         self.files.failed.connect(self._refused)
@@ -123,8 +119,7 @@ class StructuresDesk(QObject):
         self.book.set_locked(self._editor.locked)
 
     def _show(self) -> None:
-        for pane in self._workspace.slices:
-            pane.canvas.refresh()
+        self._views.refresh()
         self._show_surfaces()
         if self.book.unmeasured:
             self._settle.start()
@@ -133,7 +128,7 @@ class StructuresDesk(QObject):
         meshes = [(one, self._meshes.get(id(one.mask))) for one in self.book.visible]
         shown = tuple((one.colour, mesh) for one, mesh in meshes if mesh is not None)
         legend = tuple((one.colour, named(one)) for one, mesh in meshes if mesh is not None)
-        self._workspace.scene.set_structures(shown, legend)
+        self._views.scene.set_structures(shown, legend)
 
     def _warn(self, clearance: Clearance | None) -> None:
         self.panel.show_needle(clearance, "" if clearance is None else words(clearance))
@@ -211,7 +206,7 @@ class StructuresDesk(QObject):
                 self.book.put(name, *found)
 
         run_in_background(self, work, take, self._refused,
-                          title=tr("Threshold"), indicator=self._indicator)  # fmt: skip
+                          title=tr("Threshold"), indicator=self._progress)  # fmt: skip
 
     def close(self) -> None:
         """End what runs; idempotent."""

@@ -5,57 +5,42 @@ Nothing is chosen by the program: the plan changes when the user takes a path, a
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import SignalInstance
 
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.planning.clearance import Field
 from app.planning.draft import DraftPlan
 from app.planning.limits import ReachLimits
-from app.views.exercise.conductor import Conductor
-from app.views.kit.background import Indicator, Task, run_in_background
+from app.views.kit.background import Task, run_in_background
 from app.views.kit.text import tr
-from app.views.plan.editor import PlanEditor
 from app.views.plan.entry_map import EntryMap, EntryMapLayer
 from app.views.plan.paths_panel import PathsPanel
-from app.views.reading.workspace import Workspace
-from app.views.structures.book import StructureBook
+from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
     from app.planning.paths import PathScores
 
 
-class PathsHelper(QObject):
-    """Connects the panel with target, structures, panes and 3D view.
+class PathsFeature(Feature):
+    """Connects the panel below the plan with target, structures, panes and 3D view."""
 
-    Signals:
-        failed(object): paths could not be scored; says why.
-    """
+    topic: ClassVar[str] = "paths"
 
-    failed = Signal(object)
-
-    def __init__(
-        self,
-        conductor: Conductor,
-        editor: PlanEditor,
-        workspace: Workspace,
-        book: StructureBook,
-        indicator: Indicator,
-        parent: QObject,
-    ) -> None:
-        super().__init__(parent)
-        self._conductor, self._editor, self._workspace = conductor, editor, workspace
-        self._book, self._indicator = book, indicator
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._conductor, self._views = context.conductor, context.views
+        self._editor, self._book = context.editors.plan, context.editors.structures
         self.panel = PathsPanel()
-        workspace.plan_panel.add_below(self.panel)
+        context.shell.add_panel(self.panel, below=tr("Plan"))
         self.scores: PathScores | None = None
         self._task: Task | None = None
         self._stands_on: tuple[object, ...] = ()
         self._layers = []
-        for pane in workspace.slices:
+        for pane in self._views.slices:
             layer = EntryMapLayer(pane.canvas.drawing)
             pane.canvas.add_layer(layer)
             self._layers.append(layer)
@@ -63,9 +48,21 @@ class PathsHelper(QObject):
         self.panel.clear_wanted.connect(self.clear)
         self.panel.shown.connect(self._look_at)
         self.panel.taken.connect(self._take)
-        editor.changed.connect(self._check)
-        conductor.patient_changed.connect(self.clear)
+        self._editor.changed.connect(self._check)
+        self._conductor.patient_changed.connect(self.clear)
         self._check()
+
+    def over(self) -> tuple[SignalInstance, ...]:
+        """Return what ends a message of this feature."""
+        return (self._editor.changed,)
+
+    def forget(self) -> None:
+        """Take the map of the patient who leaves away."""
+        self.clear()
+
+    def suit_room(self) -> None:
+        """Take another size of text."""
+        self.panel.suit_text()
 
     def _standing(self) -> tuple[object, ...]:
         """Return what the scores depend on."""
@@ -103,7 +100,7 @@ class PathsHelper(QObject):
         self.panel.make.setEnabled(False)
         self._task = run_in_background(
             self, work, lambda scores: self._show(scores, standing), self._failed, self._ended,
-            title=tr("Scoring paths"), indicator=self._indicator,
+            title=tr("Scoring paths"), indicator=self.context.shell.progress,
         )  # fmt: skip
 
     def _show(self, scores: PathScores, standing: tuple[object, ...]) -> None:
@@ -123,10 +120,10 @@ class PathsHelper(QObject):
         self._draw(None)
 
     def _draw(self, shown: EntryMap | None) -> None:
-        for pane, layer in zip(self._workspace.slices, self._layers, strict=True):
+        for layer in self._layers:
             layer.set_map(shown)
-            pane.canvas.refresh()
-        self._workspace.scene.set_entry_map(shown)
+        self._views.refresh()
+        self._views.scene.set_entry_map(shown)
 
     def _failed(self, error: Exception) -> None:
         self._ended()
@@ -138,7 +135,7 @@ class PathsHelper(QObject):
 
     def _look_at(self, number: int) -> None:
         if self.scores is not None:
-            self._workspace.viewing.set_cursor(self.scores.entries_mm[number])
+            self._views.viewing.set_cursor(self.scores.entries_mm[number])
 
     def _take(self, number: int) -> None:
         if self.scores is not None:

@@ -1,112 +1,83 @@
-"""What the menu Robot does: which robot, how it is armed, the hand, and its commissioning."""
+"""The robot in the window: which one, how it is armed, its health, its commissioning."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import ClassVar
 
-from PySide6.QtCore import QObject, Qt, Signal
-from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QInputDialog, QWidget
+from PySide6.QtCore import Qt, Signal, SignalInstance
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtWidgets import QInputDialog, QMenu
 
 from app.core.progress import Progress
-from app.session.machine import RUNNING
 from app.session.snapshot import Snapshot
-from app.views.exercise.conductor import Conductor
+from app.views.exercise.enable_key import key_name
 from app.views.exercise.energy_gauge import GaugeMode
-from app.views.exercise.runs import Runs
-from app.views.kit.background import Indicator, run_in_background
+from app.views.kit.background import run_in_background
 from app.views.kit.text import tr
-from app.views.reading.workspace import Workspace
 from app.views.robot.bench import BenchPort
+from app.views.robot.health_panel import HealthPanel
 from app.views.robot.key_dialog import KeyDialog
 from app.views.robot.settings import RobotSettings
 from app.views.robot.wizard import Wizard
-from app.views.shell.services import RobotChoice, RobotPort, Services
-
-if TYPE_CHECKING:
-    from PySide6.QtCore import QSettings
+from app.views.shell.feature import Context, Feature
+from app.views.shell.services import RobotPort
 
 
-class RobotDesk(QObject):
-    """Applies what was remembered, and remembers what the user chooses.
+class RobotFeature(Feature):
+    """Menu, panel and wizard of the robot.
 
     Signals:
-        failed(object): an error to show.
-        accepted(): what the user wants is not refused: what was refused before is over.
         changed(): another robot, key or mode was chosen.
     """
 
-    failed = Signal(object)
-    accepted = Signal()
     changed = Signal()
+    topic: ClassVar[str] = "robot"
 
-    def __init__(
-        self,
-        services: Services,
-        settings: QSettings,
-        conductor: Conductor,
-        runs: Runs,
-        workspace: Workspace,
-        indicator: Indicator,
-        parent: QWidget,
-    ) -> None:
-        super().__init__(parent)
-        self.settings = RobotSettings(settings)
-        self._services, self._conductor, self._runs = services, conductor, runs
-        self._workspace, self._indicator, self._window = workspace, indicator, parent
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._equipment, self._conductor = context.equipment, context.conductor
+        self._runs, self._attempt = context.runs, context.conductor.views
+        self._window = context.shell.dialog_parent
         self._opening = False
-        self._taken: str | None = None
-        self._taken_pen: str | None = None
         self.wizard: Wizard | None = None
+        self.panel = HealthPanel()
+        context.shell.add_panel(self.panel, tr("Robot"), scrolls=False)
         self._connect()
         self._apply()
+        self.menu = RobotMenu(context.shell.menu(tr("&Robot")), self)
+
+    def over(self) -> tuple[SignalInstance, ...]:
+        """Return what ends a message of this feature."""
+        return (self._equipment.accepted, self._conductor.controller.finished)
+
+    def forget(self) -> None:
+        """Show no health of a run that has ended."""
+        self.panel.clear()
+
+    @property
+    def settings(self) -> RobotSettings:
+        """What is remembered of robot and hand."""
+        return self._equipment.remembered
 
     # --- which robot ------------------------------------------------------------------------------
     @property
     def port(self) -> str:
         """Port of the robot that is used; empty for the simulated one."""
-        return self.settings.port if self._taken is None else self._taken
-
-    def take(self, port: str) -> None:
-        """Take a robot until another one is chosen, without remembering it."""
-        self._taken, self._taken_pen = port, ""
-        self._apply()
+        return self._equipment.port
 
     @property
     def pen(self) -> str:
         """Source of the webcam of a pen that is used in place of a robot; empty without one."""
-        return self.settings.pen if self._taken_pen is None else self._taken_pen
-
-    def use_pen(self, source: str) -> bool:
-        """Use a pen before a webcam in place of the robot, and remember it.
-
-        Args:
-            source: of the webcam's pictures; empty to use the robot again.
-
-        Returns whether it is done: it is refused while an attempt runs.
-        """
-        if self._refused_in_attempt():
-            return False
-        self.settings.pen, self._taken, self._taken_pen = source, None, None
-        self._apply()
-        return True
-
-    def take_pen(self, source: str) -> None:
-        """Take a pen before a webcam in place of the robot, until a robot is chosen.
-
-        Refused while an attempt runs.
-        """
-        if not self._refused_in_attempt():
-            self._taken, self._taken_pen = "", source
-            self._apply()
+        return self._equipment.pen
 
     def ports(self) -> tuple[RobotPort, ...]:
         """Ports at which a robot may be; the chosen one is always among them.
 
         The system lists no pseudo-terminals, and a port whose robot is unplugged no more.
         """
-        found = self._services.robots()
+        found = self.context.services.robots()
         chosen = self.port
         if chosen and chosen not in [robot.port for robot in found]:
             there = Path(chosen).exists()
@@ -116,13 +87,16 @@ class RobotDesk(QObject):
 
     def choose(self, port: str) -> None:
         """Take another robot; empty for the simulated one. Refused while an attempt runs."""
-        if self._refused_in_attempt():
-            return
-        self.settings.port, self.settings.pen = port, ""
-        self._taken = self._taken_pen = None
-        self._apply()
-        if not self._opening:
+        if self._equipment.choose(port) and not self._opening:
             self._conductor.take_again()  # one that failed before may be there now
+
+    def ask_pen(self) -> None:
+        """Ask for a pen that stands in for the robot."""
+        self._equipment.pen_wanted.emit()
+
+    def show_health(self) -> None:
+        """Bring the robot's health to the front."""
+        self.context.shell.show_panel(self.panel)
 
     def ask_port(self) -> None:
         """Ask for a port that the system does not list, such as an emulated robot's."""
@@ -138,9 +112,9 @@ class RobotDesk(QObject):
 
     def set_practise_holding(self, wanted: bool) -> None:
         """Arm the simulated robot by a held key as well, or by the attempt's beginning."""
-        if not self._refused_in_attempt():
+        if not self._refused():
             self.settings.practise_holding = wanted
-        self._apply()
+        self._equipment.apply()
 
     def set_gauge(self, mode: GaugeMode) -> None:
         """Say when the energy gauge is on the page."""
@@ -157,7 +131,7 @@ class RobotDesk(QObject):
     # --- commissioning ----------------------------------------------------------------------------
     def commission(self) -> None:
         """Let the run go and open the chosen robot for the wizard."""
-        if self._opening or self.wizard is not None or self._refused_in_attempt():
+        if self._opening or self.wizard is not None or self._refused():
             return
         port, profile = self.port, self._conductor.profile
         if not port:
@@ -171,7 +145,7 @@ class RobotDesk(QObject):
             return
         self._opening = True
         self._conductor.let_go()
-        closed, services = self._runs.closed(), self._services
+        closed, services = self._runs.closed(), self.context.services
 
         def operation(progress: Progress) -> BenchPort:
             closed()  # the wire has one end only
@@ -179,7 +153,7 @@ class RobotDesk(QObject):
 
         run_in_background(
             self, operation, self._commission, self._not_opened, lambda: self._not_opened(None),
-            title=tr("Opening the robot"), indicator=self._indicator,
+            title=tr("Opening the robot"), indicator=self.context.shell.progress,
         )  # fmt: skip
 
     def _commission(self, bench: BenchPort) -> None:
@@ -207,24 +181,23 @@ class RobotDesk(QObject):
 
     # --- inside -----------------------------------------------------------------------------------
     def _connect(self) -> None:
-        controller, health = self._conductor.controller, self._workspace.health_panel
-        controller.snapshot_taken.connect(self._show_health)
+        health = self.panel
+        self._conductor.controller.snapshot_taken.connect(self._show_health)
         self._runs.gone.connect(health.clear)
         self._runs.starting.connect(health.set_starting)
         health.commissioning_wanted.connect(self.commission)
-        self._workspace.bullseye.source.chosen.connect(self._remember_hand)
-        self._workspace.exercise_panel.enable.key.watch(self._window)
+        self._attempt.bullseye.source.chosen.connect(self._remember_hand)
+        self._attempt.panel.enable.key.watch(self._window)
+        self._equipment.changed.connect(self._apply)
 
     def _apply(self) -> None:
-        """Bring everything in line with what is remembered."""
-        remembered, panel = self.settings, self._workspace.exercise_panel
+        """Bring panel and hand in line with what is remembered."""
+        remembered, panel = self.settings, self._attempt.panel
         panel.enable.set_key(remembered.enable_key)
         panel.energy.set_mode(remembered.gauge)
-        source = self._workspace.bullseye.source
+        source = self._attempt.bullseye.source
         if remembered.hand and remembered.hand != source.name:
             source.set_source(remembered.hand)
-        held = not self.pen and (bool(self.port) or remembered.practise_holding)
-        self._conductor.set_robot(RobotChoice("" if self.pen else self.port, held, self.pen))
         self.changed.emit()
 
     def _choose_typed(self, text: str) -> None:
@@ -234,9 +207,7 @@ class RobotDesk(QObject):
     def _show_health(self, snapshot: Snapshot) -> None:
         run = self._runs.run  # asked each time: another power cycle of the board is told at once
         if run is not None:
-            self._workspace.health_panel.show_snapshot(
-                run, snapshot, self._conductor.controller.rates, snapshot.time
-            )
+            self.panel.show_snapshot(run, snapshot, self._conductor.controller.rates, snapshot.time)
 
     def _remember_hand(self, name: str) -> None:
         self.settings.hand = name
@@ -249,10 +220,74 @@ class RobotDesk(QObject):
         actions = self._window.findChildren(QAction)
         return [key for action in actions for key in action.shortcuts()]
 
-    def _refused_in_attempt(self) -> bool:
-        run = self._conductor.controller.run
-        if run is None or run.trainer.snapshot().state not in RUNNING:
-            self.accepted.emit()
-            return False
-        self.failed.emit(tr("An attempt is running: end it first, then change the robot."))
-        return True
+    def _refused(self) -> bool:
+        return self._equipment.refused(tr("the robot"))
+
+
+class RobotMenu:
+    """Fills a menu with what the feature does."""
+
+    def __init__(self, menu: QMenu, robot: RobotFeature) -> None:
+        self._robot = robot
+        self.robots = menu.addMenu(tr("Use"))
+        self.robots.aboutToShow.connect(self._fill_robots)
+        self._add(menu, tr("Robot's health"), robot.show_health, "F8")
+        self._add(menu, tr("Commissioning…"), robot.commission)
+        menu.addSeparator()
+        self.holding = menu.addAction(tr("Arm the simulated robot by a held key too"))
+        self.holding.setCheckable(True)
+        self.holding.triggered.connect(robot.set_practise_holding)
+        self.key = self._add(menu, "", robot.ask_key)
+        self.gauge = self._gauge(menu.addMenu(tr("Energy gauge")))
+        robot.changed.connect(self.refresh)
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show what is chosen."""
+        settings = self._robot.settings
+        self.holding.setChecked(settings.practise_holding)
+        self.key.setText(tr("Key for the forces: {key}…", key=key_name(settings.enable_key)))
+        for mode, action in self.gauge.items():
+            action.setChecked(mode is settings.gauge)
+
+    def _fill_robots(self) -> None:
+        self.robots.clear()
+        chosen = self._robot.port
+        choices = [("", tr("Simulated robot"))]
+        choices += [(robot.port, robot.title) for robot in self._robot.ports()]
+        for port, title in choices:
+            action = self.robots.addAction(title)
+            action.setCheckable(True)
+            action.setChecked(port == chosen and not self._robot.pen)
+            action.triggered.connect(lambda _=False, port=port: self._robot.choose(port))
+        if len(choices) == 1:
+            self.robots.addAction(tr("no other robot is plugged in")).setEnabled(False)
+        self.robots.addSeparator()
+        self._add(self.robots, tr("Other port…"), self._robot.ask_port)
+        pen = self._add(self.robots, tr("No robot: pen and webcam…"), self._robot.ask_pen)
+        pen.setCheckable(True)
+        pen.setChecked(bool(self._robot.pen))
+
+    def _gauge(self, menu: QMenu) -> dict[GaugeMode, QAction]:
+        group = QActionGroup(menu)
+        titles = {
+            GaugeMode.AUTO: tr("With a real robot, and when the guard acts"),
+            GaugeMode.SHOWN: tr("Always"),
+            GaugeMode.HIDDEN: tr("Never"),
+        }
+        actions = {}
+        for mode, title in titles.items():
+            action = menu.addAction(title)
+            action.setCheckable(True)
+            action.triggered.connect(lambda _=False, mode=mode: self._robot.set_gauge(mode))
+            group.addAction(action)
+            actions[mode] = action
+        return actions
+
+    @staticmethod
+    def _add(menu: QMenu, text: str, command: Callable[[], object], key: str = "") -> QAction:
+        action = menu.addAction(text)
+        if key:
+            action.setShortcut(key)
+        action.triggered.connect(lambda _=False: command())
+        return action

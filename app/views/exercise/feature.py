@@ -1,0 +1,122 @@
+"""Exercises in the window: which one is open, the patient that goes with it, their panels."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QSplitter
+
+from app.core.errors import AcusError
+from app.exercises.schema import Exercise
+from app.views.kit.text import tr
+from app.views.series.patient import Patient
+from app.views.shell.feature import Context, Feature
+
+
+class ExerciseFeature(Feature):
+    """Takes exercises and patients into the window; what goes wrong is said at its top.
+
+    Attributes:
+        exercises: all there are, by identifier, easiest first.
+    """
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._conductor, self._patients = context.conductor, context.patients
+        self._editor, self._shell = context.editors.plan, context.shell
+        self._panel = context.conductor.views.panel
+        self._waiting: Exercise | None = None  # until its patient is there
+        self.exercises = {exercise.id: exercise for exercise in context.services.exercises()}
+        self._shell.add_panel(self._panel, tr("Exercise"))
+        self._shell.add_panel(self._cameras(), tr("Cameras"), scrolls=False)
+        self._panel.set_exercises(self.titles)
+        self._panel.buttons.watch(self._shell.dialog_parent)
+        self._panel.exercise_chosen.connect(self.begin)
+        self._patients.failed.connect(lambda _: self.give_up())
+        self._patients.given_up.connect(self.give_up)
+
+    def _cameras(self) -> QSplitter:
+        views = self._conductor.views
+        cameras = QSplitter(Qt.Orientation.Vertical)
+        cameras.addWidget(views.tracker)
+        cameras.addWidget(views.messages)
+        cameras.setStretchFactor(0, 3)
+        cameras.setStretchFactor(1, 1)
+        return cameras
+
+    @property
+    def titles(self) -> list[tuple[str, str]]:
+        """Identifiers and titles of all exercises."""
+        return [(exercise.id, exercise.title) for exercise in self.exercises.values()]
+
+    def begin(self, identifier: str) -> None:
+        """Take an exercise and open its patient, unless it is shown already."""
+        exercise = self.exercises.get(identifier)
+        if exercise is None:
+            names = ", ".join(self.exercises)
+            self._shell.messages.show_error(tr("There is no exercise {name}; there are: {names}",
+                                             name=identifier, names=names))  # fmt: skip
+        else:
+            self._begin(exercise)
+
+    def _begin(self, exercise: Exercise) -> None:
+        """Take an exercise at once where its patient is shown, else once that one is there."""
+        patient = self._conductor.patient
+        if patient is not None and self._conductor.fits(patient, exercise):
+            if self._editor.locked:
+                self._shell.messages.show_error(
+                    tr("An attempt is running: end it before another exercise is chosen")
+                )
+                self.show_taken()
+                return
+            if self._shell.may_go():
+                self._take_here(exercise)
+            self.show_taken()
+            return
+        try:
+            self._conductor.check(exercise)
+        except AcusError as error:
+            self._shell.messages.show_error(error)
+            self.show_taken()
+            return
+        self._waiting = exercise
+        ct = exercise.ct
+        if ct.phantom is not None:
+            self._patients.open_phantom(ct.phantom.seed)
+        elif ct.folder is not None:
+            self._patients.open_folder(ct.folder, ct.series, ct.remedy)
+
+    def _take_here(self, exercise: Exercise) -> None:
+        if self._take(exercise):
+            self._shell.show_workspace()
+
+    def give_up(self) -> None:
+        """Stay with the present exercise: the patient of the one that was chosen did not come."""
+        self._waiting = None
+        self.show_taken()
+
+    def show_taken(self) -> None:
+        """Let the list stand at the exercise that is taken."""
+        taken = self._conductor.exercise
+        chosen = None if taken is None else taken.id
+        self._panel.set_exercises(self.titles, chosen)
+
+    def show_patient(self, patient: Patient) -> None:
+        """Show a patient that was opened, in the first exercise where none is taken."""
+        self._shell.messages.clear()  # what went wrong before is over
+        waiting, self._waiting = self._waiting, None
+        if waiting is None and self._conductor.exercise is None and self.exercises:
+            waiting = next(iter(self.exercises.values()))
+        self._conductor.leave_patient()
+        if waiting is not None:
+            self._take(waiting)
+        self._conductor.set_patient(patient)
+        self.show_taken()
+        self._shell.show_workspace()
+
+    def _take(self, exercise: Exercise) -> bool:
+        try:
+            self._conductor.set_exercise(exercise)
+        except AcusError as error:
+            self._shell.messages.show_error(error)
+            return False
+        return True

@@ -1,0 +1,35 @@
+"""The list of features: the order is that of panels, and of entries in menus that several share."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from app.views.cameras.feature import CamerasFeature
+from app.views.checks.feature import ChecksFeature
+from app.views.debrief.feature import DebriefFeature
+from app.views.exercise.feature import ExerciseFeature
+from app.views.measure.feature import MeasureFeature
+from app.views.pen.feature import PenFeature
+from app.views.plan.feature import PlanFeature
+from app.views.plan.paths import PathsFeature
+from app.views.plan.position import PositionFeature
+from app.views.robot.feature import RobotFeature
+from app.views.series.feature import SeriesFeature
+from app.views.shell.feature import Feature
+from app.views.structures.feature import StructuresFeature
+
+FEATURES: Final[tuple[type[Feature], ...]] = (
+    SeriesFeature,
+    PlanFeature,
+    PathsFeature,
+    ExerciseFeature,
+    RobotFeature,
+    CamerasFeature,
+    PenFeature,
+    ChecksFeature,
+    MeasureFeature,
+    StructuresFeature,
+    PositionFeature,
+    DebriefFeature,
+)
+"""A dropped file is offered to them from the last to the first."""
