@@ -87,12 +87,12 @@ def to_grey(hu: NDArray[Any], window: WindowLevel) -> NDArray[np.uint8]:
     C.11.2.1.2: y = ((x - (c - 0.5)) / (w - 1) + 0.5) * 255, clamped; rounded to nearest.
     """
     if hu.dtype == np.int16:
-        return np.take(_table(window), hu.view(np.uint16))
+        return np.take(grey_table(window), hu.view(np.uint16))
     return _linear(hu.astype(np.float32, copy=False), window)
 
 
 @lru_cache(maxsize=16)
-def _table(window: WindowLevel) -> NDArray[np.uint8]:
+def grey_table(window: WindowLevel) -> NDArray[np.uint8]:
     """Grey level of each int16 value, indexed by its bits as unsigned."""
     values = np.arange(65536, dtype=np.uint16).view(np.int16)
     table = _linear(values.astype(np.float32), window)

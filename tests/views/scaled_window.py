@@ -8,6 +8,7 @@ import os
 import sys
 import tempfile
 from pathlib import Path
+from time import monotonic
 
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
 sys.path.insert(0, str(Path(__file__).parents[1] / "views_exercise"))
@@ -60,7 +61,9 @@ def click(window, pane, target):
     viewing = window.workspace.viewing
     viewing.set_draft(DraftPlan())  # the mark of the last click covers the bead
     viewing.set_cursor(target)
-    QTest.qWait(30)
+    end = monotonic() + 10.0
+    while not pane.canvas.is_settled and monotonic() < end:
+        QTest.qWait(30)
     at = pane.canvas.mapTo(window, seen_bead(pane))
     viewing.set_tool(Tool.TARGET)
     take = lambda tool, point, _: placed.append(point)  # noqa: E731

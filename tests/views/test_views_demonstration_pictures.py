@@ -37,7 +37,7 @@ def test_a_picture_shows_the_needle_that_came_just_now(
     settle()
     pictures.take("at rest")
     assert pixels(pictures, "now") == pixels(pictures, "at rest")
-    viewing.reformatter.close()
+    viewing.pictures.close()
 
 
 def test_a_picture_shows_words_that_have_just_grown_whole(

@@ -55,7 +55,7 @@ def room(application, volume, destroy):
 
     yield make
     for one in rooms:
-        one.viewing.reformatter.close()
+        one.viewing.pictures.close()
 
 
 def random_needle(rng, middle):
@@ -113,7 +113,8 @@ def state(pane):
     texts = [one.text() for one in (readouts.title, readouts.window, readouts.slice,
                                     *readouts.letters)]  # fmt: skip
     where = tuple(np.round(canvas._to_pixels.m11(), 9).reshape(1).tolist())
-    return items, texts, where, canvas._image.image().copy()
+    picture = canvas.feed.picture  # none where no part of the volume is seen
+    return items, texts, where, None if picture is None else picture.image.copy()
 
 
 def alike(one, other):
@@ -206,13 +207,13 @@ def test_a_needle_shown_again_never_brings_back_the_picture_of_the_last_one(room
     one.viewing.set_needle(NeedleOverlay([0.0, -80.0, 0.0], [0.0, 0.0, 0.0]))
     one.arrive(settle)
     pane = one.panes[SHOWN.index(PaneId.IN_PLANE)]
-    assert not pane.canvas._image.boundingRect().isEmpty()
+    assert pane.canvas.feed.picture is not None
     pane.hide()
-    assert pane.canvas._image.boundingRect().isEmpty()
+    assert pane.canvas.feed.picture is None
     one.viewing.set_needle(None)
     pane.show()
     settle()
-    assert pane.canvas._image.boundingRect().isEmpty()
+    assert pane.canvas.feed.picture is None
 
 
 def test_a_picture_that_is_late_is_not_waited_for(room, settle, monkeypatch):
@@ -221,8 +222,8 @@ def test_a_picture_that_is_late_is_not_waited_for(room, settle, monkeypatch):
     one.arrive(settle)
     pane = one.panes[SHOWN.index(PaneId.IN_PLANE)]
     ticks = pane.canvas.layers.ticks.item
-    monkeypatch.setattr(one.viewing.reformatter, "take", lambda _: None)
-    monkeypatch.setattr(one.viewing.reformatter, "waits", lambda _: True)
+    monkeypatch.setattr(one.viewing.pictures, "take", lambda _: None)
+    monkeypatch.setattr(one.viewing.pictures, "waits", lambda _: True)
     before = ticks._state
     one.viewing.set_needle(NeedleOverlay([30.0, -80.0, 9.0], [4.0, 5.0, 3.0]))
     assert settle(lambda: ticks._state != before, 5.0)

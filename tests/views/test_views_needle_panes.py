@@ -22,7 +22,7 @@ def viewing(application, volume):
     viewing = Viewing(default_window())
     viewing.set_volume(volume)
     yield viewing
-    viewing.reformatter.close()
+    viewing.pictures.close()
 
 
 @pytest.fixture
@@ -134,7 +134,7 @@ def test_of_many_wishes_only_the_newest_is_drawn(viewing, planes, pane, settle):
     for n in range(50):
         viewing.set_needle(needle_at(viewing, (0.5 * n - 10.0, 0.0, 0.0)))
     assert settle(lambda: pane.canvas.is_settled, 20.0)
-    assert pane.canvas.feed._wish.plane is pane.canvas.plane
+    assert pane.canvas.feed.wish.plane is pane.canvas.plane
 
 
 def test_the_tip_stays_in_the_middle_of_a_pane_that_follows(viewing, planes, pane):

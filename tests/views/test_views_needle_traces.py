@@ -19,7 +19,7 @@ def viewing(application, volume):
     viewing = Viewing(default_window())
     viewing.set_volume(volume)
     yield viewing
-    viewing.reformatter.close()
+    viewing.pictures.close()
 
 
 @pytest.fixture

@@ -304,4 +304,4 @@ def test_the_crosshair_stays_at_its_pixel_while_its_pane_turns(viewing, make_pan
     assert (after.x(), after.y()) == pytest.approx((before.x(), before.y()), abs=1e-6)
     assert settle(lambda: pane.canvas.is_settled, 20.0)
     assert "20° oblique" in pane.readouts.slice.text()
-    viewing.reformatter.close()
+    viewing.pictures.close()

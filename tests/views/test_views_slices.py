@@ -11,15 +11,15 @@ from PySide6.QtTest import QSignalSpy
 
 from app.core.errors import NumericalError
 from app.imaging.orthogonal import View
-from app.imaging.window import PRESETS, WindowLevel, to_grey
+from app.imaging.window import PRESETS, WindowLevel
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
-from app.views.slices import picture_item
 from app.views.slices.bindings import OHIF, SLICER
 from app.views.slices.camera import Camera, ruler
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
+from app.views.slices.picture_maker import Picture
 from app.views.slices.plane import own_plane
 from app.views.slices.presets import default_window, keyed_window, menu_windows
 from app.views.slices.slab import PlanePoint, pieces
@@ -294,11 +294,11 @@ def test_the_needle_is_cut_at_the_slab(pane, viewing):
 
 
 def test_setting_the_needle_leaves_the_image_alone(pane, viewing):
-    pane.canvas._image.image()
+    before = pane.canvas.feed.picture
     for n in range(10):
         viewing.set_needle(NeedleOverlay(viewing.cursor_mm + [9.0, n, 0], viewing.cursor_mm))
         pane.canvas.flush()
-    assert not pane.canvas._image.is_stale
+    assert pane.canvas.feed.picture is before
 
 
 def test_slices_follow_the_tip_with_a_dead_band(viewing):
@@ -346,16 +346,17 @@ def test_the_value_under_a_resting_mouse_follows_the_slice(pane, viewing):
     assert pane.readouts.cursor.text() == ""
 
 
-def test_a_fast_window_drag_makes_grey_values_only_for_what_is_painted(pane, viewing, monkeypatch):
-    made = []
-    monkeypatch.setattr(
-        picture_item, "to_grey", lambda hu, window: made.append(window) or to_grey(hu, window)
-    )
+def test_a_fast_window_drag_makes_grey_values_only_for_what_is_painted(
+    pane, viewing, settle, monkeypatch
+):
+    settle(lambda: pane.canvas.is_settled, 5.0)
+    made, make = [], Picture.of
+    monkeypatch.setattr(Picture, "of", lambda wish: made.append(wish.window) or make(wish))
     for width in range(300, 320):
         viewing.set_window(WindowLevel(width, 40))
-        pane.canvas.flush()
-    pane.grab()
+    assert settle(lambda: pane.canvas.is_settled, 5.0)
     assert made == [WindowLevel(319, 40)]
+    assert pane.canvas.feed.picture.wish.window == made[0]
 
 
 def test_the_tips_distance_is_left_out_where_the_plans_names_need_the_room(pane, viewing):

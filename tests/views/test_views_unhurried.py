@@ -63,7 +63,7 @@ def test_read_outs_of_a_following_slice_rest_a_moment_and_are_right_in_the_end(
     assert shown[1] == shown[2]
     assert settle(lambda: pane.canvas.is_settled, 5.0)
     assert pane.readouts.slice.text() != shown[2]
-    viewing.set_cursor(middle)  # by hand: at once
-    application.processEvents()
+    viewing.set_cursor(middle)  # by hand: with its picture
+    assert settle(lambda: not pane.canvas.feed.is_waiting and pane.canvas.is_settled, 5.0)
     assert pane.readouts.slice.text() == shown[0]
-    viewing.reformatter.close()
+    viewing.pictures.close()

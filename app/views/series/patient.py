@@ -6,11 +6,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+import numpy as np
+
 from app.core.arrays import frozen
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.series import Remedy, Series
 from app.imaging.volume import Volume
+from app.imaging.window import PRESETS
 from app.mechanisms.profile import load_profile
 from app.planning.placement import Placement
 from app.planning.plan import Plan
@@ -93,10 +96,16 @@ def label_of(volume: Volume) -> str:
 
 
 def _load_verdict() -> None:
-    """Load the kernels behind the verdict on a plan, by asking for two.
+    """Load the kernels behind the verdict on a plan, by asking for two, and those of its pictures.
 
     First called on the window's thread they would wait there for all that other threads compile.
     """
     profile = load_profile(DEVICE)
     for entry in ((0.0, -50.0, 0.0), (50.0, -10.0, 0.0)):  # straight down, and too oblique
         reach(Plan(frozen(entry), frozen((0.0, 0.0, 0.0))), Placement(), profile)
+    with ONE_AT_A_TIME:
+        from app.imaging.screen import screen_pixels
+
+    soft, place = PRESETS["Soft tissue"], (0.0, 0.0, 1.0, 1.0)
+    for kind in (np.int16, np.float32):
+        screen_pixels(np.zeros((1, 1), kind), soft, False, place, (1, 1))

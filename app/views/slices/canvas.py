@@ -18,7 +18,7 @@ from app.views.slices.layer_stack import ALL_LAYERS, WAITED_FOR, Due, Layer, Lay
 from app.views.slices.looks import Turn
 from app.views.slices.panes import PaneId
 from app.views.slices.picture_feed import PictureFeed
-from app.views.slices.picture_item import PictureItem
+from app.views.slices.picture_maker import Screen
 from app.views.slices.plane import Rect, SlicePlane
 from app.views.slices.plane_view import PlaneView
 from app.views.slices.unhurried import Unhurried
@@ -29,10 +29,10 @@ class SliceCanvas(PlaneView):
     """Draws the slice of one pane.
 
     Changes are gathered until the event loop comes round, and drawn together: a needle that moves
-    changes planes, crosshair and itself, and every layer is placed once. An interpolated picture
-    comes later, and what lies over it waits for it. Under a needle that moves words are written
-    anew only as often as they can be read. A canvas that nobody sees draws nothing until it is
-    shown.
+    changes planes, crosshair and itself, and every layer is placed once. The picture is made beside
+    the window's thread, and what lies over it waits for it. Under a needle that moves words are
+    written anew only as often as they can be read. A canvas that nobody sees draws nothing until
+    it is shown.
 
     Attributes:
         drawing: the shapes over the picture.
@@ -61,9 +61,9 @@ class SliceCanvas(PlaneView):
         self._asked = False
         self._wanted.connect(self._draw_together, Qt.ConnectionType.QueuedConnection)
         self._words = Unhurried(self._write, self)
-        self.feed = PictureFeed(viewing.reformatter, self)
+        self.feed = PictureFeed(viewing.pictures, self)
         self.feed.arrived.connect(self._draw)
-        self._image = PictureItem()
+        self._seen = self._screen = Screen(0.0, 0.0, 1.0, 1, 1, 1.0)
         self.drawing = Drawing(self.update)
         self.written: list[Written] = []
         self.layers = LayerStack(self.drawing, viewing, self.pane)
@@ -120,7 +120,8 @@ class SliceCanvas(PlaneView):
         self._want(Due.WORDS)
 
     def show_volume(self) -> None:
-        """Take the viewing's volume and fit it."""
+        """Take the viewing's volume and fit it; nothing of the last one stays."""
+        self._clear()
         self._take_plane()
         self.fit()
 
@@ -163,7 +164,6 @@ class SliceCanvas(PlaneView):
         """Draw nothing: what was there is no longer true."""
         self.feed.drop()
         self._slice = None
-        self._image.clear()
         self.update()
         self.layers.hide()
 
@@ -182,39 +182,47 @@ class SliceCanvas(PlaneView):
         if not self._asked:
             return  # it has been drawn meanwhile
         self._asked = False
-        moved = self._slice != (self.plane, self.index)
-        if moved and self._is_interpolated and Due.CAMERA not in self._due:
-            self._fetch()
-            if self.feed.is_near:
-                return
+        self._fetch()
+        if Due.CAMERA in self._due:  # zoomed and panned at once; what is interpolated follows
+            self.feed.finish()
+        elif self.feed.is_near:
+            return
         self._draw()
 
     def flush(self) -> None:
         """Draw at once what has changed, each layer once, and write every word."""
-        self._draw()
+        self._asked = False
+        self._fetch()
+        self.feed.finish()
+        self._draw(as_it_is_now=True)
         if self._words.is_waiting:
             self._words.do()
 
-    def _draw(self) -> None:
-        self._asked = False
+    def _draw(self, as_it_is_now: bool = False) -> None:
+        """Put everything where it belongs over the picture that there is.
+
+        Where the next picture is on its way already, everything lies on the plane of the last one.
+        """
         due, self._due = self._due, set()
         plane, index = self.plane, self.index
         if plane is None:
             self.changed.emit()
             return
+        picture = self.feed.picture
+        if picture is not None and self.feed.is_near and not as_it_is_now:
+            plane, index = picture.wish.plane, picture.wish.index
         moved, zoomed = self._slice != (plane, index), Due.CAMERA in due
         if zoomed:
             self._apply_camera()
-        if moved or (zoomed and self._is_interpolated):  # the pixels are other ones
-            self._fetch()
+            self._screen = self._seen
         self._slice = plane, index
-        self._show_picture()
         layers = ALL_LAYERS if moved or zoomed else due & ALL_LAYERS
         if layers:
             self.layers.place(layers, plane, index, self.camera.scale)
         if moved or zoomed or due - {Due.CROSSHAIR}:
-            hurried = Due.NEEDLE in due and not due & WAITED_FOR
+            hurried = (Due.NEEDLE in due or not due) and not due & WAITED_FOR
             (self._words.ask if hurried else self._words.do)()
+        self.update()
 
     def _write(self) -> None:
         """Write the read-outs, and find the names of marks their places."""
@@ -223,23 +231,22 @@ class SliceCanvas(PlaneView):
             self.layers.arrange_labels(plane, self.index, (width, height), self.pixel_at)
         self.changed.emit()
 
-    def _show_picture(self) -> None:
-        greys = self.viewing.greys
-        window, bounds = greys.of(self.pane), self.feed.bounds_mm
-        self._image.set_slice(self.feed.hu, window, bounds, greys.is_inverted)
-        self.update()
-
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the picture, the shapes over it, and the words over both."""
+        picture, screen = self.feed.picture, self._screen
         painter = QPainter(self)
-        painter.fillRect(event.rect(), self._background)
-        painter.setTransform(self._to_pixels)
-        self._image.paint(painter)
+        if picture is None or picture.wish.screen != screen:
+            painter.fillRect(event.rect(), self._background)
+        if picture is not None:
+            painter.setTransform(self._to_pixels)
+            picture.paint(painter, screen)
         self.drawing.paint(painter, self._to_pixels)
         for words in self.written:
             words.paint(painter)
         painter.end()
         self.painted.emit()
+        if self.devicePixelRatioF() != screen.ratio and self.plane is not None:
+            self._look()  # moved to another screen
 
     def changeEvent(self, event: QEvent) -> None:
         """Write words anew in another size of the text."""
@@ -247,11 +254,21 @@ class SliceCanvas(PlaneView):
         if event.type() == QEvent.Type.FontChange and hasattr(self, "drawing"):
             self.rewrite()
 
+    def _look(self) -> None:
+        ratio, (left, top, _, _) = self.devicePixelRatioF(), self.camera.visible(self._px())
+        width, height = (max(1, round(size * ratio)) for size in self._px())
+        self._seen = Screen(left, top, self.camera.scale * ratio, width, height, ratio)
+        super()._look()
+
+    def _px(self) -> tuple[int, int]:
+        return self.width(), self.height()
+
     def _fetch(self) -> None:
         """Want the picture of what the pane shows."""
         if self.plane is not None:
-            pixel = 1.0 / (self.camera.scale * self.devicePixelRatioF())
-            self.feed.want(self.plane, self.index, self.visible_mm, pixel)
+            greys = self.viewing.greys
+            window = greys.of(self.pane)
+            self.feed.want(self.plane, self.index, self._seen, window, greys.is_inverted)
 
     # --- seen and unseen ----------------------------------------------------------------------
     def showEvent(self, event: QShowEvent) -> None:

@@ -1,123 +1,149 @@
-"""The picture of one pane: handed out by the plane at once, or interpolated beside the window."""
+"""The picture of one pane: made beside the window, or at once for who cannot wait."""
 
 from __future__ import annotations
 
 from math import ceil, floor
-from time import monotonic
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
+from app.imaging.window import WindowLevel
+from app.views.slices.picture_maker import Picture, PictureMaker, Region, Screen, Values, Wish
 from app.views.slices.plane import Rect, SlicePlane
-from app.views.slices.reformatter import Reformatter, Wish
 
-LOOK_MS = 4
-PATIENCE_S = 0.1
+PATIENCE_MS = 100
 """A picture later than this is not waited for: its code is being compiled, or the slab is thick."""
 
 FINEST = 4.0
 """Pixels per finest voxel beyond which a picture only grows and gains nothing."""
 
+_NOTHING = np.zeros((1, 1), np.int16)
+
 
 class PictureFeed(QObject):
-    """Keeps the Hounsfield units of one pane.
+    """Keeps the picture of one pane.
 
     Attributes:
-        hu: shape (rows, columns), contiguous.
-        bounds_mm: where they lie in the plane.
+        picture: the newest that there is; None while nothing is shown.
+        wish: what is wanted.
 
     Signals:
-        arrived(): an interpolated picture has come; or there is none to wait for any longer, as it
-            is given up or late.
+        arrived(): a picture has come; or there is none to wait for any longer, as it is given up or
+            late.
     """
 
     arrived = Signal()
 
-    def __init__(self, reformatter: Reformatter, parent: QObject) -> None:
+    def __init__(self, maker: PictureMaker, parent: QObject) -> None:
         super().__init__(parent)
-        self._reformatter = reformatter
-        self._wish: Wish | None = None
-        self._show_nothing()
-        self._since, self._is_late = 0.0, False
-        self._timer = QTimer(self, interval=LOOK_MS)
-        self._timer.timeout.connect(self._look)
-
-    def _show_nothing(self) -> None:
-        self.hu: NDArray[Any] = np.zeros((1, 1), np.int16)
-        self.bounds_mm: Rect = (0.0, 0.0, 0.0, 0.0)
+        self._maker = maker
+        self.wish: Wish | None = None
+        self.picture: Picture | None = None
+        self.is_waiting = self._is_late = False
+        self._timer = QTimer(self, interval=PATIENCE_MS, singleShot=True)
+        self._timer.timeout.connect(self._give_up)
+        maker.bell.rung.connect(self._look, Qt.ConnectionType.QueuedConnection)
 
     @property
-    def is_waiting(self) -> bool:
-        """Whether an interpolated picture is still to come."""
-        return self._timer.isActive()
+    def hu(self) -> NDArray[Any]:
+        """Hounsfield units of the picture, shape (rows, columns), contiguous."""
+        return _NOTHING if self.picture is None else self.picture.values.hu
+
+    @property
+    def bounds_mm(self) -> Rect:
+        """Where they lie in the plane."""
+        return (0.0, 0.0, 0.0, 0.0) if self.picture is None else self.picture.values.bounds_mm
 
     @property
     def is_near(self) -> bool:
         """Whether a picture is still to come and what belongs over it may wait for it."""
         return self.is_waiting and not self._is_late
 
-    def want(self, plane: SlicePlane, index: float, visible: Rect, pixel_mm: float) -> None:
-        """Take a slice: the volume's own at once, an interpolated one when it comes.
+    def want(
+        self, plane: SlicePlane, index: float, screen: Screen, window: WindowLevel, inverted: bool
+    ) -> None:
+        """Take a slice; its picture comes, unless it is there already.
 
         Args:
             plane: of the pane.
             index: of the slice.
-            visible: rectangle that the pane shows [mm].
-            pixel_mm: size of the pane's pixels.
+            screen: the pane's pixels.
+            window: of the greys.
+            inverted: whether they are turned round.
         """
-        if plane.is_native:
-            self.drop()
-            # kept contiguous: changing the window then needs no second gather
-            self.hu, self.bounds_mm = np.ascontiguousarray(plane.image(index)), plane.bounds_mm
+        region = None
+        if not plane.is_native:
+            region = _region(plane, screen)
+            if region is None:
+                self.drop()
+                return
+        shown = self.picture
+        values: Values | None = None if shown is None else shown.values
+        known = values if values is not None and values.are(plane, index, region) else None
+        wish = Wish(plane, index, region, window, inverted, screen, known)
+        if wish.same(self.wish):
             return
-        wish = _wish(plane, index, visible, pixel_mm)
-        if wish is None:
-            self.drop()
-            self._show_nothing()
-            return
-        if wish.same(self._wish):
-            return
-        self._wish = wish
-        self._reformatter.request(id(self), wish)
-        if not self._timer.isActive():
-            self._since, self._is_late = monotonic(), False
+        self.wish = wish
+        self._maker.request(id(self), wish)
+        if not self.is_waiting:
+            self.is_waiting, self._is_late = True, False
             self._timer.start()
 
+    def finish(self) -> None:
+        """Have the picture now, where making it takes no longer than copying it."""
+        wish = self.wish
+        if self.is_waiting and wish is not None and (wish.known or wish.plane.is_native):
+            self._maker.forget(id(self))
+            self._show(Picture.of(wish))
+
     def drop(self) -> None:
-        """Want nothing any more."""
-        if self._wish is not None:
-            self._wish = None
-            self._reformatter.forget(id(self))
-            self._timer.stop()
+        """Want nothing any more, and show nothing."""
+        if self.wish is not None:
+            self.wish = None
+            self._maker.forget(id(self))
+        self.picture, self.is_waiting = None, False
+        self._timer.stop()
+
+    def _show(self, picture: Picture) -> None:
+        self.picture = picture
+        self.is_waiting, self._is_late = picture.wish is not self.wish, False
+        (self._timer.start if self.is_waiting else self._timer.stop)()
 
     def _look(self) -> None:
-        made = self._reformatter.take(id(self))
-        if made is not None:
-            wish, self.hu = made
-            self.bounds_mm = wish.bounds_mm
-            self._since, self._is_late = monotonic(), False
-        late = not self._is_late and monotonic() - self._since > PATIENCE_S
-        self._is_late = self._is_late or late
-        done = not self._reformatter.waits(id(self))
-        if done:
+        """Take a picture if there is one; the bell rings for all panes."""
+        if not self.is_waiting:
+            return
+        picture = self._maker.take(id(self))
+        if picture is not None:
+            self._show(picture)
+            self.arrived.emit()
+        elif not self._maker.waits(id(self)):  # it could not be made
+            self.is_waiting = False
             self._timer.stop()
-        if made is not None or done or late:
             self.arrived.emit()
 
+    def _give_up(self) -> None:
+        self._is_late = True
+        self.arrived.emit()
 
-def _wish(plane: SlicePlane, index: float, visible: Rect, pixel_mm: float) -> Wish | None:
+
+def _region(plane: SlicePlane, screen: Screen) -> Region | None:
     """Return the part of the volume that is seen, on the pane's pixels; None if there is none."""
-    pixel = max(pixel_mm, plane.finest_mm / FINEST)
+    pixel = max(1.0 / screen.scale, plane.finest_mm / FINEST)
     first, last = [], []
-    for start, size, low, room in zip(
-        visible[:2], visible[2:], plane.bounds_mm[:2], plane.bounds_mm[2:], strict=True
+    for start, count, low, room in zip(
+        (screen.left, screen.top),
+        (screen.width, screen.height),
+        plane.bounds_mm[:2],
+        plane.bounds_mm[2:],
+        strict=True,
     ):
         first.append(max(0, floor((low - start) / pixel)))
-        last.append(min(ceil(size / pixel), ceil((low + room - start) / pixel)))
+        last.append(min(ceil(count / screen.scale / pixel), ceil((low + room - start) / pixel)))
     columns, rows = last[0] - first[0], last[1] - first[1]
     if columns < 1 or rows < 1:
         return None
-    corner = (visible[0] + first[0] * pixel, visible[1] + first[1] * pixel)
-    return Wish(plane, index, corner, pixel, columns, rows)
+    left, top = screen.left + first[0] * pixel, screen.top + first[1] * pixel
+    return Region(left, top, pixel, columns, rows)

@@ -22,9 +22,9 @@ from app.views.slices.bindings import OHIF, Scheme
 from app.views.slices.greys import Greys
 from app.views.slices.looks import Look
 from app.views.slices.panes import PaneId
+from app.views.slices.picture_maker import PictureMaker
 from app.views.slices.plane import SlicePlane
 from app.views.slices.planes import Planes
-from app.views.slices.reformatter import Reformatter
 
 FOLLOW_DEAD_BAND_MM = 0.3
 """Slices that follow the tip stay while it moves less than this, so that they do not tremble."""
@@ -77,7 +77,7 @@ class Viewing(QObject):
         self.volume: Volume | None = None
         self.slicer: OrthogonalSlicer | None = None
         self._planes = Planes()
-        self.reformatter = Reformatter()
+        self.pictures = PictureMaker()
         self.greys = Greys(window, self)
         self.greys.changed.connect(self.window_changed)
         self.scheme, self.left_zooms, self.level_reversed = OHIF, False, False
