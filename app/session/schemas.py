@@ -174,38 +174,45 @@ CHANNELS: Final = {
 }
 """Every channel of a record by topic."""
 
-_TYPES: Final[dict[str, tuple[type, ...]]] = {
-    "null": (type(None),),
-    "boolean": (bool,),
-    "integer": (int,),
-    "number": (int, float),
-    "string": (str,),
-    "object": (dict,),
-    "array": (list,),
+_NAMES: Final[dict[type, tuple[str, ...]]] = {
+    type(None): ("null",),
+    bool: ("boolean",),
+    int: ("integer", "number"),
+    float: ("number",),
+    str: ("string",),
+    dict: ("object",),
+    list: ("array",),
 }
+"""What a schema may call the types that JSON is read to."""
+
+_NO_SCHEMA: Final[Schema] = {}
 _LARGEST: Final = 1e18
 """No number of a record is larger, in whatever unit."""
 
 
 def conforms(value: Any, schema: Schema) -> bool:
     """Whether a JSON value has the types and the fields that one of our schemas asks for."""
-    names = schema.get("type", [])
-    names = [names] if isinstance(names, str) else names
-    if names and not any(_is(value, name) for name in names):
+    names = schema.get("type")
+    if names and not _is(value, names):
         return False
     if isinstance(value, dict):
-        properties = schema.get("properties", {})
-        return set(schema.get("required", ())) <= value.keys() and all(
-            conforms(value[name], part) for name, part in properties.items() if name in value
-        )
-    if isinstance(value, list):
-        return all(conforms(item, schema.get("items", {})) for item in value)
+        for name in schema.get("required", ()):
+            if name not in value:
+                return False
+        for name, part in schema.get("properties", _NO_SCHEMA).items():
+            if name in value and not conforms(value[name], part):
+                return False
+    elif isinstance(value, list):
+        items = schema.get("items", _NO_SCHEMA)
+        for item in value:
+            if not conforms(item, items):
+                return False
     return True
 
 
-def _is(value: Any, name: str) -> bool:
-    if isinstance(value, bool):
-        return name == "boolean"
-    if isinstance(value, int | float) and not (abs(value) < _LARGEST and isfinite(value)):
+def _is(value: Any, names: str | list[str]) -> bool:
+    """Whether a value is of one of the types, numbers within bounds."""
+    own = _NAMES.get(type(value), ())
+    if not any(name in own for name in names) if isinstance(names, list) else names not in own:
         return False
-    return isinstance(value, _TYPES[name])
+    return not isinstance(value, int | float) or (abs(value) < _LARGEST and isfinite(value))

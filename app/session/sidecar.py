@@ -80,12 +80,13 @@ def cached(path: Path) -> Cached | None:
     try:
         document = json.loads(sidecar(path).read_text(encoding="utf-8"))
         written, record = document.pop("digest", ""), document["record"]
+        digest = _digest(document)  # raises for text that cannot be printed: it is not ours
         return Cached(
             summary=Summary.of(document, path.stem),
             size=int(record["size"]),
             modified_ns=int(record["modified_ns"]),
             sha256=str(record["sha256"]),
-            intact=written == _digest(document),
+            intact=written == digest,
         )
     except _NOT_OURS:
         return None
