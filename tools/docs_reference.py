@@ -8,7 +8,7 @@ the names alone: that takes a second instead of a minute.
 import ast
 import os
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -88,21 +88,30 @@ def index(found: Crossing) -> str:
 
 
 def on_config(config: Any) -> Any:
-    """Put the rooms' pages where the navigation says `reference/`."""
-    names = list(crossing())
-    for section in config["nav"]:
-        for entries in section.values() if isinstance(section, dict) else ():
-            for entry in entries if isinstance(entries, list) else ():
-                if isinstance(entry, dict) and entry.get("Reference") == "reference/":
-                    entry["Reference"] = ["reference/index.md"] + [
-                        f"reference/{name}.md" for name in names
-                    ]
-                if isinstance(entry, dict) and "Decisions" in entry:
-                    folder = Path(config["docs_dir"]) / "decisions"
-                    entry["Decisions"] += [
-                        f"decisions/{each.name}" for each in sorted(folder.glob("0*.md"))
-                    ]
+    """Complete the navigation: the rooms' pages, the decisions, and developers' pages not named."""
+    docs = Path(config["docs_dir"])
+    sections = (one for one in config["nav"] if isinstance(one, dict))
+    developer = next(one["Developer"] for one in sections if "Developer" in one)
+    named = set(_named(config["nav"]))
+    for entry in developer:
+        if "Reference" in entry:
+            rooms_pages = [f"reference/{room}.md" for room in crossing()]
+            entry["Reference"] = ["reference/index.md", *rooms_pages]
+        elif "Decisions" in entry:
+            records = sorted(docs.glob("decisions/0*.md"))
+            entry["Decisions"] += [f"decisions/{one.name}" for one in records]
+    developer[1:1] = sorted(page.name for page in docs.glob("*.md") if page.name not in named)
     return config
+
+
+def _named(entry: Any) -> Iterator[str]:
+    """Pages that the navigation names."""
+    if isinstance(entry, str):
+        yield entry
+    for part in entry if isinstance(entry, list) else ():
+        yield from _named(part)
+    for part in entry.values() if isinstance(entry, dict) else ():
+        yield from _named(part)
 
 
 def on_files(files: Files, config: Any) -> Files:

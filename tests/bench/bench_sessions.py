@@ -45,7 +45,7 @@ def main() -> None:
                 path.read_bytes() for path in sorted(folder.glob("*.json"))
             ],
         }
-        assert len(list_sessions(folder)) == COUNT  # noqa: S101
+        assert len(list_sessions(folder)) == COUNT
         times: dict[str, list[float]] = {way: [] for way in ways}
         for _ in range(RUNS):
             for way, work in ways.items():

@@ -2,14 +2,15 @@ from importlib.metadata import requires, version
 
 import pytest
 from PySide6.QtCore import QUrl
-from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtGui import QAction, QDesktopServices
+from PySide6.QtWidgets import QApplication, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from app import __version__
 from app.core.parts import parts
 from app.views.kit.text import disclaimer
 from app.views.robot.health_panel import HealthPanel
 from app.views.shell import help as user_guide
+from app.views.shell import window as shell_window
 from app.views.shell.about import AboutDialog
 from app.views.shell.application import icon
 
@@ -92,3 +93,31 @@ def test_without_site_and_sources_help_says_what_to_do(parent, monkeypatch, tmp_
     shown = [one.text() for one in window.findChildren(QLabel) if not one.isHidden()]
     assert any("make docs" in text and "docs/planning.md" in text for text in shown)
     window.close()
+
+
+def test_f1_opens_the_page_about_what_has_the_keyboard(window, monkeypatch):
+    asked = []
+    monkeypatch.setattr(shell_window, "show_help", lambda parent, page: asked.append(page))
+    (f1,) = [one for one in window.findChildren(QAction) if "F1" in _keys(one)]
+    monkeypatch.setattr(QApplication, "focusWidget", lambda: window.workspace.bullseye)
+    f1.trigger()
+    assert asked == [user_guide.PAGES["exercise"]]
+    (keys,) = [one for one in window.findChildren(QAction) if "?" in _keys(one)]
+    assert keys.text() == "Keys and mouse"
+
+
+def test_every_panel_has_a_page_of_its_own(window):
+    side = window.workspace.side
+    found = {}
+    for index in range(side.count()):
+        side.setCurrentIndex(index)
+        panel = side.currentWidget()
+        inner = panel.widget() if isinstance(panel, QScrollArea) else panel
+        found[side.names()[index]] = user_guide.page_of(inner)
+    assert user_guide.HOME not in found.values()
+    assert found["Structures"] == user_guide.PAGES["structures"]
+    assert found["Robot"] == user_guide.PAGES["robot"]
+
+
+def _keys(action):
+    return [key.toString() for key in action.shortcuts()]

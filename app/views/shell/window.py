@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import TypeVar
 
 from PySide6.QtCore import QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
-from PySide6.QtWidgets import QMainWindow, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtGui import QCloseEvent, QCursor, QDragEnterEvent, QDropEvent, QShowEvent
+from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
 from app.session.result import AttemptResult
 from app.views.debrief.feature import DebriefFeature
@@ -29,6 +29,7 @@ from app.views.shell.about import about
 from app.views.shell.change_of_patient import ChangeOfPatient
 from app.views.shell.feature import Context, Feature
 from app.views.shell.features import FEATURES
+from app.views.shell.help import page_of, show_help
 from app.views.shell.message_bar import MessageBar
 from app.views.shell.message_topics import connect_messages
 from app.views.shell.notices import Notices
@@ -127,6 +128,11 @@ class MainWindow(QMainWindow):
         """Show the debrief of an attempt that ended."""
         self.feature(DebriefFeature).show_result(result)
 
+    def show_help(self) -> None:
+        """Open the user guide at the page about what has the keyboard, or is under the mouse."""
+        within = QApplication.focusWidget() or QApplication.widgetAt(QCursor.pos())
+        show_help(self, page_of(within))
+
     def show_shortcuts(self) -> None:
         """Open the sheet of keys."""
         sheet = ShortcutSheet(self.workspace.viewing.scheme, self)
@@ -188,7 +194,9 @@ class MainWindow(QMainWindow):
             shell.menu(tr("&View")), self.workspace, self.conductor, self.editor, self.projector
         )
         add_entries(shell.menu(tr("&Help")), [
-            (tr("Keys and mouse"), "F1 | ?", self.show_shortcuts),
+            (tr("Help on this part"), "F1", self.show_help),
+            (tr("User guide"), "", lambda: show_help(self)),
+            (tr("Keys and mouse"), "?", self.show_shortcuts),
             (tr("Report a problem…"), "", self.report_problem),
             (tr("About Acus"), "", self.show_about),
         ])  # fmt: skip
