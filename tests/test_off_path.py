@@ -20,12 +20,12 @@ from app.exercises.scene import device_of, placed_plan_of
 from app.planning.off_path import offset, path_to
 from app.planning.plan import Plan
 from app.session.curves import curves
+from app.session.pad.view import depth_tolerance, rings
 from app.session.recording import read_recording
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.live_needle import LiveNeedle
-from app.views.exercise.pad_view import depth_tolerance, rings
 from app.views.exercise.readings import figures, pad_view
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.target_motion import TargetMotion

@@ -11,9 +11,9 @@ from PySide6.QtWidgets import QApplication
 from app.exchange.csv_export import score_table, trajectory_table
 from app.session.recording import read_recording
 from app.session.replay_contents import contents
+from app.session.review import review
 from app.session.store import list_sessions
 from app.views.debrief.report import report_bytes
-from app.views.debrief.review import review
 
 FOLDER = Path(__file__).parent / "data" / "records"
 """Version 1.x: `first-insertion` by hand, `against-repulsion` with the dial turned from -0.5 to

@@ -19,10 +19,10 @@ from app.imaging.body import find_body
 from app.imaging.reading import load_ct
 from app.planning.proposal import demonstration_plan
 from app.session.ct_facts import CtFacts
+from app.session.review import review_of_result
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.views.debrief.report import write_report
-from app.views.debrief.review import review_of_result
 from app.views.shell.application import start
 
 START, SECONDS, ARRIVED = 100.0, 60.0, 9.0

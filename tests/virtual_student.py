@@ -13,11 +13,11 @@ from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan
 from app.session.errors import ControlLockedError
 from app.session.machine import State
+from app.session.pad.geometry import PadScale, downward, path_frame
+from app.session.pad.hand import Hand, HandLimits, HandPose
 from app.session.trainer import Trainer
 from app.session.withdrawal import Start
 from app.tracking.fix import FixStatus, NeedleFix
-from app.views.exercise.hand import Hand, HandLimits, HandPose
-from app.views.exercise.pad_geometry import PadScale, downward, path_frame
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 FRAME = 1.0 / 30.0

@@ -16,11 +16,11 @@ from PySide6.QtWidgets import QApplication
 from app.core.transform import RigidTransform
 from app.mechanisms.profile import load_profile
 from app.tracking.calibration.boards import Board, parse_board
+from app.tracking.calibration.job import CalibrationJob
 from app.tracking.calibration.placed_board import place
 from app.tracking.optics.rig import load_rig
 from app.tracking.simulated.board import BoardRenderer
 from app.views.cameras.wizard import CalibrationWizard
-from app.views.cameras.wizard_job import CalibrationJob
 from app.views.shell.application import start
 from tools.robot_pictures import keep, pause, wait
 

@@ -19,12 +19,12 @@ from app.core.clock import VirtualClock
 from app.core.progress import Progress
 from app.exercises.guidance import GuidanceMode
 from app.planning.placement import PlacedPlan
+from app.session.pad.view import rings
+from app.session.shown_views import Shown
 from app.session.snapshot import Snapshot
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
-from app.views.exercise.pad_view import rings
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.shown import Shown
 from app.views.shell.services import RunSetup
 
 START, LONGEST = 100.0, 120.0

@@ -96,8 +96,8 @@ def board_(
     paper: Annotated[str, typer.Option("--paper", help="A4, A3 or Letter.")] = "A4",
 ) -> Answer:
     """Write a board as PDF at true size; print it at 100 %."""
+    from app.tracking.calibration.board_layout import paper_named
     from app.tracking.calibration.boards import parse_board
-    from app.views.cameras.board_layout import paper_named
     from app.views.cameras.board_page import write_board
 
     if out.suffix.lower() != ".pdf":

@@ -10,7 +10,7 @@ import typer
 
 if TYPE_CHECKING:
     from app.session.result import AttemptResult
-    from app.views.shell.demonstration_script import Script
+    from app.views.shell.demonstration import Script
 
 
 class SkillName(StrEnum):
@@ -79,8 +79,7 @@ def _show(
     from app.tracking.cameras.settings import parse_cameras
     from app.views.shell.application import start
     from app.views.shell.collector import collect_for
-    from app.views.shell.demonstration import Demonstration
-    from app.views.shell.demonstration_script import Script
+    from app.views.shell.demonstration import Demonstration, Script
     from app.views.shell.window import open_window
 
     known = library().ids()

@@ -47,8 +47,8 @@ def print_pen(
     paper: Annotated[str, typer.Option(help="A4, A3 or Letter.")] = "A4",
 ) -> Answer:
     """Write a pen's cube or ring and the sheet as a PDF."""
+    from app.tracking.calibration.board_layout import paper_named
     from app.tracking.pen.body import load_pen
-    from app.views.cameras.board_layout import paper_named
     from app.views.pen.net_page import write_pen
 
     profile = load_pen(pen) if edge is None else load_pen(pen).resized(edge)

@@ -235,12 +235,12 @@ class DesktopRun:
     def run(self) -> ExerciseRun:
         """What its views need, as the robot's board says it now: it may have come back anew."""
         from app.device.control.velocity import DEFAULT_VELOCITY
-        from app.views.exercise.pad_view import (  # Qt only for who has a window
+        from app.session.pad.view import (  # Qt only for who has a window
             depth_tolerance,
             rings,
         )
+        from app.session.shown_views import Shown
         from app.views.exercise.run import ExerciseRun
-        from app.views.exercise.shown import Shown
 
         setup, robot = self._rig.setup, self._rig.robot
         return ExerciseRun(

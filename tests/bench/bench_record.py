@@ -31,6 +31,7 @@ from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.recorder import Recorder
 from app.session.recording import Recording, _recording, _samples, open_recording
+from app.session.review import Review, review
 from app.session.sample import Sample
 from app.session.sample_columns import attachment
 from app.session.samples import History
@@ -38,7 +39,6 @@ from app.session.scan import scan
 from app.session.scored import score_document, trajectory
 from app.session.ticks import read_inputs
 from app.views.debrief.page import DebriefPage
-from app.views.debrief.review import Review, review
 from app.views.shell.application import start
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])

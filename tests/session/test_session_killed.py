@@ -294,7 +294,7 @@ def test_an_attempt_ends_when_the_program_slept_and_says_so(bench: Bench) -> Non
 def test_an_attempt_just_ended_is_shown_without_reading_its_record(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from app.views.debrief.review import review, review_of_result
+    from app.session.review import review, review_of_result
 
     bench.trainer.begin("s")
     bench.run(2.0, 0.06)

@@ -15,10 +15,10 @@ from app.core.exits import Exit
 from app.exchange.csv_export import score_table
 from app.scoring.conditions import DeviceKind, comparable
 from app.session.recording import read_recording
+from app.session.review import review
 from app.session.sidecar import cached, fresh_summary, read_summary, sidecar, verify_record
 from app.session.store import computed, list_sessions
 from app.session.verify import verify
-from app.views.debrief.review import review
 
 FOLDER = Path(__file__).parents[1] / "data" / "records"
 

@@ -22,8 +22,8 @@ from window_rig import FakeServices
 from app.imaging.body import find_body
 from app.imaging.series import Series
 from app.imaging.volume import Volume
+from app.planning.patient import Patient
 from app.views.kit.theme import apply_theme
-from app.views.series.patient import Patient
 from app.views.shell.window import MainWindow
 
 Settle = Callable[..., bool]

@@ -26,8 +26,8 @@ from app.imaging.body import find_body
 from app.imaging.volume import Volume
 from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
+from app.planning.patient import Patient
 from app.views.kit.theme import apply_theme
-from app.views.series.patient import Patient
 from app.views.shell.window import MainWindow
 from app.views.slices.looks import Look, Turn
 from app.views.slices.viewing import Tool

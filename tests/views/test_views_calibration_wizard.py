@@ -18,12 +18,12 @@ from app.tracking.calibration.coverage import Coverage
 from app.tracking.calibration.formats.own import save_camera
 from app.tracking.calibration.formats.reading import read_calibration
 from app.tracking.calibration.formats.ros import ros_paths, write_ros
+from app.tracking.calibration.job import CalibrationJob, last_board
 from app.tracking.calibration.placed_board import place
 from app.tracking.cameras.camera import Frame
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.rig import load_rig
 from app.views.cameras.wizard import CalibrationWizard
-from app.views.cameras.wizard_job import CalibrationJob, last_board
 from app.views.cameras.wizard_words import baseline_sd, verdict_of
 from app.views.exercise.status_items import Verdict
 

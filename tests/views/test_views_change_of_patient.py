@@ -29,15 +29,15 @@ from app.imaging.errors import ImagingError
 from app.imaging.scan_order import ScanNeedle, ScanOrder
 from app.imaging.structures.edit import brushed
 from app.planning.measurements import Distance
+from app.planning.patient import Patient
 from app.planning.placement import Placement
 from app.session.control_scan import ControlScan
 from app.session.machine import State
+from app.session.shown_views import Shown
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.shown import Shown
 from app.views.robot.feature import RobotFeature
 from app.views.series.feature import SeriesFeature
-from app.views.series.patient import Patient
 from app.views.shell.window import MainWindow
 from app.views.slices.viewing import Tool
 

@@ -8,10 +8,10 @@ import pytest
 
 from app.mechanisms.pantograph import kernels
 from app.mechanisms.profile import load_profile
+from app.planning import patient
 from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
 from app.planning.reach import reach
-from app.views.series import patient
 from app.views.shell.collector import FULL_EVERY, Collector
 
 

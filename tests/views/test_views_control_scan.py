@@ -20,16 +20,16 @@ from app.imaging.scan_order import ScanNeedle, ScanOrder
 from app.imaging.series import Remedy
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.edit import brushed
+from app.planning.patient import Patient
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import CtFacts
 from app.session.machine import State
+from app.session.shown_views import Shown, veiled
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.scan_view import ScanView
-from app.views.exercise.shown import Shown, veiled
 from app.views.robot.feature import RobotFeature
-from app.views.series.patient import Patient
 from app.views.structures.feature import StructuresFeature
 
 
@@ -267,7 +267,7 @@ def test_the_hand_still_moves_where_nothing_is_drawn(guided) -> None:
     window, trainer = guided
     bullseye = window.workspace.bullseye
     window.conductor.controller.look()
-    from app.views.exercise.hand import HandPose
+    from app.session.pad.hand import HandPose
 
     bullseye.take_hand(HandPose(trainer.placed.axis, 0.01, True))
     before = bullseye.hand

@@ -5,10 +5,15 @@ import pytest
 from window_rig import plan
 
 from app.exercises.parts import OwnPlan
+from app.session.shown_views import Shown
 from app.views.exercise.feature import ExerciseFeature
-from app.views.exercise.shown import Shown
-from app.views.shell.demonstration import FRESH_S, Demonstration, has_fresh_fix
-from app.views.shell.demonstration_script import DemonstrationError, Script
+from app.views.shell.demonstration import (
+    FRESH_S,
+    Demonstration,
+    DemonstrationError,
+    Script,
+    has_fresh_fix,
+)
 
 
 @pytest.fixture

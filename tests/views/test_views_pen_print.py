@@ -5,10 +5,10 @@ import pytest
 from PySide6.QtGui import QImage, QPainter
 
 from app.core.errors import AcusError
+from app.tracking.calibration.board_layout import PAPERS
 from app.tracking.pen.body import load_pen
 from app.tracking.pen.detector import MarkerDetector
-from app.views.cameras.board_layout import PAPERS
-from app.views.pen.net_layout import base_page, body_page
+from app.tracking.pen.net_layout import base_page, body_page
 from app.views.pen.net_page import paint_page, write_pen
 
 DOTS = 6.0  # per millimetre

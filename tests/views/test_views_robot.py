@@ -13,6 +13,7 @@ from app.device.faults import Fault
 from app.device.links.board_error import BoardError
 from app.device.links.link import BoardInfo, LinkStatus
 from app.device.readiness import Clearance, Readiness
+from app.device.wire_watch import WireWatch
 from app.mechanisms.profile import load_profile
 from app.views.exercise.energy_gauge import GaugeMode
 from app.views.exercise.status_items import Verdict
@@ -22,7 +23,6 @@ from app.views.robot.health_wire import Rates, link_item
 from app.views.robot.key_dialog import KeyDialog, refusal
 from app.views.robot.settings import RobotSettings
 from app.views.robot.trace import SPAN, Trace
-from app.views.robot.wire_watch import WireWatch
 
 BOARD = BoardInfo("icube", "A17-0042", "1.2.0", "1", 7)
 WIRE = {"link_replies": 1000.0, "round_trip": 8e-4, "let_go_scale": 1.0}

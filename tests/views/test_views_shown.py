@@ -17,8 +17,8 @@ from app.exercises.parts import TELLING, View
 from app.exercises.scene import CONTROL_SCAN, compile_exercise, device_of
 from app.exercises.schema import Exercise
 from app.session.curves import offset
+from app.session.shown_views import Shown
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.shown import Shown
 from app.views.reading.lock_words import view_title
 
 SHIFT = np.array([0.002, 0.006, -0.003])

@@ -27,7 +27,7 @@ PREPARE = """
 import threading
 import time
 from app.core.progress import Progress
-from app.views.series.patient import load_phantom
+from app.planning.patient import load_phantom
 failures = []
 def guarded(work):
     try:

@@ -15,13 +15,13 @@ from app.exercises.scene import device_of
 from app.session.curves import offset
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
+from app.session.shown_views import Shown
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.camera import Frame
 from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.pen.webcam import guessed_webcam
 from app.tracking.statistics import TrackerMeter
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.shown import Shown
 from app.views.shell.services import RobotPort
 from app.views.slices.viewing import Tool
 

@@ -11,8 +11,8 @@ from views_exercise_fakes import FakeTrainer, run, snapshot
 from app.core import state_vector as sv
 from app.core.arrays import angle_between
 from app.device.state import DeviceState
+from app.session.pad.hand import HandPose
 from app.views.exercise.bullseye import Bullseye
-from app.views.exercise.hand import HandPose
 from app.views.exercise.pad_painter import PadArea, free_corner, spring
 from app.views.exercise.readings import hand_pose, pad_view
 

@@ -11,6 +11,7 @@ from views_exercise_attempts import placed_plan
 from views_exercise_fakes import FakeTrainer, pose, run, snapshot
 
 from app.core.clock import VirtualClock
+from app.core.rate_meter import RateMeter
 from app.device.errors import LoopError
 from app.session.machine import State
 from app.tracking.inspection import InspectedPicture, Inspection
@@ -22,7 +23,6 @@ from app.views.exercise.camera_view import CameraView
 from app.views.exercise.controller import ExerciseController, ExerciseViews
 from app.views.exercise.messages import LONGEST, MessageList
 from app.views.exercise.panel import ExercisePanel
-from app.views.exercise.rate_meter import RateMeter
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.status_items import tracker_item
 from app.views.exercise.tracker_panel import TrackerFigures, TrackerPanel

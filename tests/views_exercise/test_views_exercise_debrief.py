@@ -15,14 +15,14 @@ from app.scoring.risks import RiskMark
 from app.session.curves import Curves
 from app.session.facts import plan_record
 from app.session.recording import Inputs, Recording
+from app.session.review import Mark, Span, marks, only_measured, spans
+from app.session.review import review as review_of
 from app.session.samples import Samples
 from app.views.debrief.curve_plot import peaks
 from app.views.debrief.curves import CurvesView, curves_of, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.print_plot import polylines, ticks
 from app.views.debrief.report import report_bytes, write_report
-from app.views.debrief.review import Mark, Span, marks, only_measured, spans
-from app.views.debrief.review import review as review_of
 from app.views.debrief.score_words import number, row_texts, verdict
 from app.views.kit import theme
 

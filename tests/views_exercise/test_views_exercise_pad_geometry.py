@@ -9,7 +9,7 @@ from app.core.arrays import angle_between
 from app.core.errors import NumericalError
 from app.core.rotation import rotation_exp
 from app.planning.off_path import Offset
-from app.views.exercise.pad_geometry import (
+from app.session.pad.geometry import (
     PadScale,
     clamp_to_cone,
     ct_angles,

@@ -10,13 +10,13 @@ from views_exercise_attempts import placed_plan, review
 from app.session.errors import SessionError
 from app.session.facts import plan_record
 from app.session.recording import Recording
+from app.session.review import review_of_result
 from app.session.samples import Samples
 from app.session.sidecar import write_summary
 from app.session.summary import Summary
 from app.session.ticks import Inputs
 from app.views.debrief.controller import DebriefController
 from app.views.debrief.page import DebriefPage
-from app.views.debrief.review import review_of_result
 from app.views.debrief.sessions import SessionsPage
 from app.views.debrief.sessions_model import (
     DURATION,

@@ -8,7 +8,7 @@ from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.result import Score, judge
 from app.scoring.rows import Row, Rules
 from app.session.curves import Curves
-from app.views.debrief.review import Mark, Review, spans
+from app.session.review import Mark, Review, spans
 
 FULCRUM = (0.0, 0.16056, 0.090)
 

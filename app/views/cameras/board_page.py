@@ -19,10 +19,10 @@ from PySide6.QtWidgets import QApplication
 from app import __version__
 from app.core.files import write_atomically
 from app.core.units import MILLIMETRE
+from app.tracking.calibration.board_layout import EDGE_MM, RULER_MM, Paper, Sheet, lay_out
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.pattern import dark_rectangles
 from app.tracking.errors import CalibrationError
-from app.views.cameras.board_layout import EDGE_MM, RULER_MM, Paper, Sheet, lay_out
 from app.views.kit.text import tr
 
 _DPI: Final = 1200

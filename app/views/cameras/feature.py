@@ -23,8 +23,8 @@ from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
+    from app.tracking.calibration.camera_pair import OpenCamera
     from app.tracking.cameras.latency import Latency
-    from app.views.cameras.camera_pair import OpenCamera
     from app.views.cameras.wizard import CalibrationWizard
 
 _BOARD = "cameras/board"
@@ -114,10 +114,10 @@ class CamerasFeature(Feature):
     def _wizard(self, chosen: CameraSettings) -> CalibrationWizard:
         # OpenCV and kernels: only for whom the wizard is opened, not with the window.
         from app.mechanisms.profile import load_profile
+        from app.tracking.calibration.camera_pair import open_both
+        from app.tracking.calibration.job import CalibrationJob, last_board
         from app.tracking.optics.rig import load_rig
-        from app.views.cameras.camera_pair import open_both
         from app.views.cameras.wizard import CalibrationWizard
-        from app.views.cameras.wizard_job import CalibrationJob, last_board
 
         profile, rig = self._conductor.profile, load_rig(chosen.rig)
         left, right = (camera.name for camera in rig.cameras)

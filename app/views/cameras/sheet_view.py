@@ -7,8 +7,8 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.errors import AcusError
+from app.tracking.calibration.board_layout import PAPERS, lay_out
 from app.tracking.calibration.boards import Board
-from app.views.cameras.board_layout import PAPERS, lay_out
 from app.views.cameras.board_page import paint_sheet
 
 

@@ -18,10 +18,10 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.progress import Progress
-from app.views.cameras.camera_pair import OpenCamera, OpenPair
+from app.tracking.calibration.camera_pair import OpenCamera, OpenPair
+from app.tracking.calibration.job import CalibrationJob
 from app.views.cameras.wizard_board import BoardPage
 from app.views.cameras.wizard_capture import CapturePage
-from app.views.cameras.wizard_job import CalibrationJob
 from app.views.cameras.wizard_parts import button
 from app.views.cameras.wizard_result import ResultPage
 from app.views.cameras.wizard_save import SavePage

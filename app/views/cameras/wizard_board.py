@@ -19,11 +19,11 @@ from PySide6.QtWidgets import (
 
 from app.core.errors import AcusError
 from app.core.units import MILLIMETRE
+from app.tracking.calibration.board_layout import PAPERS
 from app.tracking.calibration.boards import Board, BoardKind, dictionary_names
-from app.views.cameras.board_layout import PAPERS
+from app.tracking.calibration.job import CalibrationJob
 from app.views.cameras.board_page import write_board
 from app.views.cameras.sheet_view import SheetView
-from app.views.cameras.wizard_job import CalibrationJob
 from app.views.cameras.wizard_parts import button, column, label, tell
 from app.views.exercise.status_items import Verdict
 from app.views.kit import theme

@@ -10,12 +10,12 @@ from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QWidget
 
 from app.core.errors import AcusError
+from app.tracking.calibration.camera_pair import OpenCamera, OpenPair, PairOpening
+from app.tracking.calibration.capture import FolderShots, LiveShots, Search, Shot
 from app.tracking.calibration.collector import ViewCollector
+from app.tracking.calibration.job import CalibrationJob, Views
 from app.tracking.calibration.views import BoardView
-from app.views.cameras.camera_pair import OpenCamera, OpenPair, PairOpening
-from app.views.cameras.capture import FolderShots, LiveShots, Search, Shot
 from app.views.cameras.coverage_view import CoverageView
-from app.views.cameras.wizard_job import CalibrationJob, Views
 from app.views.cameras.wizard_parts import button, column, label, tell, thin_bar
 from app.views.cameras.wizard_words import pairs_words
 from app.views.exercise.status_items import Verdict

@@ -13,9 +13,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.tracking.calibration.job import CalibrationJob
 from app.tracking.calibration.run import StereoResult
 from app.tracking.optics.calibration import StereoCalibration
-from app.views.cameras.wizard_job import CalibrationJob
 from app.views.cameras.wizard_parts import button, column, label, table, tell, thin_bar
 from app.views.cameras.wizard_words import (
     figures,

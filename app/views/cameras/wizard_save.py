@@ -14,10 +14,10 @@ from PySide6.QtWidgets import (
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.tracking.calibration.history import Entry
+from app.tracking.calibration.job import CalibrationJob
 from app.tracking.optics.calibration import StereoCalibration
 from app.views.cameras.wizard_history import details, show_entry
 from app.views.cameras.wizard_import import ImportDialog
-from app.views.cameras.wizard_job import CalibrationJob
 from app.views.cameras.wizard_parts import button, column, label, table, tell
 from app.views.exercise.status_items import Verdict
 from app.views.kit.background import Task, run_in_background

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
+from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import Signal
@@ -20,6 +21,7 @@ from PySide6.QtWidgets import (
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.transform import RigidTransform
+from app.imaging.volume import Volume
 from app.planning.history import History
 from app.planning.registration.check import RegistrationCheck
 from app.planning.registration.draft import CheckDraft
@@ -29,10 +31,26 @@ from app.session.touch import Touch
 from app.views.checks.fiducial_table import FiducialTable
 from app.views.checks.registration_buttons import make_buttons, row_of
 from app.views.checks.registration_result import RegistrationResult
-from app.views.checks.surroundings import Surroundings
 from app.views.checks.toucher import Toucher, move_there
+from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.text import tr
+
+
+class Surroundings(Protocol):
+    """What the dialog needs of the window."""
+
+    def run(self) -> ExerciseRun | None:
+        """Return what runs now."""
+        ...
+
+    def volume(self) -> Volume | None:
+        """Return the CT that is shown."""
+        ...
+
+    def cursor_mm(self) -> FloatArray:
+        """Return the crosshair in the CT (LPS, mm), shape (3,)."""
+        ...
 
 
 class RegistrationDialog(QDialog):

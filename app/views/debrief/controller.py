@@ -11,12 +11,12 @@ from app.exchange.csv_export import score_table, trajectory_table, write_csv
 from app.session.errors import SessionError
 from app.session.recording import open_recording
 from app.session.result import AttemptResult
+from app.session.review import Review, review, review_of_result
 from app.session.sidecar import fresh_summary
 from app.session.store import find
 from app.session.summary import Summary
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.report import report_bytes
-from app.views.debrief.review import Review, review, review_of_result
 from app.views.debrief.sessions import SessionsPage
 from app.views.kit.background import run_in_background
 from app.views.kit.text import tr

@@ -9,9 +9,9 @@ from PySide6.QtGui import QColor, QPen
 from PySide6.QtWidgets import QGraphicsRectItem
 
 from app.core.arrays import FloatArray
+from app.session.review import Review
+from app.session.timeline import Mark
 from app.views.debrief.curve_values import Curve, time_end, value_range
-from app.views.debrief.review import Review
-from app.views.debrief.timeline import Mark
 from app.views.exercise.state_words import state_word
 from app.views.kit import theme
 from app.views.kit.text import tr

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.views.debrief.review import Review
+from app.session.review import Review
 from app.views.exercise.felt import origin_word
 from app.views.kit import theme
 from app.views.kit.text import tr

@@ -7,10 +7,10 @@ import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QTimer, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
+from app.session.review import Review
+from app.session.timeline import Span
 from app.views.debrief.curve_plot import cursor_of, draw, prepare, shade
 from app.views.debrief.curve_values import Curve, curves_of, time_end, value_range
-from app.views.debrief.review import Review
-from app.views.debrief.timeline import Span
 from app.views.exercise.state_words import state_word
 from app.views.kit import theme
 from app.views.kit.text import tr

@@ -5,10 +5,10 @@ from datetime import datetime
 from PySide6.QtCore import Qt, Signal, SignalInstance
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
 
+from app.session.review import Review
 from app.views.debrief.condition_words import facts_of, short_words
 from app.views.debrief.curves import CurvesView
 from app.views.debrief.path_view import PathView
-from app.views.debrief.review import Review
 from app.views.debrief.risk_words import risk_lines
 from app.views.debrief.scan_list import ScanList
 from app.views.debrief.score_table import ScoreTable

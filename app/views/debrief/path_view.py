@@ -8,10 +8,10 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.arrays import FloatArray
-from app.views.debrief.review import Review
-from app.views.exercise.hand import HandLimits
+from app.session.pad.hand import HandLimits
+from app.session.pad.view import PadScene
+from app.session.review import Review
 from app.views.exercise.pad_painter import PadArea, paint_background
-from app.views.exercise.pad_view import PadScene
 from app.views.kit import theme
 from app.views.kit.text import tr
 

@@ -6,9 +6,9 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen
 
+from app.session.review import Review
 from app.views.debrief.path_view import paint_track
 from app.views.debrief.print_style import DIM, INK, LINE, font
-from app.views.debrief.review import Review
 from app.views.exercise.pad_painter import PadArea
 from app.views.kit.text import tr
 

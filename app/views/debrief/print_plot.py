@@ -9,9 +9,9 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
 from app.core.arrays import FloatArray
+from app.session.timeline import Mark, Span
 from app.views.debrief.curves import Curve, time_end, value_range
 from app.views.debrief.print_style import DIM, INK, LINE, font
-from app.views.debrief.timeline import Mark, Span
 from app.views.exercise.state_words import state_word
 
 _BUCKETS: Final = 800

@@ -13,13 +13,13 @@ from app.imaging.scan_order import Seen
 from app.scoring.result import Score
 from app.scoring.rows import Row
 from app.session.control_scan import TEACHING_ESTIMATE
+from app.session.review import Review
 from app.views.debrief.condition_words import facts_of
 from app.views.debrief.curves import curves_of
 from app.views.debrief.page import date_text
 from app.views.debrief.print_path import paint_path
 from app.views.debrief.print_plot import paint_plot
 from app.views.debrief.print_style import BAND_INKS, DIM, INK, RULE, font
-from app.views.debrief.review import Review
 from app.views.debrief.risk_words import risk_lines
 from app.views.debrief.score_words import counting, row_texts, shown_only, total_text, verdict
 from app.views.exercise.readouts import clock_text

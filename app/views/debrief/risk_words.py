@@ -1,7 +1,7 @@
 """How near the needle came to structures of risk, in words for screen and paper."""
 
 from app.scoring.risks import RiskMark
-from app.views.debrief.review import Review
+from app.session.review import Review
 from app.views.exercise.readouts import clock_text
 from app.views.kit.text import tr
 

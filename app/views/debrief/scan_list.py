@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
 
 from app.imaging.scan_order import Seen
 from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
-from app.views.debrief.review import Review
+from app.session.review import Review
 from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
 from app.views.kit.coordinates import axis_words

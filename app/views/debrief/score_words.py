@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from app.scoring.result import Score
 from app.scoring.rows import Row
 from app.scoring.tolerance import Band
-from app.views.debrief.review import Review
+from app.session.review import Review
 from app.views.kit import theme
 from app.views.kit.text import tr
 

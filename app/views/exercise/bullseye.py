@@ -6,12 +6,12 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
+from app.session.pad.hand import Hand, HandPose
+from app.session.pad.view import PadScene, PadView
 from app.views.exercise.depth_bar import DepthBar
-from app.views.exercise.hand import Hand, HandPose
 from app.views.exercise.hands.chooser import HandChooser
 from app.views.exercise.hands.source import HandChange
 from app.views.exercise.pad_canvas import PadCanvas
-from app.views.exercise.pad_view import PadScene, PadView
 from app.views.exercise.words import corrections, ct_words, lateral, remaining
 from app.views.kit import theme
 from app.views.kit.text import tr

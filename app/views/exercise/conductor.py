@@ -14,18 +14,19 @@ from app.exercises.scene import device_of, draft_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.planning.draft import DraftPlan
+from app.planning.patient import Patient
 from app.planning.placement import Placement
 from app.session.ct_facts import CtFacts
 from app.session.machine import RUNNING
+from app.session.pad.view import rings
+from app.session.shown_views import Shown
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.settings import CameraSettings
 from app.views.exercise.controller import ExerciseController
 from app.views.exercise.live_needle import LiveNeedle
-from app.views.exercise.pad_view import rings
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.runs import Runs
 from app.views.exercise.scan_source import ScanSource
-from app.views.exercise.shown import Shown
 from app.views.exercise.target_motion import TargetMotion
 from app.views.kit.background import Indicator
 from app.views.kit.text import tr
@@ -34,7 +35,6 @@ from app.views.reading.fixed_reading import apply as apply_reading
 from app.views.reading.lock_words import why_locked
 from app.views.reading.workspace import Workspace
 from app.views.scene.extraction import SurfaceExtraction
-from app.views.series.patient import Patient
 from app.views.shell.services import RobotChoice, RunSetup
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool, Viewing

@@ -9,10 +9,10 @@ from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import Event
+from app.session.pad.hand import HandPose
 from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
 from app.views.exercise.display import ExerciseDisplay, ExerciseViews
-from app.views.exercise.hand import HandPose
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status_items import StatusItem
 from app.views.kit.background import run_in_background

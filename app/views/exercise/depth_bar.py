@@ -4,7 +4,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from app.views.exercise.pad_view import PadScene
+from app.session.pad.view import PadScene
 from app.views.kit import theme
 from app.views.kit.text import tr
 

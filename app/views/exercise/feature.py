@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QSplitter
 
 from app.core.errors import AcusError
 from app.exercises.schema import Exercise
+from app.planning.patient import Patient
 from app.views.kit.text import tr
-from app.views.series.patient import Patient
 from app.views.shell.feature import Context, Feature
 
 

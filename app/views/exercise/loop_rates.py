@@ -1,7 +1,7 @@
 """How often the loop ticks and which share of its deadlines it misses, from its counters."""
 
+from app.core.rate_meter import RateMeter
 from app.session.snapshot import Snapshot
-from app.views.exercise.rate_meter import RateMeter
 from app.views.exercise.status_items import MISSED_WINDOW
 
 

@@ -8,6 +8,7 @@ from PySide6.QtCore import QPointF, QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from app.session.pad.view import PadScene, PadView
 from app.views.exercise.pad_painter import (
     PadArea,
     paint_background,
@@ -15,7 +16,6 @@ from app.views.exercise.pad_painter import (
     paint_hand,
     paint_needle,
 )
-from app.views.exercise.pad_view import PadScene, PadView
 from app.views.kit import theme
 from app.views.kit.text import tr
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPen, QPolygonF
 
-from app.views.exercise.pad_view import PadScene, PadView
+from app.session.pad.view import PadScene, PadView
 from app.views.kit import theme
 from app.views.kit.text import tr
 

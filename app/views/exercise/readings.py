@@ -8,16 +8,16 @@ from app.core import state_vector as sv
 from app.device.faults import Fault
 from app.device.state import DeviceState
 from app.planning.off_path import split
+from app.session.pad.geometry import downward
+from app.session.pad.hand import HandPose
+from app.session.pad.view import PadView
 from app.session.snapshot import Snapshot
 from app.tracking.cameras.watch import CameraState
 from app.tracking.fix import FixStatus
 from app.tracking.statistics import TrackerStatistics
 from app.views.exercise.camera_view import camera_name
 from app.views.exercise.felt import felt, guidance_limit
-from app.views.exercise.hand import HandPose
 from app.views.exercise.live import LiveFigures
-from app.views.exercise.pad_geometry import downward
-from app.views.exercise.pad_view import PadView
 from app.views.exercise.status_items import (
     LoopFigures,
     StatusItem,

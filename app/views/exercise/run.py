@@ -12,12 +12,12 @@ from app.exercises.guidance import GuidancePart
 from app.imaging.scan_order import ScanOrder
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
+from app.session.pad.geometry import PadScale, path_frame
+from app.session.pad.hand import HandLimits
+from app.session.pad.view import PadScene, depth_tolerance, rings
 from app.session.result import AttemptResult
+from app.session.shown_views import Shown
 from app.session.snapshot import Snapshot
-from app.views.exercise.hand import HandLimits
-from app.views.exercise.pad_geometry import PadScale, path_frame
-from app.views.exercise.pad_view import PadScene, depth_tolerance, rings
-from app.views.exercise.shown import Shown
 
 if TYPE_CHECKING:
     from app.device.links.link import BoardInfo

@@ -10,12 +10,12 @@ from PySide6.QtCore import QObject, Signal
 from app.core.events import Event
 from app.core.progress import Progress
 from app.imaging.volume import Volume
+from app.planning.patient import Patient
 from app.session.control_scan import ControlScan
 from app.views.exercise.controller import ExerciseController
 from app.views.exercise.scan_range import attach
 from app.views.kit.background import run_in_background
 from app.views.reading.workspace import Workspace
-from app.views.series.patient import Patient
 
 DECLARATION: Final[dict[str, Any]] = {
     "view": "control_scan",

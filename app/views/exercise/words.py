@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.planning.off_path import Offset
-from app.views.exercise.pad_geometry import PathFrame
+from app.session.pad.geometry import PathFrame
 from app.views.kit.text import tr
 
 STRAIGHT_DEG = 0.1

@@ -19,9 +19,9 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.errors import AcusError
+from app.tracking.calibration.board_layout import PAPERS
 from app.tracking.pen.body import load_pen, shipped_pens
 from app.tracking.pen.settings import PenSettings
-from app.views.cameras.board_layout import PAPERS
 from app.views.cameras.boxes import SizeBox, SourceBox
 from app.views.cameras.wizard_parts import button, label, tell
 from app.views.exercise.status_items import Verdict

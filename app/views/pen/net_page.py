@@ -18,12 +18,12 @@ from PySide6.QtWidgets import QApplication
 
 from app import __version__
 from app.core.files import write_atomically
+from app.tracking.calibration.board_layout import RULER_MM, Paper
 from app.tracking.errors import PenError
 from app.tracking.pen.board import marker_cells
 from app.tracking.pen.body import PenProfile
-from app.views.cameras.board_layout import RULER_MM, Paper
+from app.tracking.pen.net_layout import Face, Page, base_page, body_page
 from app.views.kit.text import tr
-from app.views.pen.net_layout import Face, Page, base_page, body_page
 
 _DPI: Final = 1200
 _MM_PER_INCH: Final = 25.4

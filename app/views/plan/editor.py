@@ -13,9 +13,9 @@ from app.core.errors import AcusError
 from app.mechanisms.profile import DeviceProfile
 from app.planning.draft import DraftPlan
 from app.planning.history import History
+from app.planning.judge import Edit, Judge, Verdict
 from app.planning.placement import Placement
 from app.planning.plan import Plan
-from app.views.plan.judge import Edit, Judge, Verdict
 from app.views.slices.viewing import Tool
 
 if TYPE_CHECKING:

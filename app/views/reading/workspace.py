@@ -14,14 +14,14 @@ from PySide6.QtWidgets import (
 from app.core.units import MILLIMETRE
 from app.exercises.parts import View
 from app.planning.draft import DraftPlan
+from app.session.pad.view import rings
+from app.session.shown_views import Shown
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseViews
 from app.views.exercise.messages import MessageList
 from app.views.exercise.needle_cell import NeedleCell
-from app.views.exercise.pad_view import rings
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.scan_view import ScanView
-from app.views.exercise.shown import Shown
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.tracker_panel import TrackerPanel
 from app.views.kit import theme

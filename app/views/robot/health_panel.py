@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from app import __version__
+from app.device.wire_watch import WireWatch
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status_items import StatusItem
@@ -26,7 +27,6 @@ from app.views.kit.text import tr
 from app.views.robot.health import HealthGroup, health
 from app.views.robot.health_wire import Rates
 from app.views.robot.trace import Trace
-from app.views.robot.wire_watch import WireWatch
 
 PERIOD = 0.25
 """Words are refreshed this often [s]; curves at every look."""

@@ -9,6 +9,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.device.links.board_error import describe_error
 from app.device.links.link import LinkStatus
+from app.device.wire_watch import WINDOW, WireFigures
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status_items import (
@@ -19,7 +20,6 @@ from app.views.exercise.status_items import (
     loop_item,
 )
 from app.views.kit.text import tr
-from app.views.robot.wire_watch import WINDOW, WireFigures
 
 NONE = "–"
 

@@ -8,10 +8,10 @@ from PySide6.QtCore import QObject, Signal
 
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
+from app.planning.patient import Patient
 from app.views.kit.background import Task, run_in_background
 from app.views.kit.text import tr
 from app.views.scene.view import SceneView
-from app.views.series.patient import Patient
 
 if TYPE_CHECKING:
     from app.views.scene.surfaces import Surfaces

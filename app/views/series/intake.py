@@ -11,10 +11,10 @@ from PySide6.QtWidgets import QWidget
 
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
+from app.imaging.candidate import Candidate
 from app.imaging.series import Series
 from app.views.kit.background import Indicator, Task, run_in_background
 from app.views.kit.text import tr
-from app.views.series.candidate import Candidate
 from app.views.series.import_report import ImportReport
 from app.views.series.mask_dialog import Boxes, MaskDialog
 

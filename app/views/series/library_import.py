@@ -10,12 +10,12 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
+from app.imaging.candidate import of_folder, of_pacs
 from app.imaging.series import Listing, Series
 from app.views.kit.background import Indicator, Task, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.series.browser import SeriesBrowser
-from app.views.series.candidate import of_folder, of_pacs
 from app.views.series.intake import Intake
 from app.views.series.pacs_panel import PacsPanel
 from app.views.series.pacs_settings import PacsSettingsDialog

@@ -14,11 +14,11 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.errors import ImagingError, TooLargeError
 from app.imaging.series import Listing, Remedy, Series
+from app.planning.patient import Patient, load_phantom, read_patient
 from app.views.kit.background import Indicator, Task, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.series.browser import SeriesBrowser
-from app.views.series.patient import Patient, load_phantom, read_patient
 from app.views.shell.settings import Recents
 
 T = TypeVar("T")

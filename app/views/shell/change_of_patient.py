@@ -8,9 +8,9 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QMessageBox
 
 from app.planning.draft import DraftPlan
+from app.planning.patient import Patient
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
-from app.views.series.patient import Patient
 from app.views.shell.feature import Context, Feature
 
 

@@ -6,6 +6,8 @@ It presses what a user would press. With a folder for pictures it leaves one of 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -13,6 +15,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.core import state_vector as sv
 from app.core.errors import AcusError
+from app.planning.patient import Patient
 from app.planning.placement import Placement
 from app.planning.proposal import demonstration_plan
 from app.session.machine import State
@@ -21,9 +24,7 @@ from app.session.result import AttemptResult
 from app.session.snapshot import Snapshot
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
-from app.views.series.patient import Patient
 from app.views.shell.demonstration_pictures import StillPictures
-from app.views.shell.demonstration_script import DemonstrationError, Script
 from app.views.shell.window import MainWindow
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool
@@ -39,6 +40,27 @@ FRESH_S: Final = 0.1
 """Pictures on the way wait until the cameras' last fix is no older [s]: drawing disturbs them."""
 
 TRAINEE_DONE: Final = 9.0
+
+
+class DemonstrationError(AcusError):
+    """An exercise cannot be shown by itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class Script:
+    """What is demonstrated.
+
+    Attributes:
+        exercise: identifier of the exercise.
+        ct: folder of another CT; None for the exercise's own patient.
+        student: pseudonym.
+        pictures: folder for pictures and report; None for none.
+    """
+
+    exercise: str = "first-insertion"
+    ct: Path | None = None
+    student: str = "demo"
+    pictures: Path | None = None
 
 
 def has_fresh_fix(snapshot: Snapshot) -> bool:

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QWidget
 
 from app.core.errors import AcusError
 from app.session.result import AttemptResult
+from app.session.review import review_of_result
 from app.views.debrief.report import write_report
-from app.views.debrief.review import review_of_result
 from app.views.slices.canvas import SliceCanvas
 
 

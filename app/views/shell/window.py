@@ -9,6 +9,7 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QCloseEvent, QCursor, QDragEnterEvent, QDropEvent, QShowEvent
 from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
+from app.planning.patient import Patient
 from app.session.result import AttemptResult
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.conductor import Conductor
@@ -24,7 +25,6 @@ from app.views.plan.editor import PlanEditor
 from app.views.reading.editors import Editors
 from app.views.reading.workspace import Workspace
 from app.views.series.open_ct import OpenCt
-from app.views.series.patient import Patient
 from app.views.shell.about import about
 from app.views.shell.change_of_patient import ChangeOfPatient
 from app.views.shell.feature import Context, Feature

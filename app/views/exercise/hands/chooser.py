@@ -4,7 +4,7 @@ from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QSizePolicy, QWidget
 
 from app.core.errors import AcusError
-from app.views.exercise.hand import GAINS
+from app.session.pad.hand import GAINS
 from app.views.exercise.hands.choice import SOURCES, depth_help, source_help, source_title
 from app.views.exercise.hands.source import HandSource
 from app.views.exercise.pad_canvas import PadCanvas

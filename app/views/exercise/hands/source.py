@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from PySide6.QtCore import QObject, Signal
 
-from app.views.exercise.hand import Hand
+from app.session.pad.hand import Hand
 from app.views.exercise.pad_canvas import PadCanvas
 
 HandChange = Callable[[Hand], None]

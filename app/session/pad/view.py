@@ -11,8 +11,8 @@ from app.core.units import MILLIMETRE
 from app.planning.off_path import Offset
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.tolerance import Bands
-from app.views.exercise.hand import HandLimits
-from app.views.exercise.pad_geometry import PadScale, PathFrame, path_frame
+from app.session.pad.geometry import PadScale, PathFrame, path_frame
+from app.session.pad.hand import HandLimits
 
 SAME_PATH: Final = 1e-12
 """Paths whose directions differ by less are one: the target is at rest."""

@@ -18,15 +18,15 @@ from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.curves import Curves, at_rest, curves
 from app.session.errors import SessionError
 from app.session.needle import FROM_CAMERAS
+from app.session.pad.geometry import PadScale, PathFrame, path_frame
+from app.session.pad.view import rings
 from app.session.recording import Recording
 from app.session.result import AttemptResult
 from app.session.risks import risk_marks
 from app.session.scored import renders_force
 from app.session.summary import derive
+from app.session.timeline import Mark, Span, marks, spans
 from app.session.verify import verify
-from app.views.debrief.timeline import Mark, Span, marks, spans
-from app.views.exercise.pad_geometry import PadScale, PathFrame, path_frame
-from app.views.exercise.pad_view import rings
 
 __all__ = [
     "Mark",

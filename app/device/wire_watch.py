@@ -8,7 +8,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
-from app.views.exercise.rate_meter import RateMeter
+from app.core.rate_meter import RateMeter
 
 WINDOW: Final = 10.0
 """Rates and percentiles are those of so many last seconds."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from app.core.progress import Progress
-from app.views.cameras.capture import Newest
+from app.tracking.calibration.capture import Newest
 
 
 class OpenCamera(Newest, Protocol):

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import NumericalError
-from app.views.exercise.pad_geometry import PadScale, PathFrame, clamp_to_cone
+from app.session.pad.geometry import PadScale, PathFrame, clamp_to_cone
 
 GAINS: Final = {"fine": 0.25, "normal": 0.5, "direct": 1.0}
 """Hand movement per mouse movement on the pad, by name."""

@@ -10,12 +10,12 @@ from typing import Final
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.tracking.calibration.boards import Board
+from app.tracking.calibration.camera_pair import OpenPair, close_all
+from app.tracking.calibration.capture import LiveShots
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.placed_board import PlacedBoard
 from app.tracking.calibration.views import BoardView, Rejection
 from app.tracking.errors import CalibrationError
-from app.views.cameras.camera_pair import OpenPair, close_all
-from app.views.cameras.capture import LiveShots
 
 _PICTURES: Final = 3
 """Live pictures that are averaged at one place."""

@@ -1,0 +1,1 @@
+"""The pad: the plane across the path in which the hand is seen and moved."""
