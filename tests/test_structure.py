@@ -1,0 +1,170 @@
+"""The house by its syntax trees: no circles, who knows the window, a small context, Qt in views."""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+import typing
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import app
+
+ROOT = Path(app.__file__).parents[1]
+TOOLKITS = ("PySide6", "pyqtgraph", "vtkmodules", "vtk")
+WINDOW = "MainWindow"
+MOST_FIELDS = 8
+MOST_WITHOUT_QT = 10
+
+WITHOUT_QT = {
+    "app.views.exercise.run": "what compose hands the window of a running trainer: a port",
+    "app.views.kit.themes": "the colours, as plain values",
+    "app.views.robot.bench": "what compose hands the window of a robot on the bench: a port",
+    "app.views.scene.orbit": "where the 3D camera stands",
+    "app.views.scene.robot": "the robot's shape as the 3D view draws it",
+    "app.views.slices.camera": "which part of a plane a pane shows",
+    "app.views.slices.labels": "where labels find room on a pane",
+    "app.views.slices.slab": "points and slabs as panes take them",
+}
+"""Modules of `views` that neither import a toolkit nor a module that does, each with its reason."""
+
+
+@cache
+def trees() -> dict[str, ast.Module]:
+    """Syntax tree of every module of `app`, by its dotted name."""
+    found = {}
+    for path in sorted((ROOT / "app").rglob("*.py")):
+        name = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+        found[name.removesuffix(".__init__")] = ast.parse(path.read_text())
+    return found
+
+
+def imported(tree: ast.Module) -> Iterator[tuple[str, str]]:
+    """Module and name of every import, wherever it stands: in functions and for types too."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from ((alias.name, "") for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield from ((node.module, alias.name) for alias in node.names)
+
+
+@cache
+def graph() -> dict[str, frozenset[str]]:
+    """Which modules of `app` a module imports."""
+    known, edges = trees(), {}
+    for name, tree in known.items():
+        found = set()
+        for module, part in imported(tree):
+            whole = f"{module}.{part}"
+            found.add(whole if whole in known else module)
+        edges[name] = frozenset((found & set(known)) - {name})
+    return edges
+
+
+def circles() -> list[tuple[str, ...]]:
+    """Modules that can be reached from themselves, in groups (Tarjan)."""
+    edges, order, low = graph(), {}, {}
+    stack: list[str] = []
+    found: list[tuple[str, ...]] = []
+
+    def visit(name: str) -> None:
+        order[name] = low[name] = len(order)
+        stack.append(name)
+        for other in edges[name]:
+            if other not in order:
+                visit(other)
+                low[name] = min(low[name], low[other])
+            elif other in stack:
+                low[name] = min(low[name], order[other])
+        if low[name] == order[name]:
+            group = tuple(stack[stack.index(name) :])
+            del stack[stack.index(name) :]
+            if len(group) > 1:
+                found.append(tuple(sorted(group)))
+
+    for name in edges:
+        if name not in order:
+            visit(name)
+    return found
+
+
+def test_no_modules_import_each_other_in_a_circle_not_even_late_or_for_types():
+    assert circles() == []
+
+
+def test_only_the_shell_names_the_windows_class():
+    naming = [
+        name
+        for name, tree in trees().items()
+        if any(isinstance(node, ast.Name) and node.id == WINDOW for node in ast.walk(tree))
+        or any(part == WINDOW for _, part in imported(tree))
+        or any(
+            (isinstance(node, ast.Constant) and node.value == WINDOW)
+            or (isinstance(node, ast.Attribute) and node.attr == WINDOW)
+            for node in ast.walk(tree)
+        )
+    ]
+    assert naming, "the window has another name now"
+    assert [name for name in naming if not name.startswith("app.views.shell.")] == []
+
+
+def test_the_context_is_a_small_frozen_record_without_widgets_and_features():
+    from PySide6.QtWidgets import QWidget
+
+    from app.views.shell.feature import Context, Feature
+
+    assert dataclasses.is_dataclass(Context)
+    assert Context.__dataclass_params__.frozen  # type: ignore[attr-defined]
+    kinds = typing.get_type_hints(Context)
+    assert 0 < len(dataclasses.fields(Context)) <= MOST_FIELDS
+    for field in dataclasses.fields(Context):
+        kind = kinds[field.name]
+        assert isinstance(kind, type), f"{field.name}: {kind}"
+        assert not issubclass(kind, QWidget | Feature), field.name
+
+
+def test_features_are_made_from_the_context_alone_and_know_neither_window_nor_workspace():
+    from app.views.shell.feature import Context
+    from app.views.shell.features import FEATURES
+
+    rooms = {kind.__module__.rpartition(".")[0] for kind in FEATURES}
+    for kind in FEATURES:
+        hints = typing.get_type_hints(kind.__init__)
+        hints.pop("return")
+        assert list(hints.values()) == [Context], kind
+        assert kind.__init__.__code__.co_argcount == 2, kind
+    for name, edges in graph().items():
+        if name.rpartition(".")[0] in rooms and not name.startswith("app.views.exercise"):
+            assert "app.views.reading.workspace" not in edges, name
+            assert "app.views.shell.window" not in edges, name
+    for kind in FEATURES:
+        others = {other.__module__ for other in FEATURES} - {kind.__module__}
+        assert not graph()[kind.__module__] & others, f"{kind} knows another feature"
+
+
+def test_what_stands_in_views_draws_or_speaks():
+    """Words of the interface are Qt's too: they pass through `tr`, which is its translation."""
+    known, edges = trees(), graph()
+    direct = {
+        name
+        for name, tree in known.items()
+        if any(module.split(".")[0] in TOOLKITS for module, _ in imported(tree))
+    }
+    with_qt = {name for name in direct if name.startswith("app.views")}
+    while True:
+        more = {
+            name
+            for name, used in edges.items()
+            if name.startswith("app.views") and name not in with_qt and used & with_qt
+        }
+        if not more:
+            break
+        with_qt |= more
+    modules = {
+        name
+        for name, tree in known.items()
+        if name.startswith("app.views.") and len(tree.body) > 1  # not the line of a folder
+    }
+    assert modules - with_qt == set(WITHOUT_QT)
+    assert len(WITHOUT_QT) <= MOST_WITHOUT_QT
