@@ -2,8 +2,7 @@
 
 A feature is one object that brings everything of its own: menu entries, panel, page, messages, what
 it forgets at a change of patient, what it ends with the window. The list of them stands in
-`shell.features`; the window goes through it and knows none by name. How to add one is told in
-docs/writing-panels.md.
+`shell.features`; the window goes through it. How to add one is told in docs/extending.md.
 """
 
 from __future__ import annotations
