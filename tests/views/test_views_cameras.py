@@ -241,7 +241,7 @@ def test_what_a_first_start_waits_for_is_said_in_the_dialog_and_cancel_ends_it(
     row = dialog.waiting.layout().itemAt(0).widget()
     assert settle(lambda: "waiting 12 s" in row._text.text(), 10.0)
     row.cancel.click()
-    assert settle(lambda: cameras.dialog is None, 10.0)
+    assert settle(lambda: running.equipment.dialog is None, 10.0)
     assert settle(lambda: running.runs.run is not None, 10.0)
 
 
