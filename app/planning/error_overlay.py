@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
+from math import atan2, hypot, sqrt
 
 import numpy as np
 
@@ -10,7 +12,6 @@ from app.core.arrays import FloatArray, frozen
 from app.core.confidence import chi_square_quantile
 from app.core.units import MILLIMETRE
 
-POINTS = 48
 SMALLEST_MM = 1e-4
 ERROR_SCALE = 10.0
 """The 3D view enlarges ellipsoids so much, and says so: true ones vanish inside the needle."""
@@ -57,20 +58,35 @@ class ErrorOverlay:
         largest = float(np.linalg.eigvalsh(self.covariance_mm2)[-1])
         return 1.0 if chi_square_quantile(0.95, 3) * largest > LARGE_MM**2 else ERROR_SCALE
 
-    def outline_mm(self, across: FloatArray) -> FloatArray:
-        """Outline of the ellipsoid seen along a plane's normal, from its centre, shape (48, 2).
+    def ellipse_mm(self, right: FloatArray, down: FloatArray) -> tuple[float, float, float]:
+        """Half axes [mm] of the ellipsoid seen along a plane's normal, and the first one's angle.
 
         The shadow of the ellipsoid that holds the point with 95 % (chi-square with three degrees
         of freedom), not the smaller ellipse of two: what lies outside it is outside the ellipsoid.
+        Of the covariance C in the plane, the squares of the half axes are those of the values
+        (C₁₁ + C₂₂)/2 ± √((C₁₁ − C₂₂)²/4 + C₁₂²), the first along atan2(2 C₁₂, C₁₁ − C₂₂)/2.
 
         Args:
-            across: plane coordinates of the three LPS axes [mm/mm], shape (2, 3).
+            right: unit vector of the plane, shape (3,).
+            down: unit vector of the plane, perpendicular, shape (3,).
+
+        Returns:
+            The longer and the shorter half axis [mm], and the angle of the longer one from `right`
+            towards `down` [rad].
         """
-        values, vectors = np.linalg.eigh(across @ self.covariance_mm2 @ across.T)
-        axes = vectors * np.sqrt(chi_square_quantile(0.95, 3) * np.maximum(values, SMALLEST_MM**2))
-        turn = np.linspace(0.0, 2.0 * np.pi, POINTS, endpoint=False)
-        outline: FloatArray = np.column_stack([np.cos(turn), np.sin(turn)]) @ axes.T
-        return outline
+        across = self.covariance_mm2 @ right
+        a, b = float(across @ right), float(across @ down)
+        c = float(down @ self.covariance_mm2 @ down)
+        middle, off = (a + c) / 2.0, hypot((a - c) / 2.0, b)
+        far, near = (sqrt(_chi_square() * max(v, SMALLEST_MM**2))
+                     for v in (middle + off, middle - off))  # fmt: skip
+        return far, near, 0.5 * atan2(2.0 * b, a - c)
+
+
+@cache
+def _chi_square() -> float:
+    """Square of how many standard deviations of three hold a point with 95 %."""
+    return chi_square_quantile(0.95, 3)
 
 
 class Enlargement:

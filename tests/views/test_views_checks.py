@@ -177,8 +177,19 @@ def test_an_imported_calibration_makes_no_agreement_green_and_says_why():
 def test_the_outline_is_the_shadow_of_the_ellipsoid():
     error = ErrorOverlay(np.zeros(3), np.diag([4.0, 1.0, 0.25]))
     reach = np.sqrt(chi_square_quantile(0.95, 3))
-    outline = error.outline_mm(np.array([[1.0, 0, 0], [0, 0, 1.0]]))
-    np.testing.assert_allclose(np.abs(outline).max(axis=0), [2 * reach, 0.5 * reach], rtol=0.01)
+    seen = error.ellipse_mm(np.array([1.0, 0, 0]), np.array([0, 0, 1.0]))
+    np.testing.assert_allclose(seen, [2 * reach, 0.5 * reach, 0.0])
+    rng = np.random.default_rng(2)
+    for _ in range(50):
+        axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        spread = rng.normal(size=(3, 3))
+        error = ErrorOverlay(np.zeros(3), spread @ spread.T)
+        far, near, angle = error.ellipse_mm(axes[0], axes[1])
+        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        shape = turn @ np.diag([far**2, near**2]) @ turn.T
+        np.testing.assert_allclose(
+            shape, reach**2 * (axes[:2] @ error.covariance_mm2 @ axes[:2].T), atol=1e-9
+        )
     turned = ErrorOverlay.of_world(
         np.zeros(3), 1e-6 * np.diag([4.0, 1.0, 0.25]), rotation_exp([0.0, 0.0, np.pi / 2])
     )
@@ -257,7 +268,7 @@ def test_the_ellipse_round_the_target_is_drawn_where_it_was_checked(application,
     item = canvas.layers.errors.target
     assert item.isVisible()
     reach = 2.0 * np.sqrt(chi_square_quantile(0.95, 3))
-    assert item._line.boundingRect().width() == pytest.approx(2 * reach, rel=0.02)
+    assert item.boundingRect().width() == pytest.approx(2 * reach, rel=0.02)
     assert canvas.layers.plan.target._label.startswith("Target, TRE 95 %")
     assert not pane.grab().isNull()
     viewing.set_shows_errors(False)

@@ -164,8 +164,8 @@ def test_the_target_has_its_tolerance_in_true_size(viewing, planes, pane):
     inner, outer = pane.canvas.layers.disc.rings
     assert inner.isVisible()
     assert outer.isVisible()
-    assert inner._line.boundingRect().width() == pytest.approx(12.0, rel=0.01)
-    assert outer._line.boundingRect().width() == pytest.approx(24.0, rel=0.01)
+    assert inner.boundingRect().width() == pytest.approx(12.0, rel=0.01)
+    assert outer.boundingRect().width() == pytest.approx(24.0, rel=0.01)
 
 
 def test_what_is_off_the_slice_fades_with_its_distance():

@@ -84,6 +84,8 @@ class Overlay(Written):
         self._colour = QColor(colour)
         self._larger, self._bold = larger, bold
         self._drawn: tuple[object, ...] = ()
+        self._placed: tuple[object, ...] = ()
+        self._at = QPoint()
         self._lines: tuple[str, ...] = ()
         self._first: QColor | None = None
 
@@ -100,10 +102,15 @@ class Overlay(Written):
 
     def place(self) -> None:
         """Stand at one's corner or edge of the pane, drawn for the screen and size of text."""
-        drawn = (self._lines, theme.SMALL_PX, self._pane.devicePixelRatioF())
+        pane = self._pane
+        drawn = (self._lines, theme.SMALL_PX, pane.devicePixelRatioF())
+        placed = (*drawn, pane.width(), pane.height())
+        if placed == self._placed and self._at == self._rect.topLeft():
+            return
         if drawn != self._drawn:
             self._drawn = drawn
             self._draw()
+        self._placed = placed
         width, height = self._rect.width(), self._rect.height()
         outer = self._pane.rect().adjusted(PADDING, PADDING, -PADDING, -PADDING)
         x, y = outer.center().x() - width // 2, outer.center().y() - height // 2
@@ -116,6 +123,7 @@ class Overlay(Written):
             y = outer.top()
         elif bottom:
             y = outer.bottom() - height + 1
+        self._at = QPoint(x, y)
         self.move(x, y)
 
     def _draw(self) -> None:

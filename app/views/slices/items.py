@@ -33,7 +33,7 @@ class SegmentItem(Shape):
     def __init__(self, z: float) -> None:
         super().__init__(z, visible=False)
         self._start, self._end = QPointF(), QPointF()
-        self._pen, self._rim = QPen(), QPen()
+        self._pen, self._alphas = QPen(), (1.0, 1.0)
         self._state: tuple[object, ...] = ()
 
     def place(
@@ -56,11 +56,7 @@ class SegmentItem(Shape):
             return
         self._state = state
         self._start, self._end = QPointF(*start), QPointF(*end)
-        if alphas == (1.0, 1.0):
-            self._pen, self._rim = pen, _rim_of(pen)
-        else:
-            self._pen = self._faded(pen, alphas)
-            self._rim = self._faded(_rim_of(pen), (RIM * alphas[0], RIM * alphas[1]))
+        self._pen, self._alphas = pen, alphas
         self.touch()
 
     def boundingRect(self) -> QRectF:
@@ -69,25 +65,27 @@ class SegmentItem(Shape):
 
     def paint(self, painter: QPainter) -> None:
         """Draw rim and line."""
-        painter.setPen(self._rim)
-        painter.drawLine(self._start, self._end)
-        painter.setPen(self._pen)
-        painter.drawLine(self._start, self._end)
+        start, end, alphas = self._start, self._end, self._alphas
+        solid = alphas == (1.0, 1.0)
+        painter.setPen(_rim_of(self._pen) if solid else _faded(self._pen, start, end, alphas, True))
+        painter.drawLine(start, end)
+        painter.setPen(self._pen if solid else _faded(self._pen, start, end, alphas))
+        painter.drawLine(start, end)
 
-    def _faded(self, pen: QPen, alphas: tuple[float, float]) -> QPen:
-        faded, colours = QPen(pen), []
-        for alpha in alphas:
-            colour = QColor(pen.color())
-            colour.setAlphaF(alpha)
-            colours.append(colour)
-        if alphas[0] == alphas[1]:
-            faded.setColor(colours[0])
-            return faded
-        gradient = QLinearGradient(self._start, self._end)
-        gradient.setColorAt(0.0, colours[0])
-        gradient.setColorAt(1.0, colours[1])
-        faded.setBrush(QBrush(gradient))
-        return faded
+
+def _faded(
+    pen: QPen, start: QPointF, end: QPointF, alphas: tuple[float, float], dark: bool = False
+) -> QPen:
+    """Pen, or the dark one below it, that fades evenly between the ends of a line."""
+    made = QPen(_rim_of(pen) if dark else pen)
+    colour = made.color()
+    red, green, blue = colour.red(), colour.green(), colour.blue()
+    share = 255.0 * (RIM if dark else 1.0)
+    gradient = QLinearGradient(start, end)
+    for place, alpha in zip((0.0, 1.0), alphas, strict=True):
+        gradient.setColorAt(place, QColor(red, green, blue, round(share * alpha)))
+    made.setBrush(QBrush(gradient))
+    return made
 
 
 class MarkItem(Shape):
@@ -154,8 +152,7 @@ class MarkItem(Shape):
         painter.drawPixmap(at - QPointF(half, half), symbol)
         if self._rect is None:
             return
-        alpha = 1.0 if self._near else 0.95
-        colour = self._mark.qcolor(alpha).name(QColor.NameFormat.HexArgb)
+        colour = _label_colour(self._mark, self._near)
         picture = rimmed(self._label, theme.SMALL_PX, colour, ratio)
         middle, size = self._rect.center() + at, picture.deviceIndependentSize()
         corner = QPointF(middle.x() - size.width() / 2, middle.y() - size.height() / 2)
@@ -178,6 +175,11 @@ def _rim_of(pen: QPen) -> QPen:
 def _reach(mark: Mark) -> float:
     """Half the side of a mark's picture [px]."""
     return float(ceil(MarkItem.RADIUS + mark.width + 2.0))
+
+
+@lru_cache(maxsize=64)
+def _label_colour(mark: Mark, near: bool) -> str:
+    return mark.qcolor(1.0 if near else 0.95).name(QColor.NameFormat.HexArgb)
 
 
 @lru_cache(maxsize=64)

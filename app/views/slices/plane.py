@@ -36,6 +36,8 @@ MOST_PIXELS = 1024
 AS_IT_LIES = Look()
 """Neither turned nor thick."""
 
+_CUBE = np.array(list(product((0.0, 1.0), repeat=3)))
+
 Rect = tuple[float, float, float, float]
 """Left, top, width and height [mm]."""
 
@@ -80,6 +82,8 @@ class SlicePlane:
     _axes: tuple[float, ...] = field(init=False)
     _next: tuple[float, float, float] = field(init=False)
     _per_mm: float = field(init=False)
+    _axis: int = field(init=False)
+    _frames: dict[float, Frame] = field(init=False)
 
     def __post_init__(self) -> None:
         axes = np.stack([self.first.right, self.first.down, self.ahead])
@@ -88,6 +92,8 @@ class SlicePlane:
         object.__setattr__(self, "_axes", tuple(rows.ravel().tolist()))
         object.__setattr__(self, "_next", tuple(step.tolist()))
         object.__setattr__(self, "_per_mm", 1.0 / float(step[2]))
+        object.__setattr__(self, "_axis", int(np.argmax(np.abs(self.ahead))))
+        object.__setattr__(self, "_frames", {})
 
     @property
     def is_native(self) -> bool:
@@ -110,7 +116,7 @@ class SlicePlane:
     @property
     def normal_axis(self) -> int:
         """Patient axis (0 left, 1 posterior, 2 superior) that the slices' normal follows most."""
-        return int(np.argmax(np.abs(self.ahead)))
+        return self._axis
 
     @property
     def tilt_deg(self) -> float:
@@ -159,7 +165,12 @@ class SlicePlane:
 
     def frame(self, index: float) -> Frame:
         """Place and screen directions of slice `index`, in the coordinates of `point`."""
-        return self.first.at(self.first.origin_mm + index * self.to_next_mm)
+        known = self._frames.get(index)
+        if known is None:  # asked for by every trace in the slice
+            self._frames.clear()
+            known = self.first.at(self.first.origin_mm + index * self.to_next_mm)
+            self._frames[index] = known
+        return known
 
     def index_at(self, lps_mm: ArrayLike) -> float:
         """Slice that shows an LPS point [mm]; of native ones the nearest there is, whole."""
@@ -289,7 +300,8 @@ def reformat_plane(
     )
     (left, top), (right, bottom) = places[:, :2].min(axis=0), places[:, :2].max(axis=0)
     bounds = (float(left), float(top), float(right - left), float(bottom - top))
-    least, most = np.sort(sign * places[:, 2])[[0, -1]].tolist()
+    heights = sign * places[:, 2]
+    least, most = float(heights.min()), float(heights.max())
     zero = 0.0 if from_origin else least
     around_needle = (-FIELD_MM / 2, -FIELD_MM / 2, FIELD_MM, FIELD_MM)
     return SlicePlane(
@@ -351,8 +363,9 @@ def _turned(frame: Frame, rect: Rect, look: Look, from_corner: bool) -> tuple[Fr
 
 def _corners(volume: Volume) -> FloatArray:
     """Outer corners of the outermost voxels in LPS [mm], shape (8, 3)."""
-    ends = [(-0.5, size - 0.5) for size in volume.size]
-    return volume.lps_mm(list(product(*ends)))
+    ends = _CUBE * volume.size - 0.5
+    corners: FloatArray = ends @ volume.affine_mm[:3, :3].T + volume.affine_mm[:3, 3]
+    return corners
 
 
 def _inside(volume: Volume, start: FloatArray, direction: FloatArray) -> tuple[float, float]:

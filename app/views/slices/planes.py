@@ -32,12 +32,13 @@ class Planes:
         self._looks: dict[PaneId, Look] = {}
         self._shown: dict[PaneId, SlicePlane] = {}
         self._frames: dict[PaneId, tuple[SlicePlane, float, FloatArray, Frame]] = {}
+        self._indices: dict[PaneId, tuple[SlicePlane, FloatArray, float]] = {}
 
     def begin(self, volume: Volume, slicer: OrthogonalSlicer) -> None:
         """Lay the three patient views through a volume's middle; the needle's panes have none."""
         self._volume, self._slicer = volume, slicer
         self._planes = {pane: own_plane(slicer, View(pane)) for pane in MPR_PANES}
-        self._own_index, self._shown, self._frames = {}, {}, {}
+        self._own_index, self._shown, self._frames, self._indices = {}, {}, {}, {}
         self.oblique = set()
         middle = [(count - 1) / 2 for count in volume.size]
         self.cursor_mm = frozen(volume.lps_mm(middle))
@@ -83,7 +84,11 @@ class Planes:
         plane = self._planes.get(pane)
         if plane is None or pane.is_needle:
             return self._own_index.get(pane, 0.0)
-        return plane.index_at(self.cursor_mm)
+        known = self._indices.get(pane)
+        if known is None or known[0] is not plane or known[1] is not self.cursor_mm:
+            known = plane, self.cursor_mm, plane.index_at(self.cursor_mm)
+            self._indices[pane] = known
+        return known[2]
 
     def frame(self, pane: PaneId) -> Frame | None:
         """Plane of a pane as it cuts the others: through the crosshair, or at its own slice."""

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from app.views.kit import theme
 from app.views.kit.theme import Mark
 from app.views.slices.drawing import Drawing
-from app.views.slices.error_layer import OutlineItem
+from app.views.slices.error_layer import EllipseItem
 from app.views.slices.items import MarkItem
 from app.views.slices.plane import SlicePlane
 from app.views.slices.viewing import Viewing
@@ -17,16 +15,13 @@ OUTER = Mark(theme.TARGET.colour, dash=(5.0, 3.0), width=1.5)
 SMALLEST_PX = MarkItem.RADIUS + 2.0
 """Rings that would lie under the target's own mark are not drawn."""
 
-_TURN = np.linspace(0.0, 2.0 * np.pi, 64, endpoint=False)
-_CIRCLE = np.column_stack([np.cos(_TURN), np.sin(_TURN)])
-
 
 class TargetDisc:
     """Rings of the viewing's tolerances: the inner one solid, the outer one dashed."""
 
     def __init__(self, drawing: Drawing, viewing: Viewing) -> None:
         self._viewing = viewing
-        self.rings = (OutlineItem(INNER, 3.4), OutlineItem(OUTER, 3.3))
+        self.rings = (EllipseItem(INNER, 3.4), EllipseItem(OUTER, 3.3))
         for ring in self.rings:
             drawing.add(ring)
 
@@ -41,7 +36,7 @@ class TargetDisc:
         radii = (*self._viewing.tolerances_mm, 0.0, 0.0)
         for ring, radius in zip(self.rings, radii, strict=False):
             if radius * scale >= SMALLEST_PX:
-                ring.place(at.x, at.y, radius * _CIRCLE, near)
+                ring.place(at.x, at.y, (radius, radius), near)
             else:
                 ring.setVisible(False)
 
