@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from app.commands import completion
+
 if TYPE_CHECKING:
     from app.session.result import AttemptResult
     from app.views.shell.demonstration import Script
@@ -30,7 +32,11 @@ def demo(
         Path | None, typer.Option("--ct", help="Folder of a CT; default: the built-in patient.")
     ] = None,
     exercise: Annotated[
-        str, typer.Option(help="Name of the exercise, on its own patient or on --ct.")
+        str,
+        typer.Option(
+            help="Name of the exercise, on its own patient or on --ct.",
+            autocompletion=completion.exercises,
+        ),
     ] = "first-insertion",
     headless: Annotated[
         bool, typer.Option("--headless", help="Draw into memory; needs no display.")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from app.commands import completion
 from app.commands.answer import Answer, Commands
 from app.commands.device_calibrate import calibrate
 
@@ -14,7 +15,10 @@ if TYPE_CHECKING:
     from app.compose.emulator import Emulator
 
 Port = Annotated[str, typer.Argument(help="Serial port, e.g. /dev/ttyACM0.")]
-Profile = Annotated[str, typer.Option(help="Device profile: a name or a YAML file.")]
+Profile = Annotated[
+    str,
+    typer.Option(help="Device profile: a name or a YAML file.", autocompletion=completion.profiles),
+]
 
 
 def register(app: typer.Typer) -> None:

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.commands import completion
 from app.commands.answer import Answer
 
 if TYPE_CHECKING:
@@ -20,7 +21,9 @@ def register(app: typer.Typer) -> None:
 
 
 def explain(
-    exercise: Annotated[str, typer.Argument(help="name or file of an exercise")],
+    exercise: Annotated[
+        str, typer.Argument(help="name or file of an exercise", autocompletion=completion.exercises)
+    ],
     real: Annotated[
         bool, typer.Option("--real", help="for the real robot and hand, not the simulated ones")
     ] = False,

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from app.commands import completion
+
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
@@ -17,7 +19,9 @@ def run(
     ct: Annotated[
         Path | None, typer.Option("--ct", help="Folder of a CT to open; default: the start page.")
     ] = None,
-    exercise: Annotated[str, typer.Option(help="Exercise to begin with.")] = "",
+    exercise: Annotated[
+        str, typer.Option(help="Exercise to begin with.", autocompletion=completion.exercises)
+    ] = "",
     device: Annotated[
         str | None,
         typer.Option(help="Serial port of a real robot (docs/hardware.md); default: simulated."),

@@ -5,8 +5,15 @@ from typing import Annotated, Any
 
 import typer
 
+from app.commands import completion
 from app.commands.answer import Answer, Commands
 
+Id = Annotated[
+    str,
+    typer.Argument(
+        metavar="ID", help="Session id, or its beginning.", autocompletion=completion.sessions
+    ),
+]
 FolderOption = Annotated[
     Path | None,
     typer.Option("--folder", help="Folder of the records."),
@@ -38,7 +45,7 @@ def list_(folder: FolderOption = None) -> Answer:
 
 
 def show(
-    session_id: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
+    session_id: Id,
     folder: FolderOption = None,
 ) -> Answer:
     """Show one attempt: score, events, what its record holds."""
@@ -55,7 +62,7 @@ def show(
 
 
 def replay(
-    session_id: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
+    session_id: Id,
     check: Annotated[
         bool,
         typer.Option(
@@ -85,7 +92,7 @@ def replay(
 
 
 def verify(
-    session_id: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
+    session_id: Id,
     folder: FolderOption = None,
 ) -> Answer:
     """Compute the score anew and say what differs.
@@ -100,8 +107,10 @@ def verify(
 
 
 def compare(
-    first: Annotated[str, typer.Argument(metavar="ID", help="Session id, or its beginning.")],
-    second: Annotated[str, typer.Argument(metavar="ID", help="Another one.")],
+    first: Id,
+    second: Annotated[
+        str, typer.Argument(metavar="ID", help="Another one.", autocompletion=completion.sessions)
+    ],
     folder: FolderOption = None,
 ) -> Answer:
     """Say whether two scores may be compared. Code 3 with the reasons if not."""

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from app.commands import completion
 from app.commands.answer import Answer
 
 if TYPE_CHECKING:
@@ -23,7 +24,9 @@ def register(app: typer.Typer) -> None:
 
 
 def study(
-    name: Annotated[str, typer.Argument(help="name of a study, or `list`")],
+    name: Annotated[
+        str, typer.Argument(help="name of a study, or `list`", autocompletion=completion.studies)
+    ],
     inputs: Annotated[
         list[Path] | None,
         typer.Argument(metavar="[DIR]...", help="folders, for a study that reads some"),

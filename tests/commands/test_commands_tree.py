@@ -177,12 +177,26 @@ def test_the_version_is_printed(monkeypatch, capsys):
     assert acus(monkeypatch, capsys, "--version") == (0, f"acus {__version__}\n", "")
 
 
-def test_the_shell_completes_nouns(monkeypatch, capsys):
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [
+        ("acus ses", {"session"}),
+        ("acus session ver", {"verify"}),
+        ("acus run --exercise first", {"first-insertion"}),
+        ("acus study slice_", {"slice_interpolation"}),
+        ("acus session show 2026", {"20260101-one", "20260102-two"}),
+        ("acus device test x --profile icu", {"icube"}),
+    ],
+)
+def test_the_shell_completes_commands_and_names(words, found, monkeypatch, capsys, tmp_path):
+    (tmp_path / "sessions").mkdir()
+    for name in ("20260101-one", "20260102-two"):
+        (tmp_path / "sessions" / f"{name}.mcap").touch()
     monkeypatch.setenv("_ACUS_COMPLETE", "complete_bash")
-    monkeypatch.setenv("COMP_WORDS", "acus ses")
-    monkeypatch.setenv("COMP_CWORD", "1")
+    monkeypatch.setenv("COMP_WORDS", words)
+    monkeypatch.setenv("COMP_CWORD", str(len(words.split()) - 1))
     code, out, _ = acus(monkeypatch, capsys)
-    assert (code, out.split()) == (0, ["session"])
+    assert (code, set(out.split())) == (0, found)
 
 
 def test_the_exit_codes_are_those_of_the_readme():

@@ -1,0 +1,35 @@
+"""What the shell completes beside the names of commands and options."""
+
+from collections.abc import Iterable
+
+
+def exercises(incomplete: str) -> list[str]:
+    """Return the exercises of the library that begin so."""
+    from app.exercises.library import library
+
+    return _fitting(library().ids(), incomplete)
+
+
+def studies(incomplete: str) -> list[str]:
+    """Return the studies that begin so, and `list`."""
+    from app.studies.runner import study_names
+
+    return _fitting(("list", *study_names()), incomplete)
+
+
+def sessions(incomplete: str) -> list[str]:
+    """Return the ids of recorded attempts that begin so, in the folder of the records."""
+    from app.core.paths import sessions as folder
+
+    return _fitting(sorted(path.stem for path in folder().glob("*.mcap")), incomplete)
+
+
+def profiles(incomplete: str) -> list[str]:
+    """Return the device profiles that begin so."""
+    from app.mechanisms.profile import profile_names
+
+    return _fitting(profile_names(), incomplete)
+
+
+def _fitting(names: Iterable[str], incomplete: str) -> list[str]:
+    return [name for name in names if name.startswith(incomplete)]
