@@ -16,6 +16,8 @@ from app.imaging.window import PRESETS, WindowLevel
 from app.planning.placement import PatientOrientation
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
+from app.views.exercise.status import StatusStrip
+from app.views.exercise.status_items import depth_item
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.themes import DARK, LIGHT, THEMES, restyled, translated
@@ -98,6 +100,21 @@ def test_projector_mode_is_light_large_and_without_names_and_ends(window, patien
     assert QApplication.instance().styleSheet() == dark
     assert {w: w.styleSheet() for w in sheets} == sheets
     assert "CT-TEST" in window.windowTitle()
+
+
+def test_what_the_status_strip_said_in_usual_text_has_room_in_large_text(
+    application, desk_again, settle
+):
+    strip = StatusStrip()
+    strip.show_items((depth_item("tracked", 0.01),))
+    strip.show()
+    for large in (True, False, True):
+        theme.apply_theme(application, DARK, theme.LARGE if large else 1.0)
+        settle(timeout=0.1)
+        for label in strip.findChildren(QLabel):
+            needed = label.fontMetrics().horizontalAdvance(label.text())
+            assert label.width() >= needed, (label.text(), large)
+    strip.close()
 
 
 def test_titles_of_the_robots_health_are_whole_in_large_text(window, patient, desk_again, settle):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from app.views.exercise.status_items import StatusItem, Verdict
@@ -55,11 +55,18 @@ class StatusCell(QWidget):
         for label in (self._title, self._text):
             label.setTextFormat(Qt.TextFormat.PlainText)
         self._text.setStyleSheet(f"font-size: {theme.SMALL_PX}px;")
+        self._text.installEventFilter(self)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self._title)
         column.addWidget(self._text)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Take the room that the text needs in another size."""
+        if watched is self._text and event.type() == QEvent.Type.FontChange:
+            self._text.setMinimumWidth(self._text.sizeHint().width())
+        return False
 
     def show_item(self, item: StatusItem) -> None:
         """Show an item; does nothing when it is the one shown."""
