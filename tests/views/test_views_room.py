@@ -110,6 +110,7 @@ def test_what_the_status_strip_said_in_usual_text_has_room_in_large_text(
     strip.show()
     for large in (True, False, True):
         theme.apply_theme(application, DARK, theme.LARGE if large else 1.0)
+        strip.resize(strip.minimumSizeHint())  # in a window without room to spare
         settle(timeout=0.1)
         for label in strip.findChildren(QLabel):
             needed = label.fontMetrics().horizontalAdvance(label.text())
