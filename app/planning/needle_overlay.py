@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from app.core.arrays import FloatArray, frozen
+from app.core.arrays import FloatArray, frozen, read_only
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.planning.error_overlay import ErrorOverlay
@@ -23,6 +23,7 @@ class NeedleOverlay:
         error: round the tip; None where nobody tells.
         curve_mm: points of a bent shaft from the hub end to the tip, shape (n, 3), read-only; None
             for a straight one.
+        points_mm: corners of the drawn shaft from the hub end to the tip, shape (n, 3), read-only.
 
     Raises:
         NumericalError: if a coordinate is not finite.
@@ -33,6 +34,7 @@ class NeedleOverlay:
     valid: bool = True
     error: ErrorOverlay | None = None
     curve_mm: FloatArray | None = None
+    points_mm: FloatArray = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "start_mm", frozen(self.start_mm, (3,), "start_mm"))
@@ -40,11 +42,10 @@ class NeedleOverlay:
         if self.curve_mm is not None:
             shape = (len(self.curve_mm), 3)
             object.__setattr__(self, "curve_mm", frozen(self.curve_mm, shape, "curve_mm"))
-
-    @property
-    def points_mm(self) -> FloatArray:
-        """Corners of the drawn shaft from the hub end to the tip, shape (n, 3)."""
-        return np.stack([self.start_mm, self.tip_mm]) if self.curve_mm is None else self.curve_mm
+        points = self.curve_mm
+        if points is None:  # asked for by every layer of every pane
+            points = read_only(np.stack([self.start_mm, self.tip_mm]))
+        object.__setattr__(self, "points_mm", points)
 
     @property
     def tip_direction(self) -> FloatArray:

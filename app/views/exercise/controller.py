@@ -19,8 +19,8 @@ from app.views.kit.background import run_in_background
 
 __all__ = ["PERIOD_MS", "ExerciseController", "ExerciseViews"]
 
-PERIOD_MS: Final = 25
-"""The window looks at the trainer this often: 40 Hz."""
+PERIOD_MS: Final = 16
+"""The window looks at the trainer this often: 60 Hz, as screens do."""
 
 
 class ExerciseController(QObject):

@@ -67,7 +67,11 @@ class Written:
 
 
 class Overlay(Written):
-    """Lines of text in a corner or on an edge of a pane."""
+    """Lines of text in a corner or on an edge of a pane.
+
+    Attributes:
+        lines: what is shown; changed by `set_lines`.
+    """
 
     def __init__(
         self,
@@ -86,24 +90,24 @@ class Overlay(Written):
         self._drawn: tuple[object, ...] = ()
         self._placed: tuple[object, ...] = ()
         self._at = QPoint()
-        self._lines: tuple[str, ...] = ()
+        self.lines: tuple[str, ...] = ()
         self._first: QColor | None = None
 
     def set_lines(self, *lines: str, first: str = "") -> None:
         """Show these lines, the first of them in the colour `first` if given."""
-        if lines != self._lines:
-            self._lines = lines
+        if lines != self.lines:
+            self.lines = lines
             self._first = QColor(first) if first else self._first
             self.place()
 
     def text(self) -> str:
         """Return what is shown."""
-        return "\n".join(self._lines)
+        return "\n".join(self.lines)
 
     def place(self) -> None:
         """Stand at one's corner or edge of the pane, drawn for the screen and size of text."""
         pane = self._pane
-        drawn = (self._lines, theme.SMALL_PX, pane.devicePixelRatioF())
+        drawn = (self.lines, theme.SMALL_PX, pane.devicePixelRatioF())
         placed = (*drawn, pane.width(), pane.height())
         if placed == self._placed and self._at == self._rect.topLeft():
             return
@@ -133,11 +137,11 @@ class Overlay(Written):
         font.setBold(self._bold)
         metrics = QFontMetrics(font)
         height = metrics.height()
-        width = max((metrics.horizontalAdvance(line) for line in self._lines), default=0) + 4
-        picture = self._blank(QSize(width, height * len(self._lines) + 2))
+        width = max((metrics.horizontalAdvance(line) for line in self.lines), default=0) + 4
+        picture = self._blank(QSize(width, height * len(self.lines) + 2))
         with QPainter(picture) as painter:
             painter.setFont(font)
-            for number, line in enumerate(self._lines):
+            for number, line in enumerate(self.lines):
                 box = QRect(1, 1 + number * height, width - 2, height)
                 painter.setPen(QColor(0, 0, 0, 220))
                 for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from math import cos, degrees, hypot, radians, sin
+from functools import lru_cache
+from math import ceil, cos, degrees, hypot, radians, sin
 
-from PySide6.QtCore import QPointF, QRectF
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen, QPixmap
 
 from app.planning.error_overlay import ErrorOverlay
 from app.views.kit import theme
@@ -19,6 +20,9 @@ TIP_ERROR = Mark(theme.NEEDLE_TIP.colour, width=1.5)
 
 _MIDDLE = QPointF()
 
+LARGEST_COPIED_PX = 100.0
+"""Rings up to this radius are copied as pictures, larger ones drawn."""
+
 
 class EllipseItem(Shape):
     """An ellipse with a dark rim, of true size in the plane."""
@@ -26,10 +30,7 @@ class EllipseItem(Shape):
     def __init__(self, mark: Mark, z: float) -> None:
         super().__init__(z, visible=False)
         self._at, self._axes, self._angle_deg = QPointF(), (0.0, 0.0), 0.0
-        width = mark.pen().widthF() + 2.0
-        self._pens = {near: mark.pen(alpha=1.0 if near else 0.6) for near in (True, False)}
-        self._rim = QPen(QColor.fromRgbF(0.0, 0.0, 0.0, 0.5), width)
-        self._rim.setCosmetic(True)
+        self._mark = mark
         self._near = True
 
     def place(
@@ -49,12 +50,46 @@ class EllipseItem(Shape):
 
     def paint(self, painter: QPainter) -> None:
         """Draw rim and line; faded where the slice is not near."""
+        scale = painter.transform().m11()
+        radius = self._axes[0] * scale
+        if self._axes[0] == self._axes[1] and radius <= LARGEST_COPIED_PX:
+            at = painter.transform().map(self._at)
+            painter.resetTransform()
+            ratio = painter.device().devicePixelRatioF()
+            picture = _ring(self._mark, self._near, round(radius, 1), ratio)
+            half = picture.deviceIndependentSize().width() / 2.0
+            painter.drawPixmap(at - QPointF(half, half), picture)
+            return
         painter.translate(self._at)
         if self._angle_deg:
             painter.rotate(self._angle_deg)
-        for pen in (self._rim, self._pens[self._near]):
+        for pen in _pens(self._mark, self._near):
             painter.setPen(pen)
             painter.drawEllipse(_MIDDLE, *self._axes)
+
+
+@lru_cache(maxsize=64)
+def _pens(mark: Mark, near: bool) -> tuple[QPen, QPen]:
+    """Pens of the rim and of the line."""
+    line = mark.pen(alpha=1.0 if near else 0.6)
+    rim = QPen(QColor.fromRgbF(0.0, 0.0, 0.0, 0.5), line.widthF() + 2.0)
+    rim.setCosmetic(True)
+    return rim, line
+
+
+@lru_cache(maxsize=64)
+def _ring(mark: Mark, near: bool, radius_px: float, ratio: float) -> QPixmap:
+    """Picture of a ring: of the same size as long as nobody zooms."""
+    half = ceil(radius_px + mark.width + 2.0)
+    picture = QPixmap(round(2 * half * ratio), round(2 * half * ratio))
+    picture.setDevicePixelRatio(ratio)
+    picture.fill(Qt.GlobalColor.transparent)
+    with QPainter(picture) as painter:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for pen in _pens(mark, near):
+            painter.setPen(pen)
+            painter.drawEllipse(QPointF(half, half), radius_px, radius_px)
+    return picture
 
 
 class ErrorLayer:

@@ -67,6 +67,7 @@ class Readouts(QObject):
         self.ruler = Ruler(canvas)
         for one in (self.title, self.window, self.cursor, self.slice, *self.letters, self.ruler):
             canvas.written.append(one)
+        self._room: tuple[object, ...] = ()
         self._is_new = True
         canvas.changed.connect(self.refresh)
         canvas.left.connect(self.clear_cursor)
@@ -190,7 +191,14 @@ class Readouts(QObject):
         return f"{'RLAPIS'[2 * axis + (value >= 0)]} {abs(value):.1f}"
 
     def _place(self) -> None:
-        for overlay in (self.title, self.window, self.cursor, self.slice, *self.letters):
+        texts = (self.title, self.window, self.cursor, self.slice, *self.letters)
+        canvas = self._canvas
+        room = (canvas.width(), canvas.height(), theme.SMALL_PX, canvas.devicePixelRatioF(),
+                [one.lines for one in texts])  # fmt: skip
+        if room == self._room:
+            return
+        self._room = room
+        for overlay in texts:
             overlay.place()
         below, words = self.letters[3], self.slice
         if below.geometry().intersects(words.geometry()):  # a narrow pane: the letter gives way
