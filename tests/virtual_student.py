@@ -14,7 +14,7 @@ from app.planning.plan import Plan
 from app.session.errors import ControlLockedError
 from app.session.machine import State
 from app.session.pad.geometry import PadScale, downward, path_frame
-from app.session.pad.hand import Hand, HandLimits, HandPose
+from app.session.pad.hand import HandLimits, HandPose, PadHand
 from app.session.trainer import Trainer
 from app.session.withdrawal import Start
 from app.tracking.fix import FixStatus, NeedleFix
@@ -52,7 +52,7 @@ class Student:
         frame = path_frame(placed.axis, placed.T_world_patient.rotation)
         limits = HandLimits(profile.tilt_limit, *profile.depth_range)
         start = HandPose(np.array([0.0, 0.0, -1.0]), -0.015, True)
-        self.hand = Hand(frame, scale, limits, start)
+        self.hand = PadHand(frame, scale, limits, start)
         self.rig.loop.open()
         self.trainer.step()
 

@@ -24,7 +24,7 @@ from app.views.plan.feature import PlanFeature
 from app.views.plan.paths import PathsFeature
 from app.views.shell.application import start
 from app.views.slices.looks import Look, Slab
-from app.views.slices.operator_side import Side
+from app.views.slices.operator_side import OperatorSide
 from app.views.slices.panes import PaneId
 from app.views.slices.turning import StartingPlanes, straighten, turn_planes
 from app.views.structures.feature import StructuresFeature
@@ -155,10 +155,10 @@ def looks(studio: Studio) -> None:
     turn_planes(viewing, StartingPlanes.of(viewing, turned), (0.0, 0.0, 1.0), radians(24.0))
     studio.keep("reading-oblique")
     straighten(viewing)
-    side = studio.window.view_menu.operator[Side.HEAD]
+    side = studio.window.view_menu.operator[OperatorSide.HEAD]
     side.trigger()
     studio.keep("reading-operator")
-    studio.window.view_menu.operator[Side.CONVENTION].trigger()
+    studio.window.view_menu.operator[OperatorSide.CONVENTION].trigger()
 
 
 def scanning(studio: Studio) -> None:

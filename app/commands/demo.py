@@ -12,7 +12,7 @@ from app.commands import completion
 
 if TYPE_CHECKING:
     from app.session.result import AttemptResult
-    from app.views.shell.demonstration import Script
+    from app.views.shell.demonstration import DemonstrationScript
 
 
 class SkillName(StrEnum):
@@ -85,7 +85,7 @@ def _show(
     from app.tracking.cameras.settings import parse_cameras
     from app.views.shell.application import start
     from app.views.shell.collector import collect_for
-    from app.views.shell.demonstration import Demonstration, Script
+    from app.views.shell.demonstration import Demonstration, DemonstrationScript
     from app.views.shell.window import open_window
 
     known = library().ids()
@@ -102,7 +102,7 @@ def _show(
     else:
         window.equipment.take("")  # nobody stands beside the robot that is remembered
     window.equipment.take_cameras(chosen)
-    script = Script(exercise, ct, pictures=out)
+    script = DemonstrationScript(exercise, ct, pictures=out)
     collector = collect_for(window)
     show = Demonstration(window, script)
     failures: list[str] = []
@@ -123,7 +123,7 @@ def _show(
     raise typer.Exit(code)
 
 
-def _tell(result: AttemptResult, script: Script) -> None:
+def _tell(result: AttemptResult, script: DemonstrationScript) -> None:
     score = result.score
     if score is not None:
         for row in score.rows:

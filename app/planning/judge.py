@@ -30,7 +30,7 @@ class Edit:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Verdict:
+class PlanVerdict:
     """What can be said about an edit.
 
     Attributes:
@@ -60,18 +60,18 @@ class Judge:
         self.body: Body | None = None
         self.profile: DeviceProfile | None = None
 
-    def verdict(self, edit: Edit) -> Verdict:
+    def verdict(self, edit: Edit) -> PlanVerdict:
         """Say what there is to be said about an edit."""
         if not edit.draft.complete or self.profile is None:
-            return Verdict(None)
+            return PlanVerdict(None)
         try:
             plan = edit.draft.plan()
             reached = reach(plan, edit.placement, self.profile)
             if self.body is not None:
                 plan.require_inside(self._inside)
         except AcusError as error:
-            return Verdict(None, str(error))
-        return Verdict(reached)
+            return PlanVerdict(None, str(error))
+        return PlanVerdict(reached)
 
     def on_skin(self, point: ArrayLike) -> ArrayLike:
         """Return the place on the skin next to a point; the point itself without a body.

@@ -25,13 +25,13 @@ from app.session.result import AttemptResult
 from app.session.risks import risk_marks
 from app.session.scored import renders_force
 from app.session.summary import derive
-from app.session.timeline import Mark, Span, marks, spans
+from app.session.timeline import Span, TimeMark, marks, spans
 from app.session.verify import verify
 
 __all__ = [
-    "Mark",
     "Review",
     "Span",
+    "TimeMark",
     "marks",
     "only_measured",
     "review",
@@ -96,7 +96,7 @@ class Review:
     score: Score | None
     curves: Curves
     spans: tuple[Span, ...]
-    marks: tuple[Mark, ...]
+    marks: tuple[TimeMark, ...]
     placed: PlacedPlan
     tip: FloatArray
     force_limit: float

@@ -24,7 +24,7 @@ class Span:
 
 
 @dataclass(frozen=True, slots=True)
-class Mark:
+class TimeMark:
     """An event on the time axis [s since the beginning]."""
 
     time: float
@@ -52,12 +52,12 @@ def spans(time: FloatArray, state: NDArray[np.str_]) -> tuple[Span, ...]:
     )
 
 
-def marks(events: Sequence[Event], origin: float, kinds: Sequence[str]) -> tuple[Mark, ...]:
+def marks(events: Sequence[Event], origin: float, kinds: Sequence[str]) -> tuple[TimeMark, ...]:
     """Events of some kinds on the time axis; scans are numbered."""
     found, counts = [], dict.fromkeys(kinds, 0)
     for event in events:
         if event.kind in counts:
             counts[event.kind] += 1
             label = str(counts[event.kind]) if event.kind == "scan" else event.message
-            found.append(Mark(event.time - origin, event.kind, label))
+            found.append(TimeMark(event.time - origin, event.kind, label))
     return tuple(found)

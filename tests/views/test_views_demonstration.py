@@ -11,7 +11,7 @@ from app.views.shell.demonstration import (
     FRESH_S,
     Demonstration,
     DemonstrationError,
-    Script,
+    DemonstrationScript,
     has_fresh_fix,
 )
 
@@ -27,7 +27,7 @@ def own(window, monkeypatch):
         window.feature(ExerciseFeature).exercises[exercise.id] = exercise
         window.conductor.set_exercise(exercise)
         window.show_patient(patient)
-        return Demonstration(window, Script(exercise.id))
+        return Demonstration(window, DemonstrationScript(exercise.id))
 
     return shown
 
@@ -69,7 +69,7 @@ def test_where_scans_guide_one_is_taken_at_the_target(window, patient, settle) -
     object.__setattr__(run, "shown", Shown(live=False))
     scans = []
     run.trainer.scan = lambda order=None: scans.append(order)
-    show = Demonstration(window, Script())
+    show = Demonstration(window, DemonstrationScript())
     snapshot = run.trainer.snapshot()
     snapshot.device.row[show_slot()] = 9.0
     run.trainer.snapshot = lambda: snapshot

@@ -26,7 +26,7 @@ from app.views.robot.feature import RobotFeature
 from app.views.robot.health_panel import _Line
 from app.views.shell.window import MainWindow
 from app.views.slices.looks import Look, Slab, Turn
-from app.views.slices.operator_side import Side, side_name, turns
+from app.views.slices.operator_side import OperatorSide, side_name, turns
 from app.views.slices.panes import PANE_MARKS, PaneId
 from app.views.slices.plane import looked_at, own_plane
 
@@ -301,7 +301,9 @@ def letters(volume, view, turn):
 
 @pytest.mark.parametrize(("lies", "top"), [("SUPINE", "A"), ("PRONE", "P"), ("LEFT_DOWN", "R"),
                                            ("RIGHT_DOWN", "L")])  # fmt: skip
-@pytest.mark.parametrize("side", [Side.FEET, Side.HEAD, Side.LEFT, Side.RIGHT])
+@pytest.mark.parametrize(
+    "side", [OperatorSide.FEET, OperatorSide.HEAD, OperatorSide.LEFT, OperatorSide.RIGHT]
+)
 def test_what_is_up_on_the_table_is_on_top_of_the_axial_slice(volume, lies, top, side):
     turned = turns(side, PatientOrientation[lies])
     seen = letters(volume, View.AXIAL, turned[PaneId.AXIAL])
@@ -309,8 +311,10 @@ def test_what_is_up_on_the_table_is_on_top_of_the_axial_slice(volume, lies, top,
 
 
 @pytest.mark.parametrize("lies", [PatientOrientation.SUPINE, PatientOrientation.PRONE])
-@pytest.mark.parametrize(("side", "near"), [(Side.FEET, "I"), (Side.HEAD, "S"), (Side.LEFT, "L"),
-                                            (Side.RIGHT, "R")])  # fmt: skip
+@pytest.mark.parametrize(("side", "near"), [
+    (OperatorSide.FEET, "I"), (OperatorSide.HEAD, "S"), (OperatorSide.LEFT, "L"),
+    (OperatorSide.RIGHT, "R"),
+])  # fmt: skip
 def test_what_is_near_the_operator_is_at_the_bottom_of_the_coronal_slice(volume, lies, side, near):
     turned = turns(side, lies)[PaneId.CORONAL]
     assert letters(volume, View.CORONAL, turned)[3] == near
@@ -319,7 +323,7 @@ def test_what_is_near_the_operator_is_at_the_bottom_of_the_coronal_slice(volume,
 
 def test_from_the_head_left_and_right_change_places(volume):
     feet, head = (turns(side, PatientOrientation.SUPINE)[PaneId.AXIAL]
-                  for side in (Side.FEET, Side.HEAD))  # fmt: skip
+                  for side in (OperatorSide.FEET, OperatorSide.HEAD))  # fmt: skip
     assert letters(volume, View.AXIAL, feet)[:2] == ("R", "L")
     assert letters(volume, View.AXIAL, head)[:2] == ("L", "R")
 
@@ -331,7 +335,7 @@ def test_the_menu_turns_the_slices_and_back(window, patient):
     assert viewing.look(PaneId.CORONAL).turn == Turn(3)
     operator["convention"].trigger()
     assert not viewing.look(PaneId.CORONAL).turn
-    assert all(side_name(side) for side in Side)
+    assert all(side_name(side) for side in OperatorSide)
 
 
 # --- colour blindness -------------------------------------------------------------------------
@@ -392,7 +396,7 @@ def test_verdicts_have_each_its_own_symbol_whatever_their_colour(blindness):
     assert len(set(symbols)) == len(symbols)
 
 
-@pytest.mark.parametrize("side", Side)
+@pytest.mark.parametrize("side", OperatorSide)
 def test_a_turned_slice_is_shown_whole_and_in_the_middle(window, patient, settle, side):
     window.show_patient(patient)
     settle(timeout=0.2)

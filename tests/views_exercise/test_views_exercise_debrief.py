@@ -15,7 +15,7 @@ from app.scoring.risks import RiskMark
 from app.session.curves import Curves
 from app.session.facts import plan_record
 from app.session.recording import Inputs, Recording
-from app.session.review import Mark, Span, marks, only_measured, spans
+from app.session.review import Span, TimeMark, marks, only_measured, spans
 from app.session.review import review as review_of
 from app.session.samples import Samples
 from app.views.debrief.curve_plot import peaks
@@ -105,7 +105,7 @@ def test_what_is_written_at_an_event_is_not_cut_at_the_edge(qt, page, time):
     message = "the control loop has missed its deadline three times in a row"
     page.resize(1180, 760)
     page.show()
-    page.show_review(review(marks=(Mark(time, "abort", message), Mark(time, "scan", "2"))))
+    page.show_review(review(marks=(TimeMark(time, "abort", message), TimeMark(time, "scan", "2"))))
     for _ in page.curves._curves:
         page.curves._draw_next()
     qt.processEvents()

@@ -8,7 +8,7 @@ from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.result import Score, judge
 from app.scoring.rows import Row, Rules
 from app.session.curves import Curves
-from app.session.review import Mark, Review, spans
+from app.session.review import Review, TimeMark, spans
 
 FULCRUM = (0.0, 0.16056, 0.090)
 
@@ -75,7 +75,8 @@ def review(**changes: object) -> Review:
         "exercise": "First insertion: liver lesion", "started": "2026-11-21T10:15:00.000+00:00",
         "state": "ended", "reason": "", "duration": 64.0, "scans": 2, "software": "0.1.0",
         "problems": (), "score": score(), "curves": figures, "spans": spans(figures.time, state),
-        "marks": (Mark(33.0, "scan", "1"), Mark(59.0, "scan", "2")), "placed": placed, "tip": tip,
+        "marks": (TimeMark(33.0, "scan", "1"), TimeMark(59.0, "scan", "2")),
+        "placed": placed, "tip": tip,
         "force_limit": 5.0,
     }  # fmt: skip
     return Review(**(values | changes))  # type: ignore[arg-type]

@@ -45,7 +45,7 @@ class HandPose:
     holds: bool
 
 
-class Hand:
+class PadHand:
     """Moves a `HandPose` in the pad's terms and keeps it inside the limits.
 
     Limits act on the pose itself: pulling back from a limit answers at once, without winding back

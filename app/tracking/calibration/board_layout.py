@@ -33,7 +33,7 @@ PAPERS: Final = {
 
 
 @dataclass(frozen=True, slots=True)
-class Sheet:
+class BoardSheet:
     """A sheet with a board on it.
 
     Attributes:
@@ -65,7 +65,7 @@ def paper_named(name: str) -> Paper:
     raise CalibrationError(f"no paper is called {name!r}; there are {', '.join(PAPERS)}")
 
 
-def lay_out(board: Board, paper: Paper) -> Sheet:
+def lay_out(board: Board, paper: Paper) -> BoardSheet:
     """Place a board on paper, upright or across, whichever fits.
 
     Raises:
@@ -83,7 +83,7 @@ def lay_out(board: Board, paper: Paper) -> Sheet:
     )
 
 
-def _placed(board: Board, paper: Paper) -> Sheet | None:
+def _placed(board: Board, paper: Paper) -> BoardSheet | None:
     width, height = (side / MILLIMETRE for side in board.size)
     across = (True, False) if width > height else (False, True)
     for landscape in across:
@@ -91,7 +91,7 @@ def _placed(board: Board, paper: Paper) -> Sheet | None:
         room = w - 2.0 * EDGE_MM, h - EDGE_MM - FOOT_MM
         if width <= room[0] + 1e-9 and height <= room[1] + 1e-9:
             x, y = 0.5 * (w - width), EDGE_MM + 0.5 * (room[1] - height)
-            return Sheet(paper, landscape, w, h, x, y, (width, height))
+            return BoardSheet(paper, landscape, w, h, x, y, (width, height))
     return None
 
 

@@ -35,7 +35,7 @@ class Newest(Protocol):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shot:
+class BoardShot:
     """Pictures of one moment.
 
     Attributes:
@@ -65,7 +65,7 @@ class LiveShots:
         self._seen: tuple[Frame | None, ...] = tuple(None for _ in cameras)
         self._count = 0
 
-    def shots(self, stop: threading.Event) -> Iterator[Shot]:
+    def shots(self, stop: threading.Event) -> Iterator[BoardShot]:
         """Yield pictures until `stop` is set; those of all cameras are of about one moment."""
         while not stop.is_set() and time.monotonic() < self._end:
             frames = tuple(camera.newest() for camera in self._cameras)
@@ -75,7 +75,7 @@ class LiveShots:
                 continue
             self._seen, self._count = frames, self._count + 1
             images = tuple(frame.image if frame is not None else None for frame in frames)
-            yield Shot(images, tuple(f"{name} {self._count:04}" for name in self._names))
+            yield BoardShot(images, tuple(f"{name} {self._count:04}" for name in self._names))
 
 
 class FolderShots:
@@ -93,7 +93,7 @@ class FolderShots:
         self.paired = pair_folder(folder)
         self.count = len(self.paired.pairs) + sum(map(len, self.paired.alone))
 
-    def shots(self, stop: threading.Event) -> Iterator[Shot]:
+    def shots(self, stop: threading.Event) -> Iterator[BoardShot]:
         """Yield all pairs, then what serves one camera alone, until `stop` is set."""
         lefts, rights = self.paired.alone
         together: list[tuple[Path | None, Path | None]] = [
@@ -116,13 +116,13 @@ class FolderShots:
                     images.append(None)
                     unreadable.append(Rejection(Reason.UNREADABLE, str(error), path.name))
             names = tuple(path.name if path is not None else "" for path in both)
-            yield Shot(tuple(images), names, tuple(unreadable))
+            yield BoardShot(tuple(images), names, tuple(unreadable))
 
 
 class Shots(Protocol):
     """Where pictures come from."""
 
-    def shots(self, stop: threading.Event) -> Iterator[Shot]:
+    def shots(self, stop: threading.Event) -> Iterator[BoardShot]:
         """Yield pictures until there are no more, or `stop` is set."""
         ...
 
@@ -138,7 +138,7 @@ class Search:
     def __init__(self, shots: Shots, collector: ViewCollector) -> None:
         self.collector = collector
         self._shots, self._stop = shots, threading.Event()
-        self._newest: tuple[Shot, Offer] | None = None
+        self._newest: tuple[BoardShot, Offer] | None = None
         self._views: list[tuple[BoardView | None, ...]] = []
         self._refused: list[Rejection] = []
         self._thread = threading.Thread(target=self._run, name="acus board search", daemon=True)
@@ -158,7 +158,7 @@ class Search:
             self._thread.join(timeout)
 
     @property
-    def newest(self) -> tuple[Shot, Offer] | None:
+    def newest(self) -> tuple[BoardShot, Offer] | None:
         """Newest pictures and what was found in them."""
         return self._newest
 
@@ -182,7 +182,7 @@ class Search:
         finally:
             self.done.set()
 
-    def _note(self, shot: Shot, offer: Offer) -> None:
+    def _note(self, shot: BoardShot, offer: Offer) -> None:
         self.count += 1
         found = tuple(view if isinstance(view, BoardView) else None for view in offer.seen)
         if any(found):

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import QApplication
 from app import __version__
 from app.core.files import write_atomically
 from app.core.units import MILLIMETRE
-from app.tracking.calibration.board_layout import EDGE_MM, RULER_MM, Paper, Sheet, lay_out
+from app.tracking.calibration.board_layout import EDGE_MM, RULER_MM, BoardSheet, Paper, lay_out
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.pattern import dark_rectangles
 from app.tracking.errors import CalibrationError
@@ -32,7 +32,7 @@ _TEXT_MM: Final = 3.2
 _LINE_MM: Final = 0.2
 
 
-def write_board(path: Path, board: Board, paper: Paper) -> Sheet:
+def write_board(path: Path, board: Board, paper: Paper) -> BoardSheet:
     """Write the PDF, whole or not at all; works without a display.
 
     Raises:
@@ -52,7 +52,7 @@ def write_board(path: Path, board: Board, paper: Paper) -> Sheet:
     return sheet
 
 
-def board_bytes(board: Board, sheet: Sheet) -> bytes:
+def board_bytes(board: Board, sheet: BoardSheet) -> bytes:
     """Render the sheet as the bytes of a PDF."""
     data = QByteArray()
     buffer = QBuffer(data)
@@ -71,7 +71,7 @@ def board_bytes(board: Board, sheet: Sheet) -> bytes:
     return bytes(data.data())
 
 
-def paint_sheet(painter: QPainter, board: Board, sheet: Sheet, dots_per_mm: float) -> None:
+def paint_sheet(painter: QPainter, board: Board, sheet: BoardSheet, dots_per_mm: float) -> None:
     """Paint the sheet on anything that has `dots_per_mm`; the sheet's corner is the origin."""
     _paint_pattern(painter, board, sheet, dots_per_mm)
     top = sheet.y_mm + sheet.pattern_mm[1] + 6.0
@@ -79,7 +79,7 @@ def paint_sheet(painter: QPainter, board: Board, sheet: Sheet, dots_per_mm: floa
     _paint_text(painter, board, sheet, top + 6.5, dots_per_mm)
 
 
-def _paint_pattern(painter: QPainter, board: Board, sheet: Sheet, dots_per_mm: float) -> None:
+def _paint_pattern(painter: QPainter, board: Board, sheet: BoardSheet, dots_per_mm: float) -> None:
     """One path for all that is black: cells that touch leave no seam between them."""
     path = QPainterPath()
     path.setFillRule(Qt.FillRule.WindingFill)
@@ -95,7 +95,7 @@ def _paint_pattern(painter: QPainter, board: Board, sheet: Sheet, dots_per_mm: f
     painter.fillPath(path, _INK)
 
 
-def _paint_ruler(painter: QPainter, sheet: Sheet, top: float, dots_per_mm: float) -> None:
+def _paint_ruler(painter: QPainter, sheet: BoardSheet, top: float, dots_per_mm: float) -> None:
     """Paint a line of 100 mm with a stroke every 10 mm, to hold a real ruler against."""
     left = 0.5 * (sheet.width_mm - RULER_MM)
     painter.setPen(QPen(_INK, _LINE_MM * dots_per_mm, c=Qt.PenCapStyle.FlatCap))
@@ -112,7 +112,7 @@ def _paint_ruler(painter: QPainter, sheet: Sheet, top: float, dots_per_mm: float
 
 
 def _paint_text(
-    painter: QPainter, board: Board, sheet: Sheet, top: float, dots_per_mm: float
+    painter: QPainter, board: Board, sheet: BoardSheet, top: float, dots_per_mm: float
 ) -> None:
     font = QFont("DejaVu Sans")
     font.setPixelSize(max(1, round(_TEXT_MM * dots_per_mm)))

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 from app.core.progress import Progress
 from app.views.cameras.picture import PictureView
 from app.views.kit import theme
-from app.views.kit.background import Indicator, Task, run_in_background
+from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.text import tr
 
 if TYPE_CHECKING:
@@ -160,7 +160,7 @@ class LivePreview(QWidget):
         self.camera: ShownCamera | None = None
         self._opening: _Opening | None = None
         self._last: _Opening | None = None
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self._timer = QTimer(self, interval=POLL_MS)
         self._timer.timeout.connect(self._look)
         column = QVBoxLayout(self)

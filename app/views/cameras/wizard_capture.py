@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QWidget
 
 from app.core.errors import AcusError
 from app.tracking.calibration.camera_pair import OpenCamera, OpenPair, PairOpening
-from app.tracking.calibration.capture import FolderShots, LiveShots, Search, Shot
+from app.tracking.calibration.capture import BoardShot, FolderShots, LiveShots, Search
 from app.tracking.calibration.collector import ViewCollector
 from app.tracking.calibration.job import CalibrationJob, Views
 from app.tracking.calibration.views import BoardView
@@ -200,7 +200,7 @@ class CapturePage(QWidget):
         else:
             self.bar.setValue(search.count)
 
-    def _show_shot(self, shot: Shot, offer: Offer) -> None:
+    def _show_shot(self, shot: BoardShot, offer: Offer) -> None:
         for view, image, found in zip(self.views, shot.images, offer.seen, strict=True):
             view.show_picture(image, found if isinstance(found, BoardView) else None, offer.kept)
         verdict = Verdict.GOOD if offer.kept else Verdict.IDLE

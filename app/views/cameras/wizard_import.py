@@ -24,7 +24,7 @@ from app.tracking.optics.calibration import StereoCalibration
 from app.views.cameras.wizard_parts import button, label, tell
 from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
 
 
@@ -54,7 +54,7 @@ class ImportDialog(QDialog):
         self.open_files = button(tr("Files…"))
         self.open_folder = button(tr("Folder…"))
         self.take = button(tr("Import and use it"), "primary")
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self._lay_out()
         self.open_files.clicked.connect(self._ask_files)
         self.open_folder.clicked.connect(self._ask_folder)

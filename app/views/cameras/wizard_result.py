@@ -27,7 +27,7 @@ from app.views.cameras.wizard_words import (
 )
 from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
 
 
@@ -43,7 +43,7 @@ class ResultPage(QWidget):
     def __init__(self, job: CalibrationJob, parent: QWidget) -> None:
         super().__init__(parent)
         self._job = job
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self.start, self.cancel = button(tr("Compute again")), button(tr("Cancel"), "danger")
         self.bar = thin_bar()
         self.state, self.notes = label(), label(role="dim")

@@ -20,7 +20,7 @@ from app.views.cameras.wizard_history import details, show_entry
 from app.views.cameras.wizard_import import ImportDialog
 from app.views.cameras.wizard_parts import button, column, label, table, tell
 from app.views.exercise.status_items import Verdict
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
 
 
@@ -39,7 +39,7 @@ class SavePage(QWidget):
         super().__init__(parent)
         self._job = job
         self._details: dict[str, tuple[str, str, str]] = {}
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self.state, self._remark = label(), label(role="dim")
         self.save = button(tr("Save and use it"), "primary")
         self.import_ = button(tr("Import…"))

@@ -28,7 +28,7 @@ from app.tracking.errors import CalibrationError
 from app.views.cameras.wizard_parts import button, column, label, tell
 from app.views.cameras.wizard_words import world_lines
 from app.views.exercise.status_items import Verdict
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
 
 
@@ -44,7 +44,7 @@ class WorldPage(QWidget):
     def __init__(self, job: CalibrationJob, open_pair: OpenPair | None, parent: QWidget) -> None:
         super().__init__(parent)
         self._job, self._open_pair = job, open_pair
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self._let_go = threading.Event()
         self._let_go.set()
         self.fields = tuple(_field(unit) for unit in ("mm",) * 3 + ("°",) * 3)

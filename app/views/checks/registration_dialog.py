@@ -37,7 +37,7 @@ from app.views.kit import theme
 from app.views.kit.text import tr
 
 
-class Surroundings(Protocol):
+class CheckSources(Protocol):
     """What the dialog needs of the window."""
 
     def run(self) -> ExerciseRun | None:
@@ -64,7 +64,7 @@ class RegistrationDialog(QDialog):
     saved = Signal(object)
     place_wanted = Signal(object)
 
-    def __init__(self, around: Surroundings, parent: QWidget | None = None) -> None:
+    def __init__(self, around: CheckSources, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Registration check"))
         self.resize(theme.px(780), 640)  # no higher: 768 must do

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QGraphicsRectItem
 
 from app.core.arrays import FloatArray
 from app.session.review import Review
-from app.session.timeline import Mark
+from app.session.timeline import TimeMark
 from app.views.debrief.curve_values import Curve, time_end, value_range
 from app.views.exercise.state_words import state_word
 from app.views.kit import theme
@@ -123,7 +123,7 @@ def _name(plot: pg.PlotItem, review: Review, low: float, high: float) -> None:
         plot.addItem(text, ignoreBounds=True)
 
 
-def _mark_text(mark: Mark, share: float) -> pg.TextItem:
+def _mark_text(mark: TimeMark, share: float) -> pg.TextItem:
     """Name an event at a share of the time axis, so that nothing of it is cut at the edges.
 
     Numbers of scans stand on the uppermost line, words of other events above the states' names.

@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
 from app.core.arrays import FloatArray
-from app.session.timeline import Mark, Span
+from app.session.timeline import Span, TimeMark
 from app.views.debrief.curves import Curve, time_end, value_range
 from app.views.debrief.print_style import DIM, INK, LINE, font
 from app.views.exercise.state_words import state_word
@@ -32,7 +32,7 @@ def paint_plot(
     curve: Curve,
     time: FloatArray,
     spans: Sequence[Span],
-    marks: Sequence[Mark],
+    marks: Sequence[TimeMark],
     labelled: bool,
 ) -> None:
     """Draw one curve into `box` [pt]; `labelled` adds the time axis and the names of the states."""
@@ -125,7 +125,7 @@ def _paint_grid(
     painter.drawRect(area)
 
 
-def _paint_marks(painter: QPainter, area: QRectF, marks: Sequence[Mark], end: float) -> None:
+def _paint_marks(painter: QPainter, area: QRectF, marks: Sequence[TimeMark], end: float) -> None:
     painter.setFont(font(7.5))
     for mark in marks:
         x = _x(area, mark.time, end)

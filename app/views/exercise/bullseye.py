@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
-from app.session.pad.hand import Hand, HandPose
+from app.session.pad.hand import HandPose, PadHand
 from app.session.pad.view import PadScene, PadView
 from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.hands.chooser import HandChooser
@@ -50,7 +50,7 @@ class Bullseye(QWidget):
         super().__init__(parent)
         self._scene: PadScene | None = None
         self._view: PadView | None = None
-        self._hand: Hand | None = None
+        self._hand: PadHand | None = None
         self._interactive = self._depth_only = self._blind = False
         self.pad = PadCanvas(self)
         self.depth_bar = DepthBar(self)
@@ -132,7 +132,7 @@ class Bullseye(QWidget):
     def take_hand(self, pose: HandPose) -> None:
         """Go on from where the simulated hand is, without a jump."""
         if self._scene is not None and self._interactive:
-            self._hand = Hand(self._scene.frame, self._scene.scale, self._scene.limits, pose)
+            self._hand = PadHand(self._scene.frame, self._scene.scale, self._scene.limits, pose)
             self._intent.start()
 
     @property

@@ -33,7 +33,7 @@ from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor
 from app.views.reading.fixed_reading import apply as apply_reading
 from app.views.reading.lock_words import why_locked
-from app.views.reading.workspace import Workspace
+from app.views.reading.workspace import WorkspacePage
 from app.views.scene.extraction import SurfaceExtraction
 from app.views.shell.services import RobotChoice, RunSetup
 from app.views.slices.slab import as_point
@@ -69,7 +69,7 @@ class Conductor(QObject):
 
     def __init__(
         self,
-        workspace: Workspace,
+        workspace: WorkspacePage,
         editor: PlanEditor,
         runs: Runs,
         indicator: Indicator,

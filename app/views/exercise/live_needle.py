@@ -12,7 +12,7 @@ from app.exercises.parts import View
 from app.planning.needle_overlay import NeedleOverlay
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
-from app.views.reading.workspace import Workspace
+from app.views.reading.workspace import WorkspacePage
 from app.views.scene.robot import RobotShape
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -28,7 +28,7 @@ SCENE_DEAD_BAND_MM = 0.25
 class LiveNeedle:
     """Draws needle and robot where a snapshot says they are."""
 
-    def __init__(self, workspace: Workspace) -> None:
+    def __init__(self, workspace: WorkspacePage) -> None:
         self._workspace = workspace
         self._drawn: FloatArray | None = None
         self._hidden = False

@@ -24,7 +24,7 @@ from app.views.exercise.assistance_dial import AssistanceDial
 from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
 from app.views.exercise.live import LiveFigures
-from app.views.exercise.readouts import Readouts
+from app.views.exercise.readouts import AttemptReadouts
 from app.views.exercise.scan_panel import ScanPanel
 from app.views.exercise.steps import Steps
 from app.views.exercise.withdrawal_note import WithdrawalNote
@@ -68,7 +68,7 @@ class ExercisePanel(QWidget):
         self.withdrawal = WithdrawalNote(self)
         self.enable = EnableSwitch(self)
         self.scan = ScanPanel(self)
-        self.readouts = Readouts(self)
+        self.readouts = AttemptReadouts(self)
         self.energy = EnergyGauge(self)
         self.exercise.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._prepare_inputs()

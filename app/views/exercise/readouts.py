@@ -18,7 +18,7 @@ OFFSETS: Final = frozenset({"angle", "lateral", "to_target"})
 """Read-outs that say what the bull's-eye shows."""
 
 
-class Readouts(QWidget):
+class AttemptReadouts(QWidget):
     """Time, depth, angle, distances, scans and force."""
 
     def __init__(self, parent: QWidget | None = None) -> None:

@@ -11,7 +11,7 @@ from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.planning.placement import PlacedPlan
 from app.views.exercise.run import ExerciseRun
-from app.views.kit.background import Indicator, Task, run_in_background
+from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.text import tr
 from app.views.shell.services import OpenRun, RunSetup, Services
 
@@ -40,8 +40,8 @@ class Runs(QObject):
         self._services, self._indicator = services, indicator
         self._open: OpenRun | None = None
         self._setup: RunSetup | None = None
-        self._task: Task | None = None
-        self._preparation: Task | None = None
+        self._task: BackgroundTask | None = None
+        self._preparation: BackgroundTask | None = None
         self._wanted: RunSetup | None = None
         self._closing: threading.Thread | None = None
 

@@ -15,7 +15,7 @@ from app.session.control_scan import ControlScan
 from app.views.exercise.controller import ExerciseController
 from app.views.exercise.scan_range import attach
 from app.views.kit.background import run_in_background
-from app.views.reading.workspace import Workspace
+from app.views.reading.workspace import WorkspacePage
 
 DECLARATION: Final[dict[str, Any]] = {
     "view": "control_scan",
@@ -44,7 +44,7 @@ class ScanSource(QObject):
     def __init__(
         self,
         controller: ExerciseController,
-        workspace: Workspace,
+        workspace: WorkspacePage,
         patient: Callable[[], Patient | None],
         parent: QObject,
     ) -> None:

@@ -14,7 +14,7 @@ from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
-from app.views.reading.workspace import Workspace
+from app.views.reading.workspace import WorkspacePage
 
 DECLARATION: Final[dict[str, Any]] = {
     "view": "target_motion",
@@ -29,7 +29,7 @@ SCENE_DEAD_BAND_MM: Final = 0.25
 class TargetMotion:
     """Lets target, rings and path of slices and 3D go with every snapshot."""
 
-    def __init__(self, workspace: Workspace) -> None:
+    def __init__(self, workspace: WorkspacePage) -> None:
         self._workspace = workspace
         self._drawn: FloatArray | None = None
 

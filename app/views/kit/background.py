@@ -26,12 +26,12 @@ _log = logging.getLogger(__name__)
 class Indicator(Protocol):
     """Something that shows running tasks, such as the window's progress strip."""
 
-    def show_task(self, task: "Task", title: str) -> None:
+    def show_task(self, task: "BackgroundTask", title: str) -> None:
         """Follow the task's signals until `finished`; offer `task.cancel`."""
         ...
 
 
-class Task(QObject):
+class BackgroundTask(QObject):
     """One piece of work in its thread; lives on, and reports to, the window's thread.
 
     Signals:
@@ -61,7 +61,7 @@ class Task(QObject):
         self.destroyed.connect(lambda: box.progress.cancel())
         self._thread = threading.Thread(target=self._box.run, name="acus-background", daemon=True)
 
-    def open(self) -> "Task":
+    def open(self) -> "BackgroundTask":
         """Start the thread and the looking."""
         self._is_running = True
         self._timer.start()
@@ -154,7 +154,7 @@ def run_in_background(
     *,
     title: str = "",
     indicator: Indicator | None = None,
-) -> Task:
+) -> BackgroundTask:
     """Run `operation(progress)` beside the window.
 
     Args:
@@ -168,7 +168,7 @@ def run_in_background(
             work lasts. Without a title the work is silent.
         indicator: a strip in the window instead of the dialog.
     """
-    task = Task(parent, operation, on_success, on_error, on_cancel)
+    task = BackgroundTask(parent, operation, on_success, on_error, on_cancel)
     if indicator is not None:
         indicator.show_task(task, title)
     elif title:
@@ -176,7 +176,7 @@ def run_in_background(
     return task.open()
 
 
-def _show_dialog(task: Task, title: str, parent: QWidget | None) -> None:
+def _show_dialog(task: BackgroundTask, title: str, parent: QWidget | None) -> None:
     dialog = QProgressDialog(title, tr("Cancel"), 0, 1000, parent)
     dialog.setMinimumDuration(DIALOG_AFTER_MS)
     dialog.setAutoReset(False)

@@ -6,7 +6,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QVBoxLayout, QWidget
 
 from app.views.kit import theme
-from app.views.kit.background import Task
+from app.views.kit.background import BackgroundTask
 from app.views.kit.elided_label import ElidedLabel
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
@@ -28,7 +28,7 @@ class ProgressStrip(QWidget):
         """Tasks that are shown."""
         return self._shown
 
-    def show_task(self, task: Task, title: str) -> None:
+    def show_task(self, task: BackgroundTask, title: str) -> None:
         """Follow a task."""
         row = _Row(title, self)
         row.cancel.clicked.connect(task.cancel)

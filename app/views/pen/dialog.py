@@ -24,7 +24,7 @@ from app.views.pen.words import Line, accuracy_line, status_lines
 if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.tracking.pen.body import PenProfile
-    from app.views.pen.port import LivePen
+    from app.views.pen.port import PenPort
     from app.views.shell.services import Services
 
 LOOK_MS: Final = 200
@@ -60,7 +60,7 @@ class PenDialog(QDialog):
         self.setWindowTitle(tr("Pen and webcam: a needle without a robot"))
         self._services, self._free, self._used = services, free, used
         self._pen: PenProfile | None = None
-        self._live: LivePen | None = None
+        self._live: PenPort | None = None
         self._opened: PenSettings | None = None
         self._refused = False
         self.preview, self.status, self.tip = LivePreview(self), PenStatus(self), TipStep(self)
@@ -97,7 +97,7 @@ class PenDialog(QDialog):
         self.tip.set_pen(settings, None)
         free, services = self._free, self._services
 
-        def operation(progress: Progress) -> LivePen:
+        def operation(progress: Progress) -> PenPort:
             free()
             return services.open_pen(settings, progress)
 
@@ -169,7 +169,7 @@ class PenDialog(QDialog):
         box.open()
 
     # --- inside -----------------------------------------------------------------------------------
-    def _take(self, live: LivePen) -> None:
+    def _take(self, live: PenPort) -> None:
         self._live = live
         self.tip.set_pen(self._opened, live)
         self.look()
@@ -223,7 +223,7 @@ class PenDialog(QDialog):
         self.close_button.clicked.connect(lambda _=False: self.reject())
 
 
-def _trouble(live: LivePen) -> str:
+def _trouble(live: PenPort) -> str:
     """Return what is wrong with webcam or tracker; empty without."""
     statistics = live.statistics()
     wrong = [one for one in statistics.cameras if one.state.value not in ("live", "waiting")]

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from app.tracking.statistics import TrackerStatistics
 
 
-class LivePen(ShownCamera, Protocol):
+class PenPort(ShownCamera, Protocol):
     """A pen that is looked at; its picture has everything found drawn into it."""
 
     def observed(self) -> PenObservation | None:

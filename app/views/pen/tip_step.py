@@ -15,14 +15,14 @@ from app.tracking.pen.settings import PenSettings
 from app.views.cameras.wizard_parts import button, label, tell
 from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
 from app.views.pen.directions_view import DirectionsView
 from app.views.pen.status import Lines
 from app.views.pen.words import Line, result_lines, tip_line
 
 if TYPE_CHECKING:
-    from app.views.pen.port import LivePen
+    from app.views.pen.port import PenPort
 
 POLL_MS: Final = 100
 
@@ -39,10 +39,10 @@ class TipStep(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._settings: PenSettings | None = None
-        self._live: LivePen | None = None
+        self._live: PenPort | None = None
         self.rocking: Rocking | None = None
         self.found: PenCalibration | None = None
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self.directions, self.bar = DirectionsView(self), QProgressBar(self)
         self.state, self.lines = label(), Lines(4, self)
         self.begin = button(tr("&Measure the tip"))
@@ -61,7 +61,7 @@ class TipStep(QWidget):
         """Whether positions are collected or the tip is computed."""
         return self.rocking is not None or self._task is not None
 
-    def set_pen(self, settings: PenSettings | None, live: LivePen | None) -> None:
+    def set_pen(self, settings: PenSettings | None, live: PenPort | None) -> None:
         """Measure another pen; None while there is none. What was collected is dropped."""
         if self.running:
             self.end(tr("stopped: pen or webcam are others now"))

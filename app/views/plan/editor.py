@@ -13,7 +13,7 @@ from app.core.errors import AcusError
 from app.mechanisms.profile import DeviceProfile
 from app.planning.draft import DraftPlan
 from app.planning.history import History
-from app.planning.judge import Edit, Judge, Verdict
+from app.planning.judge import Edit, Judge, PlanVerdict
 from app.planning.placement import Placement
 from app.planning.plan import Plan
 from app.views.slices.viewing import Tool
@@ -51,7 +51,7 @@ class PlanEditor(QObject):
         self.path: Path | None = None
         self.locked = self.keeps_target = False
         self._fresh = True  # the present gesture has changed nothing yet
-        self.verdict = Verdict(None)
+        self.verdict = PlanVerdict(None)
 
     # --- what is there ------------------------------------------------------------------------
     @property

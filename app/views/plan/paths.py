@@ -15,7 +15,7 @@ from app.core.progress import Progress
 from app.planning.clearance import Field
 from app.planning.draft import DraftPlan
 from app.planning.limits import ReachLimits
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
 from app.views.plan.entry_map import EntryMap, EntryMapLayer
 from app.views.plan.paths_panel import PathsPanel
@@ -37,7 +37,7 @@ class PathsFeature(Feature):
         self.panel = PathsPanel()
         context.shell.add_panel(self.panel, below=tr("Plan"))
         self.scores: PathScores | None = None
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self._stands_on: tuple[object, ...] = ()
         self._layers = []
         for pane in self._views.slices:

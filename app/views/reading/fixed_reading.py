@@ -7,20 +7,20 @@ from dataclasses import replace
 from app.exercises.locks import Lock
 from app.exercises.schema import Exercise
 from app.views.reading.layouts import FOUR
-from app.views.reading.workspace import Workspace
+from app.views.reading.workspace import WorkspacePage
 from app.views.slices.looks import Slab
 from app.views.slices.panes import PaneId
 from app.views.slices.presets import default_window
 
 
-def let_go(workspace: Workspace) -> None:
+def let_go(workspace: WorkspacePage) -> None:
     """End what the last exercise held: the user may change everything again."""
     workspace.viewing.greys.fix(False)
     workspace.viewing.fix_slabs(False)
     workspace.fix_layout(False)
 
 
-def apply(workspace: Workspace, exercise: Exercise) -> None:
+def apply(workspace: WorkspacePage, exercise: Exercise) -> None:
     """Read as an exercise says; what it locks cannot be changed until `let_go`.
 
     Where it locks the reading as a whole, what it does not say is as at the program's first start;

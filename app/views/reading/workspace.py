@@ -48,7 +48,7 @@ SIDE_WIDTH = 376
 _LEFT_TO_RIGHT, _RIGHT_TO_LEFT = QBoxLayout.Direction.LeftToRight, QBoxLayout.Direction.RightToLeft
 
 
-class Workspace(QWidget):
+class WorkspacePage(QWidget):
     """Owns the panes and panels; what they do together stands in `Conductor`.
 
     Signals:

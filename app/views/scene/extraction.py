@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.planning.patient import Patient
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
 from app.views.scene.view import SceneView
 
@@ -29,7 +29,7 @@ class SurfaceExtraction(QObject):
     def __init__(self, scene: SceneView, parent: QObject) -> None:
         super().__init__(parent)
         self._scene = scene
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
 
     @property
     def is_running(self) -> bool:

@@ -13,7 +13,7 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.candidate import Candidate
 from app.imaging.series import Series
-from app.views.kit.background import Indicator, Task, run_in_background
+from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.text import tr
 from app.views.series.import_report import ImportReport
 from app.views.series.mask_dialog import Boxes, MaskDialog
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 
-class Intake(QObject):
+class SeriesIntake(QObject):
     """Leads one candidate after the other from the pictures to the report.
 
     Signals:
@@ -39,7 +39,7 @@ class Intake(QObject):
     def __init__(self, indicator: Indicator, window: QWidget) -> None:
         super().__init__(window)
         self._indicator, self._window = indicator, window
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self.mask: MaskDialog | None = None
         self.report: ImportReport | None = None
 

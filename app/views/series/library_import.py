@@ -12,11 +12,11 @@ from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.candidate import of_folder, of_pacs
 from app.imaging.series import Listing, Series
-from app.views.kit.background import Indicator, Task, run_in_background
+from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.series.browser import SeriesBrowser
-from app.views.series.intake import Intake
+from app.views.series.intake import SeriesIntake
 from app.views.series.pacs_panel import PacsPanel
 from app.views.series.pacs_settings import PacsSettingsDialog
 
@@ -40,8 +40,8 @@ class LibraryImport(QObject):
     def __init__(self, indicator: Indicator, window: QWidget) -> None:
         super().__init__(window)
         self._indicator, self._window = indicator, window
-        self._task: Task | None = None
-        self.intake = Intake(indicator, window)
+        self._task: BackgroundTask | None = None
+        self.intake = SeriesIntake(indicator, window)
         self.intake.open_wanted.connect(self.open_wanted)
         self.intake.failed.connect(self.failed)
         self.panel: PacsPanel | None = None

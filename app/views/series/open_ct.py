@@ -15,7 +15,7 @@ from app.core.progress import Progress
 from app.imaging.errors import ImagingError, TooLargeError
 from app.imaging.series import Listing, Remedy, Series
 from app.planning.patient import Patient, load_phantom, read_patient
-from app.views.kit.background import Indicator, Task, run_in_background
+from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.series.browser import SeriesBrowser
@@ -46,7 +46,7 @@ class OpenCt(QObject):
     def __init__(self, recents: Recents, indicator: Indicator, window: QWidget) -> None:
         super().__init__(window)
         self.recents, self._indicator, self._window = recents, indicator, window
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self._listing: Listing | None = None
         self.may_replace: Callable[[], bool] = lambda: True
 
@@ -132,7 +132,7 @@ class OpenCt(QObject):
         self.given_up.emit()
         return False
 
-    def _set_task(self, task: Task | None) -> None:
+    def _set_task(self, task: BackgroundTask | None) -> None:
         was, self._task = self._task is not None, task
         if was != (task is not None):
             self.reading.emit(task is not None)

@@ -29,7 +29,7 @@ from app.core.errors import AcusError
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.views.kit import theme
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import tr
@@ -57,7 +57,7 @@ class PacsPanel(QDialog):
         super().__init__(parent)
         self.setWindowTitle(tr("PACS"))
         self.resize(980, 620)
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self.strip = ProgressStrip(self)  # its own: the window's cannot be clicked meanwhile
         self.servers, self.note = QComboBox(self), QLabel(self)
         self.patient, self.name = QLineEdit(self), QLineEdit(self)

@@ -22,7 +22,7 @@ from app.core.errors import AcusError
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.views.kit import theme
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import tr
 from app.views.series.pacs_form import PacsForm
@@ -44,7 +44,7 @@ class PacsSettingsDialog(QDialog):
         super().__init__(parent)
         self.setWindowTitle(tr("PACS: configuration"))
         self.resize(860, 640)
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self._shown = -1
         self._forms: list[dict[str, object]] = []
         self._as_read: list[dict[str, object]] = []

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.series import Series
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 
 
 class Thumbnails(QObject):
@@ -25,7 +25,7 @@ class Thumbnails(QObject):
     def __init__(self, series: Sequence[Series], size_px: int, parent: QObject) -> None:
         super().__init__(parent)
         self._series, self._size_px = tuple(series), size_px
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
 
     @property
     def is_busy(self) -> bool:

@@ -47,7 +47,7 @@ class DemonstrationError(AcusError):
 
 
 @dataclass(frozen=True, slots=True)
-class Script:
+class DemonstrationScript:
     """What is demonstrated.
 
     Attributes:
@@ -82,7 +82,9 @@ class Demonstration(QObject):
     finished = Signal(object)
     failed = Signal(str)
 
-    def __init__(self, window: MainWindow, script: Script, parent: QObject | None = None) -> None:
+    def __init__(
+        self, window: MainWindow, script: DemonstrationScript, parent: QObject | None = None
+    ) -> None:
         super().__init__(parent)
         self._window, self._script = window, script
         self._timer = QTimer(self, interval=PERIOD_MS)

@@ -15,7 +15,7 @@ from app.imaging.window import WindowLevel
 from app.views.exercise.conductor import Conductor
 from app.views.reading.fixed_reading import apply, let_go
 from app.views.reading.layouts import LAYOUTS
-from app.views.reading.workspace import Workspace
+from app.views.reading.workspace import WorkspacePage
 from app.views.shell.projector import Projector
 from app.views.slices.bindings import SCHEMES
 from app.views.slices.looks import KINDS, THICKEST_MM, Look, Slab, Turn
@@ -38,7 +38,7 @@ class Remembered:
         self,
         window: QWidget,
         settings: QSettings,
-        workspace: Workspace,
+        workspace: WorkspacePage,
         conductor: Conductor,
         projector: Projector,
     ) -> None:
@@ -120,7 +120,7 @@ class Remembered:
         self._projector.set(light=bool(state["light"]), large=bool(state["large"]))
 
 
-def reading(workspace: Workspace) -> dict[str, Any]:
+def reading(workspace: WorkspacePage) -> dict[str, Any]:
     """How the slices are read now, as JSON can hold it."""
     viewing, greys = workspace.viewing, workspace.viewing.greys
     looks = {}
@@ -137,7 +137,7 @@ def reading(workspace: Workspace) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def set_reading(workspace: Workspace, state: Mapping[str, Any]) -> None:
+def set_reading(workspace: WorkspacePage, state: Mapping[str, Any]) -> None:
     """Read as a state says.
 
     Raises:

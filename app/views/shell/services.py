@@ -15,7 +15,7 @@ from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.tracking.cameras.settings import CameraSettings
 from app.views.cameras.live import AimPort, LiveCamera
 from app.views.exercise.run import ExerciseRun
-from app.views.pen.port import LivePen
+from app.views.pen.port import PenPort
 from app.views.robot.bench import BenchPort
 
 if TYPE_CHECKING:
@@ -159,7 +159,7 @@ class Services(Protocol):
         """
         ...
 
-    def open_pen(self, settings: PenSettings, progress: Progress) -> LivePen:
+    def open_pen(self, settings: PenSettings, progress: Progress) -> PenPort:
         """Open a pen and its webcam; called beside the window, may take seconds.
 
         Raises:

@@ -15,11 +15,11 @@ from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor
 from app.views.reading.layouts import LAYOUTS, layout_title
 from app.views.reading.lock_words import view_title, why_locked
-from app.views.reading.workspace import Workspace
+from app.views.reading.workspace import WorkspacePage
 from app.views.shell.projector import Projector
 from app.views.slices.bindings import SCHEMES
 from app.views.slices.needle_menu import fill_needle_menu
-from app.views.slices.operator_side import Side, side_name, turns
+from app.views.slices.operator_side import OperatorSide, side_name, turns
 from app.views.slices.pane import SlicePane, fill_windows
 from app.views.slices.turning import straighten
 
@@ -38,7 +38,7 @@ class ViewMenu:
     def __init__(
         self,
         menu: QMenu,
-        workspace: Workspace,
+        workspace: WorkspacePage,
         conductor: Conductor,
         editor: PlanEditor,
         projector: Projector,
@@ -167,12 +167,12 @@ class ViewMenu:
 
     def _operator_menu(self, menu: QMenu) -> dict[str, QAction]:
         actions = {}
-        for side in Side:
+        for side in OperatorSide:
             actions[str(side)] = action = menu.addAction(side_name(side))
             action.triggered.connect(lambda _=False, side=side: self._stand(side))
         return actions
 
-    def _stand(self, side: Side) -> None:
+    def _stand(self, side: OperatorSide) -> None:
         """Turn the slices to where the operator stands, as the patient lies now."""
         lies = self._editor.edit.placement.orientation
         viewing = self._workspace.viewing

@@ -23,7 +23,7 @@ from app.views.kit.text import tr
 from app.views.measure.editor import MeasureEditor
 from app.views.plan.editor import PlanEditor
 from app.views.reading.editors import Editors
-from app.views.reading.workspace import Workspace
+from app.views.reading.workspace import WorkspacePage
 from app.views.series.open_ct import OpenCt
 from app.views.shell.about import about
 from app.views.shell.change_of_patient import ChangeOfPatient
@@ -70,7 +70,7 @@ class MainWindow(QMainWindow):
         self.editors = Editors(PlanEditor(self), MeasureEditor(self), StructureBook(self))
         self.editor = self.editors.plan
         self.message_bar, self.progress = MessageBar(self), ProgressStrip(self)
-        self.workspace = Workspace(self.editor, self)
+        self.workspace = WorkspacePage(self.editor, self)
         self.runs = Runs(services, self.progress, self)
         self.conductor = Conductor(self.workspace, self.editor, self.runs, self.progress, self)
         self.equipment = Equipment(self.settings, self.conductor, self)

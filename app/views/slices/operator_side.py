@@ -10,7 +10,7 @@ from app.views.slices.looks import Turn
 from app.views.slices.panes import PaneId
 
 
-class Side(StrEnum):
+class OperatorSide(StrEnum):
     """Where the operator stands."""
 
     CONVENTION = "convention"
@@ -29,11 +29,11 @@ _UP = {
 }
 """Quarters that bring the side of an axial slice that is up on the table to the top."""
 
-_COUCH = {Side.FEET: 0, Side.HEAD: 2, Side.RIGHT: 3, Side.LEFT: 1}
+_COUCH = {OperatorSide.FEET: 0, OperatorSide.HEAD: 2, OperatorSide.RIGHT: 3, OperatorSide.LEFT: 1}
 """Quarters of the coronal slice that bring what is near the operator to the bottom."""
 
 
-def turns(side: Side, lies: PatientOrientation) -> dict[PaneId, Turn]:
+def turns(side: OperatorSide, lies: PatientOrientation) -> dict[PaneId, Turn]:
     """Return how the slices are turned.
 
     The axial slice has what is up on the table on top, and is seen from the feet, or from the head
@@ -41,27 +41,30 @@ def turns(side: Side, lies: PatientOrientation) -> dict[PaneId, Turn]:
     bottom. On one side the patient's coronal slices stand upright on the table: they, and the
     sagittal ones, stay as they are.
     """
-    if side is Side.CONVENTION:
+    if side is OperatorSide.CONVENTION:
         return {pane: Turn() for pane in (PaneId.AXIAL, PaneId.SAGITTAL, PaneId.CORONAL)}
     axial = Turn(_UP[lies])
-    if side is Side.HEAD:
+    if side is OperatorSide.HEAD:
         axial = axial.flipped()
     coronal = Turn()
     if lies is PatientOrientation.SUPINE:
         coronal = Turn(_COUCH[side])
     elif lies is PatientOrientation.PRONE:  # seen from the back, right and left change places
         quarters = _COUCH[side]
-        coronal = Turn((4 - quarters) % 4 if side in (Side.RIGHT, Side.LEFT) else quarters, True)
+        coronal = Turn(
+            (4 - quarters) % 4 if side in (OperatorSide.RIGHT, OperatorSide.LEFT) else quarters,
+            True,
+        )
     return {PaneId.AXIAL: axial, PaneId.SAGITTAL: Turn(), PaneId.CORONAL: coronal}
 
 
-def side_name(side: Side) -> str:
+def side_name(side: OperatorSide) -> str:
     """Name of a place for people."""
     names = {
-        Side.CONVENTION: tr("As radiologists read it"),
-        Side.FEET: tr("At the patient's feet"),
-        Side.HEAD: tr("At the patient's head"),
-        Side.RIGHT: tr("On the patient's right"),
-        Side.LEFT: tr("On the patient's left"),
+        OperatorSide.CONVENTION: tr("As radiologists read it"),
+        OperatorSide.FEET: tr("At the patient's feet"),
+        OperatorSide.HEAD: tr("At the patient's head"),
+        OperatorSide.RIGHT: tr("On the patient's right"),
+        OperatorSide.LEFT: tr("On the patient's left"),
     }
     return names[side]

@@ -11,7 +11,7 @@ from app.core.progress import Progress
 from app.imaging.structures.structure import Index, Mask, Structure, free_name
 from app.planning.clearance import Clearance
 from app.planning.draft import DraftPlan
-from app.views.kit.background import Task, run_in_background
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
 from app.views.structures.brush import Brush, BrushGrip
@@ -50,7 +50,7 @@ class StructuresFeature(Feature):
         )
         self._meshes: dict[int, Mesh] = {}
         self._belongs: tuple[object, ...] = ()
-        self._task: Task | None = None
+        self._task: BackgroundTask | None = None
         self._settle = QTimer(self, interval=SETTLE_MS, singleShot=True)
         self._settle.timeout.connect(self._measure)
         context.shell.add_panel(self.panel, tr("Structures"))

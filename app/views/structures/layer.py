@@ -24,7 +24,7 @@ SMALLEST_NAMED_PX = 14.0
 """Outlines smaller than this carry no name."""
 
 
-class OutlineItem(Shape):
+class StructureOutline(Shape):
     """One structure in one slice."""
 
     def __init__(self, z: float) -> None:
@@ -116,7 +116,7 @@ class StructureLayer:
 
     def __init__(self, drawing: Drawing, book: StructureBook) -> None:
         self._drawing, self._book = drawing, book
-        self._items: dict[str, OutlineItem] = {}
+        self._items: dict[str, StructureOutline] = {}
         self._shown: dict[str, tuple[Mask, SlicePlane, float]] = {}
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
@@ -127,7 +127,7 @@ class StructureLayer:
         for structure in visible:
             item = self._items.get(structure.name)
             if item is None:
-                item = self._items[structure.name] = OutlineItem(1.5)
+                item = self._items[structure.name] = StructureOutline(1.5)
                 self._drawing.add(item)
             known = self._shown.get(structure.name)
             if (

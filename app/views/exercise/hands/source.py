@@ -5,10 +5,10 @@ from typing import ClassVar
 
 from PySide6.QtCore import QObject, Signal
 
-from app.session.pad.hand import Hand
+from app.session.pad.hand import PadHand
 from app.views.exercise.pad_canvas import PadCanvas
 
-HandChange = Callable[[Hand], None]
+HandChange = Callable[[PadHand], None]
 """One movement: what it does to the hand."""
 
 STEP_MS = 20
