@@ -18,7 +18,7 @@
         if (this.onmessage) this.onmessage(event);
       };
       window.addEventListener("message", this.receive);
-      this.frame.onload = () => {
+      this.frame.ready = () => {
         const waiting = this.waiting;
         this.waiting = null;
         for (const message of waiting) this.postMessage(message);
@@ -32,7 +32,8 @@
           " new Promise((done, failed) => { const s = document.createElement('script');" +
           " s.src = url; s.onload = done; s.onerror = failed; document.body.append(s); }))," +
           " Promise.resolve());" +
-          "<\/script><script src='" + new URL(url, location.href) + "'><\/script></body></html>"
+          "<\/script><script src='" + new URL(url, location.href) + "'><\/script>" +
+          "<script>frameElement.ready();<\/script></body></html>"
       );
       inside.close();
     }
