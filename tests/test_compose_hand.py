@@ -14,7 +14,7 @@ from app.core.arrays import unit
 from app.device.faults import Fault
 from app.mechanisms.profile import load_profile
 from app.session.machine import RUNNING, State
-from app.session.pauses import excused
+from app.session.transitions import excused
 
 MOVE = st.one_of(
     st.tuples(

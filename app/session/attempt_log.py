@@ -18,7 +18,6 @@ from app.session.curves import curves
 from app.session.errors import RecordingError
 from app.session.header import Attachment
 from app.session.machine import Attempt
-from app.session.pauses import excused
 from app.session.recorder import Recorder
 from app.session.recording import Recording, deferred_inputs
 from app.session.result import AttemptResult
@@ -29,6 +28,7 @@ from app.session.samples import History, Samples
 from app.session.scored import renders_force, score_document, trajectory
 from app.session.sidecar import write_summary
 from app.session.summary import Summary
+from app.session.transitions import excused
 from app.session.verify import SCORE_FILE
 
 Scorer = Callable[[Trajectory], Score]

@@ -1,12 +1,14 @@
 """What a trainer is told once about its runs: it goes into the head of every record."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from types import MappingProxyType
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from app.core.clock import Clock
 from app.core.errors import AcusError
@@ -17,8 +19,11 @@ from app.session.conditions import AGREEMENT
 from app.session.facts import PLAN, plan_record
 from app.session.hands import TRAINEE, hand_of
 from app.session.header import TRASH, Attachment, SessionHeader, new_id
-from app.session.ports import ExercisePort, LoopPort
 from app.session.recorder import Recorder
+
+if TYPE_CHECKING:
+    from app.device.control.loop import Loop
+    from app.exercises.schema import Exercise
 
 _DRAWS: Final = 16
 """An id that is taken is drawn anew so many times."""
@@ -49,7 +54,7 @@ class RunContext:
     identify: Callable[[datetime], str] = new_id
 
     def header(
-        self, exercise: ExercisePort, placed: PlacedPlan, student: str, now: float, hand: str = ""
+        self, exercise: Exercise, placed: PlacedPlan, student: str, now: float, hand: str = ""
     ) -> SessionHeader:
         """Head of a record that begins at monotonic time `now` [s].
 
@@ -92,7 +97,7 @@ class RunContext:
     def recorder(
         self,
         header: SessionHeader,
-        loop: LoopPort,
+        loop: Loop,
         placed: PlacedPlan,
         clock: Clock,
     ) -> Recorder:

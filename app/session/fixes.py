@@ -1,19 +1,103 @@
-"""The cameras' fixes on their way to the loop and to the pose."""
+"""The cameras' fixes on their way to the loop and to the pose, and which of them are believed.
+
+No depth is believed before ten more have agreed with it.
+
+A marker that is mistaken for another thing gives one wrong depth, or a few; force and let-go would
+follow it. So a first depth counts for nothing until `AGREEING` more have come, each within what a
+hand can have moved the needle since the one before,
+
+    |d - d'| <= v (t - t') + 4 (s + s'),
+
+with the standard deviations s. A depth that is further away is refused, and from then on none is
+believed until `AGREEING` new ones agree among themselves: nobody knows which of the two was right.
+After `FORGOTTEN` without any the next is a first one again; until then, as on a slow computer,
+t - t' counts as `TRACKER_HOLD` at most, so that a depth far from the last is confirmed anew.
+
+What is not believed reaches neither the loop, whose interval is then the profile's whole range
+(`device.control.depth_interval`), nor the pose. A depth that is wrong by the same amount in every
+picture passes: no gate can see it.
+"""
+
+from __future__ import annotations
 
 import threading
 from dataclasses import dataclass
-from typing import Final
+from math import isfinite, sqrt
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.session.depth_gate import DepthGate
+from app.core.staleness import TRACKER_HOLD
+from app.core.units import MILLIMETRE
+from app.session.fusion import fix_depth, is_usable
 from app.session.inputs import LoopInputs
-from app.session.measured import fix_depth, is_usable
-from app.session.ports import FixPort, LoopPort
-from app.tracking.fix import FixStatus
+from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.motion.choice import depth_filter
 from app.tracking.motion.depth_filter import DepthMotion
+
+if TYPE_CHECKING:
+    from app.device.control.loop import Loop
+
+AGREEING: Final = 10
+"""Depths that have to agree with a first one before it is believed."""
+
+FORGOTTEN: Final = 1.0
+"""Time without a depth [s] after which nothing is left to agree with."""
+
+SIGMAS: Final = 4.0
+"""Standard deviations within which a depth is taken to lie."""
+
+
+class DepthGate:
+    """Looks at one depth after the other; not thread-safe.
+
+    Args:
+        speed: fastest that a hand moves the needle along itself [m/s].
+
+    Attributes:
+        doubt: why the depth is not believed now, in the student's words; empty if it is.
+    """
+
+    def __init__(self, speed: float) -> None:
+        self._speed = speed
+        self._last: tuple[float, float, float] | None = None
+        self._agreed = 0
+        self._jump = 0.0
+        self.doubt = ""
+
+    def take(self, time: float, depth: float, variance: float) -> bool:
+        """Look at a depth [m] of a `time` [s] with its variance [m²]; says whether it is believed.
+
+        A depth that is no number is refused like one that jumps; times must not go back.
+        """
+        known = isfinite(depth) and isfinite(variance) and variance >= 0.0
+        sigma = sqrt(variance) if known else 0.0
+        if self._last is None or not time - self._last[0] <= FORGOTTEN:
+            self._agreed = -1  # nothing to agree with
+            self._jump = 0.0
+        else:
+            since, before, spread = self._last
+            away = abs(depth - before)
+            moved = self._speed * min(time - since, TRACKER_HOLD)
+            if not (known and away <= moved + SIGMAS * (sigma + spread)):
+                self._agreed, self._jump = -1, away if known else 0.0
+        self._last = (time, depth, sigma) if known else None
+        self._agreed = min(self._agreed + 1, AGREEING)
+        self.doubt = self._why()
+        return not self.doubt
+
+    def _why(self) -> str:
+        if self._agreed >= AGREEING:
+            return ""
+        count = f"{self._agreed} of {AGREEING} pictures agree so far"
+        if self._jump > 0.0:
+            return (
+                f"the cameras' depth jumped by {self._jump / MILLIMETRE:.0f} mm, faster than a hand"
+                f" moves a needle: {count}"
+            )
+        return f"the cameras have just found the marker: {count}"
+
 
 UNSEEN: Final = 1.0
 """Variance of a depth that nobody measured [m²]: it may be anywhere."""
@@ -46,17 +130,17 @@ class Fixes:
     `take` may be called from the tracker's thread and from the ticker alike.
     """
 
-    def __init__(self, loop: LoopPort, inputs: LoopInputs, trust: DepthTrust = TRUST) -> None:
+    def __init__(self, loop: Loop, inputs: LoopInputs, trust: DepthTrust = TRUST) -> None:
         self._loop = loop
         self._inputs = inputs
         self._seen = trust.seen
         self._gate = DepthGate(trust.hand_speed)
         self._lock = threading.Lock()
-        self._newest: FixPort | None = None
-        self._usable: FixPort | None = None
+        self._newest: NeedleFix | None = None
+        self._usable: NeedleFix | None = None
         self._motion = depth_filter()
 
-    def take(self, fix: FixPort, fulcrum: FloatArray) -> None:
+    def take(self, fix: NeedleFix, fulcrum: FloatArray) -> None:
         """Look at a fix; one that is not newer than the last, or of no time, is passed over."""
         if not np.isfinite(fix.time):
             return
@@ -67,7 +151,7 @@ class Fixes:
             if is_usable(fix):
                 self._weigh(fix, fulcrum)
 
-    def usable(self) -> FixPort | None:
+    def usable(self) -> NeedleFix | None:
         """Newest fix that is a measurement and believed, or None."""
         with self._lock:
             return self._usable
@@ -96,7 +180,7 @@ class Fixes:
             return FixStatus.NO_PICTURE.value, 0.0
         return str(fix.status), float(fix.residual_px)
 
-    def _weigh(self, fix: FixPort, fulcrum: FloatArray) -> None:
+    def _weigh(self, fix: NeedleFix, fulcrum: FloatArray) -> None:
         """Believe a depth and tell the loop, or tell it that there is none."""
         device = self._loop.latest()
         if device.tick == 0 or not np.isfinite(device.axis).all():

@@ -1,23 +1,37 @@
-"""Everything that one tick of the trainer sees, gathered once and used by all."""
+"""Robot and cameras as one tick of the trainer sees them, gathered once and used by all."""
+
+from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from math import inf
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from app.core import state_vector as slots
 from app.core.arrays import FloatArray, read_only
+from app.core.events import Event, EventQueue
 from app.device.faults import Fault
+from app.device.state import DeviceState
 from app.planning.off_path import Offset
 from app.planning.placement import PlacedPlan
 from app.session.curves import offset
-from app.session.fixes import Fixes
+from app.session.errors import NotReadyError
+from app.session.fixes import TRUST, DepthTrust, Fixes
+from app.session.fusion import fuse, moment, predicted
 from app.session.inputs import LoopInputs
 from app.session.machine import State
-from app.session.needle import DOWN, DepthSource, NeedlePose, fuse
-from app.session.ports import DeviceStatePort
+from app.session.needle import DOWN, DepthSource, NeedlePose
 from app.session.sample import Sample
-from app.session.shown import moment, shown
+from app.tracking.fix import NeedleFix
+
+if TYPE_CHECKING:
+    from app.device.control.loop import Loop
+    from app.device.control.timing import Timing
+    from app.tracking.pen.tracker import PenTracker
+    from app.tracking.statistics import TrackerStatistics
+    from app.tracking.tracker import Tracker
+
 
 LOOP_LIMIT: Final = 0.5
 """Age of the loop's newest state [s] from which the loop counts as dead."""
@@ -50,7 +64,7 @@ class Observation:
     pose: NeedlePose
     offset: Offset
     p_target: FloatArray
-    device: DeviceStatePort | None
+    device: DeviceState | None
     fix_status: str
     residual_px: float
     shown: NeedlePose
@@ -76,7 +90,7 @@ class Observation:
         return float(device.row[slots.HAND_HOLDS]) > 0.5
 
     @staticmethod
-    def _can_be_armed_again(device: DeviceStatePort) -> bool:
+    def _can_be_armed_again(device: DeviceState) -> bool:
         """Whether the fault is one that ends by letting go of the switch and holding it again."""
         silence = device.time - float(device.row[slots.Q_TIME])
         return int(device.fault) == Fault.LET_GO or (
@@ -120,7 +134,7 @@ class Observation:
 
 
 def observe(
-    state: DeviceStatePort | None,
+    state: DeviceState | None,
     fixes: Fixes,
     placed: PlacedPlan,
     now: float,
@@ -142,7 +156,7 @@ def observe(
             p_target = read_only(placed.p_target + shift)
     status, residual = fixes.status(now)
     away = offset(pose, p_target, placed)
-    seen = shown(pose, fixes.motion(moment(pose)))
+    seen = predicted(pose, fixes.motion(moment(pose)))
     seen_away = away if seen is pose else offset(seen, p_target, placed)
     return Observation(now, pose, away, p_target, device, status, residual, seen, seen_away)
 
@@ -162,3 +176,95 @@ def _no_device(placed: PlacedPlan, now: float, last: NeedlePose | None, missing:
         bend=last.bend if last else None,
         reason=missing,
     )
+
+
+STATISTICS_PERIOD: Final = 0.25
+"""Statistics of loop and tracker are taken this often [s]; they cost more than a look."""
+
+
+class RobotAndCameras:
+    """Loop and tracker: opened, observed and closed together.
+
+    Attributes:
+        seen: newest observation; None before the first.
+        timing: lateness of the loop, as it reported it last.
+        statistics: of the tracker, as it reported them last; None without one.
+    """
+
+    def __init__(
+        self,
+        loop: Loop,
+        tracker: Tracker | PenTracker | None,
+        inputs: LoopInputs,
+        trust: DepthTrust = TRUST,
+    ) -> None:
+        self.seen: Observation | None = None
+        self.timing: Timing | None = None
+        self.statistics: TrackerStatistics | None = None
+        self._loop = loop
+        self._tracker = tracker
+        self._fixes = Fixes(loop, inputs, trust)
+        self._measured = -inf
+
+    def open(self) -> None:
+        """Start loop and tracker.
+
+        Raises:
+            AcusError: whatever keeps one from starting.
+        """
+        self._loop.open()
+        if self._tracker is not None:
+            self._tracker.open()
+
+    def close(self) -> None:
+        """Stop both; idempotent."""
+        if self._tracker is not None:
+            self._tracker.close()
+        self._loop.close()
+
+    def require_ticks(self, failed: bool) -> None:
+        """Refuse what must not begin without a running loop, or after a `failed` ticker.
+
+        Raises:
+            NotReadyError: saying which.
+        """
+        if self._loop.latest().tick == 0:
+            raise NotReadyError("the robot is still starting: begin once it reports its pose")
+        if failed:
+            raise NotReadyError("the program has had a fault: close the exercise, open it again")
+
+    def take(self, fix: NeedleFix, placed: PlacedPlan) -> None:
+        """Take a fix."""
+        self._fixes.take(fix, placed.p_entry)
+
+    def observe(self, placed: PlacedPlan, now: float) -> Observation:
+        """Observe at `now` [s].
+
+        Raises:
+            AcusError: if the loop has ended; `observe_nothing` then keeps why.
+        """
+        stamped = self._tracker.latest.read() if self._tracker is not None else None
+        if stamped is not None:
+            self.take(stamped.value, placed)
+        last = self.seen.pose if self.seen is not None else None
+        self.seen = observe(self._loop.latest(), self._fixes, placed, now, last)
+        return self.seen
+
+    def observe_nothing(self, placed: PlacedPlan, now: float, reason: str) -> None:
+        """Observe that the robot says nothing, and why."""
+        last = self.seen.pose if self.seen is not None else None
+        self.seen = observe(None, self._fixes, placed, now, last, reason)
+
+    def newest(self, placed: PlacedPlan, now: float) -> Observation:
+        """Return the newest observation, with statistics that are not too old."""
+        if abs(now - self._measured) >= STATISTICS_PERIOD:
+            self._measured = now
+            self.timing = self._loop.timing()
+            self.statistics = self._tracker.statistics() if self._tracker is not None else None
+        return self.seen or observe(None, self._fixes, placed, now, None)
+
+    def tracker_events(self, own: EventQueue) -> list[Event]:
+        """Take what the tracker tells; a queue that is the trainer's `own` is drained already."""
+        if self._tracker is None or self._tracker.events is own:
+            return []
+        return list(self._tracker.events.drain())

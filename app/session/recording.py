@@ -17,7 +17,6 @@ from app.session.control_scan import ControlScan, scan_marks, scans_of
 from app.session.ct_facts import CtFacts
 from app.session.errors import BrokenRecordingError
 from app.session.facts import PLAN, placed_plan
-from app.session.pauses import excused
 from app.session.risks import risk_marks
 from app.session.sample_columns import SAMPLES_FILE, same, unpack
 from app.session.samples import Samples, bends, floats, vectors, words
@@ -25,6 +24,7 @@ from app.session.scan import Scan, scan, scan_by_index
 from app.session.schemas import CHANNELS, conforms
 from app.session.scored import renders_force, trajectory
 from app.session.ticks import Inputs, read_inputs
+from app.session.transitions import excused
 
 Metadata = MappingProxyType[str, dict[str, str]]
 

@@ -1,18 +1,68 @@
 """The present attempt: its state, its log, and the events that the window drains."""
 
+from __future__ import annotations
+
+from typing import Final
+
 from app.core.events import Event, EventQueue
+from app.core.staleness import TRACKER_HOLD
 from app.imaging.scan_order import ScanOrder
 from app.session import control_scan, machine
 from app.session.attempt_log import AttemptLog
-from app.session.depth_news import DepthNews
 from app.session.errors import IllegalTransitionError
 from app.session.inputs import LoopInputs
 from app.session.machine import Attempt
+from app.session.needle import DepthSource, NeedlePose
 from app.session.observation import Observation
-from app.session.pauses import KIND, PAUSED_WORDS, RESUMED_WORDS, Cause, Pauses
-from app.session.phases import DEFAULT, Classifier, Thresholds, classify
 from app.session.result import AttemptResult
+from app.session.transitions import (
+    DEFAULT,
+    KIND,
+    PAUSED_WORDS,
+    RESUMED_WORDS,
+    Cause,
+    Classifier,
+    Pauses,
+    Thresholds,
+    classify,
+)
 from app.session.withdrawal import Known
+
+STEADY: Final = 1.0
+"""Time for which the depth is measured without a break before a loss is told again [s]."""
+
+
+class DepthLoss:
+    """Says once that the cameras lost the needle, and once that they have found it again.
+
+    A needle that the cameras have not seen yet is no loss; at the edge of their view, where fixes
+    come and go, a loss is told once.
+    """
+
+    def __init__(self) -> None:
+        self._since: float | None = None
+        self._lost = False
+
+    def message(self, pose: NeedlePose) -> str:
+        """Return what is to be told of this pose; empty for nothing."""
+        if pose.measured:
+            self._since = pose.time if self._since is None else self._since
+            if self._lost and pose.time - self._since >= STEADY:
+                self._lost = False
+                return "the cameras see the needle again: the depth is measured"
+            return ""
+        was_measured, self._since = self._since is not None, None
+        if pose.depth_source is DepthSource.MODEL and was_measured and not self._lost:
+            self._lost = True
+            why = pose.doubt or (
+                f"the cameras have not seen the needle for {TRACKER_HOLD * 1e3:.0f} ms"
+            )
+            return (
+                f"{why}: from now on the depth is not measured, and the force is held back as if "
+                "the needle could be anywhere"
+            )
+        return ""
+
 
 _OUT_WORDS = {
     Known.SIMULATED: "the needle is out of the skin: the attempt begins",
@@ -23,7 +73,7 @@ _OUT_WORDS = {
 }
 
 
-class Running:
+class RunningAttempt:
     """Moves one attempt after the other; not thread-safe, the trainer holds the lock.
 
     Attributes:
@@ -38,7 +88,7 @@ class Running:
         self.events = events
         self._thresholds = thresholds
         self._classifier = Classifier()
-        self._depth = DepthNews()
+        self._depth = DepthLoss()
         self._pauses = Pauses()
 
     @property
@@ -85,7 +135,7 @@ class Running:
         self.require_idle("an attempt cannot begin")
         event = machine.Event.PREPARE if out is None else machine.Event.BEGIN
         self.attempt = machine.advance(Attempt(), event, now)
-        self._classifier, self._depth, self.log = Classifier(), DepthNews(), log
+        self._classifier, self._depth, self.log = Classifier(), DepthLoss(), log
         self._pauses = Pauses()
         if failure:
             self.say("recorder", f"this attempt is not recorded: {failure}", now)
@@ -98,7 +148,7 @@ class Running:
         data: dict[str, object] = {"how": known.value, "duration_s": waited}
         self.say("withdrawal", _OUT_WORDS[known], now, data)
 
-    def look(
+    def take(
         self,
         seen: Observation,
         inputs: LoopInputs,
@@ -127,16 +177,20 @@ class Running:
         event = pause or event
         if event is not None:
             self._change(event, seen.time)
-        news = self._depth.look(seen.pose)
-        if news:
-            self.say("depth", news, seen.time, {"source": seen.pose.depth_source.value})
+        lost_or_found = self._depth.message(seen.pose)
+        if lost_or_found:
+            self.say("depth", lost_or_found, seen.time, {"source": seen.pose.depth_source.value})
         log.sample(seen.sample(self.attempt.state, inputs))
         return ""
 
     def scan(
-        self, seen: Observation | None, now: float, order: ScanOrder | None = None,
-        dose: float = 0.0, streak: bool = False,
-    ) -> int:  # fmt: skip
+        self,
+        seen: Observation | None,
+        now: float,
+        order: ScanOrder | None = None,
+        dose: float = 0.0,
+        streak: bool = False,
+    ) -> int:
         """Take a control scan at `now` [s]; without an order it is only counted.
 
         `dose` is notional, of the whole scan [mGy·cm]; `streak` whether the metal leaves one.

@@ -15,9 +15,9 @@ from app.core.events import Event
 from app.core.frames import Frame
 from app.core.json_values import compact
 from app.core.transform import RigidTransform, rotation_between
+from app.device.state import DeviceState
 from app.session.machine import State
 from app.session.needle import DOWN, NeedlePose
-from app.session.ports import DeviceStatePort
 
 _FLIP: Final = np.diag([1.0, -1.0, -1.0])
 _LEVELS: Final = {
@@ -53,7 +53,7 @@ class Sample:
     time: float
     state: State
     pose: NeedlePose
-    device: DeviceStatePort | None
+    device: DeviceState | None
     p_target: FloatArray
     fix_status: str = ""
     residual_px: float = 0.0
@@ -215,7 +215,7 @@ def radius_95(sample: Sample) -> float | None:
     return sample.pose.radius if measured else None
 
 
-def _joints(device: DeviceStatePort, stamp: dict[str, int]) -> dict[str, Any]:
+def _joints(device: DeviceState, stamp: dict[str, int]) -> dict[str, Any]:
     """Joint states; a value that is not finite is left out, as the schema allows."""
     columns = {"position": device.q, "velocity": device.qd, "effort": device.torque}
     joints = [
@@ -225,7 +225,7 @@ def _joints(device: DeviceStatePort, stamp: dict[str, int]) -> dict[str, Any]:
     return {"timestamp": stamp, "joints": joints}
 
 
-def _wrench(sample: Sample, device: DeviceStatePort, stamp: dict[str, int]) -> dict[str, Any]:
+def _wrench(sample: Sample, device: DeviceState, stamp: dict[str, int]) -> dict[str, Any]:
     return {
         "timestamp": stamp,
         "wanted": _vector(device.force),

@@ -1,8 +1,10 @@
 """The bridge to scoring: samples become a `Trajectory`, a score becomes a JSON document."""
 
+from __future__ import annotations
+
 import json
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +18,10 @@ from app.scoring.trajectory import Trajectory
 from app.session.errors import SessionError
 from app.session.machine import State
 from app.session.needle import FROM_CAMERAS
-from app.session.ports import ExercisePort
 from app.session.samples import Samples
+
+if TYPE_CHECKING:
+    from app.exercises.schema import Exercise
 
 
 def renders_force(metadata: Mapping[str, Mapping[str, str]]) -> bool:
@@ -75,7 +79,7 @@ def _phases(states: NDArray[np.str_]) -> NDArray[np.str_]:
     return np.where(states == State.WITHDRAWING.value, State.READY.value, states)
 
 
-def scorer(exercise: ExercisePort) -> Callable[[Trajectory], Score]:
+def scorer(exercise: Exercise) -> Callable[[Trajectory], Score]:
     """Return the scorer of an exercise: its tolerances and its rules."""
     return lambda path: score(path, exercise.tolerances, exercise.rules)
 

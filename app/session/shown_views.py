@@ -16,6 +16,7 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, read_only
+from app.device.state import DeviceState
 from app.exercises.guidance import GuidanceMode
 from app.exercises.parts import TELLING, View
 from app.exercises.schema import Exercise
@@ -24,7 +25,6 @@ from app.planning.placement import PlacedPlan
 from app.session.curves import offset
 from app.session.machine import State
 from app.session.needle import DOWN, NeedlePose
-from app.session.ports import DeviceStatePort
 from app.session.snapshot import Snapshot
 
 HARMLESS: Final = (
@@ -40,9 +40,9 @@ HIDDEN_STATES: Final = (State.ALIGNING, State.INSERTING, State.HOLDING)
 
 
 class _Veiled:
-    """State of the loop without anything about the needle (`session.ports.DeviceStatePort`)."""
+    """State of the loop without anything about the needle (`device.state.DeviceState`)."""
 
-    def __init__(self, device: DeviceStatePort) -> None:
+    def __init__(self, device: DeviceState) -> None:
         row = np.zeros_like(device.row)
         row[list(HARMLESS)] = device.row[list(HARMLESS)]
         self.row: FloatArray = read_only(row)

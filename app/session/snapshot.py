@@ -9,17 +9,12 @@ from typing import TYPE_CHECKING
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
+from app.device.readiness import Clearance
+from app.device.state import DeviceState
 from app.planning.off_path import Offset
-from app.session.arming import Arming
-from app.session.inputs import LoopInputs
 from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
-from app.session.observation import Observation
-from app.session.ports import ClearancePort, DeviceStatePort
 from app.session.recorder import RecordingStatus
-from app.session.running import Running
-from app.session.watch import Watch
-from app.session.withdrawal import Withdrawal
 
 if TYPE_CHECKING:
     from app.device.control.timing import Timing
@@ -65,7 +60,7 @@ class Snapshot:
     pose: NeedlePose
     offset: Offset
     p_target: FloatArray
-    device: DeviceStatePort | None
+    device: DeviceState | None
     timing: Timing | None
     tracker: TrackerStatistics | None
     fix_status: str
@@ -75,7 +70,7 @@ class Snapshot:
     recording: RecordingStatus | None
     messages: tuple[str, ...]
     held_arming: bool = False
-    clearance: ClearancePort | None = None
+    clearance: Clearance | None = None
     measured_pose: NeedlePose | None = None
     withdrawal: str = ""
     may_confirm: bool = False
@@ -149,50 +144,3 @@ def advice(
     if recording is not None and recording.lost_rows:
         found.append(f"{recording.lost_rows} ticks of the loop were not recorded")
     return tuple(found)
-
-
-def take(
-    now: float,
-    seen: Observation,
-    running: Running,
-    inputs: LoopInputs,
-    arming: Arming,
-    watch: Watch,
-    withdrawal: Withdrawal,
-) -> Snapshot:
-    """Put a snapshot together at `now` [s]."""
-    attempt, log, fault = running.attempt, running.log, seen.device_fault
-    recording = log.recorder.status() if log is not None else None
-    held_back = arming.clearance.reason if arming.clearance is not None else ""
-    return Snapshot(
-        time=now,
-        state=attempt.state,
-        reason=attempt.reason,
-        elapsed=attempt.duration(now),
-        phases=attempt.phases(now),
-        pose=seen.shown,
-        offset=seen.shown_offset,
-        p_target=seen.p_target,
-        device=seen.device,
-        timing=watch.timing,
-        tracker=watch.statistics,
-        fix_status=seen.fix_status,
-        scans=log.scans if log is not None else 0,
-        assistance=inputs.assistance,
-        armed=inputs.armed,
-        recording=recording,
-        messages=advice(
-            seen.pose,
-            seen.fix_status,
-            fault,
-            attempt.reason,
-            recording,
-            held_back,
-            withdrawal.words or running.pause_words,
-        ),
-        held_arming=arming.held,
-        clearance=arming.clearance,
-        measured_pose=seen.pose,
-        withdrawal=withdrawal.words,
-        may_confirm=withdrawal.asks,
-    )

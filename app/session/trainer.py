@@ -1,34 +1,40 @@
 """The running trainer: composes loop, tracker, plan, exercise and record into attempts."""
 
+from __future__ import annotations
+
 import threading
 from collections.abc import Callable
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import EventQueue
+from app.core.latest import Latest
 from app.exercises.locks import Lock
 from app.imaging.scan_order import ScanOrder
 from app.planning.placement import PlacedPlan
-from app.session.arming import Arming, ClearanceOf
 from app.session.attempt_log import AttemptLog
 from app.session.context import RunContext
 from app.session.errors import ControlLockedError
 from app.session.fixes import TRUST, DepthTrust
-from app.session.inputs import LoopInputs
+from app.session.inputs import Arming, ClearanceOf, LoopInputs
 from app.session.machine import Event
-from app.session.ports import ExercisePort, FixPort, LoopPort, TrackerPort
+from app.session.observation import Observation, RobotAndCameras
 from app.session.result import AttemptResult
 from app.session.risks import Risk
-from app.session.running import Running
+from app.session.running import RunningAttempt
 from app.session.scored import scorer
-from app.session.sight import Sight
-from app.session.sleep import Sleep, words
-from app.session.snapshot import Snapshot
-from app.session.ticker import Ticker
-from app.session.watch import Watch
+from app.session.snapshot import Snapshot, advice
+from app.session.ticker import Standstill, Ticker, standstill_words
 from app.session.withdrawal import KIND as WITHDRAWAL
 from app.session.withdrawal import Start, Withdrawal
+from app.tracking.fix import NeedleFix
+
+if TYPE_CHECKING:
+    from app.device.control.loop import Loop
+    from app.exercises.schema import Exercise
+    from app.tracking.pen.tracker import PenTracker
+    from app.tracking.tracker import Tracker
 
 TICK_PERIOD: Final = 0.02
 """The trainer looks at everything this often [s]."""
@@ -51,10 +57,10 @@ class Trainer:
 
     def __init__(
         self,
-        loop: LoopPort,
-        tracker: TrackerPort | None,
+        loop: Loop,
+        tracker: Tracker | PenTracker | None,
         placed: PlacedPlan,
-        exercise: ExercisePort,
+        exercise: Exercise,
         context: RunContext | None = None,
         clock: Clock | None = None,
         advance: Advance | None = None,
@@ -87,13 +93,12 @@ class Trainer:
         self._risks = risks
         self._inputs = LoopInputs(loop.inbox)
         self._arming = Arming(self._inputs, held_arming, clearance)
-        self._watch = Watch(loop, tracker, self._inputs, trust)
-        self._running = Running(self.events)
+        self._sources = RobotAndCameras(loop, tracker, self._inputs, trust)
+        self._running = RunningAttempt(self.events)
         self._withdrawal = Withdrawal(self._inputs, start)
-        self._sight = Sight(
-            self._inputs, self._arming, self._watch, self._running, self.events, self._withdrawal
-        )
-        self._sleep = Sleep() if isinstance(self._clock, SystemClock) else Sleep(lambda: 0.0)
+        self._latest: Latest[Snapshot] = Latest()
+        real = isinstance(self._clock, SystemClock)
+        self._standstill = Standstill() if real else Standstill(lambda: 0.0)
         self._lock = threading.RLock()
         self._ticker: Ticker | None = None
 
@@ -108,9 +113,9 @@ class Trainer:
             return
         try:
             self._inputs.prepare(self._placed, self._dial)
-            self._watch.open()
+            self._sources.open()
         except BaseException:
-            self._watch.close()
+            self._sources.close()
             raise
         self._ticker = Ticker(lambda: self.tick(self._clock.now()), TICK_PERIOD, self._crashed)
         self._ticker.open()
@@ -122,7 +127,7 @@ class Trainer:
         self.abort("the trainer was closed")
         self._ticker = None
         self.disarm()
-        self._watch.close()
+        self._sources.close()
 
     def step(self, ticks: int = 20) -> Snapshot:
         """Let virtual time pass: `ticks` of the loop, the simulated cameras, then one tick."""
@@ -158,7 +163,7 @@ class Trainer:
         with self._lock:
             self._running.require_idle("an attempt cannot begin")
             if self._ticker is not None:
-                self._watch.require_ticks(self._ticker.failed)
+                self._sources.require_ticks(self._ticker.failed)
             self._arming.require()
             self._inputs.prepare(self._placed, self._dial)
             self._inputs.assist(self._dial)  # whatever the dial was turned to before
@@ -169,7 +174,7 @@ class Trainer:
             # Head and checkpoint are on the disk before the attempt's clock starts.
             failure = log.open(threaded=self._ticker is not None)
             now = self._clock.now()
-            seen = self._watch.newest(self._placed, now)
+            seen = self._sources.newest(self._placed, now)
             out = self._withdrawal.begin(seen.device, seen.pose, now)
             self._running.begin(log, now, failure, out)
             self.heartbeat()
@@ -177,7 +182,7 @@ class Trainer:
                 self._running.say(WITHDRAWAL, self._withdrawal.words, now)
             else:
                 self._arming.begin()
-            self._sight.publish(self._placed, now)
+            self._publish(now)
             return header.id
 
     def end(self) -> AttemptResult:
@@ -212,7 +217,7 @@ class Trainer:
         dose = 0.0 if order is None else guidance.dose(order)
         with self._lock:
             now = self._clock.now()
-            return self._running.scan(self._watch.seen, now, order, dose, guidance.streak)
+            return self._running.scan(self._sources.seen, now, order, dose, guidance.streak)
 
     # --- intents ----------------------------------------------------------------------------------
     def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
@@ -264,44 +269,122 @@ class Trainer:
             self._placed = placed
             self._inputs.path(placed.axis, placed.p_target)
 
-    def on_fix(self, fix: FixPort) -> None:
+    def on_fix(self, fix: NeedleFix) -> None:
         """Take a fix at once, as the tracker's callback; without it the ticker takes it."""
-        self._watch.take(fix, self._placed)
+        self._sources.take(fix, self._placed)
 
     def snapshot(self) -> Snapshot:
         """Return everything as of the last tick; never waits for a running one."""
-        return self._sight.newest or self.tick(self._clock.now())
+        stamped = self._latest.read()
+        return stamped.value if stamped is not None else self.tick(self._clock.now())
 
     # --- one tick ---------------------------------------------------------------------------------
     def tick(self, now: float) -> Snapshot:
         """Pull the latest values, move the attempt, record, publish; `now` is the time [s]."""
         with self._lock:
-            reason = self._stood_still(now) or self._sight.look(self._placed, now)
+            reason = self._stood_still(now) or self._observe(now)
             if reason:
                 self.abort(reason)
             elif self._ticker is None and self._running.log is not None:
                 self._running.log.recorder.drain()
-            return self._sight.publish(self._placed, now)
+            return self._publish(now)
+
+    def _observe(self, now: float) -> str:
+        """Pull the latest values and move the attempt; returns why it must be aborted, or nothing.
+
+        A fault of the tracker aborts like one of the robot.
+        """
+        try:
+            self._arming.ask()
+            seen = self._sources.observe(self._placed, now)
+            was_paused = self._running.paused
+            reason = self._running.take(
+                seen, self._inputs, self._arming.held, self._withdrawal.simulated
+            )
+            self._arming.pause(was_paused, self._running.paused)
+            reason = reason or self._bring_out(seen)
+            if reason:
+                return reason
+            for event in self._sources.tracker_events(self.events):
+                self._running.say(event.kind, event.message, event.time, dict(event.data))
+                reason = reason or (event.message if event.kind == "fault" else "")
+            return reason
+        except AcusError as error:
+            self._sources.observe_nothing(self._placed, now, str(error))
+            return str(error)
+
+    def _bring_out(self, seen: Observation) -> str:
+        """Begin an attempt once the needle is out; returns why it must be ended, or nothing."""
+        running, withdrawal = self._running, self._withdrawal
+        if running.withdrawing:
+            step = withdrawal.advance(seen.device, seen.pose, seen.time)
+            if step.known is not None:
+                running.release(step.known, seen.time)
+                self._arming.begin()
+            return step.failure
+        withdrawal.stop()
+        return withdrawal.refuted(seen.pose, seen.time) if running.counts else ""
+
+    def _publish(self, now: float) -> Snapshot:
+        """Publish what was observed last, with the attempt as it is now."""
+        seen = self._sources.newest(self._placed, now)
+        attempt, log, withdrawal = self._running.attempt, self._running.log, self._withdrawal
+        recording = log.recorder.status() if log is not None else None
+        clearance = self._arming.clearance
+        snapshot = Snapshot(
+            time=now,
+            state=attempt.state,
+            reason=attempt.reason,
+            elapsed=attempt.duration(now),
+            phases=attempt.phases(now),
+            pose=seen.shown,
+            offset=seen.shown_offset,
+            p_target=seen.p_target,
+            device=seen.device,
+            timing=self._sources.timing,
+            tracker=self._sources.statistics,
+            fix_status=seen.fix_status,
+            scans=log.scans if log is not None else 0,
+            assistance=self._inputs.assistance,
+            armed=self._inputs.armed,
+            recording=recording,
+            messages=advice(
+                seen.pose,
+                seen.fix_status,
+                seen.device_fault,
+                attempt.reason,
+                recording,
+                clearance.reason if clearance is not None else "",
+                withdrawal.words or self._running.pause_words,
+            ),
+            held_arming=self._arming.held,
+            clearance=clearance,
+            measured_pose=seen.pose,
+            withdrawal=withdrawal.words,
+            may_confirm=withdrawal.asks,
+        )
+        self._latest.publish(snapshot, now)
+        return snapshot
 
     def _stood_still(self, now: float) -> str:
         """Why the attempt ends if the whole program slept; empty if it did not."""
         try:
-            slept = self._sleep.look(now, int(self._loop.latest().tick))
+            slept = self._standstill.before(now, int(self._loop.latest().tick))
         except AcusError:  # the loop has ended: whoever looks next says so
             return ""
         if slept <= 0.0 or not self._running.attempt.running:
             return ""
-        self._running.say("slept", words(slept), now, {"seconds": slept})
-        return words(slept)
+        self._running.say("slept", standstill_words(slept), now, {"seconds": slept})
+        return standstill_words(slept)
 
     def _finish(self, event: Event, reason: str = "") -> AttemptResult:
         self.disarm()
         self._withdrawal.stop()
         now = self._clock.now()
-        result = self._running.finish(event, self._watch.seen, self._inputs, now, reason)
+        result = self._running.finish(event, self._sources.seen, self._inputs, now, reason)
         self.disarm()  # a key that was pressed while the attempt was ending
         self.result = result
-        self._sight.publish(self._placed, now)
+        self._publish(now)
         return result
 
     def _crashed(self, error: Exception) -> None:

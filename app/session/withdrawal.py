@@ -14,9 +14,9 @@ from typing import Final
 
 from app.core import state_vector as sv
 from app.core.units import MILLIMETRE
+from app.device.state import DeviceState
 from app.session.inputs import LoopInputs
 from app.session.needle import NeedlePose
-from app.session.ports import DeviceStatePort
 
 KIND: Final = "withdrawal"
 """Kind of the events that tell of it; `how` in their data is a `Known`."""
@@ -122,7 +122,7 @@ class Withdrawal:
         """Whether it is moving the simulated hand."""
         return self.active and self._start is Start.SIMULATED
 
-    def begin(self, device: DeviceStatePort | None, pose: NeedlePose, now: float) -> Known | None:
+    def begin(self, device: DeviceState | None, pose: NeedlePose, now: float) -> Known | None:
         """Begin before an attempt: how it is known that the tip is out already, or None."""
         self._since, self._confirmed, self._said = now, None, False
         self.active, self.asks, self.words = False, False, ""
@@ -140,7 +140,7 @@ class Withdrawal:
             return Known.SIMULATED
         return None
 
-    def look(self, device: DeviceStatePort | None, pose: NeedlePose, now: float) -> Step:
+    def advance(self, device: DeviceState | None, pose: NeedlePose, now: float) -> Step:
         """Look once more while the tip is being brought out."""
         if self._start is Start.SIMULATED:
             if device is not None and _depth(device) <= OUT:
@@ -190,12 +190,12 @@ class Withdrawal:
         self.words = WORDS[Outside.UNKNOWN if self.asks else Outside.NO]
         self._said = self._said and self.asks
 
-    def _bring_out(self, device: DeviceStatePort) -> None:
+    def _bring_out(self, device: DeviceState) -> None:
         """Let the simulated hand draw the needle back along itself."""
         x, y = device.row[[sv.GRIP_X, sv.GRIP_Y]].tolist()
         self._inputs.hand(x, y, WAITS, True)
         self.words = WORDS[Start.SIMULATED]
 
 
-def _depth(device: DeviceStatePort) -> float:
+def _depth(device: DeviceState) -> float:
     return float(device.row[sv.PLANT_DEPTH])

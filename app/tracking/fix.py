@@ -12,6 +12,13 @@ from app.tracking.discrepancy import Discrepancy
 
 AGREED: Final = Discrepancy()
 
+DIRECTION_SIGMA: Final = 1.0e-4
+"""Standard deviation of the direction [rad]: one encoder count is 0.02° of needle, / √12. What the
+robot's own calibration leaves is in the rig's `line_sd_mm`, the agreement of line and cameras."""
+
+GATE: Final = 1e-5
+"""Probability with which a tip on the line is taken for one beside it."""
+
 
 class FixStatus(StrEnum):
     """Whether the tip is known, and if not, why."""

@@ -14,8 +14,7 @@ from app.tracking.discrepancy import (
     DiscrepancyMonitor,
     Evidence,
 )
-from app.tracking.fix import FixStatus, NeedleFix
-from app.tracking.fusion import DIRECTION_SIGMA
+from app.tracking.fix import DIRECTION_SIGMA, FixStatus, NeedleFix
 
 _PICTURES_AGREE: Final = 4.5
 """Epipolar residual [standard deviations] up to which both pictures show the same thing."""

@@ -7,8 +7,7 @@ import numpy as np
 from app.core.arrays import FloatArray, frozen, unit
 from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
-from app.tracking.fix import FixStatus, NeedleFix, without_point
-from app.tracking.fusion import GATE
+from app.tracking.fix import GATE, FixStatus, NeedleFix, without_point
 from app.tracking.markers.extractor import Centre, MarkerFix
 from app.tracking.one_camera_fix import OneCameraSolver
 from app.tracking.optics.packed import packed

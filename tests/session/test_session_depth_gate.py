@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.session.depth_gate import AGREEING, FORGOTTEN, DepthGate
+from app.session.fixes import AGREEING, FORGOTTEN, DepthGate
 
 SPEED = 0.15
 FRAME = 1.0 / 30.0

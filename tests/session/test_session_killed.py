@@ -27,7 +27,7 @@ from app.session.recording import open_recording, read_recording
 from app.session.replay import why_not
 from app.session.sample_columns import SAMPLES_FILE
 from app.session.sidecar import verify_record
-from app.session.sleep import Sleep
+from app.session.ticker import Standstill
 from app.session.verify import verify
 
 PROGRAMS = 24
@@ -258,10 +258,10 @@ class Still:
 
     def __init__(self) -> None:
         self.asleep = 0.0
-        self.sleep = Sleep(lambda: self.asleep)
+        self.sleep = Standstill(lambda: self.asleep)
 
     def look(self, now: float, tick: int) -> float:
-        return self.sleep.look(now, tick)
+        return self.sleep.before(now, tick)
 
 
 def test_a_program_that_slept_is_told_from_one_that_was_busy() -> None:

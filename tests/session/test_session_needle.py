@@ -11,13 +11,9 @@ from session_fakes import FULCRUM, FakeFix, row
 from app.core import state_vector as sv
 from app.core.staleness import ENCODER_ZERO, TRACKER_HOLD
 from app.device.state import DeviceState
-from app.session.needle import (
-    MODEL_SIGMA,
-    ORIENTATION_SIGMA,
-    DepthSource,
-    fuse,
-    tip_covariance,
-)
+from app.session.fusion import DIRECTION_SIGMA as ORIENTATION_SIGMA
+from app.session.fusion import MODEL_SIGMA, fuse, tip_covariance
+from app.session.needle import DepthSource
 from app.tracking.motion.depth_filter import HAND_SPEED
 
 

@@ -10,11 +10,11 @@ import pytest
 from session_fakes import Bench
 
 from app.core.arrays import read_only
+from app.session.fusion import DISPLAY_LATENCY, FARTHEST, moment, predicted
 from app.session.machine import Event, State
 from app.session.needle import DepthSource, NeedlePose
-from app.session.pauses import BACK, LOST, Pauses
 from app.session.recording import read_recording
-from app.session.shown import DISPLAY_LATENCY, FARTHEST, moment, shown
+from app.session.transitions import BACK, LOST, Pauses
 from app.tracking.motion.depth_filter import HAND_SPEED, DepthMotion
 
 DOWN = np.array([0.0, 0.0, -1.0])
@@ -231,7 +231,7 @@ def test_an_attempt_that_ends_in_a_pause_says_how_long_it_was(bench: Bench) -> N
 def test_the_shown_pose_is_ahead_by_age_and_display_and_says_so() -> None:
     measured = pose(10.0)
     assert moment(measured) == pytest.approx(10.0 + DISPLAY_LATENCY)
-    ahead = shown(measured, DepthMotion(moment(measured), 0.0535, 0.05, 4e-9))
+    ahead = predicted(measured, DepthMotion(moment(measured), 0.0535, 0.05, 4e-9))
     assert ahead.predicted == pytest.approx(0.04 + DISPLAY_LATENCY)
     assert ahead.rate == 0.05
     np.testing.assert_allclose(ahead.p_tip, measured.p_tip + 0.0035 * DOWN)
@@ -244,13 +244,13 @@ def test_a_depth_that_a_filter_follows_is_known_better_than_one_that_nothing_fol
     aged = (HAND_SPEED * measured.depth_age) ** 2
     allowed = measured.covariance + aged * np.outer(measured.axis, measured.axis)
     measured = replace(measured, covariance=allowed)
-    followed = shown(measured, DepthMotion(moment(measured), measured.depth, 0.0, 1e-10))
+    followed = predicted(measured, DepthMotion(moment(measured), measured.depth, 0.0, 1e-10))
     assert followed.covariance[2, 2] == pytest.approx(allowed[2, 2] - aged)
     assert np.linalg.eigvalsh(followed.covariance).min() > 0.0
     aged = (HAND_SPEED * 0.18) ** 2
     allowed = 1e-9 * np.eye(3) + aged * np.outer(measured.axis, measured.axis)
     old = replace(measured, depth_age=0.18, covariance=allowed)
-    late = shown(old, DepthMotion(moment(old), old.depth, 0.0, 1e-10))
+    late = predicted(old, DepthMotion(moment(old), old.depth, 0.0, 1e-10))
     assert late.covariance[2, 2] == pytest.approx((HAND_SPEED * (0.18 - FARTHEST)) ** 2, rel=0.3)
 
 
@@ -262,7 +262,7 @@ def test_an_old_depth_is_predicted_no_further_than_its_limit() -> None:
 @pytest.mark.parametrize("source", [DepthSource.MODEL, DepthSource.NONE])
 def test_a_depth_that_no_camera_measured_is_not_predicted(source: DepthSource) -> None:
     other = pose(10.0, source)
-    assert shown(other, DepthMotion(10.03, 0.09, 0.5, 1e-9)) is other
+    assert predicted(other, DepthMotion(10.03, 0.09, 0.5, 1e-9)) is other
 
 
 def test_the_window_sees_the_prediction_and_the_record_the_measurement(bench: Bench) -> None:

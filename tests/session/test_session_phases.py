@@ -7,7 +7,7 @@ import pytest
 
 from app.session.machine import TABLE, Event, State
 from app.session.needle import DOWN, DepthSource, NeedlePose
-from app.session.phases import Classifier, classify
+from app.session.transitions import Classifier, classify
 
 STILL = NeedlePose(
     p_tip=np.zeros(3),

@@ -368,7 +368,7 @@ def test_after_a_fault_of_the_program_the_forces_are_off_and_stay_off(
     def broken(placed: PlacedPlan, now: float) -> None:
         raise ZeroDivisionError("nobody thought of it")
 
-    monkeypatch.setattr(bench.trainer._watch, "look", broken)
+    monkeypatch.setattr(bench.trainer._sources, "observe", broken)
     deadline = time.monotonic() + 5.0
     while bench.trainer.result is None and time.monotonic() < deadline:
         time.sleep(0.01)

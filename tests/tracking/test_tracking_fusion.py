@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from app.session.fusion import DIRECTION_SIGMA, fuse_tip, line_covariance
 from app.tracking.discrepancy import Cause, DiscrepancyMonitor, Evidence
 from app.tracking.fix import FixStatus
-from app.tracking.fusion import DIRECTION_SIGMA, fuse_tip, line_covariance
 from app.tracking.health import FixHealth
 from app.tracking.markers.extractor import Centre
 from app.tracking.markers.silhouette import centroid_shift

@@ -14,7 +14,7 @@ from app.imaging import scanning
 from app.imaging.series import Listing
 from app.planning.needle_overlay import NeedleOverlay
 from app.planning.plan import Plan
-from app.session.pauses import PAUSED_WORDS, RESUMED_WORDS, Cause
+from app.session.transitions import PAUSED_WORDS, RESUMED_WORDS, Cause
 from app.views.exercise.feature import ExerciseFeature
 from app.views.plan.feature import PlanFeature
 from app.views.reading.layouts import FIVE

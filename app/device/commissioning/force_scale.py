@@ -10,7 +10,8 @@ from app.device.commissioning.errors import CommissioningError
 from app.device.commissioning.report import Report
 from app.device.commissioning.results import ForceScale as Found
 from app.device.commissioning.results import Step
-from app.device.commissioning.routine import Routine, RunningLoop, Script
+from app.device.commissioning.routine import Routine, Script
+from app.device.control.loop import Loop
 from app.device.readiness import SCALE_TOLERANCE, UNVERIFIED_FORCE
 from app.mechanisms.profile import DeviceProfile
 
@@ -46,7 +47,7 @@ class ForceScale(Routine):
 
     def __init__(
         self,
-        loop: RunningLoop,
+        loop: Loop,
         profile: DeviceProfile,
         direction: ArrayLike = (1.0, 0.0, 0.0),
     ) -> None:

@@ -10,7 +10,8 @@ from app.device.commissioning.errors import CommissioningError
 from app.device.commissioning.force_scale import GRAVITY
 from app.device.commissioning.results import Gauge as Found
 from app.device.commissioning.results import Step
-from app.device.commissioning.routine import Routine, RunningLoop, Script
+from app.device.commissioning.routine import Routine, Script
+from app.device.control.loop import Loop
 from app.mechanisms.profile import DeviceProfile
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ class GaugeCalibration(Routine):
 
     def __init__(
         self,
-        loop: RunningLoop,
+        loop: Loop,
         profile: DeviceProfile,
         corrections: "Corrections",
         weights_g: tuple[float, ...] = WEIGHTS_G,

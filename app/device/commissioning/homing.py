@@ -9,7 +9,8 @@ from app.core.arrays import FloatArray
 from app.device.commissioning.errors import CommissioningError
 from app.device.commissioning.results import Homing as Found
 from app.device.commissioning.results import Step
-from app.device.commissioning.routine import Part, Routine, RunningLoop, Script
+from app.device.commissioning.routine import Part, Routine, Script
+from app.device.control.loop import Loop
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.pantograph import forward
 from app.mechanisms.profile import DeviceProfile
@@ -38,7 +39,7 @@ class Homing(Routine):
 
     def __init__(
         self,
-        loop: RunningLoop,
+        loop: Loop,
         profile: DeviceProfile,
         corrections: "Corrections",
         zero: Callable[[], None] = lambda: None,

@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Generator
 from dataclasses import replace
 from math import isfinite, pi
-from typing import Any, ClassVar, Final, Protocol
+from typing import Any, ClassVar, Final
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from app.core.errors import AcusError
 from app.device.commissioning.errors import CommissioningError
 from app.device.commissioning.report import Report
 from app.device.commissioning.results import AnyResult, Step
+from app.device.control.loop import Loop
 from app.device.faults import Fault
 from app.device.state import DeviceState
 from app.mechanisms.profile import DeviceProfile
@@ -34,31 +35,6 @@ _REST_COUNTS: Final = 3.0
 _REST_PATIENCE: Final = 10.0
 
 
-class Inbox(Protocol):
-    """Where the inputs go (`control.Inbox`)."""
-
-    def write(self, **values: float) -> None:
-        """Set inputs by name."""
-        ...
-
-
-class RunningLoop(Protocol):
-    """What a routine needs of the loop (`control.Loop`)."""
-
-    @property
-    def inbox(self) -> Inbox:
-        """Its inputs."""
-        ...
-
-    def latest(self) -> DeviceState:
-        """Newest tick."""
-        ...
-
-    def rows(self, since_tick: int = 0) -> FloatArray:
-        """Ticks after `since_tick`, shape (n, SLOTS)."""
-        ...
-
-
 class Routine(ABC):
     """One routine on a running loop.
 
@@ -74,7 +50,7 @@ class Routine(ABC):
     NAME: ClassVar[Step]
     TITLE: ClassVar[str]
 
-    def __init__(self, loop: RunningLoop, profile: DeviceProfile) -> None:
+    def __init__(self, loop: Loop, profile: DeviceProfile) -> None:
         self._loop, self._profile = loop, profile
         self._course: Script | None = None
         self._report = Report(0.0, self.TITLE)

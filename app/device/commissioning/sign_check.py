@@ -15,7 +15,8 @@ from app.device.commissioning.pulses import (
     index,
 )
 from app.device.commissioning.results import Side, Signs, Step
-from app.device.commissioning.routine import Part, RunningLoop, Script
+from app.device.commissioning.routine import Part, Script
+from app.device.control.loop import Loop
 from app.mechanisms.profile import DeviceProfile
 
 _RATE: Final = 0.04  # [N·m/s]
@@ -36,7 +37,7 @@ class SignCheck(PulseRoutine):
     NAME: ClassVar[Step] = Step.SIGNS
     TITLE: ClassVar[str] = "Sign check"
 
-    def __init__(self, loop: RunningLoop, profile: DeviceProfile, by_hand: bool = True) -> None:
+    def __init__(self, loop: Loop, profile: DeviceProfile, by_hand: bool = True) -> None:
         super().__init__(loop, profile)
         self._by_hand = by_hand
 

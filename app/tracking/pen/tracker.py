@@ -1,4 +1,4 @@
-"""The pen's tracker: one webcam in, needle fixes out; a `session.ports.TrackerPort`."""
+"""The pen's tracker: one webcam in, needle fixes out, as `tracking.tracker` gives them."""
 
 import threading
 from collections.abc import Callable

@@ -4,76 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from app.core.arrays import FloatArray
-from app.core.events import EventQueue
 from app.exercises.guidance import GuidancePart
-from app.imaging.scan_order import ScanOrder
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.session.pad.geometry import PadScale, path_frame
 from app.session.pad.hand import HandLimits
 from app.session.pad.view import PadScene, depth_tolerance, rings
-from app.session.result import AttemptResult
 from app.session.shown_views import Shown
-from app.session.snapshot import Snapshot
 
 if TYPE_CHECKING:
     from app.device.links.link import BoardInfo
     from app.device.readiness import Clearance, Readiness
+    from app.session.trainer import Trainer
     from app.tracking.inspection import Inspection
-
-
-class TrainerPort(Protocol):
-    """What the views need of `session.Trainer`."""
-
-    events: EventQueue
-    result: AttemptResult | None
-
-    def begin(self, student: str = "", hand: str = "") -> str:
-        """Begin an attempt; `hand` names what holds the needle, empty for the run's own."""
-        ...
-
-    def end(self) -> AttemptResult:
-        """End and score it."""
-        ...
-
-    def abort(self, reason: str = ...) -> AttemptResult | None:
-        """Break it off."""
-        ...
-
-    def confirm_outside(self) -> None:
-        """Take the student's word that the needle is out of the skin."""
-        ...
-
-    def scan(self, order: ScanOrder | None = None) -> int:
-        """Take a control scan; without an order it is only counted."""
-        ...
-
-    def arm(self) -> None:
-        """Switch the forces on."""
-        ...
-
-    def disarm(self) -> None:
-        """Switch the forces off."""
-        ...
-
-    def hand(self, x: float, y: float, depth: float, holds: bool = True) -> None:
-        """Move the simulated hand."""
-        ...
-
-    def assistance(self, value: float) -> None:
-        """Set the assistance, -1 repels … 0 off … 1 guides."""
-        ...
-
-    def heartbeat(self) -> None:
-        """Tell the loop that the window lives."""
-        ...
-
-    def snapshot(self) -> Snapshot:
-        """Return the newest state of everything."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,7 +52,7 @@ class ExerciseRun:
         shown: what may be told of the needle.
     """
 
-    trainer: TrainerPort
+    trainer: Trainer
     placed: PlacedPlan
     profile: DeviceProfile
     interactive: bool = True

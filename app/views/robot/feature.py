@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from PySide6.QtCore import Qt, Signal, SignalInstance
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
@@ -16,13 +16,15 @@ from app.views.exercise.enable_key import key_name
 from app.views.exercise.energy_gauge import GaugeMode
 from app.views.kit.background import run_in_background
 from app.views.kit.text import tr
-from app.views.robot.bench import BenchPort
 from app.views.robot.health_panel import HealthPanel
 from app.views.robot.key_dialog import KeyDialog
 from app.views.robot.settings import RobotSettings
 from app.views.robot.wizard import Wizard
 from app.views.shell.feature import Context, Feature
 from app.views.shell.services import RobotPort
+
+if TYPE_CHECKING:
+    from app.device.commissioning.bench import Bench
 
 
 class RobotFeature(Feature):
@@ -147,7 +149,7 @@ class RobotFeature(Feature):
         self._conductor.let_go()
         closed, services = self._runs.closed(), self.context.services
 
-        def operation(progress: Progress) -> BenchPort:
+        def operation(progress: Progress) -> Bench:
             closed()  # the wire has one end only
             return services.open_robot(port, profile, progress)
 
@@ -156,7 +158,7 @@ class RobotFeature(Feature):
             title=tr("Opening the robot"), indicator=self.context.shell.progress,
         )  # fmt: skip
 
-    def _commission(self, bench: BenchPort) -> None:
+    def _commission(self, bench: Bench) -> None:
         self._opening = False
         self.wizard = Wizard(bench, self._window)
         self.wizard.finished.connect(self._commissioned)

@@ -8,11 +8,12 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.core.errors import AcusError
 from app.device.commissioning.settle import settle
-from app.views.robot.bench import BenchPort, RoutinePort
 
 if TYPE_CHECKING:
+    from app.device.commissioning.bench import Bench
     from app.device.commissioning.report import Report
     from app.device.commissioning.results import Step
+    from app.device.commissioning.routine import Routine
 
 PERIOD_MS: Final = 10
 
@@ -30,10 +31,10 @@ class Runner(QObject):
     kept = Signal(object)
     failed = Signal(str)
 
-    def __init__(self, bench: BenchPort, parent: QObject) -> None:
+    def __init__(self, bench: Bench, parent: QObject) -> None:
         super().__init__(parent)
         self._bench = bench
-        self._routine: RoutinePort | None = None
+        self._routine: Routine | None = None
         self._step: Step | None = None
         self._said: Report | None = None
         self._timer = QTimer(self, interval=PERIOD_MS)

@@ -20,19 +20,19 @@ from app.core.errors import AcusError
 from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.text import tr
-from app.views.robot.bench import BenchPort
 from app.views.robot.runner import Runner
 from app.views.robot.wizard_pages import ConnectionPage, RoutinePage, SummaryPage
 from app.views.robot.wizard_words import state_of, step_words, steps_of
 
 if TYPE_CHECKING:
+    from app.device.commissioning.bench import Bench
     from app.device.commissioning.results import Step
 
 
 class Wizard(QDialog):
     """Leads a robot through its commissioning and closes it at the end, whichever way it ends."""
 
-    def __init__(self, bench: BenchPort, parent: QWidget | None = None) -> None:
+    def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(tr("Commissioning of {name}", name=bench.profile.name))
         self.resize(theme.px(860), 560)

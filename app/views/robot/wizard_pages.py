@@ -20,7 +20,6 @@ from PySide6.QtWidgets import (
 from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.text import tr
-from app.views.robot.bench import BenchPort
 from app.views.robot.wizard_words import (
     clearance_words,
     connection_lines,
@@ -30,6 +29,7 @@ from app.views.robot.wizard_words import (
 )
 
 if TYPE_CHECKING:
+    from app.device.commissioning.bench import Bench
     from app.device.commissioning.report import Report
     from app.device.commissioning.results import Step
 
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 class ConnectionPage(QWidget):
     """Who is at the other end, and what the robot is cleared for."""
 
-    def __init__(self, bench: BenchPort, parent: QWidget) -> None:
+    def __init__(self, bench: Bench, parent: QWidget) -> None:
         super().__init__(parent)
         self._bench = bench
         self._clearance = _label()
@@ -69,7 +69,7 @@ class ConnectionPage(QWidget):
 class SummaryPage(QWidget):
     """What was found, when, and what the robot is cleared for now."""
 
-    def __init__(self, bench: BenchPort, parent: QWidget) -> None:
+    def __init__(self, bench: Bench, parent: QWidget) -> None:
         super().__init__(parent)
         self._bench = bench
         self._clearance = _label()
@@ -113,7 +113,7 @@ class RoutinePage(QWidget):
     cancel_wanted = Signal()
     undo_wanted = Signal(object)
 
-    def __init__(self, bench: BenchPort, step: Step, parent: QWidget) -> None:
+    def __init__(self, bench: Bench, step: Step, parent: QWidget) -> None:
         super().__init__(parent)
         self._bench, self.step = bench, step
         words = step_words(step)

@@ -10,7 +10,7 @@ from app.views.exercise.status_items import Verdict
 from app.views.kit.text import tr
 
 if TYPE_CHECKING:
-    from app.views.robot.bench import BenchPort
+    from app.device.commissioning.bench import Bench
 
 ORDER: Final = (
     Step.HOMING, Step.SIGNS, Step.FORCE, Step.LATENCY, Step.FRICTION, Step.GAUGE,
@@ -78,12 +78,12 @@ def step_words(step: Step) -> StepWords:
     }[step]  # fmt: skip
 
 
-def steps_of(bench: BenchPort) -> tuple[Step, ...]:
+def steps_of(bench: Bench) -> tuple[Step, ...]:
     """Return the steps that this robot needs: a gauge is calibrated only where there is one."""
     return tuple(s for s in ORDER if s is not Step.GAUGE or bench.info.gauge)
 
 
-def state_of(bench: BenchPort, step: Step) -> tuple[Verdict, str, str]:
+def state_of(bench: Bench, step: Step) -> tuple[Verdict, str, str]:
     """Verdict, when and what was found, of a step on this robot."""
     entry = bench.record.newest(*_SAME.get(step, (step,)))
     if entry is None:
@@ -95,7 +95,7 @@ def state_of(bench: BenchPort, step: Step) -> tuple[Verdict, str, str]:
     return Verdict.GOOD, when, found
 
 
-def connection_lines(bench: BenchPort) -> tuple[tuple[str, str], ...]:
+def connection_lines(bench: Bench) -> tuple[tuple[str, str], ...]:
     """Who is at the other end, line by line."""
     info = bench.info
     return (
@@ -108,7 +108,7 @@ def connection_lines(bench: BenchPort) -> tuple[tuple[str, str], ...]:
     )
 
 
-def clearance_words(bench: BenchPort) -> tuple[Verdict, str]:
+def clearance_words(bench: Bench) -> tuple[Verdict, str]:
     """How much force the robot is cleared for, and why it is not more."""
     clearance = bench.clearance()
     if not clearance.reason:

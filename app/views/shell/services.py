@@ -16,9 +16,9 @@ from app.tracking.cameras.settings import CameraSettings
 from app.views.cameras.live import AimPort, LiveCamera
 from app.views.exercise.run import ExerciseRun
 from app.views.pen.port import PenPort
-from app.views.robot.bench import BenchPort
 
 if TYPE_CHECKING:
+    from app.device.commissioning.bench import Bench
     from app.tracking.pen.settings import PenSettings
 
 
@@ -125,7 +125,7 @@ class Services(Protocol):
         """Ports at which a robot may be plugged in now; quick, opens none."""
         ...
 
-    def open_robot(self, port: str, profile: DeviceProfile, progress: Progress) -> BenchPort:
+    def open_robot(self, port: str, profile: DeviceProfile, progress: Progress) -> Bench:
         """Open a robot for commissioning; called beside the window, may take seconds.
 
         Args:
