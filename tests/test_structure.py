@@ -20,7 +20,6 @@ MOST_WITHOUT_QT = 10
 WITHOUT_QT = {
     "app.views.exercise.run": "what compose hands the window of a running trainer: a port",
     "app.views.kit.themes": "the colours, as plain values",
-    "app.views.robot.bench": "what compose hands the window of a robot on the bench: a port",
     "app.views.scene.orbit": "where the 3D camera stands",
     "app.views.scene.robot": "the robot's shape as the 3D view draws it",
     "app.views.slices.camera": "which part of a plane a pane shows",
