@@ -39,7 +39,7 @@ HIDDEN_STATES: Final = (State.ALIGNING, State.INSERTING, State.HOLDING)
 """States that the program reads from the needle's place; shown as one."""
 
 
-class _Veiled:
+class _WithoutNeedle:
     """State of the loop without anything about the needle (`device.state.DeviceState`)."""
 
     def __init__(self, device: DeviceState) -> None:
@@ -83,7 +83,7 @@ class Shown:
         and all distances are to the target at rest.
         """
         if not self.live:
-            return veiled(snapshot)
+            return without_needle(snapshot)
         if self.shows(View.TARGET_MOTION) or not (snapshot.p_target != placed.p_target).any():
             return snapshot
         still = offset(snapshot.pose, placed.p_target, placed)
@@ -97,7 +97,7 @@ class Shown:
 _TELLING: Final = (None, State.INSERTING.value, State.HOLDING.value)
 
 
-def veiled(snapshot: Snapshot) -> Snapshot:
+def without_needle(snapshot: Snapshot) -> Snapshot:
     """Take everything about the needle, and what follows from it, out of a snapshot."""
     pose = snapshot.pose
     nobody = NeedlePose(
@@ -107,7 +107,7 @@ def veiled(snapshot: Snapshot) -> Snapshot:
         reason="control scans only",
     )  # fmt: skip
     state = State.INSERTING if snapshot.state in HIDDEN_STATES else snapshot.state
-    device: Any = None if snapshot.device is None else _Veiled(snapshot.device)
+    device: Any = None if snapshot.device is None else _WithoutNeedle(snapshot.device)
     tracker = snapshot.tracker
     if is_dataclass(tracker) and not isinstance(tracker, type):
         tracker = replace(tracker, discrepancy="")  # it says by how much the needle is elsewhere

@@ -24,7 +24,7 @@ from app.planning.patient import Patient
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import CtFacts
 from app.session.machine import State
-from app.session.shown_views import Shown, veiled
+from app.session.shown_views import Shown, without_needle
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
 from app.views.exercise.run import ExerciseRun
@@ -156,9 +156,9 @@ def test_the_same_walk_notices_a_needle_that_is_shown(guided, settle) -> None:
     assert window.workspace.viewing.needle is not None
 
 
-def test_a_veiled_snapshot_says_how_the_robot_is_and_nothing_of_the_needle() -> None:
+def test_a_snapshot_without_the_needle_says_how_the_robot_is_and_nothing_of_the_needle() -> None:
     snapshot = snapshot_of(slots={"arming": 0.7, "potential": 0.2, "hand_x": 0.3, "time": 5.0})
-    hidden = veiled(snapshot)
+    hidden = without_needle(snapshot)
     assert not hidden.pose.valid
     assert hidden.measured_pose is None
     assert hidden.device is not None
@@ -168,7 +168,7 @@ def test_a_veiled_snapshot_says_how_the_robot_is_and_nothing_of_the_needle() -> 
 
     assert hidden.device.row[sv.ARMING] == 0.7
     assert hidden.device.row[sv.POTENTIAL] == hidden.device.row[sv.HAND_X] == 0.0
-    assert veiled(replace(snapshot, state=State.READY)).state is State.READY
+    assert without_needle(replace(snapshot, state=State.READY)).state is State.READY
 
 
 def test_states_that_are_read_from_the_needle_are_not_listed(guided) -> None:

@@ -43,12 +43,12 @@ def shown_again(application):
 def test_names_paths_files_and_pseudonyms_become_dots_and_come_back(text, secret):
     names = Names()
     names.learn(Path("/data/Smith John"))
-    assert names.veiled(text) == text
+    assert names.without_names(text) == text
     names.hide(True)
-    assert secret not in names.veiled(text)
-    assert HIDDEN in names.veiled(text)
+    assert secret not in names.without_names(text)
+    assert HIDDEN in names.without_names(text)
     names.hide(False)
-    assert names.veiled(text) == text
+    assert names.without_names(text) == text
 
 
 @pytest.mark.parametrize(
@@ -60,14 +60,14 @@ def test_what_is_no_name_stays_as_it_is(text):
     names = Names()
     names.learn("ct", "", "  ")  # too short to be looked for
     names.hide(True)
-    assert names.veiled(text) == text
+    assert names.without_names(text) == text
 
 
 def test_a_known_name_is_not_found_within_a_word():
     names = Names()
     names.learn("demo")
     names.hide(True)
-    assert names.veiled("demonstration of demo") == f"demonstration of {HIDDEN}"
+    assert names.without_names("demonstration of demo") == f"demonstration of {HIDDEN}"
 
 
 def test_an_error_that_is_shown_loses_its_path_at_once(application, destroy):
@@ -95,7 +95,7 @@ def test_the_title_of_what_is_going_on_loses_the_folder(window, settle, tmp_path
     assert "Smith" not in window.message_bar.text
 
 
-def test_lines_of_the_message_list_are_veiled_and_come_back(application, destroy):
+def test_lines_of_the_message_list_lose_their_names_and_come_back(application, destroy):
     lines = MessageList()
     destroy(lines)
     lines.add_event(Event(1.0, "recorder", "cannot write /records/smith/a.mcap"))

@@ -205,7 +205,7 @@ def test_a_spring_without_length_is_a_point_and_others_end_where_they_should():
 
 
 def test_a_blind_bullseye_tells_neither_offset_nor_angles(pad):
-    pad.set_blind(True)
+    pad.hide_needle(True)
     assert not any(label.isVisibleTo(pad) for label in pad._words)
 
 

@@ -83,10 +83,10 @@ class DebriefPage(QWidget):
         colour, word, reason = verdict(review)
         self._verdict.setText(word)
         self._verdict.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX + 6}px;")
-        self._reason.setText(NAMES.veiled(reason))
+        self._reason.setText(NAMES.without_names(reason))
         self._reason.setVisible(bool(reason))
         problems = "\n".join(f"▲ {problem}" for problem in review.problems)
-        self._problems.setText(NAMES.veiled(problems, files=True))
+        self._problems.setText(NAMES.without_names(problems, files=True))
         self._problems.setVisible(bool(review.problems))
 
     @property

@@ -77,7 +77,7 @@ class SessionsModel(QAbstractTableModel):
             known = summary.conditions
             under = [f"{name}: {value}" for name, value in facts_of(known)] if known else []
             lines = filter(None, (summary.id, summary.reason, *summary.problems, *under))
-            return NAMES.veiled("\n".join(lines), files=True)
+            return NAMES.without_names("\n".join(lines), files=True)
         if role == Qt.ItemDataRole.TextAlignmentRole and column in _RIGHT:
             return _RIGHTWARDS
         if role == Qt.ItemDataRole.ForegroundRole and column == STATE:
@@ -103,7 +103,7 @@ def cell_text(summary: Summary, column: int) -> str:
     if column == DURATION:
         return "" if summary.state == BROKEN else clock_text(summary.duration)
     remark = "; ".join(filter(None, (summary.reason, *summary.problems)))
-    return NAMES.veiled(remark, files=True)
+    return NAMES.without_names(remark, files=True)
 
 
 def exercise_text(summary: Summary) -> str:

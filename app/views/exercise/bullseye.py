@@ -30,7 +30,7 @@ WIDE: Final = 42
 TALL: Final = 29
 """Width and height, in heights of the small letters, from which every word has its place."""
 
-BLIND_WIDTH: Final = 250
+NARROW_WIDTH: Final = 250
 """Widest that an empty pad needs to be [px]."""
 
 QWIDGETSIZE_MAX: Final = 16777215
@@ -51,7 +51,7 @@ class Bullseye(QWidget):
         self._scene: PadScene | None = None
         self._view: PadView | None = None
         self._hand: PadHand | None = None
-        self._interactive = self._depth_only = self._blind = False
+        self._interactive = self._depth_only = self._hides_needle = False
         self.pad = PadCanvas(self)
         self.depth_bar = DepthBar(self)
         self._remaining = _label(theme.FONT_PX + 6)
@@ -80,8 +80,8 @@ class Bullseye(QWidget):
             metrics = label.fontMetrics()
             lines = -(-longest * metrics.averageCharWidth() // max(across, 1))
             label.setMinimumHeight(min(lines, 2) * metrics.lineSpacing())
-        self._angles.setVisible(not self._blind and self.height() >= TALL * theme.SMALL_PX)
-        if not self._blind:
+        self._angles.setVisible(not self._hides_needle and self.height() >= TALL * theme.SMALL_PX)
+        if not self._hides_needle:
             self.source.set_brief(self.width() < WIDE * theme.SMALL_PX)
 
     # --- what the controller calls ----------------------------------------------------------------
@@ -105,23 +105,23 @@ class Bullseye(QWidget):
         for label in self._words:
             label.clear()
 
-    def set_blind(self, blind: bool, beside_scan: bool = True) -> None:
+    def hide_needle(self, hidden: bool, beside_scan: bool = True) -> None:
         """Show nothing of needle, hand and path from the next scene on; the hand still moves.
 
         `beside_scan`: whether an empty pad leaves the room to a control scan.
         """
-        self._blind = blind
-        self.pad.set_blind(blind)
-        self.source.set_compact(blind and beside_scan)
-        self.setMaximumWidth(BLIND_WIDTH if blind and beside_scan else QWIDGETSIZE_MAX)
-        self.depth_bar.setVisible(not blind)
+        self._hides_needle = hidden
+        self.pad.hide_needle(hidden)
+        self.source.set_compact(hidden and beside_scan)
+        self.setMaximumWidth(NARROW_WIDTH if hidden and beside_scan else QWIDGETSIZE_MAX)
+        self.depth_bar.setVisible(not hidden)
         for label in self._words:
-            label.setVisible(not blind)
+            label.setVisible(not hidden)
         self._fit_words()
 
     def show_view(self, view: PadView) -> None:
         """Draw a new moment. Without a hand so far, the first measured one gives it the needle."""
-        if self._scene is None or self._blind:
+        if self._scene is None or self._hides_needle:
             return
         self._view = view
         if self._hand is None and view.measured:
@@ -168,7 +168,11 @@ class Bullseye(QWidget):
             self._move(lambda hand: hand.follow(view.direction, depth))
 
     def _move(self, change: HandChange) -> None:
-        if self._hand is None or self._scene is None or (self._view is None and not self._blind):
+        if (
+            self._hand is None
+            or self._scene is None
+            or (self._view is None and not self._hides_needle)
+        ):
             return
         change(self._hand)
         if self._view is not None:

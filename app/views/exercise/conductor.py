@@ -39,7 +39,7 @@ from app.views.shell.services import RobotChoice, RunSetup
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool, Viewing
 
-SIGHT_MM = 2000.0
+RAY_MM = 2000.0
 
 
 class Conductor(QObject):
@@ -305,7 +305,7 @@ class Conductor(QObject):
         from app.imaging.body import skin_entry  # scipy: loaded since there is a patient
 
         try:
-            start, end = point - SIGHT_MM * direction, point + SIGHT_MM * direction
+            start, end = point - RAY_MM * direction, point + RAY_MM * direction
             skin = skin_entry(self.patient.body, start, end)
         except AcusError as error:
             self._editor.refused.emit(error)

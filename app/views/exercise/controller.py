@@ -57,7 +57,7 @@ class ExerciseController(QObject):
         self._run: ExerciseRun | None = None
         self._seen: AttemptResult | None = None
         self._ending = False
-        self._beat, self._blind, self._waiting = 0.0, "", ""
+        self._beat, self._unreadable, self._waiting = 0.0, "", ""
         self._display = ExerciseDisplay(views)
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.look)
@@ -125,10 +125,10 @@ class ExerciseController(QObject):
         try:
             snapshot = run.trainer.snapshot()
         except AcusError as error:
-            self._go_blind(str(error))
+            self._tell_unreadable(str(error))
             return
-        if self._blind:
-            self._blind = ""
+        if self._unreadable:
+            self._unreadable = ""
             self.worked.emit()
         self._drain(run)
         self._display.take_hand(snapshot)
@@ -140,10 +140,10 @@ class ExerciseController(QObject):
             self.needle_moved.emit(shown.pose)
         self._look_for_result(run)
 
-    def _go_blind(self, why: str) -> None:
+    def _tell_unreadable(self, why: str) -> None:
         """Say once why there is no snapshot; the next look tries again."""
-        if why != self._blind:
-            self._blind = why
+        if why != self._unreadable:
+            self._unreadable = why
             self._fail(why)
 
     def _drain(self, run: ExerciseRun) -> None:

@@ -65,7 +65,7 @@ class ExerciseDisplay:
     def show_run(self, run: ExerciseRun) -> None:
         """Draw what stays the same during an attempt; nothing of the needle where scans guide."""
         live, shows = run.shown.live, run.shown.shows
-        self._views.bullseye.set_blind(not shows(View.BULLSEYE), beside_scan=not live)
+        self._views.bullseye.hide_needle(not shows(View.BULLSEYE), beside_scan=not live)
         self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
         self._views.panel.set_forceful(run.forceful)
         self._views.panel.set_guidance(None if live else run.guidance, run.placed.plan)

@@ -50,7 +50,7 @@ class MessageList(QListWidget):
         known = self._origin is not None and event.time >= self._origin
         when = clock_text(event.time - (self._origin or 0.0)) + "  " if known else ""
         line = f"{symbol} {when}{event.message}"
-        item = QListWidgetItem(NAMES.veiled(line))
+        item = QListWidgetItem(NAMES.without_names(line))
         item.setData(_LINE, line)
         item.setData(_COLOUR, colour)
         item.setForeground(QColor(theme.now(colour)))
@@ -62,5 +62,5 @@ class MessageList(QListWidget):
     def suit_room(self) -> None:
         """Write all lines anew in the present colours, without names while they are hidden."""
         for item in (self.item(row) for row in range(self.count())):
-            item.setText(NAMES.veiled(str(item.data(_LINE))))
+            item.setText(NAMES.without_names(str(item.data(_LINE))))
             item.setForeground(QColor(theme.now(str(item.data(_COLOUR)))))

@@ -12,8 +12,8 @@ from app.session.pad.view import PadScene, PadView
 from app.views.exercise.pad_painter import (
     PadArea,
     paint_background,
-    paint_blind,
     paint_hand,
+    paint_hidden,
     paint_needle,
 )
 from app.views.kit import theme
@@ -55,7 +55,7 @@ class PadCanvas(QWidget):
         self._hand: ArrayLike | None = None
         self._last: QPointF | None = None
         self._wheel = 0
-        self._blind = False
+        self._hides_needle = False
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(180, 180)
@@ -70,9 +70,9 @@ class PadCanvas(QWidget):
         self._scene, self._view, self._hand = scene, None, None
         self.update()
 
-    def set_blind(self, blind: bool) -> None:
+    def hide_needle(self, hidden: bool) -> None:
         """Draw neither path nor needle; mouse and keys work as ever."""
-        self._blind = blind
+        self._hides_needle = hidden
         self.update()
 
     def show_view(self, view: PadView, hand_tilts: ArrayLike | None) -> None:
@@ -93,8 +93,8 @@ class PadCanvas(QWidget):
             painter.setPen(theme.ROBOT.qcolor())
             painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, tr("No planned path"))
             return
-        if self._blind:
-            paint_blind(painter, self.area, tr("Move the hand here: it is not shown"))
+        if self._hides_needle:
+            paint_hidden(painter, self.area, tr("Move the hand here: it is not shown"))
             return
         paint_background(painter, self.area, self._scene, self._view)
         if self._view is not None:

@@ -45,7 +45,7 @@ class PadArea:
         return self.centre + QPointF(shrink * x, -shrink * y)
 
 
-def paint_blind(painter: QPainter, area: PadArea, words: str) -> None:
+def paint_hidden(painter: QPainter, area: PadArea, words: str) -> None:
     """Rim and words: a field to move the hand in that says nothing of where it is."""
     painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.5))
     painter.setBrush(QColor("#0e1114"))

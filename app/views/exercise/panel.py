@@ -113,7 +113,7 @@ class ExercisePanel(QWidget):
     def set_guidance(self, guidance: GuidancePart | None, plan: Plan | None) -> None:
         """Let control scans guide, with the table about the plan's middle; None shows all live."""
         self.scan.set_guidance(guidance, plan)
-        self.steps.set_blind(guidance is not None)
+        self.steps.set_brief(guidance is not None)
         self.readouts.set_telling(None if guidance is None else TELLING_NOTHING)
         self.buttons.set_pedal(guidance is not None)
 

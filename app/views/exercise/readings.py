@@ -35,7 +35,7 @@ _BAD_STATES = (CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED)
 
 
 def figures(snapshot: Snapshot, force_limit: float, hidden: bool = False) -> LiveFigures:
-    """Live figures for the panel; `force_limit` [N]; `hidden`: of a veiled snapshot."""
+    """Live figures for the panel; `force_limit` [N]; `hidden`: of a snapshot without the needle."""
     force = felt(snapshot)
     return LiveFigures(
         state=snapshot.state,

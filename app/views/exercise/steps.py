@@ -20,7 +20,7 @@ ORDER: Final[tuple[State, ...]] = (
 )
 
 
-BLIND: Final[tuple[State, ...]] = (State.READY, State.INSERTING, State.ENDED)
+BRIEF: Final[tuple[State, ...]] = (State.READY, State.INSERTING, State.ENDED)
 """Where control scans guide: `inserting` stands for all that happens in between."""
 
 
@@ -40,9 +40,9 @@ class Steps(QWidget):
         """Preferred size."""
         return QSize(330, 48)
 
-    def set_blind(self, blind: bool) -> None:
+    def set_brief(self, brief: bool) -> None:
         """Show the steps between beginning and end as one: they are read from the needle."""
-        self._order = BLIND if blind else ORDER
+        self._order = BRIEF if brief else ORDER
         self._reached = 0
         state, self._state = self._state, None
         self.show_state(state)
@@ -57,8 +57,8 @@ class Steps(QWidget):
         elif state is None or state is State.WITHDRAWING:
             self._reached = 0
         self._state = state
-        blind = self._order is BLIND and state is State.INSERTING
-        word = tr("Under way") if blind else state_word(state) if state else tr("No attempt")
+        brief = self._order is BRIEF and state is State.INSERTING
+        word = tr("Under way") if brief else state_word(state) if state else tr("No attempt")
         self.setAccessibleName(word)
         self.update()
 
@@ -92,7 +92,7 @@ class Steps(QWidget):
         painter.setFont(_font(painter, theme.SMALL_PX, here))
         painter.setPen(QColor(theme.TEXT if here else theme.TEXT_DIM))
         name = state_word(State.ABORTED) if here and aborted else state_word(state)
-        if self._order is BLIND and state is State.INSERTING:
+        if self._order is BRIEF and state is State.INSERTING:
             name = tr("Under way")
         name = tr("Paused") if paused else name
         if here and self._state is State.WITHDRAWING:

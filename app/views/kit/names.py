@@ -52,7 +52,7 @@ class Names(QObject):
         """Names that were learnt in this run."""
         return frozenset(self._known)
 
-    def veiled(self, text: str, files: bool = False) -> str:
+    def without_names(self, text: str, files: bool = False) -> str:
         """Return a text, or while names are hidden the text with dots for every name in it.
 
         Names are those that were learnt, pseudonyms, and whatever looks like a path or a file.

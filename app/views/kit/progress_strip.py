@@ -74,4 +74,4 @@ class _Row(QWidget):
 
     def _write(self) -> None:
         """Write the title, without names while they are hidden."""
-        self._text.set_whole(NAMES.veiled(self._line))
+        self._text.set_whole(NAMES.without_names(self._line))

@@ -81,7 +81,8 @@ class SeriesBrowser(QDialog):
     def _add_ignored(self, column: QVBoxLayout) -> None:
         files = self.listing.ignored
         lines = [
-            f"{NAMES.shown(self.listing.shown(file.path))}: {NAMES.veiled(file.reason, files=True)}"
+            f"{NAMES.shown(self.listing.shown(file.path))}: "
+            + NAMES.without_names(file.reason, files=True)
             for file in files
         ]
         self.ignored.setPlainText("\n".join(lines))

@@ -39,7 +39,7 @@ class SeriesCard(QFrame):
         self.picture.setStyleSheet(
             f"background: {theme.IMAGE_BACKGROUND}; color: {theme.IMAGE_DIM}"
         )
-        self.verdict = _line(_veiled(series, verdict(series)), wraps=True)
+        self.verdict = _line(_without_names(series, verdict(series)), wraps=True)
         self.verdict.setStyleSheet(f"color: {_colour(series)}")
         row = QHBoxLayout(self)
         row.setSpacing(theme.MARGIN)
@@ -61,7 +61,7 @@ class SeriesCard(QFrame):
         column.addWidget(_line(facts(self.series), "dim"))
         column.addWidget(self.verdict)
         for note in self.series.notes:
-            column.addWidget(_line(f"•  {_veiled(self.series, note)}", "dim", wraps=True))
+            column.addWidget(_line(f"•  {_without_names(self.series, note)}", "dim", wraps=True))
         column.addStretch()
         return column
 
@@ -138,12 +138,12 @@ def _buttons(series: Series, parent: QWidget, taking: bool) -> list[tuple[QPushB
     return found
 
 
-def _veiled(series: Series, text: str) -> str:
+def _without_names(series: Series, text: str) -> str:
     """Take the files' names out of a reason while names are hidden."""
     if NAMES.are_hidden:
         for one in series.slices:
             text = text.replace(one.path.name, HIDDEN)
-    return NAMES.veiled(text, files=True)
+    return NAMES.without_names(text, files=True)
 
 
 def _line(text: str, role: str = "", wraps: bool = False) -> QLabel:

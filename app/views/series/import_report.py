@@ -37,13 +37,13 @@ class ImportReport(QDialog):
         self.resize(760, 460)
         entry, report = imported.entry, imported.report
         words = _words(imported)
-        heading = QLabel(f"{NAMES.shown(entry.name)}\n{NAMES.veiled(words)}", self)
+        heading = QLabel(f"{NAMES.shown(entry.name)}\n{NAMES.without_names(words)}", self)
         heading.setProperty("role", "heading")
         self.warning = QLabel("\n".join(f"⚠  {text}" for text in report.warnings), self)
         self.warning.setWordWrap(True)
         self.warning.setVisible(bool(report.warnings))
         lines = [line for line in report.lines() if not line.startswith("look at this")]
-        self.text = QPlainTextEdit(NAMES.veiled("\n\n".join(lines)), self)
+        self.text = QPlainTextEdit(NAMES.without_names("\n\n".join(lines)), self)
         self.text.setReadOnly(True)
         kinds = QDialogButtonBox.StandardButton
         self.buttons = QDialogButtonBox(kinds.Open | kinds.Close, parent=self)

@@ -46,7 +46,7 @@ class MessageBar(QWidget):
         self._close.setText("✕")
         self._close.setAccessibleName(tr("Close message"))
         self._more.clicked.connect(self.show_details)
-        self._close.clicked.connect(self.dismiss)
+        self._close.clicked.connect(self.close_message)
         row = QHBoxLayout(self)
         row.setContentsMargins(theme.MARGIN, 0, theme.SPACING, 0)
         row.addWidget(self._symbol)
@@ -93,7 +93,7 @@ class MessageBar(QWidget):
         if self._topic == topic:
             self._uncover()
 
-    def dismiss(self) -> None:
+    def close_message(self) -> None:
         """Take away what is shown; what it covered is shown again."""
         self.forget(self._topic)
 
@@ -107,7 +107,7 @@ class MessageBar(QWidget):
     def show_details(self) -> None:
         """Open a window with the whole message and where it comes from."""
         box = QMessageBox(QMessageBox.Icon.NoIcon, tr("Details"), self._text.text(), parent=self)
-        box.setDetailedText(NAMES.veiled(self._details))
+        box.setDetailedText(NAMES.without_names(self._details))
         box.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         box.open()
 
@@ -137,5 +137,5 @@ class MessageBar(QWidget):
 
     def _write(self) -> None:
         """Write the message, without names while they are hidden."""
-        line = NAMES.veiled(self._line)
+        line = NAMES.without_names(self._line)
         self._text.setText(line if len(line) <= LONGEST else line[: LONGEST - 1] + "…")

@@ -82,7 +82,7 @@ class StructurePanel(QWidget):
 
     def set_note(self, text: str) -> None:
         """Say what happened to what was read or written last."""
-        self.note.setText(NAMES.veiled(text))
+        self.note.setText(NAMES.without_names(text))
 
     def show_needle(self, clearance: Clearance | None, text: str) -> None:
         """Show what the live needle is too near to."""
