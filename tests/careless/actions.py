@@ -77,6 +77,7 @@ class Screen:
         pictures: pad, slices, 3D.
         runs: whether an attempt runs.
         end: the button that ends it, if it can be pressed.
+        scan: the button that takes a control scan, if it can be pressed.
         entries: of the menu that is open.
         titles: of the menu bar, where it can be reached.
         front: the window in front.
@@ -90,6 +91,7 @@ class Screen:
     pictures: tuple[Target, ...]
     runs: bool
     end: Target | None
+    scan: Target | None
     entries: tuple[Target, ...]
     titles: tuple[Target, ...]
     front: Target | None
@@ -110,7 +112,7 @@ def draw(rng: random.Random, screen: Screen) -> Action:
     kinds = {"control": 20, "drag": 16, "wheel": 12, "key": 16, "poke": 8, "wait": 8, "text": 2}
     if screen.is_main:
         kinds |= {"menus": 5, "exercise": 1, "ct": 1, "page": 2, "size": 2}
-        kinds |= {"end": 2, "drag": 30, "wheel": 24} if screen.runs else {"start": 9}
+        kinds |= {"end": 2, "scan": 2, "drag": 30, "wheel": 24} if screen.runs else {"start": 9}
     kind = rng.choices(list(kinds), list(kinds.values()))[0]
     return _DRAWN[kind](rng, screen) or Action("wait", seconds=0.2)
 
@@ -205,8 +207,14 @@ def _end(rng: random.Random, screen: Screen) -> Action | None:
     return Action("click", target.path, words=target.words) if target is not None else None
 
 
+def _scan(rng: random.Random, screen: Screen) -> Action | None:
+    target = screen.scan
+    return Action("click", target.path, words=target.words) if target is not None else None
+
+
 _DRAWN = {
     "control": _control, "drag": _drag, "wheel": _wheel, "key": _key, "poke": _poke,
     "wait": _wait, "text": _text, "menus": _menus, "exercise": _exercise, "ct": _ct,
     "page": _page, "size": _size, "start": _start, "end": _end,
+    "scan": _scan,
 }  # fmt: skip

@@ -21,6 +21,7 @@ SCREEN = Screen(
     pictures=(PAD,),
     runs=True,
     end=None,
+    scan=None,
     entries=(),
     titles=(Target("", "File", (0, 0, 40, 20)),),
     front=Target("MainWindow0", "", (0, 0, 1366, 768)),

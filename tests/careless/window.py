@@ -177,6 +177,7 @@ class CarelessUser(threading.Thread):
             pictures=tuple(targets(front, PICTURES)),
             runs=buttons.end.isEnabled(),
             end=_target(buttons.end) if main else None,
+            scan=_target(buttons.scan) if main else None,
             entries=tuple(menu_items(front)) if isinstance(front, QMenu) else (),
             titles=tuple(menu_titles(window)) if main else (),
             front=None if box is None else Target(path_of(front), words_of(front), box),
