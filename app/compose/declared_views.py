@@ -16,7 +16,7 @@ from typing import Final
 
 from app import views
 from app.core.errors import ConfigurationError
-from app.core.plugins import SLOTS, TEXT, Declaration, Kind
+from app.core.plugins import SLOTS, TEXT, Declaration, PluginKind
 from app.simulation.consumers import Consumer
 
 
@@ -28,7 +28,7 @@ class DeclaredView(Declaration):
     reads: tuple[str, ...]
 
 
-KIND: Final[Kind[DeclaredView]] = Kind(
+KIND: Final[PluginKind[DeclaredView]] = PluginKind(
     noun="a view",
     declares=DeclaredView,
     fields={"view": TEXT, "title": TEXT, "reads": SLOTS},

@@ -234,7 +234,6 @@ class DesktopRun:
     @property
     def run(self) -> ExerciseRun:
         """What its views need, as the robot's board says it now: it may have come back anew."""
-        from app.device.control.velocity import DEFAULT_VELOCITY
         from app.session.pad.view import (  # Qt only for who has a window
             depth_tolerance,
             rings,
@@ -257,7 +256,7 @@ class DesktopRun:
             port=setup.port or "",
             clearance=None if robot is None else robot.clearance(),
             readiness=None if robot is None else robot.readiness,
-            velocity=DEFAULT_VELOCITY.value,
+            velocity=self._rig.profile.velocity.value,
             forceful=setup.pen is None,
             held_arming=self._rig.trainer.held_arming,
             guidance=setup.exercise.guidance,

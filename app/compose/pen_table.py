@@ -10,7 +10,7 @@ from app.core.arrays import FloatArray
 from app.device.control import Table
 from app.device.control.depth_interval import DepthInterval
 from app.device.control.kinematics import Kinematics
-from app.device.control.velocity import DEFAULT_VELOCITY, velocity_stage
+from app.device.control.velocity import velocity_stage
 from app.device.links.link import Triple
 from app.exercises.scene import compile_exercise
 from app.exercises.schema import Exercise
@@ -71,5 +71,5 @@ def pen_table(
         [trainee_stage(placed.axis, placed.length, skill, seed)] if simulated and skill else []
     )
     place = [DepthInterval.of(profile).stage(), Kinematics.of(profile).stage()]
-    stages = [*trainee, *read, velocity_stage(DEFAULT_VELOCITY, profile), *place]
+    stages = [*trainee, *read, velocity_stage(profile), *place]
     return Table.of([*stages, *effects.stages()], plant)

@@ -25,10 +25,10 @@ def kernels_digest() -> str:
     """Digest of every file that holds kernels or constants that they are built with."""
     app = Path(__file__).resolve().parents[1]
     digest = hashlib.sha256()
-    for room in _ROOMS:
+    for room, marks in (*((room, _MARKS) for room in _ROOMS), ("studies", _MARKS[:1])):
         for file in sorted((app / room).rglob("*.py")):
             content = file.read_bytes()
-            if any(mark in content for mark in _MARKS):
+            if any(mark in content for mark in marks):
                 digest.update(str(file.relative_to(app)).encode() + content)
     return digest.hexdigest()[:16]
 

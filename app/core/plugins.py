@@ -103,7 +103,7 @@ D = TypeVar("D", bound=Declaration)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Kind(Generic[D]):
+class PluginKind(Generic[D]):
     """One sort of plug-in.
 
     Attributes:
@@ -126,7 +126,7 @@ class Kind(Generic[D]):
     package: str = ""
     folder: str = ""
     functions: tuple[str, ...] = ()
-    older: Callable[[Path, Source], Source] | None = None
+    older: Callable[[Path, PluginText], PluginText] | None = None
     marks: tuple[bytes, ...] = ()
 
     @property
@@ -244,7 +244,7 @@ class Kind(Generic[D]):
         return ", ".join(self.names()) or "none"
 
 
-class Source(NamedTuple):
+class PluginText(NamedTuple):
     """A file that was read.
 
     Attributes:
@@ -268,7 +268,7 @@ def read_statements(path: Path) -> list[ast.stmt]:
 
 
 @lru_cache(maxsize=512)
-def _read(kind: Kind[Any], path: Path, text: str) -> Any:
+def _read(kind: PluginKind[Any], path: Path, text: str) -> Any:
     body = ast.parse(text, str(path)).body
     source = _literal(kind, body, path)
     if kind.older is not None:
@@ -287,7 +287,7 @@ def _read(kind: Kind[Any], path: Path, text: str) -> Any:
     return kind.declares(name=path.stem, path=path, **values)
 
 
-def _literal(kind: Kind[Any], body: list[ast.stmt], path: Path) -> Source:
+def _literal(kind: PluginKind[Any], body: list[ast.stmt], path: Path) -> PluginText:
     for node in body:
         if not isinstance(node, ast.AnnAssign | ast.Assign) or node.value is None:
             continue
@@ -300,8 +300,8 @@ def _literal(kind: Kind[Any], body: list[ast.stmt], path: Path) -> Source:
                     f"{path}, line {node.lineno}: {_NAME} is not a literal: {reason}"
                 ) from reason
             if isinstance(document, dict) and isinstance(node.value, ast.Dict):
-                return Source(document, {"": node.lineno, **_lines(node.value)}, body)
-    return Source(None, {}, body)
+                return PluginText(document, {"": node.lineno, **_lines(node.value)}, body)
+    return PluginText(None, {}, body)
 
 
 def _lines(node: ast.Dict) -> dict[str, int]:
@@ -315,7 +315,7 @@ def _lines(node: ast.Dict) -> dict[str, int]:
     return found
 
 
-def _value(kind: Kind[Any], key: str, source: Source, path: Path) -> Any:
+def _value(kind: PluginKind[Any], key: str, source: PluginText, path: Path) -> Any:
     document = source.document or {}
     field, value = kind.fields[key], document[key]
     line = source.lines.get(key, 1)
@@ -414,7 +414,7 @@ PARAMETERS: Final = Field(
 
 
 def complete(
-    kind: Kind[Any],
+    kind: PluginKind[Any],
     declared: StageDeclaration,
     given: Mapping[str, float],
     profile: object | None = None,

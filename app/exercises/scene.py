@@ -21,7 +21,7 @@ from app.simulation.compiler import compile as compile_scene
 from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.needles import OUTER_DIAMETER
 from app.simulation.plan import SimulationPlan
-from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Layer, Needle, Scene
+from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Needle, Scene, TissueLayer
 
 if TYPE_CHECKING:
     from app.imaging.phantom.anatomy import Anatomy
@@ -87,7 +87,7 @@ def placed_plan_of(
 def scene_of(exercise: Exercise, profile: DeviceProfile) -> Scene:
     """Return what the simulation has to know about an exercise."""
     layers = tuple(
-        Layer(
+        TissueLayer(
             name=part.name,
             thickness=part.thickness,
             side_stiffness=part.side_stiffness,

@@ -29,7 +29,7 @@ from app.exercises.reading import ReadingPart
 from app.planning.placement import Placement
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoringError
-from app.scoring.rows import Rules
+from app.scoring.rows import ScoreRules
 from app.scoring.score import check_names
 from app.scoring.tolerance import Tolerance
 
@@ -89,7 +89,7 @@ class Exercise(Strict):
     needle: NeedlePart = NeedlePart()
     target_organ: str = ""
     tolerances: Mapping[str, Tolerance] = Field(default_factory=lambda: dict(DEFAULT_TOLERANCES))
-    rules: Rules = Rules()
+    rules: ScoreRules = ScoreRules()
     purpose: Purpose = Purpose.PRACTICE
     guidance: GuidancePart = GuidancePart()
     reading: ReadingPart = ReadingPart()

@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from app.scoring.errors import ScoreFormatError, UnknownMetricError
-from app.scoring.rows import Row, Rules
+from app.scoring.rows import Row, ScoreRules
 from app.scoring.tolerance import Tolerance
 
 FORMAT = "acus-score/1"
@@ -43,7 +43,7 @@ class Score:
     total: float | None
     passed: bool
     void_reason: str
-    rules: Rules
+    rules: ScoreRules
     attempt_void: str = ""
     version: int = SCORING_VERSION
 
@@ -65,7 +65,7 @@ class Score:
         raise UnknownMetricError(f"the score has no row {name!r}; it has {names}")
 
     def recomputed(
-        self, tolerances: Mapping[str, Tolerance] | None = None, rules: Rules | None = None
+        self, tolerances: Mapping[str, Tolerance] | None = None, rules: ScoreRules | None = None
     ) -> Score:
         """Judge the stored values again, with the stored or with other tolerances and rules."""
         rows = self.rows
@@ -106,7 +106,7 @@ class Score:
                 total=document["total"],
                 passed=document["passed"],
                 void_reason=document["void_reason"],
-                rules=Rules.model_validate(document["rules"]),
+                rules=ScoreRules.model_validate(document["rules"]),
                 attempt_void=document["attempt_void"],
                 version=int(document.get("scoring_version", 1)),
             )
@@ -115,7 +115,7 @@ class Score:
             raise ScoreFormatError(f"not a stored score ({reason})") from error
 
 
-def judge(rows: tuple[Row, ...], rules: Rules, attempt_void: str = "") -> Score:
+def judge(rows: tuple[Row, ...], rules: ScoreRules, attempt_void: str = "") -> Score:
     """Make a score of rows whose values are known: the weighted mean of the utilities times 100."""
     void = attempt_void or _rows_void(rows, rules)
     weight = sum(row.weight for row in rows)
@@ -128,7 +128,7 @@ def judge(rows: tuple[Row, ...], rules: Rules, attempt_void: str = "") -> Score:
     return Score(rows, total, passed, "", rules, attempt_void)
 
 
-def _rows_void(rows: tuple[Row, ...], rules: Rules) -> str:
+def _rows_void(rows: tuple[Row, ...], rules: ScoreRules) -> str:
     for row in rows:
         if row.name == TRACKING and row.value is not None and row.value < rules.minimum_tracking:
             return (

@@ -12,7 +12,7 @@ from app.core.configuration import Strict
 from app.scoring.tolerance import Band, Tolerance, band, tolerance
 
 
-class Rules(Strict):
+class ScoreRules(Strict):
     """What holds for the score as a whole.
 
     Attributes:

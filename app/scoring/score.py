@@ -13,17 +13,17 @@ from app.scoring.errors import (
 )
 from app.scoring.metrics import Metric, available
 from app.scoring.result import Score, judge
-from app.scoring.rows import Row, Rules
+from app.scoring.rows import Row, ScoreRules
 from app.scoring.tolerance import Tolerance
 from app.scoring.trajectory import Trajectory
 
-__all__ = ["DEFAULT_TOLERANCES", "Row", "Rules", "Score", "check_names", "score"]
+__all__ = ["DEFAULT_TOLERANCES", "Row", "Score", "ScoreRules", "check_names", "score"]
 
 
 def score(
     trajectory: Trajectory,
     tolerances: Mapping[str, Tolerance] = DEFAULT_TOLERANCES,
-    rules: Rules | None = None,
+    rules: ScoreRules | None = None,
 ) -> Score:
     """Compute every metric of an attempt and judge it.
 
@@ -36,7 +36,7 @@ def score(
     rows = tuple(
         row for name in names if (row := _row(metrics[name], trajectory, tolerances.get(name)))
     )
-    rules = rules or Rules()
+    rules = rules or ScoreRules()
     return judge(rows, rules, _attempt_void(trajectory, rules))
 
 
@@ -80,7 +80,7 @@ def _row(metric: Metric, trajectory: Trajectory, limits: Tolerance | None) -> Ro
     return Row(metric.name, metric.title, metric.unit, value, note, limits)
 
 
-def _attempt_void(trajectory: Trajectory, rules: Rules) -> str:
+def _attempt_void(trajectory: Trajectory, rules: ScoreRules) -> str:
     if trajectory.was_aborted:
         return f"the attempt was aborted: {trajectory.aborted or 'no reason recorded'}"
     if not trajectory.running.any():

@@ -33,7 +33,7 @@ from app.core.units import MILLIMETRE
 from app.session.fusion import fix_depth, is_usable
 from app.session.inputs import LoopInputs
 from app.tracking.fix import FixStatus, NeedleFix
-from app.tracking.motion.choice import depth_filter
+from app.tracking.motion.constant_velocity import ConstantVelocity
 from app.tracking.motion.depth_filter import DepthMotion
 
 if TYPE_CHECKING:
@@ -138,7 +138,7 @@ class Fixes:
         self._lock = threading.Lock()
         self._newest: NeedleFix | None = None
         self._usable: NeedleFix | None = None
-        self._motion = depth_filter()
+        self._motion = ConstantVelocity()  # by measurement: `acus study depth_motion`
 
     def take(self, fix: NeedleFix, fulcrum: FloatArray) -> None:
         """Look at a fix; one that is not newer than the last, or of no time, is passed over."""

@@ -17,7 +17,7 @@ from app.scoring.conditions import Conditions
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError
 from app.scoring.result import SCORING_VERSION, Score
-from app.scoring.rows import Rules
+from app.scoring.rows import ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Tolerance
 from app.session.conditions import EXERCISE_FILE, conditions_of
@@ -193,7 +193,7 @@ def _recomputed(recording: Recording, written: Score | None) -> tuple[Score | No
 
 def _judged_by(
     recording: Recording, written: Score | None
-) -> tuple[Mapping[str, Tolerance], Rules]:
+) -> tuple[Mapping[str, Tolerance], ScoreRules]:
     """Tolerances and rules: the attached exercise's, read by name, else the written score's."""
     try:
         exercise = json.loads(recording.attachments[EXERCISE_FILE])
@@ -201,11 +201,11 @@ def _judged_by(
             str(name): Tolerance.model_validate(limits)
             for name, limits in exercise["tolerances"].items()
         }
-        return tolerances, Rules.model_validate(exercise["rules"])
+        return tolerances, ScoreRules.model_validate(exercise["rules"])
     except (KeyError, TypeError, AttributeError, ValueError, ValidationError, RecursionError):
         pass  # an old or damaged exercise: the score carries what it was judged by
     if written is None:
-        return DEFAULT_TOLERANCES, Rules()
+        return DEFAULT_TOLERANCES, ScoreRules()
     return {row.name: row.tolerance for row in written.rows if row.tolerance}, written.rules
 
 

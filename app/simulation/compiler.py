@@ -11,7 +11,7 @@ from app.core import state_vector as sv
 from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.effects import Effect, declaration
 from app.simulation.errors import SimulationError
-from app.simulation.plan import Dropped, Kept, SimulationPlan
+from app.simulation.plan import DroppedEffect, KeptEffect, SimulationPlan
 from app.simulation.scene import EffectRequest, Scene
 
 
@@ -41,7 +41,7 @@ def compile(
         if name not in demanded:
             dropped[name] = _nobody(candidates[name], device)
     kept = [
-        Kept(
+        KeptEffect(
             declared[name], *checked[name], demanded[name], _because(declared[name], demanded[name])
         )
         for name in _ordered({name: declared[name] for name in candidates if name in demanded})
@@ -49,7 +49,9 @@ def compile(
     return SimulationPlan(
         scene=scene,
         kept=tuple(kept),
-        dropped=tuple(Dropped(r.name, dropped[r.name]) for r in scene.effects if r.name in dropped),
+        dropped=tuple(
+            DroppedEffect(r.name, dropped[r.name]) for r in scene.effects if r.name in dropped
+        ),
         depth_slot=sv.PLANT_DEPTH if device.simulated else sv.DEPTH,
     )
 

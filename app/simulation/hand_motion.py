@@ -25,7 +25,7 @@ from app.core.parameters import numbered, packed
 from app.simulation.plan import Stage
 
 
-class Places(NamedTuple):
+class HandPlaces(NamedTuple):
     """Bounds, then what the hand remembers between ticks; offsets into a stage's parameters."""
 
     speed: int
@@ -39,7 +39,7 @@ class Places(NamedTuple):
     rate: int = 0
 
 
-AT: Final = numbered(Places)
+AT: Final = numbered(HandPlaces)
 SIZE: Final = len(AT)
 
 FASTEST: Final = 0.05

@@ -16,7 +16,7 @@ Stage = tuple[str, Any, FloatArray]
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class KeptEffect:
     """An effect that is simulated: with which model, which parameters, for whom, and why."""
 
     declaration: Effect
@@ -32,7 +32,7 @@ class Kept:
 
 
 @dataclass(frozen=True, slots=True)
-class Dropped:
+class DroppedEffect:
     """An effect that was asked for and is not simulated, and why."""
 
     name: str
@@ -51,8 +51,8 @@ class SimulationPlan:
     """
 
     scene: Scene
-    kept: tuple[Kept, ...]
-    dropped: tuple[Dropped, ...]
+    kept: tuple[KeptEffect, ...]
+    dropped: tuple[DroppedEffect, ...]
     depth_slot: int
 
     def stages(self) -> list[Stage]:
@@ -78,7 +78,7 @@ class SimulationPlan:
         """
         return sum(self._bound(kept) for kept in self.kept)
 
-    def _bound(self, kept: Kept) -> float:
+    def _bound(self, kept: KeptEffect) -> float:
         module = implementation(kept.name)
         if not hasattr(module, "energy_bound"):
             return 0.0
@@ -89,7 +89,7 @@ class SimulationPlan:
             )
         return bound
 
-    def _stage(self, kept: Kept) -> Stage:
+    def _stage(self, kept: KeptEffect) -> Stage:
         binding = Binding(self.scene, self.depth_slot, kept.model)
         array = parameters_of(kept.name, kept.parameters, binding)
         return kept.name, implementation(kept.name).step, array

@@ -38,7 +38,7 @@ from app.simulation.plant_layout import AT
 
 
 @dataclass(frozen=True, slots=True)
-class Hand:
+class SimulatedHand:
     """The simulated hand: spring-dampers across and along the needle.
 
     Attributes:
@@ -69,7 +69,7 @@ class Hand:
 
 
 @dataclass(frozen=True, slots=True)
-class Surroundings:
+class PlantSurroundings:
     """What the profile does not say about the rig. All values are estimates.
 
     Attributes:
@@ -122,8 +122,8 @@ def plant_stage(
     profile: DeviceProfile,
     axis: ArrayLike = (0.0, 0.0, -1.0),
     depth: float = -0.015,
-    hand: Hand | None = None,
-    surroundings: Surroundings | None = None,
+    hand: SimulatedHand | None = None,
+    surroundings: PlantSurroundings | None = None,
 ) -> Stage:
     """Build the stage that moves the simulated robot; it belongs at the end of the tick.
 
@@ -133,7 +133,7 @@ def plant_stage(
     Raises:
         SimulationError: if the starting pose is out of reach.
     """
-    hand, rig = hand or Hand(), surroundings or Surroundings()
+    hand, rig = hand or SimulatedHand(), surroundings or PlantSurroundings()
     start = initial_plant(profile, axis, depth)
     geometry, fulcrum = profile.pantograph, profile.pantograph.fulcrum
     radius = fulcrum[2] * np.tan(profile.tilt_limit)

@@ -9,7 +9,7 @@ MODEL: Final = 0
 """Place of the model of the dynamics, see `mechanisms.dynamic_model`; the others follow it."""
 
 
-class Places(NamedTuple):
+class PlantPlaces(NamedTuple):
     """Needle, stops, what slides along the needle, hand, and the starting pose."""
 
     length: int
@@ -31,7 +31,7 @@ class Places(NamedTuple):
     start_depth: int
 
 
-AT: Final = numbered(Places, MODEL_SIZE)
+AT: Final = numbered(PlantPlaces, MODEL_SIZE)
 MOTION: Final = MODEL_SIZE + len(AT)  # of the hand, see `hand_motion`
 
 SHORTEST_LEVER: Final = 0.01  # [m] of needle outside the fulcrum

@@ -29,7 +29,7 @@ class EffectRequest:
 
 
 @dataclass(frozen=True, slots=True)
-class Layer:
+class TissueLayer:
     """A slab of tissue along the path, counted from the skin.
 
     Attributes:
@@ -80,11 +80,11 @@ class Needle:
                 raise SimulationError(f"needle {quantity} is {value}; give a finite value above 0")
 
 
-DEFAULT_LAYERS: tuple[Layer, ...] = (
-    Layer("skin", 0.002, 50e3),
-    Layer("fat", 0.015, 10e3, friction=5.0, static_friction=9.0, viscous_friction=120.0),
-    Layer("muscle", 0.015, 30e3, friction=12.0, static_friction=20.0),
-    Layer("liver", 0.168, 20e3),
+DEFAULT_LAYERS: tuple[TissueLayer, ...] = (
+    TissueLayer("skin", 0.002, 50e3),
+    TissueLayer("fat", 0.015, 10e3, friction=5.0, static_friction=9.0, viscous_friction=120.0),
+    TissueLayer("muscle", 0.015, 30e3, friction=12.0, static_friction=20.0),
+    TissueLayer("liver", 0.168, 20e3),
 )
 """Abdominal wall over liver; engineering defaults within the published ranges (10-50 kPa, Okamura
 2004 friction). The last layer is thicker than any needle reaches."""
@@ -103,7 +103,7 @@ class Scene:
     """
 
     effects: tuple[EffectRequest, ...] = ()
-    layers: tuple[Layer, ...] = DEFAULT_LAYERS
+    layers: tuple[TissueLayer, ...] = DEFAULT_LAYERS
     needle: Needle = field(default_factory=Needle)
     R_world_patient: FloatArray = field(default_factory=lambda: np.eye(3))
     target_organ: str = ""

@@ -21,7 +21,7 @@ TREMOR_ROWS: Final = 1000  # the tile lasts 4 s and repeats without a seam
 ABOVE_SKIN: Final = -0.015  # [m] depth at which the hand hovers
 
 
-class Phase(IntEnum):
+class ScriptPhase(IntEnum):
     """What the trainee is doing, as in the slot TRAINEE_PHASE."""
 
     NONE = 0
@@ -36,7 +36,7 @@ class Phase(IntEnum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Script:
+class TraineeScript:
     """An attempt at speed one.
 
     Attributes:
@@ -59,13 +59,13 @@ class Script:
 class _Move:
     """Minimum-jerk movement to an error and depth within `duration`."""
 
-    phase: Phase
+    phase: ScriptPhase
     duration: float
     error: tuple[float, float]
     depth: float
 
 
-def write_script(axis: FloatArray, depth: float, skill: Skill, seed: int) -> Script:
+def write_script(axis: FloatArray, depth: float, skill: Skill, seed: int) -> TraineeScript:
     """Script an attempt on a target `depth` [m] beyond the fulcrum along `axis`, shape (3,).
 
     Raises:
@@ -78,7 +78,7 @@ def write_script(axis: FloatArray, depth: float, skill: Skill, seed: int) -> Scr
     moves = _moves(unit(axis, "axis"), basis, depth, skill, random)
     rows = _rows(moves)
     rows[:, :2] += _drift(rows, skill, random)
-    return Script(read_only(rows), read_only(_tremor(skill, random)), read_only(basis))
+    return TraineeScript(read_only(rows), read_only(_tremor(skill, random)), read_only(basis))
 
 
 def tangent_basis(axis: FloatArray) -> FloatArray:
@@ -94,8 +94,8 @@ def _moves(
     around = float(random.uniform(0.0, 2.0 * np.pi))
     aim = _polar(random.uniform(*skill.aim_error), around)
     moves = [
-        _Move(Phase.HOVER, skill.hover, start, ABOVE_SKIN),
-        _Move(Phase.ALIGN, skill.align, aim, ABOVE_SKIN),
+        _Move(ScriptPhase.HOVER, skill.hover, start, ABOVE_SKIN),
+        _Move(ScriptPhase.ALIGN, skill.align, aim, ABOVE_SKIN),
     ]
     for _ in range(skill.redirects):
         aim = _polar(random.uniform(*skill.final_error), around + random.normal(0.0, 0.5))
@@ -104,9 +104,9 @@ def _moves(
     past = depth + float(random.uniform(*skill.overshoot))
     left = depth + float(random.choice([-1.0, 1.0]) * random.uniform(*skill.depth_error))
     moves.append(_insert(moves[-1], final, past, skill))
-    moves.append(replace(moves[-1], phase=Phase.CORRECT, duration=0.6))
-    moves.append(_Move(Phase.CORRECT, 1.0, final, left))
-    moves.append(_Move(Phase.HOLD, skill.hold, final, left))
+    moves.append(replace(moves[-1], phase=ScriptPhase.CORRECT, duration=0.6))
+    moves.append(_Move(ScriptPhase.CORRECT, 1.0, final, left))
+    moves.append(_Move(ScriptPhase.HOLD, skill.hold, final, left))
     return moves
 
 
@@ -118,14 +118,14 @@ def _redirect(
     back = 0.3 * partway
     return [
         _insert(last, last.error, partway, skill),
-        _Move(Phase.INSERT, 0.8, last.error, partway),
-        _Move(Phase.WITHDRAW, (partway - back) / skill.speed, last.error, back),
-        _Move(Phase.REDIRECT, 2.0, aim, back),
+        _Move(ScriptPhase.INSERT, 0.8, last.error, partway),
+        _Move(ScriptPhase.WITHDRAW, (partway - back) / skill.speed, last.error, back),
+        _Move(ScriptPhase.REDIRECT, 2.0, aim, back),
     ]
 
 
 def _insert(last: _Move, error: tuple[float, float], depth: float, skill: Skill) -> _Move:
-    return _Move(Phase.INSERT, max(0.2, (depth - last.depth) / skill.speed), error, depth)
+    return _Move(ScriptPhase.INSERT, max(0.2, (depth - last.depth) / skill.speed), error, depth)
 
 
 def _rows(moves: list[_Move]) -> FloatArray:
@@ -138,7 +138,7 @@ def _rows(moves: list[_Move]) -> FloatArray:
         path = here + ratio[:, None] * (there - here)
         parts.append(np.column_stack([path, np.full(len(s), float(move.phase))]))
         here = there
-    return np.vstack([*parts, [*here, float(Phase.DONE)]])
+    return np.vstack([*parts, [*here, float(ScriptPhase.DONE)]])
 
 
 def _drift(rows: FloatArray, skill: Skill, random: np.random.Generator) -> FloatArray:

@@ -15,7 +15,14 @@ from app.core.compiled import njit, stage
 from app.simulation.errors import SimulationError
 from app.simulation.hand_motion import grip_direction
 from app.simulation.plan import Stage
-from app.simulation.script import STEP, TREMOR_ROWS, TREMOR_STEP, Phase, Script, write_script
+from app.simulation.script import (
+    STEP,
+    TREMOR_ROWS,
+    TREMOR_STEP,
+    ScriptPhase,
+    TraineeScript,
+    write_script,
+)
 from app.simulation.skill import Skill, find_skill
 
 # Parameters array: heads, path axis, tangent basis, where the hand was, tremor tile, script rows.
@@ -45,9 +52,11 @@ def trainee_stage(
     return "trainee", step, _parameters(script, unit(axis, "axis"), speed)
 
 
-def _parameters(script: Script, axis: FloatArray, speed: float) -> FloatArray:
+def _parameters(script: TraineeScript, axis: FloatArray, speed: float) -> FloatArray:
     head = np.array([np.nan, speed, len(script.rows)])
-    hover = np.array([0.0, 0.0, 0.0, np.count_nonzero(script.rows[:, 3] == Phase.HOVER) * STEP])
+    hover = np.array(
+        [0.0, 0.0, 0.0, np.count_nonzero(script.rows[:, 3] == ScriptPhase.HOVER) * STEP]
+    )
     return np.concatenate(
         [head, axis, script.basis.ravel(), hover, script.tremor.ravel(), script.rows.ravel()]
     )

@@ -12,12 +12,11 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
+from app.studies.estimation.depth_filters import Hold, OneEuro
 from app.studies.findings import Findings, Sheet
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 from app.tracking.motion.constant_velocity import ConstantVelocity
 from app.tracking.motion.depth_filter import DepthFilter
-from app.tracking.motion.hold import Hold
-from app.tracking.motion.one_euro import OneEuro
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "The tip on the screen: newest fix, Kalman, one euro",

@@ -8,7 +8,7 @@ from typing import Any, Final
 from app.core.progress import Progress
 from app.imaging.series import Ignored
 from app.studies.dicom_cases.cases import (
-    Case,
+    DicomCase,
     file_cases,
     folder_cases,
     pydicom_files,
@@ -18,7 +18,7 @@ from app.studies.dicom_cases.comparison import (
     ROUNDED,
     SAME_MM,
     UNEXPLAINED,
-    Agreement,
+    SeriesAgreement,
     compare,
     read,
 )
@@ -82,7 +82,7 @@ def measure(progress: Progress | None, inputs: tuple[Path, ...] = ()) -> Finding
     )
 
 
-def _cases(inputs: tuple[Path, ...], progress: Progress) -> Iterator[Case]:
+def _cases(inputs: tuple[Path, ...], progress: Progress) -> Iterator[DicomCase]:
     quiet = progress.part(0.0, 0.0)
     for folder in inputs:
         yield from folder_cases(folder, quiet)
@@ -91,7 +91,7 @@ def _cases(inputs: tuple[Path, ...], progress: Progress) -> Iterator[Case]:
     yield from file_cases(pydicom_files(), quiet)
 
 
-def _reason(case: Case) -> str:
+def _reason(case: DicomCase) -> str:
     """Why the series or file is no volume; a file of one slice is none, and may still be read."""
     return case.found.reason
 
@@ -102,7 +102,7 @@ def _kind(reason: str) -> str:
     return reason[:60] if brief == "not CT" else brief
 
 
-def _compared(case: Case, peer: Peer) -> tuple[Cell, ...] | None:
+def _compared(case: DicomCase, peer: Peer) -> tuple[Cell, ...] | None:
     """Row of a case whose voxels can be compared; None for any other."""
     series = case.found
     if isinstance(series, Ignored) or series.volume_file is not None:
@@ -112,7 +112,7 @@ def _compared(case: Case, peer: Peer) -> tuple[Cell, ...] | None:
         return None
     theirs = peer.image(series.files if not case.alone else case.files)
     found = (
-        Agreement(f"GDCM cannot: {theirs[:60]}", "", None, None)
+        SeriesAgreement(f"GDCM cannot: {theirs[:60]}", "", None, None)
         if isinstance(theirs, str)
         else compare(series, ours, theirs, peer)
     )

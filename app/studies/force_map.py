@@ -11,11 +11,11 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
-from app.exchange.mujoco_pantograph import felt_in_mujoco
 from app.mechanisms.pantograph import inverse, jacobian, joint_torques, needle_at
 from app.mechanisms.pantograph.kernels import force_map_kernel, printed_force_kernel
 from app.mechanisms.profile import DeviceProfile, load_profile
 from app.studies.findings import Cell, Figure, Findings, Sheet
+from app.studies.references.mujoco_pantograph import felt_in_mujoco
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
 DECLARATION: Final[dict[str, Any]] = {

@@ -12,14 +12,14 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
-from app.simulation.foundation import (
+from app.simulation.needles import OUTER_DIAMETER, bending_stiffness
+from app.studies.references.foundation import (
     beam_moment,
     difference_moment,
     hermite_moment,
     rigid_moment,
     springs_moment,
 )
-from app.simulation.needles import OUTER_DIAMETER, bending_stiffness
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
 DECLARATION: Final[dict[str, Any]] = {

@@ -13,11 +13,11 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.studies.findings import Findings, Sheet
+from app.studies.references.cramer_rao import joint_bound, position_bound
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 from app.tracking.cameras.camera import Image
 from app.tracking.errors import TrackingError
 from app.tracking.markers.choice import ExtractorName, extractors
-from app.tracking.markers.cramer_rao import joint_bound, position_bound
 from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.markers.thesis import ThesisMarker
@@ -39,7 +39,7 @@ _THESIS_AREA: Final = 60.0  # [px²]
 _BACKGROUNDS: Final = ("even grey", "housing")
 
 
-class Shot(NamedTuple):
+class MarkerShot(NamedTuple):
     """A noisy picture, which camera took it, what is known beforehand and what is true."""
 
     image: Image
@@ -68,7 +68,7 @@ def _scenes(rig: RigProfile, rng: np.random.Generator) -> list[MarkerScene]:
     return found
 
 
-def shots(background: str) -> list[Shot]:
+def shots(background: str) -> list[MarkerShot]:
     """Noisy pictures of both cameras with their truth; the same on each call."""
     rig, rng = load_rig(_RIG), np.random.default_rng(5)
     renderers = [NeedleRenderer(m, rig.needle, rig.blur_px, i) for i, m in enumerate(rig.models)]
@@ -87,7 +87,7 @@ def _shot(
     camera: int,
     scene: MarkerScene,
     rng: np.random.Generator,
-) -> Shot:
+) -> MarkerShot:
     def at(p_world: FloatArray) -> Image:
         return renderer.render(MarkerScene(p_world, scene.axis_world))
 
@@ -102,7 +102,7 @@ def _shot(
         at, model, rig.needle.shape, rig.blur_px, scene.p_world, scene.axis_world, rig.noise_grey
     )
     distance = float((model.T_camera_world @ scene.p_world)[2])
-    return Shot(
+    return MarkerShot(
         np.clip(np.rint(noisy), 0.0, 255.0).astype(np.uint8),
         camera,
         Hint(true + rng.normal(0.0, 3.0, 2), scene.p_world, scene.axis_world),
@@ -114,7 +114,7 @@ def _shot(
     )
 
 
-def errors_px(shots_: list[Shot], found: list[Any]) -> FloatArray:
+def errors_px(shots_: list[MarkerShot], found: list[Any]) -> FloatArray:
     """Distance of each find from the truth [px]; NaN where a way found nothing, shape (n,)."""
     errors = np.full(len(shots_), np.nan)
     for k, (shot, fix) in enumerate(zip(shots_, found, strict=True)):
@@ -146,7 +146,7 @@ def _finders(name: ExtractorName) -> tuple[Extractor, Extractor]:
 def _way(name: ExtractorName) -> Callable[[Case], Prepared]:
     def prepare(case: Case) -> Prepared:
         finders = _finders(name)
-        taken: list[Shot] = case.data
+        taken: list[MarkerShot] = case.data
 
         def run() -> list[Any]:
             return [finders[shot.camera].find(shot.image, shot.hint) for shot in taken]

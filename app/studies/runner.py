@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Final
 
 from app.core.errors import AcusError
-from app.core.plugins import TEXT, Declaration, Kind, Source
+from app.core.plugins import TEXT, Declaration, PluginKind, PluginText
 from app.core.progress import Progress
 from app.studies.errors import StudyError
 from app.studies.findings import Survey, SurveyResult
@@ -69,7 +69,7 @@ def find_study(name: str) -> Study | Survey:
     )
 
 
-def _older(path: Path, source: Source) -> Source:
+def _older(path: Path, source: PluginText) -> PluginText:
     """Read title, question and reference of the form before, where they stand in `STUDY`."""
     stated = [
         node.value
@@ -89,7 +89,7 @@ def _older(path: Path, source: Source) -> Source:
     return source._replace(document=document)
 
 
-KIND: Final[Kind[DeclaredStudy]] = Kind(
+KIND: Final[PluginKind[DeclaredStudy]] = PluginKind(
     noun="a study",
     declares=DeclaredStudy,
     fields={"title": TEXT, "question": TEXT, "reference": TEXT},

@@ -22,7 +22,7 @@ from app.device.control.velocity import (
 )
 from app.mechanisms.profile import load_profile
 from app.studies.estimation.drive import drive
-from app.studies.estimation.motions import MOTIONS, Motion, motion
+from app.studies.estimation.motions import MOTIONS, HandMotion, motion
 from app.studies.findings import Cell, Figure, Findings, Sheet
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
@@ -75,7 +75,7 @@ _MAKERS: Final[dict[str, tuple[str, Maker]]] = {
 _SHOWN: Final = ("difference", "filter 50 Hz", "alpha-beta 2.5 ms", "window 20", "kalman 0.1")
 
 
-def estimate(name: str, seen: Motion, count: float) -> FloatArray:
+def estimate(name: str, seen: HandMotion, count: float) -> FloatArray:
     """Run an estimator of this study over a motion; joint velocities [rad/s], (n, 2)."""
     _, function, memory = _MAKERS[name][1](count)
     rates = np.zeros_like(seen.readings)
@@ -83,7 +83,7 @@ def estimate(name: str, seen: Motion, count: float) -> FloatArray:
     return rates
 
 
-def speed_error(seen: Motion, rates: FloatArray) -> FloatArray:
+def speed_error(seen: HandMotion, rates: FloatArray) -> FloatArray:
     """Error of the tool's speed along its line [m/s], (n,)."""
     return np.asarray(((rates - seen.rates) * seen.lever).sum(axis=1))
 
@@ -117,7 +117,7 @@ def _way(name: str) -> Way:
     return Way(name, _MAKERS[name][0], prepare)
 
 
-def lag(seen: Motion, rates: FloatArray) -> float:
+def lag(seen: HandMotion, rates: FloatArray) -> float:
     """Delay [s] of the true speed that fits the estimated one best, to 0.1 ms."""
     found = ((rates) * seen.lever).sum(axis=1)
     shifts = np.arange(0.0, 0.060, 1e-4)
@@ -154,11 +154,11 @@ def _findings() -> Findings:
     )
 
 
-def _rms_mm(seen: Motion, rates: FloatArray) -> float:
+def _rms_mm(seen: HandMotion, rates: FloatArray) -> float:
     return float(np.sqrt(np.mean(speed_error(seen, rates) ** 2))) / MILLIMETRE
 
 
-def _traces(figure: Any, seen: dict[tuple[str, float], Motion], count: float) -> None:
+def _traces(figure: Any, seen: dict[tuple[str, float], HandMotion], count: float) -> None:
     windows = {"slow sine": (1.4, 1.8), "let go": (0.48, 0.68)}
     for column, (name, (start, end)) in enumerate(windows.items()):
         part = seen[name, 1000.0]

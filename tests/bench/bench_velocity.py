@@ -24,7 +24,7 @@ def main() -> None:
     count = 2.0 * pi / profile.encoder.counts_per_turn
     costs = {}
     for method in VelocityMethod:
-        _, function, memory = velocity_stage(method, profile)
+        _, function, memory = velocity_stage(profile, method)
         state = sv.empty_state()
         for k in range(TICKS):
             state[sv.TIME] = state[sv.Q_TIME] = 1.0 + 1e-3 * k

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import pytest
 
 from app.core.errors import AcusError
-from app.core.plugins import TEXT, Declaration, Field, Kind, number_within
+from app.core.plugins import TEXT, Declaration, Field, PluginKind, number_within
 
 
 class GadgetError(AcusError):
@@ -17,7 +17,7 @@ class Gadget(Declaration):
     size: tuple[int, float]
 
 
-KIND = Kind("a gadget", Gadget, {"title": TEXT, "size": Field("a size", tuple)}, GadgetError)
+KIND = PluginKind("a gadget", Gadget, {"title": TEXT, "size": Field("a size", tuple)}, GadgetError)
 
 
 def read(folder, text):

@@ -1,26 +1,14 @@
 """A force law is added just the way docs/extending.md says: the file on the page, no more."""
 
-import re
 from pathlib import Path
 
 import pytest
 from device.law_rig import PROFILE, pose
+from extending_page import example
 
 from app.core import state_vector as sv
 from app.device.control import laws
 from app.device.errors import LawError
-
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
-
-
-def from_the_page(heading: str) -> tuple[str, str]:
-    """Name and content of the file that a section of the page says to save."""
-    section = PAGE.read_text(encoding="utf-8").split(f"## {heading}\n")[1].split("\n## ")[0]
-    name = re.search(r"Save this as\s+`[\w/]+/(\w+\.py)`", section)
-    code = re.search(r"```python\n(.*?)```", section, re.DOTALL)
-    assert name is not None
-    assert code is not None
-    return name.group(1), code.group(1)
 
 
 @pytest.fixture
@@ -37,7 +25,7 @@ def appended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def runs_as_the_page_says(folder: Path) -> None:
-    name, code = from_the_page("How to add a force law")
+    name, code = example("How to add a force law")
     (folder / name).write_text(code, encoding="utf-8")
     assert "upright_spring" in laws.law_names()
     requests = {"fixture": {}, "upright_spring": {"stiffness": 3.0}}
@@ -95,7 +83,7 @@ def test_a_broken_file_is_named(own: Path, code: str, message: str) -> None:
     ],
 )
 def test_what_is_wrong_in_a_law_is_named(own: Path, old: str, new: str, message: str) -> None:
-    name, code = from_the_page("How to add a force law")
+    name, code = example("How to add a force law")
     assert old in code
     (own / name).write_text(code.replace(old, new), encoding="utf-8")
     with pytest.raises(LawError, match=message) as caught:

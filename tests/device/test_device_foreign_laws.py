@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from device.device_rig import HAND_LIMIT, Rig
 from device.law_rig import PROFILE
-from device.test_adding_a_force_law import from_the_page
+from extending_page import example
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -19,7 +19,7 @@ from app.device.control.fences import fence
 from app.device.control.history import History
 from app.device.errors import LawError, LoopError
 
-NAME, CODE = from_the_page("How to add a force law")
+NAME, CODE = example("How to add a force law")
 LAST = "    p[_AT.last_l_out] = state[sv.L_OUT]\n"
 
 

@@ -45,7 +45,7 @@ class Estimator:
 
 @pytest.fixture(params=VelocityMethod)
 def estimator(request):
-    return Estimator(velocity_stage(request.param, PROFILE))
+    return Estimator(velocity_stage(PROFILE, request.param))
 
 
 def counted(angle):
@@ -214,7 +214,7 @@ def test_the_default_is_quieter_than_the_thesis_own_and_quicker_than_a_filter_as
         error = errors(stage, lambda t: slow(t)[0], lambda t: slow(t)[1])
         return np.sqrt(np.mean(error**2))
 
-    default = rms(velocity_stage(DEFAULT_VELOCITY, PROFILE))
+    default = rms(velocity_stage(PROFILE, DEFAULT_VELOCITY))
     assert default < 0.1 * rms(BackwardDifference().stage())
     assert default < 0.5 * rms(VelocityFilter().stage())
     assert default < rms(AlphaBeta(20e-3).stage())
@@ -225,5 +225,5 @@ def test_a_table_takes_the_estimator_by_name():
     default = pantograph_stages(PROFILE, [], [], link)
     thesis = pantograph_stages(PROFILE, [], [], link, velocity=VelocityMethod.BACKWARD_DIFFERENCE)
     assert [stage.name for stage in default] == [stage.name for stage in thesis]
-    assert default.compute[1].function is velocity_stage(DEFAULT_VELOCITY, PROFILE)[1]
+    assert default.compute[1].function is velocity_stage(PROFILE, DEFAULT_VELOCITY)[1]
     assert thesis.compute[1].function is BackwardDifference().stage()[1]

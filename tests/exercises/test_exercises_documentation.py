@@ -11,7 +11,7 @@ from app.exercises.reading import ReadingPart
 from app.exercises.schema import Exercise
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.metrics import available
-from app.scoring.rows import Rules
+from app.scoring.rows import ScoreRules
 from app.simulation.effects import effect_names
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "exercises.md").read_text(encoding="utf-8")
@@ -31,7 +31,7 @@ def test_every_field_of_the_file_is_explained_and_no_other() -> None:
     fields = {f"placement.{name}" for name in PlacementPart.model_fields}
     fields |= {f"guidance.{name}" for name in GuidancePart.model_fields}
     fields |= {f"reading.{name}" for name in ReadingPart.model_fields}
-    assert nested == fields | {f"rules.{name}" for name in Rules.model_fields}
+    assert nested == fields | {f"rules.{name}" for name in ScoreRules.model_fields}
 
 
 @pytest.mark.parametrize("model", [LayerPart, EffectPart, LawPart])

@@ -19,7 +19,6 @@ from app.mechanisms.errors import (
 )
 from app.mechanisms.pantograph import (
     Geometry,
-    Region,
     Singularity,
     Status,
     branches,
@@ -31,7 +30,6 @@ from app.mechanisms.pantograph import (
     jacobian_rate,
     joints_by_hub,
     lever_map,
-    locate,
     needle_at,
     passive_angles,
     singularity,
@@ -40,6 +38,7 @@ from app.mechanisms.pantograph import (
 )
 from app.mechanisms.pantograph.dynamics import dynamics_kernel, friction_kernel
 from app.mechanisms.profile import load_profile
+from app.studies.references.workspace import HubRegion, locate
 
 PROFILE = load_profile("icube")
 GEOMETRY, MODEL = PROFILE.pantograph, PROFILE.dynamic_model
@@ -168,7 +167,7 @@ def test_a_tool_on_a_motor_axis_has_no_branches_whatever_the_links(side):
     near = inverse(equal, (side * BASE / 2 + 1e-9, 1e-9))  # folded onto itself: bounded
     assert np.isfinite(near).all()
     hub = GEOMETRY.fulcrum + 0.5 * (GEOMETRY.fulcrum - [side * BASE / 2, 0.0, 0.0])
-    assert locate(GEOMETRY, hub, 1.5, (-0.2, 0.2)).region is Region.UNREACHABLE
+    assert locate(GEOMETRY, hub, 1.5, (-0.2, 0.2)).region is HubRegion.UNREACHABLE
 
 
 def test_nothing_jumps_as_the_needle_passes_through_the_vertical():
@@ -202,14 +201,14 @@ def test_hubs_around_the_fulcrum_are_named_without_a_gap():
         hub = GEOMETRY.fulcrum + 0.1 * np.array([np.sin(tilt), 0.0, np.cos(tilt)])
         place = locate(GEOMETRY, hub, PROFILE.tilt_limit, PROFILE.depth_range)
         if tilt >= 0.5 * np.pi:
-            assert place.region is Region.BELOW_FULCRUM
+            assert place.region is HubRegion.BELOW_FULCRUM
             with pytest.raises(UnreachableError):
                 system_inverse(GEOMETRY, hub)
         elif place.q is None:
-            assert place.region is Region.UNREACHABLE
+            assert place.region is HubRegion.UNREACHABLE
         else:
             inside = tilt <= PROFILE.tilt_limit
-            assert place.region is (Region.INSIDE if inside else Region.BEYOND_TILT)
+            assert place.region is (HubRegion.INSIDE if inside else HubRegion.BEYOND_TILT)
 
 
 @RELAXED

@@ -15,8 +15,8 @@ from app.simulation.compiler import compile
 from app.simulation.consumers import DevicePort
 from app.simulation.effects import breathing, lateral_tissue, shaft_friction
 from app.simulation.errors import SimulationError
-from app.simulation.plant import Hand, initial_plant, plant_stage
-from app.simulation.scene import Binding, EffectRequest, Layer, Scene
+from app.simulation.plant import SimulatedHand, initial_plant, plant_stage
+from app.simulation.scene import Binding, EffectRequest, Scene, TissueLayer
 from app.simulation.trainee import trainee_stage
 
 PROFILE = load_profile("icube")
@@ -26,7 +26,7 @@ PLANT = [k for name, k in sv.INDEX.items() if name.startswith(("plant_", "pull_"
 QUICK = settings(derandomize=True, deadline=None, max_examples=60)
 
 
-def friction(layer: Layer, **parameters: float) -> FloatArray:
+def friction(layer: TissueLayer, **parameters: float) -> FloatArray:
     binding = Binding(Scene(layers=(layer,)), sv.PLANT_DEPTH)
     return memory_of("shaft_friction", parameters, binding)
 
@@ -46,7 +46,7 @@ def press(memory: FloatArray, tilt: float, depth: float, l_out: float = 0.1) -> 
     return state[FORCES].copy()
 
 
-def plant(hand: Hand | None = None) -> tuple[FloatArray, FloatArray, object]:
+def plant(hand: SimulatedHand | None = None) -> tuple[FloatArray, FloatArray, object]:
     _, step, parameters = plant_stage(PROFILE, hand=hand)
     state = sv.empty_state()
     for name, value in initial_plant(PROFILE, (0.0, 0.0, -1.0), 0.0).items():
@@ -61,7 +61,7 @@ def plant(hand: Hand | None = None) -> tuple[FloatArray, FloatArray, object]:
 def test_friction_at_300_mm_per_s_is_bounded_for_any_stiffness_and_step(
     dt: float, stiffness: float
 ) -> None:
-    memory = friction(Layer("x", 9.0, viscous_friction=0.0), presliding_stiffness=stiffness)
+    memory = friction(TissueLayer("x", 9.0, viscous_friction=0.0), presliding_stiffness=stiffness)
     force = 0.0
     for k in range(300):
         depth = 0.05 + 0.3 * dt * k
@@ -80,7 +80,7 @@ def test_explicit_euler_explodes_where_the_exponential_does_not() -> None:
 
 
 def test_a_still_needle_on_an_encoder_edge_does_not_chatter() -> None:
-    memory = memory_of("shaft_friction", {}, Binding(Scene(layers=(Layer("x", 0.2),))))
+    memory = memory_of("shaft_friction", {}, Binding(Scene(layers=(TissueLayer("x", 0.2),))))
     state, forces, count = sv.empty_state(), [], 33e-6
     for k in range(2000):
         state[sv.DEPTH], state[sv.DT], state[sv.AXIAL_FORCE] = 0.051 + count * (k % 2), 1e-3, 0.0
@@ -92,7 +92,7 @@ def test_a_still_needle_on_an_encoder_edge_does_not_chatter() -> None:
 
 
 def test_friction_at_zero_negative_and_huge_depth_is_finite() -> None:
-    memory = friction(Layer("x", 0.1))
+    memory = friction(TissueLayer("x", 0.1))
     for depth in (0.0, -1.0, 0.0, 5e-324, 1e-320, 1e300, 0.0, -1e300, 0.05):
         assert math.isfinite(rub(memory, depth))
 
@@ -100,13 +100,13 @@ def test_friction_at_zero_negative_and_huge_depth_is_finite() -> None:
 @QUICK
 @given(st.lists(st.tuples(ANY, ANY), max_size=30))
 def test_friction_survives_any_depth_and_step(ticks: list[tuple[float, float]]) -> None:
-    memory = friction(Layer("x", 0.1, viscous_friction=0.0))
+    memory = friction(TissueLayer("x", 0.1, viscous_friction=0.0))
     for depth, dt in ticks:
         assert abs(rub(memory, depth, dt)) <= 18.45 * 0.1 + 1e-9
 
 
 def test_friction_at_rest_leaves_no_subnormals() -> None:
-    memory = friction(Layer("x", 0.1))
+    memory = friction(TissueLayer("x", 0.1))
     for k in range(100):
         rub(memory, 0.05 + 1e-5 * k)
     for _ in range(3000):
@@ -116,29 +116,31 @@ def test_friction_at_rest_leaves_no_subnormals() -> None:
 
 
 # --- lateral tissue -------------------------------------------------------------------------------
-def tissue(*layers: Layer, model: str = "winkler") -> FloatArray:
+def tissue(*layers: TissueLayer, model: str = "winkler") -> FloatArray:
     return memory_of("lateral_tissue", {}, Binding(Scene(layers=layers), model=model))
 
 
 def test_at_zero_and_negative_depth_there_is_no_tissue() -> None:
-    memory = tissue(Layer("x", 0.2, 1e6))
+    memory = tissue(TissueLayer("x", 0.2, 1e6))
     for depth in (0.0, -0.03, -1e300, 0.0):
         assert not press(memory, 0.3, depth).any()
 
 
 def test_layers_of_zero_thickness_count_for_nothing() -> None:
-    thin = tissue(Layer("a", 0.0, 1e6), Layer("b", 0.1, 2e4), Layer("c", 0.0, 1e6))
-    plain = tissue(Layer("b", 0.1, 2e4))
-    beam = tissue(Layer("a", 0.0, 1e6), model="beam")
+    thin = tissue(
+        TissueLayer("a", 0.0, 1e6), TissueLayer("b", 0.1, 2e4), TissueLayer("c", 0.0, 1e6)
+    )
+    plain = tissue(TissueLayer("b", 0.1, 2e4))
+    beam = tissue(TissueLayer("a", 0.0, 1e6), model="beam")
     assert not press(beam, 0.1, 0.08).any()
     for memory in (thin, plain):
         press(memory, 0.0, 0.08)
     np.testing.assert_array_equal(press(thin, 0.1, 0.08), press(plain, 0.1, 0.08))
-    assert not press(tissue(Layer("nothing", 0.0)), 0.1, 0.08).any()
+    assert not press(tissue(TissueLayer("nothing", 0.0)), 0.1, 0.08).any()
 
 
 def test_a_stiffness_of_a_million_is_finite_and_still_perpendicular() -> None:
-    memory = tissue(Layer("x", 0.2, 1e6))
+    memory = tissue(TissueLayer("x", 0.2, 1e6))
     press(memory, 0.0, 0.12)
     force = press(memory, 0.1, 0.12, l_out=0.08)
     assert np.isfinite(force).all()
@@ -146,14 +148,14 @@ def test_a_stiffness_of_a_million_is_finite_and_still_perpendicular() -> None:
 
 
 def test_a_hub_at_the_fulcrum_keeps_the_force_bounded() -> None:
-    memory = tissue(Layer("x", 0.2, 2e4))
+    memory = tissue(TissueLayer("x", 0.2, 2e4))
     press(memory, 0.0, 0.12)
     near, at = press(memory, 0.1, 0.12, l_out=0.02), press(memory, 0.1, 0.12, l_out=0.0)
     np.testing.assert_allclose(at, near)
 
 
 def test_grazing_a_layer_boundary_back_and_forth_does_not_chatter() -> None:
-    memory = tissue(Layer("a", 0.05, 1e4), Layer("b", 0.1, 1e5))
+    memory = tissue(TissueLayer("a", 0.05, 1e4), TissueLayer("b", 0.1, 1e5))
     press(memory, 0.0, 0.05)
     forces = [press(memory, 0.1, 0.05 + 1e-6 * (-1) ** k)[0] for k in range(400)]
     assert np.abs(np.diff(forces)).max() < 1e-3 * abs(forces[0])
@@ -167,7 +169,7 @@ def test_the_tissue_survives_any_depth_and_holds_its_bound(
     model: str,
     ticks: list[tuple[float, float, float]],
 ) -> None:
-    memory = tissue(Layer("x", 0.1, 2e4), model=model)
+    memory = tissue(TissueLayer("x", 0.1, 2e4), model=model)
     most = 2e4 * 0.1**3 / 3.0 / 0.02
     for depth, tilt, l_out in ticks:
         assert np.linalg.norm(press(memory, tilt, depth, l_out)) <= most * (1.0 + 1e-9)
@@ -175,7 +177,7 @@ def test_the_tissue_survives_any_depth_and_holds_its_bound(
 
 def test_layers_thicker_than_a_metre_are_refused() -> None:
     with pytest.raises(SimulationError, match="at most 1 m"):
-        tissue(Layer("x", 1e3))
+        tissue(TissueLayer("x", 1e3))
 
 
 # --- breathing ------------------------------------------------------------------------------------
@@ -251,7 +253,7 @@ def test_a_huge_step_is_clamped_to_what_the_loop_clamps() -> None:
 @pytest.mark.parametrize("dt", [1e-3, 5e-3])
 def test_a_stiff_hand_against_a_stiff_spring_at_the_motors_stays_bounded(dt: float) -> None:
     """Deep tissue as the device renders it: 1500 N/m at the hub, sampled once a tick."""
-    state, parameters, step = plant(Hand(stiffness=2000.0, damping=5.0))
+    state, parameters, step = plant(SimulatedHand(stiffness=2000.0, damping=5.0))
     state[sv.HAND_X], state[sv.HAND_HOLDS], state[sv.DT] = 0.2, 1.0, dt
     rest = state[sv.PLANT_Q].copy()
     rows = []

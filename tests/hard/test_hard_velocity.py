@@ -22,7 +22,7 @@ every_method = pytest.mark.parametrize("method", VelocityMethod)
 
 
 def fresh(method):
-    _, function, memory = velocity_stage(method, PROFILE)
+    _, function, memory = velocity_stage(PROFILE, method)
     return sv.empty_state(), function, memory
 
 

@@ -8,8 +8,6 @@ from scipy.integrate import solve_ivp
 
 from app.core.arrays import frozen
 from app.exchange.errors import ExchangeError, ExportError
-from app.exchange.mjcf import MjcfSettings, write_mjcf
-from app.exchange.mujoco_pantograph import MujocoPantograph, felt_in_mujoco
 from app.mechanisms.pantograph import (
     dynamic_terms,
     force_map,
@@ -22,6 +20,8 @@ from app.mechanisms.pantograph import (
 )
 from app.mechanisms.pantograph.dynamics import axial_load_kernel
 from app.mechanisms.profile import load_profile
+from app.studies.references.mjcf import MjcfSettings, write_mjcf
+from app.studies.references.mujoco_pantograph import MujocoPantograph, felt_in_mujoco
 
 PROFILE = load_profile("icube")
 GEOMETRY = PROFILE.pantograph

@@ -7,15 +7,12 @@ from scipy.optimize import minimize
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.pantograph import (
     Geometry,
-    Region,
     inverse,
     jacobian,
-    locate,
     needle_at,
-    survey,
-    torque_per_newton,
 )
 from app.mechanisms.profile import load_profile
+from app.studies.references.workspace import HubRegion, locate, survey, torque_per_newton
 
 PROFILE = load_profile("icube")
 GEOMETRY = PROFILE.pantograph
@@ -122,13 +119,13 @@ def test_a_hub_point_is_located_by_name():
         return GEOMETRY.fulcrum + l_out * np.array([np.sin(tilt), 0.0, np.cos(tilt)])
 
     inside = place(above(20.0, 0.12))
-    assert inside.region is Region.INSIDE
+    assert inside.region is HubRegion.INSIDE
     assert np.degrees(inside.tilt) == pytest.approx(20.0)
     assert inside.depth == pytest.approx(0.08)
-    assert place(above(42.0, 0.12)).region is Region.BEYOND_TILT
-    assert place(above(20.0, 0.02)).region is Region.BEYOND_DEPTH
-    assert place(above(80.0, 0.12)).region is Region.UNREACHABLE
-    assert place(GEOMETRY.fulcrum).region is Region.AT_FULCRUM
-    assert place(above(90.0, 0.1)).region is Region.BELOW_FULCRUM
-    assert place(above(150.0, 0.1)).region is Region.BELOW_FULCRUM
-    assert place((0.0, np.nan, 0.2)).region is Region.NOT_FINITE
+    assert place(above(42.0, 0.12)).region is HubRegion.BEYOND_TILT
+    assert place(above(20.0, 0.02)).region is HubRegion.BEYOND_DEPTH
+    assert place(above(80.0, 0.12)).region is HubRegion.UNREACHABLE
+    assert place(GEOMETRY.fulcrum).region is HubRegion.AT_FULCRUM
+    assert place(above(90.0, 0.1)).region is HubRegion.BELOW_FULCRUM
+    assert place(above(150.0, 0.1)).region is HubRegion.BELOW_FULCRUM
+    assert place((0.0, np.nan, 0.2)).region is HubRegion.NOT_FINITE

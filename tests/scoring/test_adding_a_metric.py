@@ -1,26 +1,16 @@
 """A metric is added in just the way that docs/extending.md says: one file, nothing else."""
 
-import re
 import sys
 from pathlib import Path
 
 import pytest
+from extending_page import example
 from scoring_attempts import Attempt
 
 from app.scoring import metrics
 from app.scoring.errors import MetricError
 from app.scoring.score import check_names, score
 from app.scoring.tolerance import Tolerance
-
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
-
-
-def from_the_page() -> str:
-    section = PAGE.read_text(encoding="utf-8").split("## How to add a metric")[1].split("\n## ")[0]
-    block = re.search(r"```python\n(.*?)```", section, re.DOTALL)
-    assert block is not None
-    return block.group(1)
-
 
 FORM_BEFORE = """\"\"\"Largest depth that the tip reached in the body.\"\"\"
 
@@ -42,7 +32,7 @@ def compute(trajectory: Trajectory) -> float:
 
 @pytest.fixture(params=["appended", "own", "form before"])
 def added(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
-    code = FORM_BEFORE if request.param == "form before" else from_the_page()
+    code = FORM_BEFORE if request.param == "form before" else example("How to add a metric")[1]
     (tmp_path / "deepest_point.py").write_text(code, encoding="utf-8")
     if request.param == "appended":
         monkeypatch.setattr(metrics, "__path__", [*metrics.__path__, str(tmp_path)])
@@ -76,7 +66,7 @@ def test_a_metric_of_the_users_own_that_is_broken_breaks_no_score_and_says_why(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ACUS_METRICS", str(tmp_path))
-    good = from_the_page()
+    good = example("How to add a metric")[1]
     (tmp_path / "upside.py").write_text(good.replace("False", "3"), encoding="utf-8")
     (tmp_path / "raises.py").write_text(good.replace("    return", "    1 / 0\n    return"))
     result = score(Attempt().trajectory())
@@ -92,6 +82,6 @@ def test_a_metric_with_the_name_of_another_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ACUS_METRICS", str(tmp_path))
-    (tmp_path / "target_error.py").write_text(from_the_page(), encoding="utf-8")
+    (tmp_path / "target_error.py").write_text(example("How to add a metric")[1], encoding="utf-8")
     with pytest.raises(MetricError, match="two files are the metric 'target_error'"):
         metrics.available()

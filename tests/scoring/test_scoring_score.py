@@ -10,7 +10,7 @@ from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.errors import ScoreFormatError, ToleranceError, UnknownMetricError
 from app.scoring.metrics import available
 from app.scoring.result import Score
-from app.scoring.rows import Rules
+from app.scoring.rows import ScoreRules
 from app.scoring.score import score
 from app.scoring.tolerance import Band, Tolerance
 
@@ -76,7 +76,7 @@ def test_a_missed_target_fails_whatever_the_total() -> None:
 def test_a_total_below_the_pass_mark_fails() -> None:
     trajectory = PERFECT.but(tilt=0.03).trajectory()
     assert score(trajectory).passed
-    assert not score(trajectory, rules=Rules(pass_mark=99.0)).passed
+    assert not score(trajectory, rules=ScoreRules(pass_mark=99.0)).passed
 
 
 RISKS = {"risk_breach", "risk_distance"}
@@ -127,7 +127,9 @@ def test_poor_tracking_makes_the_score_void_with_both_figures() -> None:
     valid = (base.time < 32.0) | (base.time > 44.5)
     result = score(PERFECT.trajectory(depth_valid=valid))
     assert result.void_reason == "the tip was tracked for 50 % of the insertion; 70 % are needed"
-    assert score(PERFECT.trajectory(depth_valid=valid), rules=Rules(minimum_tracking=40.0)).passed
+    assert score(
+        PERFECT.trajectory(depth_valid=valid), rules=ScoreRules(minimum_tracking=40.0)
+    ).passed
 
 
 def test_a_required_metric_that_cannot_be_computed_makes_the_score_void() -> None:

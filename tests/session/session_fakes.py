@@ -19,7 +19,7 @@ from app.exercises.guidance import GuidancePart
 from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.scoring.defaults import DEFAULT_TOLERANCES
-from app.scoring.rows import Rules
+from app.scoring.rows import ScoreRules
 from app.session.context import RunContext
 from app.session.header import Attachment
 from app.session.trainer import Trainer
@@ -33,7 +33,7 @@ EXERCISE = SimpleNamespace(
     assistance=0.5,
     locked=frozenset(),
     tolerances=DEFAULT_TOLERANCES,
-    rules=Rules(),
+    rules=ScoreRules(),
     guidance=GuidancePart(),
 )
 

@@ -1,10 +1,10 @@
 """An effect is added just the way docs/extending.md says: the file on the page, nothing else."""
 
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from extending_page import example
 
 from app.core import state_vector as sv
 from app.simulation import effects
@@ -13,19 +13,6 @@ from app.simulation.consumers import DevicePort
 from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
 from app.simulation.scene import EffectRequest, Scene
-
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
-
-
-def from_the_page(heading: str) -> tuple[str, str]:
-    """Name and content of the file that a section of the page says to save."""
-    section = PAGE.read_text(encoding="utf-8").split(f"## {heading}\n")[1].split("\n## ")[0]
-    name = re.search(r"Save this as\s+`[\w/]+/(\w+\.py)`", section)
-    code = re.search(r"```python\n(.*?)```", section, re.DOTALL)
-    assert name is not None
-    assert code is not None
-    return name.group(1), code.group(1)
-
 
 FORM_BEFORE = """'''Shaking of the needle's side force: a sine, for tests of steadiness.'''
 
@@ -97,13 +84,13 @@ def test_an_effect_in_the_users_own_folder_is_found_just_the_way_the_page_says(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ACUS_EFFECTS", str(tmp_path))
-    name, code = from_the_page("How to add an effect")
+    name, code = example("How to add an effect")
     (tmp_path / name).write_text(code, encoding="utf-8")
     shakes_as_the_page_says()
 
 
 def test_an_effect_in_a_folder_appended_to_the_path_is_found_too(folder: Path) -> None:
-    name, code = from_the_page("How to add an effect")
+    name, code = example("How to add an effect")
     (folder / name).write_text(code, encoding="utf-8")
     shakes_as_the_page_says()
 
@@ -160,7 +147,7 @@ def test_a_wrong_declaration_of_the_form_before_is_named(
     ],
 )
 def test_a_wrong_declaration_is_named(folder: Path, old: str, new: str, message: str) -> None:
-    name, code = from_the_page("How to add an effect")
+    name, code = example("How to add an effect")
     assert old in code
     (folder / name).write_text(code.replace(old, new), encoding="utf-8")
     with pytest.raises(SimulationError, match=message):
@@ -179,7 +166,7 @@ def test_a_wrong_declaration_is_named(folder: Path, old: str, new: str, message:
 def test_an_effect_of_somebody_else_that_could_do_harm_is_refused(
     folder: Path, added: str, message: str
 ) -> None:
-    name, code = from_the_page("How to add an effect")
+    name, code = example("How to add an effect")
     (folder / name).write_text(code + added, encoding="utf-8")
     scene = Scene(effects=(EffectRequest("hand_tremor", {"amplitude": 0.3}),))
     with pytest.raises(SimulationError, match=message):

@@ -11,13 +11,13 @@ from app.core.arrays import FloatArray, unit
 from app.core.bend import CURVE_POINTS, Bend, needle_curve
 from app.simulation.effects import lateral_tissue as effect
 from app.simulation.needles import OUTER_DIAMETER, bending_stiffness
-from app.simulation.scene import DEFAULT_LAYERS, Binding, Layer, Needle, Scene
+from app.simulation.scene import DEFAULT_LAYERS, Binding, Needle, Scene, TissueLayer
 
 LENGTH = 0.2
 
 
 def tissue(
-    gauge: int = 18, model: str = "beam", layers: tuple[Layer, ...] = DEFAULT_LAYERS
+    gauge: int = 18, model: str = "beam", layers: tuple[TissueLayer, ...] = DEFAULT_LAYERS
 ) -> FloatArray:
     scene = Scene(layers=layers, needle=Needle(outer_diameter=OUTER_DIAMETER[gauge]))
     return memory_of("lateral_tissue", {}, Binding(scene, model=model))

@@ -9,7 +9,7 @@ from app.simulation.compiler import compile
 from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
-from app.simulation.scene import Binding, EffectRequest, Layer, Scene
+from app.simulation.scene import Binding, EffectRequest, Scene, TissueLayer
 
 ALL = tuple(EffectRequest(n) for n in ("breathing", "shaft_friction", "lateral_tissue"))
 REAL = DevicePort("icube")
@@ -90,7 +90,7 @@ def test_an_effect_named_twice_is_refused() -> None:
 
 def test_a_negative_layer_is_refused() -> None:
     with pytest.raises(SimulationError, match="thickness is -1"):
-        Layer("fat", -1.0)
+        TissueLayer("fat", -1.0)
 
 
 def test_an_unknown_device_axis_is_refused() -> None:

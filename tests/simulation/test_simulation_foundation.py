@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from app.simulation.errors import SimulationError
-from app.simulation.foundation import (
+from app.simulation.needles import OUTER_DIAMETER, bending_stiffness
+from app.studies.references.foundation import (
     beam_moment,
     difference_moment,
     hermite_moment,
@@ -13,7 +14,6 @@ from app.simulation.foundation import (
     solve_banded,
     springs_moment,
 )
-from app.simulation.needles import OUTER_DIAMETER, bending_stiffness
 
 K, TURN = 20e3, 0.1
 

@@ -9,7 +9,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.mechanisms.profile import load_profile
 from app.simulation import hand_motion
-from app.simulation.plant import Hand, initial_plant, plant_stage
+from app.simulation.plant import SimulatedHand, initial_plant, plant_stage
 
 PROFILE = load_profile("icube")
 LENGTH = PROFILE.geometry.needle_length
@@ -124,4 +124,4 @@ def test_a_hand_beside_a_real_robot_moves_its_depth_like_a_hand() -> None:
 
 
 def test_the_hand_of_a_plant_can_be_another() -> None:
-    assert Hand(speed=0.3).speed == 0.3
+    assert SimulatedHand(speed=0.3).speed == 0.3

@@ -7,12 +7,12 @@ from simulation.effect_rig import memory_of
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
 from app.simulation.effects import lateral_tissue as effect
-from app.simulation.foundation import beam_moment
 from app.simulation.needles import bending_stiffness
-from app.simulation.scene import Binding, Layer, Needle, Scene
+from app.simulation.scene import Binding, Needle, Scene, TissueLayer
+from app.studies.references.foundation import beam_moment
 
 LENGTH = 0.2
-LAYERS = (Layer("a", 0.01, 30e3), Layer("b", 0.0, 9e9), Layer("c", 0.19, 20e3))
+LAYERS = (TissueLayer("a", 0.01, 30e3), TissueLayer("b", 0.0, 9e9), TissueLayer("c", 0.19, 20e3))
 
 
 def tissue(model: str = "winkler") -> FloatArray:
@@ -49,13 +49,13 @@ def test_the_moment_about_the_fulcrum_is_the_sum_over_layers_of_k_cubes_over_thr
 
 def test_one_layer_of_20_kpa_at_100_mm_feels_as_published() -> None:
     memory = memory_of(
-        "lateral_tissue", {}, Binding(Scene(layers=(Layer("x", 0.2, 20e3),)), model="winkler")
+        "lateral_tissue", {}, Binding(Scene(layers=(TissueLayer("x", 0.2, 20e3),)), model="winkler")
     )
     assert effect.rotational_stiffness(memory, 0.1) == pytest.approx(6.67, abs=0.01)
 
 
 def test_the_beam_table_is_that_of_the_closed_form_in_one_layer() -> None:
-    scene = Scene(layers=(Layer("x", 0.15, 20e3),), needle=Needle(outer_diameter=0.718e-3))
+    scene = Scene(layers=(TissueLayer("x", 0.15, 20e3),), needle=Needle(outer_diameter=0.718e-3))
     memory = memory_of("lateral_tissue", {}, Binding(scene, model="beam"))
     ei = bending_stiffness(0.718e-3)
     for depth in (0.02, 0.05, 0.1, 0.14):

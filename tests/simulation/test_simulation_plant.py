@@ -17,7 +17,7 @@ from app.mechanisms.pantograph import (
 from app.mechanisms.profile import DeviceProfile, load_profile
 from app.simulation.errors import SimulationError
 from app.simulation.plan import Stage
-from app.simulation.plant import Hand, Surroundings, initial_plant, plant_stage
+from app.simulation.plant import PlantSurroundings, SimulatedHand, initial_plant, plant_stage
 
 PROFILE = load_profile("icube")
 DOWN = np.array([0.0, 0.0, -1.0])
@@ -141,7 +141,7 @@ def test_the_pull_of_the_hand_balances_the_robot_in_rest() -> None:
 def test_a_hand_that_wants_beyond_the_tilt_limit_is_stopped_without_a_jump() -> None:
     state = begin()
     grip(state, unit(np.array([0.95, 0.0, -0.3])), 0.0)
-    rows = run(plant_stage(PROFILE, hand=Hand(stiffness=2000.0)), state, 3000)
+    rows = run(plant_stage(PROFILE, hand=SimulatedHand(stiffness=2000.0)), state, 3000)
     tilts = np.array([angle_between(axis_of(row), DOWN) for row in rows[::10]])
     assert np.rad2deg(tilts.max()) < PROFILE.tilt_limit_deg + 2.0
     peak = int(tilts.argmax())
@@ -171,7 +171,7 @@ def test_a_needle_that_is_let_go_stays_in_the_seal() -> None:
 def test_a_tissue_force_stops_the_needle_within_a_tick_but_does_not_turn_it_back() -> None:
     state = begin(depth=0.05)
     state[sv.PLANT_DEPTH_RATE], state[sv.AXIAL_FORCE], state[sv.DT] = 0.3, 5.0, 5e-3
-    rig = Surroundings(seal_friction=0.0, seal_viscous=0.0)
+    rig = PlantSurroundings(seal_friction=0.0, seal_viscous=0.0)
     run(plant_stage(PROFILE, surroundings=rig), state, 1)
     assert 0.0 <= state[sv.PLANT_DEPTH_RATE] < 0.01  # explicitly it would be -0.2 m/s
 
@@ -182,7 +182,9 @@ def test_any_hand_is_stable_at_any_step(dt: float, stiffness: float) -> None:
     state, wanted = begin(), unit(np.array([0.4, 0.2, -1.0]))
     grip(state, wanted, 0.05)
     state[sv.DT] = dt
-    hand = Hand(stiffness=stiffness, damping=0.0, axial_stiffness=stiffness, axial_damping=0.0)
+    hand = SimulatedHand(
+        stiffness=stiffness, damping=0.0, axial_stiffness=stiffness, axial_damping=0.0
+    )
     rows = run(plant_stage(PROFILE, hand=hand), state, int(4.0 / dt))
     assert np.isfinite(rows).all()
     tail = rows[-int(0.5 / dt) :]
@@ -192,7 +194,7 @@ def test_any_hand_is_stable_at_any_step(dt: float, stiffness: float) -> None:
 
 def test_a_bad_hand_is_refused() -> None:
     with pytest.raises(SimulationError, match="hand stiffness is -1"):
-        Hand(stiffness=-1.0)
+        SimulatedHand(stiffness=-1.0)
 
 
 def test_joint_friction_holds_a_leaning_needle_up_to_its_coulomb_torque() -> None:
@@ -209,7 +211,9 @@ def test_joint_friction_holds_a_leaning_needle_up_to_its_coulomb_torque() -> Non
 
 
 def test_one_tick_slows_a_needle_by_its_weight_and_turning() -> None:
-    rig = Surroundings(seal_friction=0.0, seal_viscous=0.0, moving_mass=PROFILE.inertia.needle_mass)
+    rig = PlantSurroundings(
+        seal_friction=0.0, seal_viscous=0.0, moving_mass=PROFILE.inertia.needle_mass
+    )
     state = begin(unit(np.array([0.2, 0.0, -1.0])))
     state[sv.DT] = 1e-6
     gravity = -9.80665 * axis_of(state)[2]

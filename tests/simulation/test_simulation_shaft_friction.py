@@ -7,9 +7,9 @@ from simulation.effect_rig import memory_of
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.simulation.effects import shaft_friction as effect
-from app.simulation.scene import Binding, Layer, Scene
+from app.simulation.scene import Binding, Scene, TissueLayer
 
-LAYERS = (Layer("a", 0.2, friction=10.0, static_friction=18.0, viscous_friction=200.0),)
+LAYERS = (TissueLayer("a", 0.2, friction=10.0, static_friction=18.0, viscous_friction=200.0),)
 
 
 def friction(**parameters: float) -> FloatArray:

@@ -6,7 +6,7 @@ import pytest
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
 from app.simulation.errors import SimulationError
-from app.simulation.script import STEP, Phase, write_script
+from app.simulation.script import STEP, ScriptPhase, write_script
 from app.simulation.skill import EXPERT, NOVICE
 from app.simulation.trainee import trainee_stage
 
@@ -30,7 +30,7 @@ def played(
         x, y = state[sv.HAND_X], state[sv.HAND_Y]
         z = -np.sqrt(1.0 - x * x - y * y)
         rows.append([0.002 * k, x, y, z, state[sv.HAND_DEPTH], state[sv.TRAINEE_PHASE]])
-        if state[sv.TRAINEE_PHASE] == Phase.DONE:
+        if state[sv.TRAINEE_PHASE] == ScriptPhase.DONE:
             return np.array(rows)
     raise AssertionError("never done")
 
@@ -59,9 +59,9 @@ def test_an_expert_aims_within_a_degree_and_ends_within_a_millimetre(seed: int) 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_novice_aims_wrong_withdraws_redirects_and_overshoots(seed: int) -> None:
     rows = played("novice", seed)
-    first = np.flatnonzero(rows[:, 5] == Phase.INSERT)[0]
+    first = np.flatnonzero(rows[:, 5] == ScriptPhase.INSERT)[0]
     assert 2.4 < angles(rows)[first] < 4.6
-    assert {Phase.WITHDRAW, Phase.REDIRECT} <= set(rows[:, 5].astype(int))
+    assert {ScriptPhase.WITHDRAW, ScriptPhase.REDIRECT} <= set(rows[:, 5].astype(int))
     assert DEPTH + 2.5e-3 < rows[:, 4].max() < DEPTH + 6.5e-3
     assert abs(rows[-1, 4] - DEPTH) < 2.5e-3
 
@@ -70,7 +70,7 @@ def test_it_starts_above_the_skin_off_the_path_and_holds_at_the_end() -> None:
     rows = played("expert")
     assert rows[0, 4] == pytest.approx(-0.015, abs=2e-4)
     assert angles(rows)[0] > 4.0
-    assert np.count_nonzero(rows[:, 5] == Phase.HOLD) * 0.002 == pytest.approx(1.5, abs=0.01)
+    assert np.count_nonzero(rows[:, 5] == ScriptPhase.HOLD) * 0.002 == pytest.approx(1.5, abs=0.01)
 
 
 def test_phases_come_in_order_for_an_expert() -> None:
@@ -89,7 +89,7 @@ def test_it_begins_where_the_hand_is(skill: str, grip: FloatArray) -> None:
 
 def test_where_it_began_is_forgotten_once_it_has_hovered() -> None:
     here, there = played("expert"), played("expert", grip=np.array([0.3, -0.4, 0.02]))
-    hovered = here[:, 5] != Phase.HOVER
+    hovered = here[:, 5] != ScriptPhase.HOVER
     np.testing.assert_allclose(here[hovered], there[hovered], atol=1e-12)
 
 
@@ -154,7 +154,7 @@ def test_the_start_leans_up_from_a_tilted_path_so_that_it_can_be_reached() -> No
 def test_the_duration_is_that_of_the_rows() -> None:
     script = write_script(AXIS, DEPTH, EXPERT, 0)
     assert script.duration == pytest.approx((len(script.rows) - 1) * STEP)
-    assert script.rows[-1, 3] == Phase.DONE
+    assert script.rows[-1, 3] == ScriptPhase.DONE
 
 
 def test_what_cannot_be_played_is_refused_by_name() -> None:

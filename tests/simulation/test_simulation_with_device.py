@@ -14,7 +14,7 @@ from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.plan import Stage
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.scene import EffectRequest, Scene
-from app.simulation.script import Phase
+from app.simulation.script import ScriptPhase
 from app.simulation.trainee import trainee_stage
 
 PROFILE = load_profile("icube")
@@ -67,7 +67,7 @@ def attempt(skill: str, seed: int, assistance: float) -> FloatArray:
         tick(stages, state, k)
         if k % 10 == 0:
             rows.append(state.copy())
-        if state[sv.TRAINEE_PHASE] == Phase.DONE:
+        if state[sv.TRAINEE_PHASE] == ScriptPhase.DONE:
             break
     return np.array(rows)
 
@@ -110,7 +110,7 @@ def test_nothing_ever_is_not_a_number_or_beyond_the_limits(guided_expert: FloatA
 
 
 def test_the_hand_feels_the_friction_of_the_shaft(guided_expert: FloatArray) -> None:
-    inserting = guided_expert[:, sv.TRAINEE_PHASE] == Phase.INSERT
+    inserting = guided_expert[:, sv.TRAINEE_PHASE] == ScriptPhase.INSERT
     deep = inserting & (guided_expert[:, sv.PLANT_DEPTH] > 0.06)
     assert guided_expert[deep, sv.AXIAL_FORCE].max() > 0.5
     assert guided_expert[deep, sv.PUSH].max() > 0.5

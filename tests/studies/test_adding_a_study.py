@@ -1,15 +1,13 @@
 """A study is added just the way docs/extending.md says: the file on the page, nothing else."""
 
-import re
 from pathlib import Path
 
 import pytest
+from extending_page import example
 
 from app import studies
 from app.studies.errors import StudyError
 from app.studies.runner import declaration, find_study, run, study_names
-
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "extending.md"
 
 
 @pytest.fixture
@@ -18,18 +16,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def from_the_page() -> tuple[str, str]:
-    """Name and content of the file that the page says to save."""
-    section = PAGE.read_text(encoding="utf-8").split("## How to add a study\n")[1].split("\n## ")[0]
-    name = re.search(r"Save this as\s+`[\w/]+/(\w+)\.py`", section)
-    code = re.search(r"```python\n(.*?)```", section, re.DOTALL)
-    assert name is not None
-    assert code is not None
-    return name.group(1), code.group(1)
-
-
 def works_as_the_page_says(folder: Path, name: str, code: str) -> None:
-    (folder / f"{name}.py").write_text(code, encoding="utf-8")
+    (folder / name).write_text(code, encoding="utf-8")
+    name = Path(name).stem
     assert name in study_names()
     assert declaration(name).question == "How many terms are enough?"
     result = run(name, repeats=1)
@@ -40,18 +29,18 @@ def works_as_the_page_says(folder: Path, name: str, code: str) -> None:
 
 
 def test_a_study_is_added_just_the_way_the_page_says(folder: Path) -> None:
-    works_as_the_page_says(folder, *from_the_page())
+    works_as_the_page_says(folder, *example("How to add a study"))
 
 
 def test_a_study_in_the_users_own_folder_is_found_too(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ACUS_STUDIES", str(tmp_path))
-    works_as_the_page_says(tmp_path, *from_the_page())
+    works_as_the_page_says(tmp_path, *example("How to add a study"))
 
 
 def test_a_study_of_the_form_before_is_still_read(folder: Path) -> None:
-    name, code = from_the_page()
+    name, code = example("How to add a study")
     head, rest = code.split("DECLARATION")
     stated = (
         'STUDY = Study(\n    name="sine_series",\n    title="Sine by its series",\n'

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from app.studies.references.cramer_rao import position_bound
 from app.tracking.markers.choice import ExtractorName, extractors
-from app.tracking.markers.cramer_rao import position_bound
 from app.tracking.markers.extractor import Centre, Hint, MarkerFix, Miss
 from app.tracking.simulated.picture_effects import NoiseTile, noise
 from app.tracking.simulated.scene import MarkerScene

@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 
 from app.core.clock import VirtualClock
+from app.studies.estimation.depth_filters import Hold, OneEuro
 from app.tracking.agreement import EpipolarGate
 from app.tracking.cameras.camera import Frame
 from app.tracking.fix import FixStatus
 from app.tracking.follower import MarkerFollower
 from app.tracking.markers.extractor import Centre, Extractor, MarkerFix
 from app.tracking.markers.silhouette import centroid_shift
-from app.tracking.motion.choice import FilterName, depth_filter
+from app.tracking.motion.constant_velocity import ConstantVelocity
 from app.tracking.solver import FixSolver
 from app.tracking.track import PixelTrack
 from app.tracking.tracker import Tracker
@@ -137,31 +138,34 @@ def test_a_clock_that_was_set_back_is_followed_after_half_a_second(wide):
 
 
 # --- filters --------------------------------------------------------------------------------------
-def _fed(name, depth, noise=0.0, n=90):
-    rng, filter_ = np.random.default_rng(4), depth_filter(name)
+FILTERS = (Hold, ConstantVelocity, OneEuro)
+
+
+def _fed(kind, depth, noise=0.0, n=90):
+    rng, filter_ = np.random.default_rng(4), kind()
     for k in range(n):
         filter_.take(k * PERIOD, depth(k * PERIOD) + rng.normal(0.0, noise), 2.5e-9)
     return filter_, (n - 1) * PERIOD
 
 
-@pytest.mark.parametrize("name", list(FilterName))
-def test_the_stated_lag_is_the_one_behind_a_steady_motion(name):
-    filter_, now = _fed(name, _constant)
+@pytest.mark.parametrize("kind", FILTERS)
+def test_the_stated_lag_is_the_one_behind_a_steady_motion(kind):
+    filter_, now = _fed(kind, _constant)
     behind = (_constant(now) - filter_.at(now).depth) / 0.05
     assert behind == pytest.approx(filter_.lag, abs=1e-4)
     assert filter_.lag < 0.02
 
 
-@pytest.mark.parametrize("name", list(FilterName))
-def test_a_resting_depth_is_not_made_worse_than_it_was_measured(name):
-    filter_, now = _fed(name, lambda t: 0.05, noise=5e-5)
+@pytest.mark.parametrize("kind", FILTERS)
+def test_a_resting_depth_is_not_made_worse_than_it_was_measured(kind):
+    filter_, now = _fed(kind, lambda t: 0.05, noise=5e-5)
     assert abs(filter_.at(now).depth - 0.05) < 3 * 5e-5
 
 
 def test_the_kalman_filters_variance_holds_its_own_error_and_grows_with_the_time_ahead():
     rng, ahead, errors, variances = np.random.default_rng(8), 0.08, [], []
     for _ in range(300):
-        filter_, depth, rate = depth_filter(FilterName.CONSTANT_VELOCITY), 0.05, 0.02
+        filter_, depth, rate = ConstantVelocity(), 0.05, 0.02
         for k in range(40):
             filter_.take(k * PERIOD, depth + rng.normal(0.0, 5e-5), 2.5e-9)
             kick = rng.normal(0.0, np.sqrt(2e-4 * PERIOD))  # white noise in the acceleration
@@ -176,9 +180,9 @@ def test_the_kalman_filters_variance_holds_its_own_error_and_grows_with_the_time
     assert filter_.at(39 * PERIOD + ahead).variance > 2.0 * filter_.at(39 * PERIOD).variance
 
 
-@pytest.mark.parametrize("name", list(FilterName))
-def test_a_filter_survives_whatever_comes_and_forgets_after_a_gap(name):
-    filter_ = depth_filter(name)
+@pytest.mark.parametrize("kind", FILTERS)
+def test_a_filter_survives_whatever_comes_and_forgets_after_a_gap(kind):
+    filter_ = kind()
     assert filter_.at(1.0) is None
     for time, depth, variance in (
         (1.0, 0.05, 1e-9), (0.9, 0.9, 1e-9), (np.nan, 0.1, 1e-9), (1.1, np.inf, 1e-9),

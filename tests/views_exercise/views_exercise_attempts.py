@@ -6,7 +6,7 @@ from app.planning.placement import PlacedPlan, Placement
 from app.planning.plan import Plan
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.scoring.result import Score, judge
-from app.scoring.rows import Row, Rules
+from app.scoring.rows import Row, ScoreRules
 from app.session.curves import Curves
 from app.session.review import Review, TimeMark, spans
 
@@ -63,7 +63,7 @@ def score(void: bool = False) -> Score:
         for name, (label, unit, value) in values.items()
     ]
     rows.append(Row("holding_time", "Holding time", "s", None, "the needle was never held"))
-    return judge(tuple(rows), Rules(), "the attempt was aborted: student" if void else "")
+    return judge(tuple(rows), ScoreRules(), "the attempt was aborted: student" if void else "")
 
 
 def review(**changes: object) -> Review:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from app.core.plugins import ENERGY, PARAMETERS, SLOTS, TEXT, Kind, StageDeclaration, complete
+from app.core.plugins import ENERGY, PARAMETERS, SLOTS, TEXT, PluginKind, StageDeclaration, complete
 from app.device.errors import LawError
 from app.mechanisms.profile import DeviceProfile
 
@@ -27,7 +27,7 @@ class Law(StageDeclaration):
         return complete(KIND, self, given, profile)
 
 
-KIND: Final[Kind[Law]] = Kind(
+KIND: Final[PluginKind[Law]] = PluginKind(
     noun="a force law",
     declares=Law,
     fields={

@@ -12,7 +12,7 @@ from app.device.control.passivity import PassivityGuard
 from app.device.control.protection import protected
 from app.device.control.safety import Safety
 from app.device.control.transmission import Transmission
-from app.device.control.velocity import DEFAULT_VELOCITY, VelocityMethod, velocity_stage
+from app.device.control.velocity import VelocityMethod, velocity_stage
 from app.device.links.link import Link
 from app.mechanisms.pantograph import ForceLaw
 from app.mechanisms.profile import DeviceProfile
@@ -66,7 +66,7 @@ def pantograph_stages(
     effects: Iterable[tuple[str, Any, FloatArray]],
     link: Link,
     force_law: ForceLaw = ForceLaw.VIRTUAL_WORK,
-    velocity: VelocityMethod = DEFAULT_VELOCITY,
+    velocity: VelocityMethod | None = None,
     energy_bound: float | None = None,
 ) -> Table:
     """Table of a needle pantograph: link read, velocity, depth, kinematics, force laws, effects,
@@ -80,7 +80,7 @@ def pantograph_stages(
         effects: simulated effects, likewise; both add to `FORCE_*`.
         link: where joint angles come from and torques go to.
         force_law: how a force at the hand becomes joint torques.
-        velocity: how joint velocities come from encoder angles.
+        velocity: how joint velocities come from encoder angles, if not as the profile says.
         energy_bound: what laws and effects declare to store together [J]; the guard lets no more
             out. None leaves the guard out, for tables whose forces declare nothing.
 
@@ -91,7 +91,7 @@ def pantograph_stages(
     return Table.of(
         [
             *link.read,
-            velocity_stage(velocity, profile),
+            velocity_stage(profile, velocity),
             DepthInterval.of(profile).stage(),
             Kinematics.of(profile).stage(),
             *protected([*laws, *effects]),

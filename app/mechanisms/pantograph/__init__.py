@@ -48,14 +48,6 @@ from app.mechanisms.pantograph.system_rates import (
     system_rates,
     tool_by_hub,
 )
-from app.mechanisms.pantograph.workspace import (
-    Region,
-    Whereabouts,
-    Workspace,
-    locate,
-    survey,
-    torque_per_newton,
-)
 
 __all__ = [
     "ASSEMBLIES",
@@ -70,13 +62,10 @@ __all__ = [
     "LumpedInertia",
     "NeedleState",
     "PassiveAngles",
-    "Region",
     "Singularity",
     "SingularityMeasure",
     "Status",
     "SystemRates",
-    "Whereabouts",
-    "Workspace",
     "branches",
     "dexterity",
     "dynamic_terms",
@@ -90,19 +79,16 @@ __all__ = [
     "joint_torques",
     "joints_by_hub",
     "lever_map",
-    "locate",
     "mass_matrix",
     "needle_at",
     "passive_angles",
     "printed_force",
     "singularity",
-    "survey",
     "system_forward",
     "system_inverse",
     "system_rates",
     "tool_by_hub",
     "tool_force",
-    "torque_per_newton",
     "velocity_terms",
     "working_mode",
 ]

@@ -1,6 +1,7 @@
 """Device profiles: every number of one robot, with where it comes from."""
 
 from app.mechanisms.profile.control import (
+    DEFAULT_VELOCITY,
     LET_GO_UNSTATED,
     Axis,
     EncoderSection,
@@ -12,6 +13,7 @@ from app.mechanisms.profile.control import (
     LoopSection,
     MotorSection,
     Protocol,
+    VelocityMethod,
     WireSection,
 )
 from app.mechanisms.profile.device import DeviceProfile
@@ -26,6 +28,7 @@ from app.mechanisms.profile.mechanics import (
 from app.mechanisms.profile.values import Provenance, Section
 
 __all__ = [
+    "DEFAULT_VELOCITY",
     "LET_GO_UNSTATED",
     "Axis",
     "DeviceProfile",
@@ -44,6 +47,7 @@ __all__ = [
     "Protocol",
     "Provenance",
     "Section",
+    "VelocityMethod",
     "WireSection",
     "WorkspaceSection",
     "load_profile",

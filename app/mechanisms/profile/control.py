@@ -16,6 +16,25 @@ class Axis(StrEnum):
     AXIAL = "axial"
 
 
+class VelocityMethod(StrEnum):
+    """How joint velocities come from encoder angles.
+
+    `BACKWARD_DIFFERENCE`: of the last two readings (the thesis). `FILTERED`: the same through a
+    low-pass of 50 Hz. `ALPHA_BETA`: tracker with fixed gains. `FOAW`: slope of the longest line
+    within one count. `KALMAN`: tracker with gains from the encoder's resolution.
+    """
+
+    BACKWARD_DIFFERENCE = "backward_difference"
+    FILTERED = "filtered"
+    ALPHA_BETA = "alpha_beta"
+    FOAW = "foaw"
+    KALMAN = "kalman"
+
+
+DEFAULT_VELOCITY: Final = VelocityMethod.FOAW
+"""Chosen by measurement: `acus study velocity`, docs/studies.md."""
+
+
 class EncoderSection(Section):
     """Joint encoders: counts per turn of the joint, joint angles at zero counts [rad]."""
 

@@ -12,6 +12,7 @@ from app.mechanisms.dynamic_model import DynamicModel
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.inertia import LumpedInertia
 from app.mechanisms.profile.control import (
+    DEFAULT_VELOCITY,
     LET_GO_UNSTATED,
     Axis,
     EncoderSection,
@@ -22,6 +23,7 @@ from app.mechanisms.profile.control import (
     LimitSection,
     LoopSection,
     MotorSection,
+    VelocityMethod,
     WireSection,
 )
 from app.mechanisms.profile.mechanics import (
@@ -37,7 +39,10 @@ LONGEST_NEEDLE: Final = 0.5
 
 
 class DeviceProfile(Strict):
-    """One robot. Values are SI; each section carries the provenance of its values."""
+    """One robot. Values are SI; each section carries the provenance of its values.
+
+    `velocity` is how joint velocities come from its encoders' angles.
+    """
 
     name: str
     description: str
@@ -53,6 +58,7 @@ class DeviceProfile(Strict):
     wire: WireSection
     loop: LoopSection
     hand: HandSection = HandSection()
+    velocity: VelocityMethod = DEFAULT_VELOCITY
     haply: HaplySection | None = None
 
     @model_validator(mode="after")

@@ -15,7 +15,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from app.core import paths
-from app.core.plugins import FLAG, SLOTS, Declaration, Field, Kind, Source, read_statements
+from app.core.plugins import (
+    FLAG,
+    SLOTS,
+    Declaration,
+    Field,
+    PluginKind,
+    PluginText,
+    read_statements,
+)
 from app.scoring.errors import MetricError, MetricUnavailableError, UnknownMetricError
 
 if TYPE_CHECKING:
@@ -108,7 +116,7 @@ def _readable(path: Path) -> Metric:
 _BEFORE: Final = {"title": "LABEL", "unit": "UNIT", "higher_is_better": "HIGHER_IS_BETTER"}
 
 
-def _older(path: Path, source: Source) -> Source:
+def _older(path: Path, source: PluginText) -> PluginText:
     """Rewrite the constants of the form before into a declaration."""
     nodes = {
         target.id: node.value
@@ -134,7 +142,7 @@ def _older(path: Path, source: Source) -> Source:
         raise MetricError(f"{path}: NAME is {said['NAME']!r}, the file is {path.stem!r}")
     lines = {key: nodes[name].lineno for key, name in _BEFORE.items()}
     document = {key: said[name] for key, name in _BEFORE.items()} | {"reads": said["READS"]}
-    return Source(document, lines, source.body)
+    return PluginText(document, lines, source.body)
 
 
 def _label(value: Any) -> str:
@@ -143,7 +151,7 @@ def _label(value: Any) -> str:
     return value
 
 
-KIND: Final[Kind[Metric]] = Kind(
+KIND: Final[PluginKind[Metric]] = PluginKind(
     noun="a metric",
     declares=Metric,
     fields={

@@ -22,8 +22,8 @@ from app.core.plugins import (
     SLOTS,
     TEXT,
     TEXTS,
-    Kind,
-    Source,
+    PluginKind,
+    PluginText,
     StageDeclaration,
     complete,
     read_statements,
@@ -132,7 +132,7 @@ def _class_name(effect: str) -> str:
     return "".join(part.capitalize() for part in effect.split("_"))
 
 
-def _older(path: Path, source: Source) -> Source:
+def _older(path: Path, source: PluginText) -> PluginText:
     """Rewrite a declaration of the form before, whose rows have no default, into today's."""
     rows = (source.document or {}).get("parameters")
     defined = {node.name for node in source.body if isinstance(node, ast.FunctionDef)}
@@ -169,7 +169,7 @@ def _defaults(body: list[ast.stmt], path: Path) -> dict[str, float]:
     )
 
 
-KIND: Final[Kind[Effect]] = Kind(
+KIND: Final[PluginKind[Effect]] = PluginKind(
     noun="an effect",
     declares=Effect,
     fields={

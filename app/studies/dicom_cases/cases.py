@@ -15,7 +15,7 @@ MOST_ALONE = 64
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class DicomCase:
     """Something to be read.
 
     Attributes:
@@ -31,7 +31,7 @@ class Case:
     files: tuple[Path, ...]
 
 
-def folder_cases(folder: Path, progress: Progress) -> Iterator[Case]:
+def folder_cases(folder: Path, progress: Progress) -> Iterator[DicomCase]:
     """Yield every series below a folder; of refused ones every file by itself as well.
 
     Raises:
@@ -40,7 +40,7 @@ def folder_cases(folder: Path, progress: Progress) -> Iterator[Case]:
     listing = scan_folder(folder, progress)
     for series in listing.series:
         where = _shared(series.files, folder)
-        yield Case(f"{where}, {series.label}", series, False, series.files)
+        yield DicomCase(f"{where}, {series.label}", series, False, series.files)
         if not series.usable and 1 < len(series.files) <= MOST_ALONE:
             yield from file_cases(series.files, progress, folder)
 
@@ -53,7 +53,7 @@ def _shared(files: Sequence[Path], folder: Path) -> str:
 
 def file_cases(
     files: Sequence[Path], progress: Progress, root: Path | None = None
-) -> Iterator[Case]:
+) -> Iterator[DicomCase]:
     """Yield every file by itself: equal series UIDs would group unrelated files.
 
     Args:
@@ -68,7 +68,7 @@ def file_cases(
             every: tuple[Series | Ignored, ...] = (*listing.series, *listing.ignored)
             for found in every:
                 name = file.name if root is None else f"{root.name}/{file.relative_to(root)}"
-                yield Case(name, found, True, (file,))
+                yield DicomCase(name, found, True, (file,))
 
 
 def pydicom_files() -> tuple[Path, ...]:

@@ -43,7 +43,7 @@ class Ours:
 
 
 @dataclass(frozen=True, slots=True)
-class Agreement:
+class SeriesAgreement:
     """How two readings compare.
 
     Attributes:
@@ -95,23 +95,23 @@ def _decodable(headers: Sequence[SliceHeader]) -> bool:
     )
 
 
-def compare(series: Series, ours: Ours, theirs: PeerImage, peer: Peer) -> Agreement:
+def compare(series: Series, ours: Ours, theirs: PeerImage, peer: Peer) -> SeriesAgreement:
     """Compare voxels, geometry, and both with the standard."""
     if ours.values is None:
-        return Agreement("", "", None, None)
+        return SeriesAgreement("", "", None, None)
     planes = standard_planes(series, peer)
     flipped = _flipped(planes, theirs)
     values = theirs.values[::-1] if flipped else theirs.values
     if values.shape != ours.values.shape:
         sizes = ("×".join(str(n) for n in reversed(v.shape)) for v in (ours.values, values))
-        return Agreement("sizes {} and {}".format(*sizes), "", None, None)
+        return SeriesAgreement("sizes {} and {}".format(*sizes), "", None, None)
     affine = _reversed(theirs) if flipped else theirs.affine_mm
     apart = ""
     if ours.affine_mm is not None:
         apart = _apart(ours.affine_mm, affine, ours.values.shape)
     off = _off(affine, planes, ours.values.shape)
     differ = _differ(ours.values, values)
-    return Agreement(
+    return SeriesAgreement(
         differ,
         apart,
         _off(ours.affine_mm, planes, ours.values.shape),

@@ -1,1 +1,1 @@
-"""Parts of the study `velocity`: motions of a hand and their measurement."""
+"""What the studies of estimators need: motions of a hand, their measurement, filters of a depth."""

@@ -57,7 +57,7 @@ MOTIONS: Final[dict[str, tuple[float, Path]]] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
+class HandMotion:
     """A motion sampled at a loop's rate.
 
     Attributes:
@@ -75,7 +75,7 @@ class Motion:
     lever: FloatArray
 
 
-def motion(name: str, profile: DeviceProfile, rate_hz: float) -> Motion:
+def motion(name: str, profile: DeviceProfile, rate_hz: float) -> HandMotion:
     """Sample a motion of `MOTIONS` on a device: along x through a point where its joints change
     counts, 10 mm off the middle of the workspace.
     """
@@ -92,4 +92,6 @@ def motion(name: str, profile: DeviceProfile, rate_hz: float) -> Motion:
     # Shift the encoders' zero so that the middle lies on the edge between two counts.
     zero = home + count * (((inverse(geometry, middle) - home) / count - 0.5) % 1.0)
     readings = zero + np.floor((q - zero) / count + 0.5) * count
-    return Motion(frozen(times), frozen(readings), frozen(rates), frozen(speed), frozen(maps[:, 0]))
+    return HandMotion(
+        frozen(times), frozen(readings), frozen(rates), frozen(speed), frozen(maps[:, 0])
+    )

@@ -26,7 +26,7 @@ from app.mechanisms.pantograph.kernels import (
     jacobian_kernel,
 )
 from app.mechanisms.profile import DeviceProfile
-from app.simulation.plant import Hand, initial_plant, plant_stage
+from app.simulation.plant import SimulatedHand, initial_plant, plant_stage
 from app.studies.releasing.before import fixed_speed
 
 from numba import types  # isort: skip  (after core.compiled)
@@ -37,7 +37,7 @@ RUNS: Final = 120
 """Ticks of the run: all but the slowest are noticed within 30."""
 AFTER: Final = 50
 """Ticks for which a run counts after letting go was noticed: then the needle's weight rules."""
-_CLAMP: Final = Hand(stiffness=5000.0, damping=50.0)
+_CLAMP: Final = SimulatedHand(stiffness=5000.0, damping=50.0)
 """A hand of flesh would give way to a force that comes in 20 ms, fast enough to be noticed."""
 _SPEED, _ENERGY, _TWIN_SPEED, _TWIN_ENERGY, _NOTICED, _COLUMNS = range(6)
 

@@ -38,7 +38,7 @@ _MOST_STEPS: Final = 8  # of a bisection: K to 2 %
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Region:
+class StableRegion:
     """What is stable at one rate and delay.
 
     Attributes:
@@ -92,13 +92,13 @@ def linear_limit(models: tuple[Reduction, ...], damping: float, step: float, del
     return float(_FINE[unstable[0] - 1]) if unstable[0] > 0 else 0.0
 
 
-def region(profile: DeviceProfile, rate_hz: float, delay: int) -> Region:
+def region(profile: DeviceProfile, rate_hz: float, delay: int) -> StableRegion:
     """Sweep one rate and delay."""
     step, models = 1.0 / rate_hz, reductions(profile, DEPTH)
     device = Device(profile, rate_hz, delay)
     smooth = replace(device, profile=without_dry_friction(profile))
     least = min(model.damping for model in models)
-    return Region(
+    return StableRegion(
         rate_hz,
         delay,
         np.array([[device.stable(k, b) for b in DAMPING] for k in STIFFNESS], dtype=np.float64),
@@ -109,7 +109,7 @@ def region(profile: DeviceProfile, rate_hz: float, delay: int) -> Region:
     )
 
 
-def regions(profile: DeviceProfile, progress: Progress | None) -> tuple[Region, ...]:
+def regions(profile: DeviceProfile, progress: Progress | None) -> tuple[StableRegion, ...]:
     """Sweep all rates and delays."""
     found = []
     cases = [(rate, delay) for rate in RATES for delay in DELAYS]
@@ -126,7 +126,7 @@ def highest(stable: FloatArray) -> FloatArray:
     return np.asarray(np.where(below > 0, STIFFNESS[np.maximum(below - 1, 0)], 0.0))
 
 
-def limits_sheet(found: tuple[Region, ...]) -> Sheet:
+def limits_sheet(found: tuple[StableRegion, ...]) -> Sheet:
     """Largest stable K per rate, delay and B, by every account."""
     rows: list[tuple[Cell, ...]] = []
     for part in found:
@@ -208,7 +208,7 @@ def protected_sheet(profile: DeviceProfile) -> Sheet:
     )
 
 
-def maps(figure: Any, found: tuple[Region, ...]) -> None:
+def maps(figure: Any, found: tuple[StableRegion, ...]) -> None:
     """Draw the stable region of every rate (rows) and delay (columns) with the bounds."""
     shown = np.maximum(DAMPING, 0.05)  # B = 0 has no logarithm; it is drawn at the left edge
     for number, part in enumerate(found):

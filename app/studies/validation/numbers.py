@@ -9,10 +9,10 @@ from app.core.arrays import FloatArray
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph.statics import felt_force, force_map, joint_torques, printed_force
 from app.mechanisms.pantograph.system import needle_at
-from app.mechanisms.pantograph.workspace import torque_per_newton
 from app.mechanisms.profile import DeviceProfile
 from app.studies.findings import Cell, Sheet
 from app.studies.printed import laboratory, thesis
+from app.studies.references.workspace import torque_per_newton
 from app.studies.validation.maps import (
     closure,
     disc,

@@ -1,17 +1,20 @@
-"""The named ways of finding the marker, and what the rig's geometry tells them."""
+"""The ways of finding the marker by name, and what the rig's geometry tells them.
 
-from dataclasses import replace
+Each is one file, the program's own here, the user's in the folder `extractors`; a rig profile
+chooses. See 'How to add a marker extractor' in docs/extending.md.
+"""
+
+from dataclasses import dataclass
 from enum import StrEnum
+from typing import Final
 
 import numpy as np
 
+from app.core.plugins import TEXT, Declaration, PluginKind
 from app.core.units import MILLIMETRE
+from app.tracking.errors import TrackingError
 from app.tracking.markers.colour import RED, ColourModel
-from app.tracking.markers.ellipse import EllipseMarker
-from app.tracking.markers.extractor import Extractor
-from app.tracking.markers.model_fit import ModelFit
-from app.tracking.markers.outline_centroid import OutlineCentroid
-from app.tracking.markers.thesis import ThesisMarker
+from app.tracking.markers.extractor import Extractor, ExtractorSetup
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape, RigProfile
 
@@ -22,7 +25,7 @@ _LEAST_SINE = 0.3
 
 
 class ExtractorName(StrEnum):
-    """How the marker is found."""
+    """The program's own ways."""
 
     THESIS = "thesis"  # the laboratory's published detection, for comparison
     OUTLINE_CENTROID = "outline_centroid"  # mask, then the centroid of the covered shares
@@ -30,65 +33,55 @@ class ExtractorName(StrEnum):
     MODEL_FIT = "model_fit"  # least squares of the band's whole picture
 
 
-DEFAULT = ExtractorName.MODEL_FIT
-"""By measurement over the workspace of rig `wide`: 0.016 px RMS before even grey, 0.023 before the
-housing, less than half the centroid's, an eighth of the ellipse's; 1.01 times the joint
-Cramér-Rao bound before grey. The only way that notices what covers the marker; its 95 % ellipsoid
-of the tip held the truth in 95.8 % of clean pairs, 93.9 under fingers, 95.4 under highlights."""
+DEFAULT: Final = ExtractorName.MODEL_FIT
+"""Of a rig that names none. By measurement over the workspace of rig `wide`: 0.016 px RMS before
+even grey, 0.023 before the housing, less than half the centroid's, an eighth of the ellipse's; 1.01
+times the joint Cramér-Rao bound before grey. The only way that notices what covers the marker; its
+95 % ellipsoid of the tip held the truth in 95.8 % of clean pairs, 93.9 under fingers, 95.4 under
+highlights."""
 
 
-def extractor(
-    name: ExtractorName,
-    model: CameraModel,
-    shape: NeedleShape,
-    distances: tuple[float, float],
-    noise_grey: float,
-    blur_px: float,
-    colour: ColourModel = RED,
-) -> Extractor:
-    """Build the extractor of one camera.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeclaredExtractor(Declaration):
+    """What the file of an extractor says about itself."""
 
-    Args:
-        name: which way.
-        model: the camera.
-        shape: of the needle it looks for.
-        distances: least and largest from the camera to the band [m].
-        noise_grey: standard deviation of the pictures' noise [grey levels].
-        blur_px: standard deviation of the picture of a point.
-        colour: of the marker.
-    """
-    if name is ExtractorName.THESIS:
-        return ThesisMarker()
-    least, largest = _areas(model, shape, distances)
-    outline = OutlineCentroid(
-        colour=colour,
-        area_min=least,
-        area_max=largest,
-        noise_grey=noise_grey,
-        blur_px=blur_px,
-        focal_px=float(np.sqrt(np.prod(model.intrinsics[:2]))),
-        shape=shape,
-    )
-    if name is ExtractorName.OUTLINE_CENTROID:
-        return outline
-    if name is ExtractorName.ELLIPSE:
-        return EllipseMarker(replace(outline, rough=True))
-    return ModelFit(model, shape, blur_px, replace(outline, rough=True))
+
+KIND: Final[PluginKind[DeclaredExtractor]] = PluginKind(
+    noun="a marker extractor",
+    declares=DeclaredExtractor,
+    fields={"title": TEXT},
+    error=TrackingError,
+    package="app.tracking.markers",
+    folder="extractors",
+    functions=("extractor",),
+    marks=(b"\nDECLARATION",),
+)
 
 
 def extractors(
-    rig: RigProfile, name: ExtractorName = DEFAULT, colour: ColourModel = RED
+    rig: RigProfile, name: str | None = None, colour: ColourModel = RED
 ) -> tuple[Extractor, Extractor]:
-    """Build one extractor for each camera of a rig, in its order."""
+    """Build one extractor for each camera of a rig, in its order.
+
+    Args:
+        rig: two cameras, and by which name their marker is found.
+        name: another extractor than the rig's: one of the program's or of the user's own folder.
+        colour: of the marker.
+
+    Raises:
+        TrackingError: for an unknown name, listing the known ones, or a file that cannot be used.
+    """
+    build = KIND.load(KIND.find(name or rig.extractor)).extractor
     first, second = (
-        extractor(
-            name,
-            model,
-            rig.needle.shape,
-            _distances(rig, model),
-            rig.noise_grey,
-            rig.blur_px,
-            colour,
+        build(
+            ExtractorSetup(
+                model,
+                rig.needle.shape,
+                _areas(model, rig.needle.shape, _distances(rig, model)),
+                rig.noise_grey,
+                rig.blur_px,
+                colour,
+            )
         )
         for model in rig.models
     )

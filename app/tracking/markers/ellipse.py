@@ -12,6 +12,7 @@ by about f·r²·tan(lean)/distance², 0.005 px for a radius of 1 mm at 0.4 m wi
 """
 
 from dataclasses import dataclass, field
+from typing import Any, Final
 
 import cv2
 import numpy as np
@@ -19,8 +20,19 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
-from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Mask, Miss, MissReason
-from app.tracking.markers.outline_centroid import OutlineCentroid
+from app.tracking.markers.extractor import (
+    Extractor,
+    ExtractorSetup,
+    Hint,
+    MarkerFix,
+    Mask,
+    Miss,
+    MissReason,
+)
+from app.tracking.markers.outline_centroid import OutlineCentroid, outline_of
+
+DECLARATION: Final[dict[str, Any]] = {"title": "Centre of an ellipse through the contour on rays"}
+
 
 _RAYS = 36
 _STEP = 0.5
@@ -202,3 +214,8 @@ def _fall(strength: FloatArray, level: FloatArray) -> tuple[NDArray[np.intp], ND
     last = np.argmax(below, axis=0) - 1
     found = below.any(axis=0) & (last >= 0)
     return np.clip(last, 0, len(strength) - 2), found
+
+
+def extractor(setup: ExtractorSetup) -> Extractor:
+    """Build the extractor of a camera."""
+    return EllipseMarker(outline_of(setup, rough=True))

@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, frozen
 from app.tracking.cameras.camera import Image
+from app.tracking.markers.colour import RED, ColourModel
+from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.rig import NeedleShape
 
 Mask = NDArray[np.uint8]
 """One where a pixel counts as the marker's colour, zero elsewhere, shape (height, width)."""
@@ -115,6 +118,27 @@ class Miss:
 
     reason: MissReason
     uv: FloatArray | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExtractorSetup:
+    """What an extractor of one camera is built from.
+
+    Attributes:
+        model: the camera.
+        shape: of the needle that it looks for.
+        area: least and largest area of the band in a picture [px²].
+        noise_grey: standard deviation of the pictures' noise [grey levels].
+        blur_px: standard deviation of the picture of a point.
+        colour: of the marker.
+    """
+
+    model: CameraModel
+    shape: NeedleShape
+    area: tuple[float, float]
+    noise_grey: float
+    blur_px: float
+    colour: ColourModel = RED
 
 
 class Extractor(ABC):

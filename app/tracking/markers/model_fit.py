@@ -9,6 +9,7 @@ red thing. What little misfit is let pass enlarges the covariance.
 
 import math
 from dataclasses import dataclass, field
+from typing import Any, Final
 
 import numpy as np
 
@@ -18,17 +19,21 @@ from app.tracking.markers.band_fit import BandFit, BandFitter
 from app.tracking.markers.extractor import (
     Centre,
     Extractor,
+    ExtractorSetup,
     Hint,
     MarkerFix,
     Mask,
     Miss,
     MissReason,
 )
-from app.tracking.markers.outline_centroid import OutlineCentroid
+from app.tracking.markers.outline_centroid import OutlineCentroid, outline_of
 from app.tracking.markers.shaft_evidence import shaft_evidence
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
+
+DECLARATION: Final[dict[str, Any]] = {"title": "Least squares of the band's whole picture"}
+
 
 _USUAL_MISFIT, _USUAL_OUTLIERS = 1.1, 0.005
 _MISFIT_PX2, _OUTLIERS_PX2 = 0.008, 0.02
@@ -227,3 +232,8 @@ def _farthest(uv: FloatArray, other: FloatArray) -> float:
     """Larger of the distances of two pixels in u and v [px]."""
     (u, v), (a, b) = uv.tolist(), other.tolist()
     return max(abs(u - a), abs(v - b))
+
+
+def extractor(setup: ExtractorSetup) -> Extractor:
+    """Build the extractor of a camera."""
+    return ModelFit(setup.model, setup.shape, setup.blur_px, outline_of(setup, rough=True))

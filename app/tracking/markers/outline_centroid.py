@@ -7,6 +7,7 @@ inside, so that the centroid is that of the outline, whatever the light. The pai
 """
 
 from dataclasses import dataclass, field
+from typing import Any, Final
 
 import cv2
 import numpy as np
@@ -16,9 +17,20 @@ from app.core.arrays import FloatArray, read_only
 from app.tracking.cameras.camera import Image
 from app.tracking.markers.colour import RED, ColourModel
 from app.tracking.markers.colour_patch import mark_half, nearest_patch
-from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Mask, Miss, MissReason
+from app.tracking.markers.extractor import (
+    Extractor,
+    ExtractorSetup,
+    Hint,
+    MarkerFix,
+    Mask,
+    Miss,
+    MissReason,
+)
 from app.tracking.markers.rim import outline_moments
 from app.tracking.optics.rig import NeedleShape
+
+DECLARATION: Final[dict[str, Any]] = {"title": "Mask, then the centroid of the covered shares"}
+
 
 _SQUARE3 = np.ones((3, 3), dtype=np.uint8)
 _CANDIDATES = 6
@@ -204,3 +216,22 @@ def _overexposed(window: Image, blob: Mask, colour: ColourModel) -> float:
     """Share of the patch in which the marker's strongest colour is at its end."""
     saturated = (window[..., int(np.argmax(colour.weights))] >= 254) & (blob > 0)
     return float(saturated.sum()) / max(1.0, float(blob.sum()))
+
+
+def outline_of(setup: ExtractorSetup, rough: bool = False) -> OutlineCentroid:
+    """Return the outline's extractor for a camera; `rough` where another only begins with it."""
+    return OutlineCentroid(
+        colour=setup.colour,
+        area_min=setup.area[0],
+        area_max=setup.area[1],
+        noise_grey=setup.noise_grey,
+        blur_px=setup.blur_px,
+        focal_px=float(np.sqrt(np.prod(setup.model.intrinsics[:2]))),
+        shape=setup.shape,
+        rough=rough,
+    )
+
+
+def extractor(setup: ExtractorSetup) -> Extractor:
+    """Build the extractor of a camera."""
+    return outline_of(setup)

@@ -5,13 +5,24 @@ blob, its centre cut to whole pixels (which alone biases it by half a pixel in e
 """
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 import cv2
 import numpy as np
 
 from app.tracking.cameras.camera import Image
-from app.tracking.markers.extractor import Extractor, Hint, MarkerFix, Mask, Miss, MissReason
+from app.tracking.markers.extractor import (
+    Extractor,
+    ExtractorSetup,
+    Hint,
+    MarkerFix,
+    Mask,
+    Miss,
+    MissReason,
+)
+
+DECLARATION: Final[dict[str, Any]] = {"title": "The laboratory's published detection"}
+
 
 _LOW = np.array([70, 82, 100], dtype=np.uint8)
 _HIGH = np.array([92, 255, 255], dtype=np.uint8)
@@ -64,3 +75,8 @@ class ThesisMarker(Extractor):
         options.filterByConvexity, options.minConvexity = True, 0.5
         options.filterByInertia = False
         return cv2.SimpleBlobDetector_create(options)  # type: ignore[attr-defined]
+
+
+def extractor(setup: ExtractorSetup) -> Extractor:
+    """Build the extractor of a camera; it knows its colour itself."""
+    return ThesisMarker()

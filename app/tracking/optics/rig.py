@@ -170,6 +170,8 @@ class RigProfile(Strict):
         systematic_px: what calibration and marker centre leave besides noise, standard deviation
             per pixel axis; it enters every covariance.
         line_sd_mm: agreement of the needle line (by the robot) with the camera frame, per axis.
+        extractor: how the marker is found in a picture: the name of a way in `tracking.markers` or
+            of a file in the user's own folder.
         calibration: measured intrinsics and poses; they replace those of `cameras`.
     """
 
@@ -185,6 +187,7 @@ class RigProfile(Strict):
     skew_ms: float
     systematic_px: float = Field(ge=0.0)
     line_sd_mm: float = Field(gt=0.0)
+    extractor: str = "model_fit"
     calibration: StereoCalibration | None = None
 
     @cached_property

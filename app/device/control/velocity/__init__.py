@@ -9,7 +9,8 @@ from app.device.control.velocity.difference import BackwardDifference
 from app.device.control.velocity.filtered import VelocityFilter
 from app.device.control.velocity.foaw import AdaptiveWindow
 from app.device.control.velocity.kalman import Kalman
-from app.device.control.velocity.method import DEFAULT_VELOCITY, VelocityMethod, velocity_stage
+from app.device.control.velocity.method import velocity_stage
+from app.mechanisms.profile import DEFAULT_VELOCITY, VelocityMethod
 
 __all__ = [
     "DEFAULT_VELOCITY",

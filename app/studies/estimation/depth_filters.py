@@ -1,16 +1,37 @@
-"""The one-euro filter: a low pass that opens with the speed.
-
-Casiez, Roussel, Vogel: 1 € filter, CHI 2012. At rest it is calm, in motion it hardly lags; it takes
-no account of how exact each depth is.
-"""
+"""Ways to follow a depth that the program does not use: the newest one, and the one-euro filter."""
 
 import math
 
 from app.tracking.motion.depth_filter import FASTEST, HAND_SPEED, DepthFilter
 
 
+class Hold(DepthFilter):
+    """The newest depth as it came."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._depth = self._variance = 0.0
+
+    @property
+    def lag(self) -> float:
+        """None at the newest fix; all of a fix's age later."""
+        return 0.0
+
+    def _begin(self, depth: float, variance: float) -> None:
+        self._depth, self._variance = depth, variance
+
+    def _step(self, dt: float, depth: float, variance: float) -> None:
+        self._begin(depth, variance)
+
+    def _ahead(self, dt: float) -> tuple[float, float, float]:
+        return self._depth, 0.0, self._variance + (HAND_SPEED * dt) ** 2
+
+
 class OneEuro(DepthFilter):
-    """Two exponential low passes, of the depth and of its rate.
+    """The one-euro filter: two exponential low passes, of the depth and of its rate.
+
+    Casiez, Roussel, Vogel: 1 € filter, CHI 2012. At rest it is calm, in motion it hardly lags; it
+    takes no account of how exact each depth is.
 
     Args:
         least_cutoff: of the depth at rest [Hz].

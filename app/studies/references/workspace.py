@@ -23,7 +23,7 @@ _FINE, _ROUNDS, _SHRINK = 33, 16, 0.25  # of the search about the largest torque
 
 
 @dataclass(frozen=True, slots=True)
-class Workspace:
+class ConeWorkspace:
     """Tool points inside a cone of tilts about the vertical, L_out by the printed mode C - L_in.
 
     Attributes:
@@ -56,7 +56,7 @@ def survey(
     force: float = 5.0,
     mode: tuple[int, int] = WORKING_MODE,
     assembly: int = 1,
-) -> Workspace:
+) -> ConeWorkspace:
     """Survey the cone on rings and spokes that each stand for the same area, rim and middle too.
 
     The torques' peaks lie between the rings (5 mm beside the vertical for the ICube lengths): from
@@ -91,7 +91,7 @@ def survey(
         max(_peak(points, rows, column + side, radius, lengths, *modes) for side in (0, 1))
         for column in (_TORQUE, _PRINTED)
     ]
-    return Workspace(
+    return ConeWorkspace(
         tilt=float(tilt),
         radius=radius,
         share=len(found) / len(points),
@@ -145,7 +145,7 @@ def torque_per_newton(
     return max(_peak(points, rows, _TORQUE + side, radius, lengths, *modes) for side in (0, 1))
 
 
-class Region(StrEnum):
+class HubRegion(StrEnum):
     """Where a hub point stands."""
 
     INSIDE = "inside"
@@ -168,7 +168,7 @@ class Whereabouts:
         q: joint angles (left, right) [rad], or None where there are none.
     """
 
-    region: Region
+    region: HubRegion
     tilt: float | None
     depth: float | None
     q: tuple[float, float] | None
@@ -200,19 +200,19 @@ def locate(
     tilt, depth = atan2(hypot(x - fx, y - fy), fz), geometry.needle_length - l_out
     status, *angles = kernels.inverse_kernel(x, y, *geometry.links, *map(float, mode))
     if status != OK:
-        return Whereabouts(Region.UNREACHABLE, tilt, depth, None)
-    region = Region.INSIDE
+        return Whereabouts(HubRegion.UNREACHABLE, tilt, depth, None)
+    region = HubRegion.INSIDE
     if tilt > tilt_limit:
-        region = Region.BEYOND_TILT
+        region = HubRegion.BEYOND_TILT
     elif not depth_range[0] <= depth <= depth_range[1]:
-        region = Region.BEYOND_DEPTH
+        region = HubRegion.BEYOND_DEPTH
     return Whereabouts(region, tilt, depth, (angles[0], angles[1]))
 
 
 _IMPOSSIBLE = {
-    Status.NOT_FINITE: Region.NOT_FINITE,
-    Status.DEGENERATE: Region.AT_FULCRUM,
-    Status.UNREACHABLE: Region.BELOW_FULCRUM,
+    Status.NOT_FINITE: HubRegion.NOT_FINITE,
+    Status.DEGENERATE: HubRegion.AT_FULCRUM,
+    Status.UNREACHABLE: HubRegion.BELOW_FULCRUM,
 }
 
 

@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray
 from app.exchange.errors import ExchangeError
-from app.exchange.mjcf import MjcfSettings, write_mjcf
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph import forward, inverse, jacobian, needle_at
 from app.mechanisms.profile import DeviceProfile
+from app.studies.references.mjcf import MjcfSettings, write_mjcf
 
 _REST = 1e-9
 """Joint speed below which the mechanism counts as at rest [rad/s]."""

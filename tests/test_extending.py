@@ -1,0 +1,133 @@
+"""A stranger adds one of each thing in one file by following docs/extending.md, and no more.
+
+Each example is taken from the page, saved in the user's own folder, and used.
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from device.law_rig import pose
+from extending_page import example, sections
+from scoring_attempts import Attempt
+
+from app.core import state_vector as sv
+from app.core.arrays import unit
+from app.mechanisms.pantograph import forward, inverse
+from app.mechanisms.profile import VelocityMethod, load_profile
+
+TESTED_ELSEWHERE = {
+    "How to add a panel": "tests/views/test_adding_a_panel.py",
+    "How to add a view": "tests/views/test_views_shown.py",
+}
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.fixture
+def save(tmp_path, monkeypatch):
+    def saved(heading, folder):
+        name, code = example(heading)
+        path = tmp_path / folder / name
+        path.parent.mkdir()
+        path.write_text(code, encoding="utf-8")
+        monkeypatch.setenv(f"ACUS_{folder.upper()}", str(path.parent))
+        return path
+
+    return saved
+
+
+def test_every_how_to_of_the_page_has_a_test():
+    text = Path(__file__).read_text(encoding="utf-8")
+    missing = [name for name in sections() if f'"{name}"' not in text]
+    assert missing == []
+    assert all((ROOT / path).is_file() for path in TESTED_ELSEWHERE.values())
+
+
+def test_a_force_law_acts(save):
+    from app.device.control import laws
+
+    save("How to add a force law", "laws")
+    profile = load_profile("icube")
+    name, step, parameters = laws.stages_of({"upright_spring": {"stiffness": 3.0}}, profile)[0]
+    state = pose((0.6, 0.0, -0.8), depth=0.05)
+    step(state, parameters)
+    assert name == "upright_spring"
+    assert state[sv.FORCE] == pytest.approx([3.0 * 0.48, 0.0, 3.0 * 0.36])
+
+
+def test_an_effect_is_simulated(save):
+    from app.simulation.compiler import compile
+    from app.simulation.consumers import DevicePort
+    from app.simulation.scene import EffectRequest, Scene
+
+    save("How to add an effect", "effects")
+    plan = compile(Scene(effects=(EffectRequest("hand_tremor"),)), DevicePort("icube"))
+    state = sv.empty_state()
+    state[sv.TIME] = 0.01
+    for _, step, parameters in plan.stages():
+        step(state, parameters)
+    assert state[sv.FORCE_X] == pytest.approx(0.2 * np.sin(2.0 * np.pi * 0.09))
+
+
+def test_a_metric_is_scored(save):
+    from app.scoring.score import score
+
+    save("How to add a metric", "metrics")
+    trajectory = Attempt(depth=0.003).trajectory()
+    row = score(trajectory).row("deepest_point")
+    assert (row.label, row.unit) == ("Deepest point", "mm")
+    assert row.value == pytest.approx(trajectory.placed.length * 1e3 + 3.0)
+
+
+def test_a_study_is_listed_without_running_it_and_answers(save):
+    from app.studies.runner import run
+
+    save("How to add a study", "studies")
+    listed = subprocess.run(
+        [sys.executable, "-m", "app", "study", "list"], capture_output=True, text=True, check=True
+    )
+    assert "sine_series              How many terms are enough?" in listed.stdout
+    assert run("sine_series", repeats=1).too_coarse() == ("1 terms", "2 terms")
+
+
+def test_a_device_profile_describes_a_robot_that_moves(save):
+    from app.device.control.velocity import velocity_stage
+
+    profile = load_profile(save("How to add a device profile", "profiles"))
+    geometry = profile.pantograph
+    p3 = geometry.fulcrum[:2] + (0.02, -0.01)
+    assert forward(geometry, inverse(geometry, p3)) == pytest.approx(p3, abs=1e-12)
+    assert profile.velocity is VelocityMethod.KALMAN
+    chosen, of_another = velocity_stage(profile), velocity_stage(load_profile("icube"))
+    assert chosen[1] is not of_another[1]
+
+
+def test_a_marker_extractor_is_chosen_by_a_rig_and_finds_the_marker(save):
+    from app.tracking.markers.choice import extractors
+    from app.tracking.optics.rig import load_rig
+    from app.tracking.simulated.cameras import NeedleRenderer
+    from app.tracking.simulated.scene import MarkerScene
+
+    save("How to add a marker extractor", "extractors")
+    rig = load_rig("wide").model_copy(update={"extractor": "strongest_spot"})
+    axis = unit(np.array([0.2, 0.1, -1.0]))
+    tip = np.array([0.0, 0.16056, 0.090]) + 0.05 * axis
+    scene = MarkerScene.from_tip(tip, axis, rig.needle.marker_offset)
+    for number, (model, found) in enumerate(zip(rig.models, extractors(rig), strict=True)):
+        renderer = NeedleRenderer(model, rig.needle, rig.blur_px, number).even(115)
+        (fix,) = found.search(renderer.render(scene))
+        assert fix.uv == pytest.approx(model.pixel(scene.p_world), abs=1.0)
+        assert found.mask(renderer.render(scene)).sum() > 50
+
+
+def test_an_unknown_extractor_is_refused_with_the_known_ones(save):
+    from app.tracking.errors import TrackingError
+    from app.tracking.markers.choice import extractors
+    from app.tracking.optics.rig import load_rig
+
+    save("How to add a marker extractor", "extractors")
+    known = "ellipse, model_fit, outline_centroid, strongest_spot, thesis"
+    with pytest.raises(TrackingError, match=f"no marker extractor 'magic'; there are {known}"):
+        extractors(load_rig("wide"), "magic")
