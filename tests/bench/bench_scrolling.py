@@ -13,6 +13,7 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import numpy as np
 import pyqtgraph
+from PySide6.QtCore import QEventLoop
 from PySide6.QtWidgets import QApplication, QWidget
 
 from app.imaging.orthogonal import OrthogonalSlicer, View
@@ -44,12 +45,17 @@ def synthetic() -> Volume:
     return Volume(hu, affine, series)
 
 
-def measure(application: QApplication, step: Callable[[int], None]) -> np.ndarray:
+def measure(
+    application: QApplication, step: Callable[[int], None], drawn: Callable[[], bool] = lambda: True
+) -> np.ndarray:
     """Milliseconds of `STEPS` steps, each until everything is painted."""
     times = []
     for number in range(STEPS + 10):
         start = time.perf_counter()
         step(number)
+        application.processEvents()
+        while not drawn():
+            application.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents)
         application.processEvents()
         times.append(1e3 * (time.perf_counter() - start))
     return np.array(times[10:])
@@ -64,13 +70,20 @@ def ours(application: QApplication, volume: Volume) -> dict[str, np.ndarray]:
     grid.show()
     viewing.set_volume(volume)
     application.processEvents()
+
+    def drawn() -> bool:
+        return all(pane.canvas.is_drawn for pane in panes)
+
     found = {
-        f"scroll {pane}": measure(application, lambda n, v=pane: viewing.show_slice(v, 50 + n))
+        f"scroll {pane}": measure(
+            application, lambda n, v=pane: viewing.show_slice(v, 50 + n), drawn
+        )
         for pane in MPR_PANES
     }
     found["window/level"] = measure(
-        application, lambda n: viewing.set_window(WindowLevel(300.0 + 2 * n, 40.0 + n))
+        application, lambda n: viewing.set_window(WindowLevel(300.0 + 2 * n, 40.0 + n)), drawn
     )
+    viewing.pictures.close()
     grid.close()
     grid.deleteLater()
     application.processEvents()

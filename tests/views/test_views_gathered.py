@@ -14,6 +14,7 @@ from app.views.slices.looks import Slab
 from app.views.slices.needle_source import NeedlePlanes
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, NEEDLE_PANES, PaneId
+from app.views.slices.picture_maker import Picture
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
 
@@ -229,3 +230,36 @@ def test_a_picture_that_is_late_is_not_waited_for(room, settle, monkeypatch):
     assert settle(lambda: ticks._state != before, 5.0)
     assert pane.canvas.feed.is_waiting
     one.viewing.set_needle(None)
+
+
+def test_a_picture_that_was_overtaken_or_dropped_never_comes_back(room, settle):
+    one = room()
+    one.viewing.set_needle(NeedleOverlay([0.0, -80.0, 0.0], [0.0, 0.0, 0.0]))
+    one.arrive(settle)
+    feed, maker = one.panes[0].canvas.feed, one.viewing.pictures
+    maker.close()
+    old, shown = feed.wish, feed.picture
+    one.viewing.show_slice(one.panes[0].pane, 3.0)
+    one.panes[0].canvas.flush()
+    newest = feed.picture
+    assert newest is not shown
+    for drop in (False, True):
+        if drop:
+            feed.drop()
+        feed.is_waiting = True
+        maker._made[id(feed)] = Picture.of(old)
+        feed._look()
+        assert feed.picture is (None if drop else newest)
+
+
+def test_a_thread_that_gets_no_turn_holds_up_nothing_that_is_quickly_made(
+    room, settle, monkeypatch
+):
+    one = room()
+    one.arrive(settle)
+    monkeypatch.setattr(one.viewing.pictures, "request", lambda *_: None)
+    monkeypatch.setattr(one.viewing.pictures, "waits", lambda _: True)
+    one.viewing.set_window(WindowLevel(1234.0, 40.0))
+    canvas = one.panes[0].canvas
+    assert settle(lambda: canvas.feed.picture.wish.window.width == 1234.0, 2.0)
+    assert settle(lambda: canvas.is_settled, 2.0)

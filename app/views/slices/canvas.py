@@ -96,9 +96,14 @@ class SliceCanvas(PlaneView):
         return self.feed.bounds_mm
 
     @property
+    def is_drawn(self) -> bool:
+        """Whether picture and shapes are those of now; words may follow."""
+        return not (self._due or self.feed.is_waiting)
+
+    @property
     def is_settled(self) -> bool:
         """Whether all that there is has been drawn, and no picture is still to come."""
-        return not (self._due or self.feed.is_waiting or self._words.is_waiting)
+        return self.is_drawn and not self._words.is_waiting
 
     def add_layer(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
         """Draw something more over the slice.

@@ -16,6 +16,9 @@ from app.views.slices.plane import Rect, SlicePlane
 PATIENCE_MS = 100
 """A picture later than this is not waited for: its code is being compiled, or the slab is thick."""
 
+HELP_MS = 8
+"""So long a quick picture is left to its thread, which may not get a turn on a busy machine."""
+
 FINEST = 4.0
 """Pixels per finest voxel beyond which a picture only grows and gains nothing."""
 
@@ -42,6 +45,9 @@ class PictureFeed(QObject):
         self.wish: Wish | None = None
         self.picture: Picture | None = None
         self.is_waiting = self._is_late = False
+        self._count = self._least = 0
+        self._help = QTimer(self, interval=HELP_MS, singleShot=True)
+        self._help.timeout.connect(self._finish_late)
         self._timer = QTimer(self, interval=PATIENCE_MS, singleShot=True)
         self._timer.timeout.connect(self._give_up)
         maker.bell.rung.connect(self._look, Qt.ConnectionType.QueuedConnection)
@@ -82,14 +88,15 @@ class PictureFeed(QObject):
         shown = self.picture
         values: Values | None = None if shown is None else shown.values
         known = values if values is not None and values.are(plane, index, region) else None
-        wish = Wish(plane, index, region, window, inverted, screen, known)
+        wish = Wish(plane, index, region, window, inverted, screen, known, self._count + 1)
         if wish.same(self.wish):
             return
-        self.wish = wish
+        self.wish, self._count = wish, wish.number
         self._maker.request(id(self), wish)
         if not self.is_waiting:
             self.is_waiting, self._is_late = True, False
             self._timer.start()
+            self._help.start()
 
     def finish(self) -> None:
         """Have the picture now, where making it takes no longer than copying it."""
@@ -98,24 +105,35 @@ class PictureFeed(QObject):
             self._maker.forget(id(self))
             self._show(Picture.of(wish))
 
+    def _finish_late(self) -> None:
+        before = self.picture
+        self.finish()
+        if self.picture is not before:
+            self.arrived.emit()
+
     def drop(self) -> None:
         """Want nothing any more, and show nothing."""
         if self.wish is not None:
             self.wish = None
             self._maker.forget(id(self))
         self.picture, self.is_waiting = None, False
+        self._least = self._count + 1
         self._timer.stop()
+        self._help.stop()
 
     def _show(self, picture: Picture) -> None:
-        self.picture = picture
+        self.picture, self._least = picture, picture.wish.number
         self.is_waiting, self._is_late = picture.wish is not self.wish, False
-        (self._timer.start if self.is_waiting else self._timer.stop)()
+        for timer in (self._timer, self._help):
+            (timer.start if self.is_waiting else timer.stop)()
 
     def _look(self) -> None:
         """Take a picture if there is one; the bell rings for all panes."""
         if not self.is_waiting:
             return
         picture = self._maker.take(id(self))
+        if picture is not None and picture.wish.number < self._least:
+            return  # of what was dropped, or overtaken
         if picture is not None:
             self._show(picture)
             self.arrived.emit()

@@ -111,6 +111,7 @@ class Wish:
         window, inverted: how they become grey.
         screen: what they are drawn into.
         known: the values, where there are already.
+        number: counts the wishes of a pane, so that none is answered after a later one.
     """
 
     plane: SlicePlane
@@ -120,6 +121,7 @@ class Wish:
     inverted: bool
     screen: Screen
     known: Values | None = None
+    number: int = 0
 
     def same(self, other: Wish | None) -> bool:
         """Whether both ask for the same pixels."""
