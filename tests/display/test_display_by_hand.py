@@ -132,7 +132,8 @@ def test_open_place_insert_end_debrief_by_hand(user: User, sessions: Path) -> No
         assert 1.0 < np.linalg.norm(moved) < 25.0, point
 
     user.click(placed["exercise_tab"])
-    user.click(user.wait(lambda seen: seen["start"], "start button", 10))
+    there = user.wait(lambda seen: seen["start_visible"] and seen["start"], "start button", 10)
+    user.click(there)
     user.wait(lambda seen: seen["state"] == "aligning" and seen["pad"], "attempt", 10)
     for _ in range(3):  # the pad moves the hand half as far as the mouse
         pad = user.see()["pad"]

@@ -54,6 +54,7 @@ def look(window: MainWindow) -> dict[str, Any]:
         "exercises": exercises(window),
         "exercise_tab": tab(window, 1),
         "start": middle(panel.buttons.start) if panel.buttons.start.isEnabled() else None,
+        "start_visible": panel.buttons.start.isVisible(),
         "tool": window.workspace.viewing.tool.value,
         "plan": plan(window),
         "marks": marks(window),
