@@ -2,7 +2,7 @@
 
 Figure to reach: every view shows a new needle at 30 Hz or more. The real window is open at
 1400 × 900 with an exercise running (loop at 1000 Hz, cameras, 3D view) in the layout with axial,
-sagittal, coronal, in-plane and in-plane 90°. Every look of the window at the trainer (40 Hz) gives
+sagittal, coronal, in-plane and in-plane 90°. Every look of the window at the trainer (60 Hz) gives
 it a needle that has moved by more than a slice and turned beyond the dead band since the last look,
 by the way that the measured one comes: status, panels, slices and 3D view.
 
