@@ -15,6 +15,7 @@ from app.session.pad.hand import HandPose
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.pad_painter import PadArea, free_corner, spring
 from app.views.exercise.readings import hand_pose, pad_view
+from app.views.kit import theme
 
 
 @pytest.fixture
@@ -245,3 +246,16 @@ def test_no_word_is_cut_where_the_depth_is_not_measured(pad, qt, width, height):
     qt.processEvents()
     assert "not measured" in pad._source.text()
     assert all(words_are_whole(label) for label in pad._words if label.isVisible())
+
+
+@pytest.mark.parametrize(("width", "height"), [(495, 430), (400, 420), (340, 430)])
+def test_no_word_is_cut_in_large_text_where_the_depth_is_not_measured(pad, qt, width, height):
+    try:
+        theme.apply_theme(qt, size=theme.LARGE)
+        pad.resize(width, height)
+        pad.suit_text()
+        pad.show_view(replace(pad_view(snapshot(), 0.2, 5.0), measured=False))
+        qt.processEvents()
+        assert all(words_are_whole(label) for label in pad._words if label.isVisible())
+    finally:
+        theme.apply_theme(qt)

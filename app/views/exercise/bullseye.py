@@ -72,11 +72,17 @@ class Bullseye(QWidget):
         super().resizeEvent(event)
         self._fit_words()
 
+    def suit_text(self) -> None:
+        """Take another size of text."""
+        self.source.suit_text()
+        self._fit_words()
+
     def _fit_words(self) -> None:
         """Reserve the lines that the longest words take; leave out what can be done without."""
         across = self.width() // 2 - 2 * theme.SPACING
         for label, longest in ((self._in_plane, 46), (self._out_of_plane, 46),
-                               (self._remaining, 16), (self._lateral, 40)):  # fmt: skip
+                               (self._remaining, 16), (self._lateral, 40),
+                               (self._source, 28)):  # fmt: skip
             metrics = label.fontMetrics()
             lines = -(-longest * metrics.averageCharWidth() // max(across, 1))
             label.setMinimumHeight(min(lines, 2) * metrics.lineSpacing())

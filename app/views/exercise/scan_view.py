@@ -148,6 +148,7 @@ class ScanView(QWidget):
             tr("No control scan yet.\nSet table and slices, then press the pedal (S).")
         )
         self._nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._nothing.setWordWrap(True)
         self._nothing.setProperty("role", "dim")
         self._caption.setStyleSheet(f"font-size: {theme.SMALL_PX}px; color: {theme.TEXT};")
         self._caption.setWordWrap(True)

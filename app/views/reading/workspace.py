@@ -239,7 +239,7 @@ class WorkspacePage(QWidget):
         self.side.setFixedWidth(round(SIDE_WIDTH * theme.scale()))
         mode = QLineEdit.EchoMode.Password if NAMES.are_hidden else QLineEdit.EchoMode.Normal
         self.exercise_panel.student.setEchoMode(mode)
-        self.bullseye.source.suit_text()
+        self.bullseye.suit_text()
         self.viewing.plan_changed.emit()  # names of marks are as large as the text
         self.viewing.needle_changed.emit()
         self.messages.suit_room()
