@@ -353,3 +353,5 @@ class Conductor(QObject):
         self._surfaces.close()
         self.runs.close()
         self._workspace.scene.close_renderer()
+        for viewing in (self._workspace.viewing, self._workspace.scan_view.viewing):
+            viewing.pictures.close()
