@@ -55,10 +55,10 @@ def find_first(name: str) -> None:
     """Render a needle and find its marker this way: compiles what is built for its arguments."""
     from app.tracking.markers.choice import ExtractorName, extractors
     from app.tracking.optics.rig import load_rig
-    from app.tracking.rehearsal import rehearse
     from app.tracking.simulated.cameras import NeedleRenderer
     from app.tracking.simulated.scene import MarkerScene
     from app.tracking.solver import FixSolver
+    from app.tracking.tracker import rehearse
 
     rig = load_rig("wide")
     fulcrum, axis = np.array([0.0, 0.16, 0.09]), np.array([0.0, 0.0, -1.0])

@@ -193,7 +193,7 @@ def _wait_until_alive(rig: Rig, progress: Progress) -> None:
 
 def _inspector(tracker: Tracker | PenTracker) -> Callable[[bool, bool], Inspection]:
     from app.tracking.inspection import Inspector
-    from app.tracking.pen.inspection import PenInspector
+    from app.tracking.pen.drawing import PenInspector
     from app.tracking.pen.tracker import PenTracker
 
     if isinstance(tracker, PenTracker):

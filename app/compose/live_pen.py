@@ -11,11 +11,10 @@ from app.mechanisms.profile import load_profile
 from app.tracking.cameras.camera import Camera, Frame
 from app.tracking.cameras.watch import CameraHealth
 from app.tracking.pen.drawing import draw_observation
-from app.tracking.pen.motion import Motion
 from app.tracking.pen.needle import PenTip
 from app.tracking.pen.settings import PenSettings
 from app.tracking.pen.step import PenObservation
-from app.tracking.pen.tracker import PenPicture, PenTracker
+from app.tracking.pen.tracker import Motion, PenPicture, PenTracker
 from app.tracking.pen.webcam import Webcam
 from app.tracking.simulated.pen_scene import rocked
 from app.tracking.statistics import TrackerStatistics

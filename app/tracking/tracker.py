@@ -1,33 +1,86 @@
-"""The tracker: two cameras in, needle fixes out."""
+"""The tracker: two cameras in, needle fixes out.
+
+One step of the tracker on drawn pictures, before the first real ones.
+
+Compiled functions are built, or loaded, when they are first called: without a rehearsal the first
+fix of a new build would come half a minute late, and the first of any run some tenths of a second.
+"""
 
 from collections.abc import Callable, Sequence
+
+import cv2
+import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.clock import Clock
 from app.core.events import Event, EventQueue
 from app.core.latest import Latest
+from app.core.units import MILLIMETRE
 from app.tracking.agreement import EpipolarGate
-from app.tracking.cameras.camera import Camera, Frame
-from app.tracking.cameras.feed import CameraFeed, Pair
-from app.tracking.capture_times import CaptureTimes, without_picture
+from app.tracking.cameras.camera import Camera, Frame, Image
+from app.tracking.cameras.feed import CameraFeed, CaptureTimes, Pair, without_picture
 from app.tracking.continuity import Continuity
 from app.tracking.discrepancy_words import SWAPPED
 from app.tracking.errors import TrackingError
 from app.tracking.fix import FixStatus, NeedleFix, without_point
 from app.tracking.follower import MarkerFollower
-from app.tracking.health import FixHealth
-from app.tracking.hiding import Hiding
+from app.tracking.health import FixHealth, Hiding
 from app.tracking.markers.choice import extractors as default_extractors
 from app.tracking.markers.colour import RED, ColourModel, learn
-from app.tracking.markers.extractor import Centre, Extractor, MarkerFix
-from app.tracking.optics.rig import RigProfile
-from app.tracking.rehearsal import rehearse
-from app.tracking.solver import FixSolver
+from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix
+from app.tracking.optics.camera_model import CameraModel
+from app.tracking.optics.rig import NeedleShape, RigProfile
+from app.tracking.solver import FixSolver, Sighting
 from app.tracking.statistics import TrackerMeter, TrackerStatistics
 from app.tracking.track import Markers
 from app.tracking.tracked_picture import TrackedPicture
 from app.tracking.two_bands import TwoBands
 from app.tracking.worker import Stopped, Worker
+
+_DOWN = np.array([0.0, 0.0, -1.0])
+_GREY, _RED = 120, (40, 30, 205)
+
+
+def rehearse(
+    rig: RigProfile,
+    fulcrum: FloatArray,
+    extractors: tuple[Extractor, Extractor],
+    solver: FixSolver,
+) -> None:
+    """Find a drawn band of a vertical needle in both pictures, and solve for it; the fix is lost.
+
+    Args:
+        rig: cameras and needle.
+        fulcrum: P_I in world [m], shape (3,).
+        extractors: of both cameras.
+        solver: of the rig.
+    """
+    middle = 0.5 * (rig.range.depth_min_mm + rig.range.depth_max_mm) * MILLIMETRE
+    centre = fulcrum + (middle - rig.needle.marker_offset) * _DOWN
+    sightings = []
+    for model, extractor in zip(rig.models, extractors, strict=True):
+        picture, uv = _drawn(model, rig.needle.shape, centre)
+        extractor.search(picture)
+        found = extractor.find(picture, Hint(uv, centre, _DOWN))
+        spread = found.covariance if isinstance(found, MarkerFix) else np.eye(2)
+        sightings.append(Sighting(uv, spread))
+    solver.solve((sightings[0], sightings[1]), _DOWN, 0.0)
+    solver.solve((sightings[0], None), _DOWN, 0.0)
+
+
+def _drawn(model: CameraModel, needle: NeedleShape, centre: FloatArray) -> tuple[Image, FloatArray]:
+    """Picture with a red stroke for the band, and the pixel of its middle, shape (2,)."""
+    width, height = model.image_size
+    picture = np.full((height, width, 3), _GREY, dtype=np.uint8)
+    ends = centre + np.outer([-needle.half, 0.0, needle.half], _DOWN)
+    uv, seen = model.project(ends)
+    if seen.all():
+        distance = float(np.linalg.norm(centre - model.centre))
+        thick = max(1, round(2.0 * needle.radius * float(model.intrinsics[0]) / distance))
+        top, bottom = (tuple(np.clip(np.rint(p), -1e4, 1e4).astype(int).tolist()) for p in uv[::2])
+        cv2.line(picture, top, bottom, _RED, thick, cv2.LINE_AA)
+    return picture, uv[1]
+
 
 Axis = Callable[[float], FloatArray | None]
 """Needle direction, hub to tip, at a time [s]; None while the robot does not know it."""

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from app.core.clock import VirtualClock
 from app.tracking.cameras.camera import Camera, Frame
 from app.tracking.cameras.intake import Intake, Verdict
-from app.tracking.cameras.timing import CaptureTime
+from app.tracking.cameras.pump import CaptureTime
 from app.tracking.cameras.watch import CameraReader, CameraState
 from app.tracking.errors import CameraError
 

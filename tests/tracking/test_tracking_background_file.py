@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from app.core import paths
-from app.tracking.simulated.background_file import kept_or_traced
+from app.tracking.simulated.background import kept_or_traced
 
 SHAPE = (4, 5, 3)
 

@@ -13,11 +13,10 @@ from app.tracking.calibration import stereo
 from app.tracking.calibration.boards import parse_board
 from app.tracking.calibration.checks import check_baseline, check_second_board
 from app.tracking.calibration.corner_order import Agreement, PosedPair, agree
-from app.tracking.calibration.mirrored import mirrored_view
 from app.tracking.calibration.pairing import pair_folder
 from app.tracking.calibration.run import StereoResult, calibrate_pairs, calibrate_stereo
 from app.tracking.calibration.sets import stereo_set
-from app.tracking.calibration.stereo import estimate_stereo
+from app.tracking.calibration.stereo import estimate_stereo, mirrored_view
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration

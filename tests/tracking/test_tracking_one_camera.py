@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from app.tracking.continuity import Continuity
 from app.tracking.fix import FixStatus
-from app.tracking.hiding import NEVER, Hiding
+from app.tracking.health import NEVER, Hiding
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.rig import NeedleProfile, load_rig
 from app.tracking.solver import FixSolver, Sighting

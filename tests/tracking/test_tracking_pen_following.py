@@ -5,8 +5,7 @@ import pytest
 
 from app.tracking.cameras.camera import Frame
 from app.tracking.fix import FixStatus
-from app.tracking.pen.following import FULL_EVERY
-from app.tracking.pen.stillness import STILL_PX, Stillness
+from app.tracking.pen.following import FULL_EVERY, STILL_PX, Stillness
 from tests.tracking.pen_rig import camera, picture, renderer, scene, step
 
 MODEL = camera()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.tracking import rehearsal
+from app.tracking import tracker as rehearsal
 from app.tracking.markers.choice import ExtractorName, extractors
 from app.tracking.markers.extractor import Hint, MarkerFix
 from app.tracking.optics.rig import load_rig, shipped_rigs

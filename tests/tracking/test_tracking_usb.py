@@ -11,8 +11,8 @@ from camera_fakes import LEFT, RIGHT, FakeBus
 from app.core.clock import SystemClock
 from app.tracking.cameras.capture import Controls
 from app.tracking.cameras.ports import camera_ports, find_port
+from app.tracking.cameras.pump import CaptureTime
 from app.tracking.cameras.source import Kind, Source, parse_source
-from app.tracking.cameras.timing import CaptureTime
 from app.tracking.cameras.usb import UsbCamera
 from app.tracking.cameras.watch import CameraHealth, CameraReader, CameraState
 from app.tracking.errors import CameraError
