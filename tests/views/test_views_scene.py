@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QSignalSpy, QTest
+from scipy.spatial import cKDTree
 
 from app.core.progress import Cancelled, Progress
 from app.core.transform import RigidTransform
@@ -16,13 +17,14 @@ from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
+from app.views.scene import mesh as meshes
 from app.views.scene.compass import compass_ends
 from app.views.scene.mesh import coarser, isosurface, structure_mesh
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneRenderer, Shot
 from app.views.scene.robot import RobotShape
 from app.views.scene.stage import SceneError, Stage
-from app.views.scene.surfaces import Surfaces, extract_surfaces, reduced
+from app.views.scene.surfaces import BONE_HU, Surfaces, extract_surfaces, reduced, without_marrow
 from app.views.scene.view import SceneView
 
 SIZE = (120, 90)
@@ -56,6 +58,54 @@ def test_a_surface_lies_at_its_level_and_within_its_bound():
     assert mesh.count <= 1000
     assert_allclose(radius, 10.0, atol=0.5)
     assert coarser(mesh, 200).count <= 200
+
+
+def open_edges(mesh):
+    """Number of edges that belong to one triangle only."""
+    pairs = np.sort(mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    _, count = np.unique(pairs, axis=0, return_counts=True)
+    return int((count == 1).sum())
+
+
+def test_surfaces_are_closed_also_where_the_scan_cuts_them(volume):
+    found = extract_surfaces(volume, find_body(volume), Progress())
+    assert open_edges(found.skin) == 0
+    assert open_edges(found.bone) == 0
+
+
+def test_smoothing_moves_a_surface_by_less_than_half_a_voxel(monkeypatch):
+    i, j, k = np.indices((60, 60, 60))
+    bumpy = (ball(20.0, 60) + 1.5 * np.sin(0.6 * i) * np.sin(0.5 * j) * np.sin(0.4 * k)).astype(
+        "f4"
+    )
+    smooth = isosurface(bumpy, np.eye(4), 0.0, 1_000_000)
+    monkeypatch.setattr(meshes, "ITERATIONS", 0)
+    rough = isosurface(bumpy, np.eye(4), 0.0, 1_000_000)
+    corners = rough.points[rough.triangles]
+    places = np.vstack([rough.points, corners.mean(axis=1)])
+    apart, _ = cKDTree(places).query(smooth.points)
+    assert np.median(apart) <= 0.5
+    assert np.percentile(apart, 99) <= 1.5
+
+
+def test_light_falls_on_a_thinned_ball_as_on_a_ball():
+    mesh = isosurface(ball(20.0, 50), np.eye(4), 0.0, 800)
+    outwards = mesh.points - 24.5
+    outwards /= np.linalg.norm(outwards, axis=1, keepdims=True)
+    assert np.einsum("ij,ij->i", mesh.normals, outwards).min() > np.cos(np.radians(3.0))
+
+
+def test_marrow_behind_a_shell_with_gaps_is_filled_and_a_foramen_is_not():
+    values = np.full((30, 30, 30), -50.0, np.float32)
+    values[5:20, 5:20, 5:20] = 500.0
+    values[7:18, 7:18, 7:18] = 40.0
+    values[12, 12, 5:7] = 40.0  # a gap of the shell
+    values[25:27, 5:20, 5:20] = 500.0
+    values[25:27, 9:16, 9:16] = 40.0  # a plate with a hole
+    filled = without_marrow(values, np.eye(4))
+    assert (filled[5:20, 5:20, 5:20] > BONE_HU).all()
+    assert (filled[25:27, 9:16, 9:16] < BONE_HU).all()
+    assert (filled[:4] < BONE_HU).all()
 
 
 def test_an_empty_volume_gives_an_empty_surface():

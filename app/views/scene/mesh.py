@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter
+from scipy.ndimage import gaussian_filter, map_coordinates
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
@@ -15,7 +15,6 @@ from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkFiltersCore import (
     vtkBinnedDecimation,
     vtkFlyingEdges3D,
-    vtkPolyDataNormals,
     vtkQuadricDecimation,
     vtkWindowedSincPolyDataFilter,
 )
@@ -23,6 +22,12 @@ from vtkmodules.vtkFiltersCore import (
 from app.core.arrays import FloatArray
 from app.core.progress import Cancelled, Progress
 from app.imaging.structures.structure import Structure
+
+ITERATIONS, PASS_BAND = 15, 0.06
+"""Of the windowed-sinc smoothing: takes steps of the voxels away, not the shape."""
+
+SAME_WAY = 0.3
+"""Cosine between gradient and triangles from which the gradient is believed as the normal."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,6 +59,7 @@ def isosurface(
 ) -> Mesh:
     """Surface of `values` at `level`, smoothed and thinned to at most `most` triangles.
 
+    Its normals are the values' own gradient, so that light falls on it as on the fine surface.
     Flying edges (Schroeder et al. 2015), windowed-sinc smoothing (Taubin et al. 1996), quadric
     decimation (Garland and Heckbert 1997).
 
@@ -74,11 +80,11 @@ def isosurface(
     edges.ComputeNormalsOff()
     smooth = vtkWindowedSincPolyDataFilter()
     smooth.SetInputConnection(edges.GetOutputPort())
-    smooth.SetNumberOfIterations(12)
-    smooth.SetPassBand(0.08)
+    smooth.SetNumberOfIterations(ITERATIONS)
+    smooth.SetPassBand(PASS_BAND)
     run(edges, progress.part(0.0, 0.2))
     run(smooth, progress.part(0.2, 0.4))
-    return _to_mesh(_thin(smooth.GetOutput(), most, progress.part(0.4, 1.0)), affine_mm)
+    return _to_mesh(_thin(smooth.GetOutput(), most, progress.part(0.4, 1.0)), affine_mm, values)
 
 
 def structure_mesh(structure: Structure, most: int, progress: Progress | None = None) -> Mesh:
@@ -184,7 +190,10 @@ def run(algorithm: vtkAlgorithm, progress: Progress) -> None:
     progress.report(1.0)
 
 
-def _to_mesh(surface: vtkPolyData, affine_mm: FloatArray) -> Mesh:
+def _to_mesh(
+    surface: vtkPolyData, affine_mm: FloatArray, values: NDArray[Any] | None = None
+) -> Mesh:
+    """Triangles of VTK as a mesh in the patient, its normals from the gradient of `values`."""
     if surface.GetNumberOfPolys() == 0:
         empty = np.zeros((0, 3), np.float32)
         return Mesh(empty, np.zeros((0, 3), np.int32), empty)
@@ -193,14 +202,34 @@ def _to_mesh(surface: vtkPolyData, affine_mm: FloatArray) -> Mesh:
     triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     if np.linalg.det(affine_mm[:3, :3]) < 0.0:  # a mirrored grid turns the triangles inside out
         triangles = triangles[:, ::-1]
-    normals = vtkPolyDataNormals()
-    normals.SetInputData(_polydata(placed, triangles))
-    normals.SplittingOff()
-    normals.ConsistencyOff()
-    normals.Update()
-    result = normals.GetOutput()
-    return Mesh(
-        vtk_to_numpy(result.GetPoints().GetData()).copy(),
-        vtk_to_numpy(result.GetPolys().GetConnectivityArray()).reshape(-1, 3).astype(np.int32),
-        vtk_to_numpy(result.GetPointData().GetNormals()).copy(),
-    )
+    corners = placed[triangles].astype(np.float64)
+    facing = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    sums = np.zeros(points.shape)
+    for axis in range(3):
+        shares = np.repeat(facing[:, axis], 3)
+        sums[:, axis] = np.bincount(triangles.ravel(), shares, len(points))
+    normals = _unit_rows(sums)
+    if values is not None:
+        steep = _unit_rows(-_gradient(values, points) @ np.linalg.inv(affine_mm[:3, :3]))
+        same = np.einsum("ij,ij->i", steep, normals) > SAME_WAY
+        normals[same] = steep[same]
+    return Mesh(placed, triangles.astype(np.int32), normals.astype(np.float32))
+
+
+def _gradient(values: NDArray[Any], points: FloatArray) -> FloatArray:
+    """Slopes of `values`, shape (K, J, I), along i, j, k at points (i, j, k), shape (n, 3)."""
+    at = points[:, ::-1].T
+    slopes = np.empty(points.shape)
+    for axis in range(3):
+        step = np.zeros((3, 1))
+        step[2 - axis] = 1.0
+        ahead = map_coordinates(values, at + step, order=1, mode="nearest", output=np.float32)
+        behind = map_coordinates(values, at - step, order=1, mode="nearest", output=np.float32)
+        slopes[:, axis] = ahead - behind
+    return slopes
+
+
+def _unit_rows(vectors: FloatArray) -> FloatArray:
+    """Rows of unit length; rows without a direction stay zero."""
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0.0)

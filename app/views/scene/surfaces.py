@@ -1,4 +1,4 @@
-"""Skin and bone of a volume as meshes small enough for any machine."""
+"""Skin and bone of a volume as closed, smooth meshes small enough for any machine."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
+from scipy.ndimage import gaussian_filter
 
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
-from app.imaging.body import Body, body_mask
+from app.imaging.body import Body, Mask, body_mask
 from app.imaging.volume import Volume
 from app.views.scene.mesh import Mesh, coarser, isosurface
 
@@ -26,6 +27,15 @@ SKIN_MOVING, BONE_MOVING = 15_000, 45_000
 SKIN_STEP_MM, BONE_STEP_MM = 3.5, 2.4
 BONE_HU = 240.0
 """Above organs with contrast agent, below cancellous bone."""
+
+SKIN_SIGMA, BONE_SIGMA = 1.0, 0.7
+"""Blur of the grids that surfaces are taken from [cells]."""
+
+AIR = 500.0
+"""How far beyond the skin's level values are told apart [HU]."""
+
+MARROW_MM2, MARROW_HU = 1500.0, BONE_HU + 160.0
+"""What bone encloses in a slice is marrow up to this area; the value that it gets."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,18 +62,20 @@ def extract_surfaces(volume: Volume, body: Body, progress: Progress) -> Surfaces
     progress.report(0.0, "body")
     mask = body_mask(volume, body)
     progress.report(0.1, "skin")
-    soft, affine = reduced(lambda k: mask[k], volume, SKIN_STEP_MM, progress.part(0.1, 0.25))
-    skin = isosurface(
-        _closed(soft, 0.0), _shifted(affine), 0.5, SKIN_TRIANGLES, progress.part(0.25, 0.4)
-    )
-    progress.report(0.4, "bone")
+    level = body.skin_level
+    soft, affine = reduced(
+        lambda k: _air_to_tissue(volume.hu[k], mask[k], level), volume, SKIN_STEP_MM,
+        progress.part(0.1, 0.25),
+    )  # fmt: skip
+    soft = gaussian_filter(_closed(soft, level - AIR), SKIN_SIGMA)
+    skin = isosurface(soft, _shifted(affine), level, SKIN_TRIANGLES, progress.part(0.25, 0.35))
+    progress.report(0.35, "bone")
     hard, affine = reduced(
         lambda k: np.where(mask[k], volume.hu[k], -1000), volume, BONE_STEP_MM,
-        progress.part(0.4, 0.55),
+        progress.part(0.35, 0.5),
     )  # fmt: skip
-    bone = isosurface(
-        _closed(hard, -1000.0), _shifted(affine), BONE_HU, BONE_TRIANGLES, progress.part(0.55, 0.9)
-    )
+    hard = gaussian_filter(without_marrow(_closed(hard, -1000.0), affine), BONE_SIGMA)
+    bone = isosurface(hard, _shifted(affine), BONE_HU, BONE_TRIANGLES, progress.part(0.55, 0.9))
     progress.report(0.9, "coarse versions")
     moving = (
         coarser(skin, SKIN_MOVING, progress.part(0.9, 0.95)),
@@ -108,7 +120,64 @@ def reduced(
     affine = np.array(volume.affine_mm)
     affine[:3, 3] = volume.lps_mm((np.asarray(factors) - 1.0) / 2.0)
     affine[:3, :3] = affine[:3, :3] * factors
-    return ndimage.gaussian_filter(small, 0.6), affine
+    return small, affine
+
+
+def _air_to_tissue(hu: NDArray[Any], inside: Mask, level: float) -> NDArray[Any]:
+    """Slices in which only the skin is an edge, exact to a fraction of a voxel.
+
+    Inside the body no air is left, and outside it no table; between them stand the values of the
+    CT, which know how much of a voxel is body.
+    """
+    values = np.clip(hu, level - AIR, level + AIR)
+    tissue = hu > level
+    values[inside & ~tissue] = level + AIR
+    values[tissue & ~inside] = level - AIR
+    return values
+
+
+def without_marrow(values: NDArray[np.float32], affine: FloatArray) -> NDArray[np.float32]:
+    """Fill what bone encloses, so that its surface is one from outside; changes `values`.
+
+    Marrow is what is enclosed in at least two of the three directions of slices (a foramen is
+    enclosed in one), and next to it the gaps of its shell that are up to two cells wide.
+
+    Args:
+        values: shape (K, J, I), bone above `BONE_HU`.
+        affine: voxel (i, j, k) → LPS [mm], shape (4, 4).
+    """
+    solid = values > BONE_HU
+    cell_mm = np.linalg.norm(affine[:3, :3], axis=0)[::-1]
+    votes = np.zeros(values.shape, np.uint8)
+    for axis in range(3):
+        joined = ndimage.generate_binary_structure(3, 1)
+        joined[(slice(None),) * axis + ([0, 2],)] = False  # neighbours within a slice only
+        pieces, _ = ndimage.label(~solid, joined)
+        small = np.bincount(pieces.ravel()) <= MARROW_MM2 * cell_mm[axis] / cell_mm.prod()
+        small[0] = False  # bone itself
+        for across in {0, 1, 2} - {axis}:  # what reaches the grid's edge is outside
+            small[np.moveaxis(pieces, across, 0)[[0, -1]]] = False
+        votes += small[pieces]
+    marrow = votes >= 2
+    marrow |= _dilated(_dilated(marrow)) & _eroded(_dilated(solid | marrow))
+    np.copyto(values, np.float32(MARROW_HU), where=marrow & ~solid)
+    return values
+
+
+def _dilated(mask: Mask) -> Mask:
+    """Grow by one cell to all 26 sides."""
+    for axis in range(3):
+        grown, along = mask.copy(), np.moveaxis(mask, axis, 0)
+        view = np.moveaxis(grown, axis, 0)
+        view[1:] |= along[:-1]
+        view[:-1] |= along[1:]
+        mask = grown
+    return mask
+
+
+def _eroded(mask: Mask) -> Mask:
+    """Shrink by one cell from all 26 sides; the grid's edge is not one."""
+    return ~_dilated(~mask)
 
 
 def _closed(values: NDArray[np.float32], outside: float) -> NDArray[np.float32]:
