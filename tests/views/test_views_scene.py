@@ -242,6 +242,20 @@ def test_a_needle_without_length_is_not_drawn(stage):
     assert np.isfinite(stage.render(Orbit.look_from("A", np.zeros(3), 9.0), SIZE, False)).all()
 
 
+def test_the_needle_is_seen_at_every_zoom_and_through_what_hides_it(stage, surfaces):
+    orbit = Orbit.look_from("A", np.full(3, 14.5), 400.0)
+    stage.set_needle(NeedleOverlay([14.5, 14.5, 114.5], [14.5, 14.5, 14.5]))
+    orange = stage.render(orbit, SIZE, False)[35, :, :3].astype(int)
+    assert (orange[:, 0] > orange[:, 2] + 60).sum() >= 3
+    near = Orbit.look_from("A", np.full(3, 14.5), 20.0)
+    stage.set_needle(None)
+    stage.set_surfaces(surfaces)
+    alone = stage.render(near, SIZE, False)[30, 60, :3].astype(int)
+    stage.set_needle(NeedleOverlay([14.5, 14.5, 114.5], [14.5, 14.5, 14.5]))
+    through = stage.render(near, SIZE, False)[30, 60, :3].astype(int)
+    assert through[0] - through[2] > alone[0] - alone[2] + 30
+
+
 def test_a_closed_stage_says_so():
     with pytest.raises(SceneError, match="closed"):
         Stage().render(Orbit.look_from("A", np.zeros(3), 10.0), SIZE, False)

@@ -27,50 +27,106 @@ def colour(name: str) -> tuple[float, float, float]:
     return value.redF(), value.greenF(), value.blueF()
 
 
-class Rod:
-    """A cylinder between two points."""
+SEEN_THROUGH = 0.45
+"""Opacity of what is drawn once more over everything that hides it."""
 
-    def __init__(self, renderer: vtkRenderer, mark: Mark, radius_mm: float) -> None:
+
+class Rod:
+    """A cylinder between two points, as thick as asked for or as can be seen.
+
+    Args:
+        renderer: where it stands.
+        mark: its colour.
+        radius_mm: its radius.
+        least_px: width that it never falls below on the screen; 0 for none.
+        over: of the layer over the picture, in which it is seen through what hides it.
+    """
+
+    def __init__(
+        self,
+        renderer: vtkRenderer,
+        mark: Mark,
+        radius_mm: float,
+        least_px: float = 0.0,
+        over: vtkRenderer | None = None,
+    ) -> None:
         source = vtkCylinderSource()
-        source.SetRadius(radius_mm)
+        source.SetRadius(1.0)
         source.SetResolution(16)
-        self._actor = _actor(renderer, source.GetOutputPort(), mark)
+        self._radius_mm, self._least_px, self._mm_per_px = radius_mm, least_px, 0.0
+        self._ends: FloatArray | None = None
+        self._actors = [_actor(renderer, source.GetOutputPort(), mark)]
+        if over is not None:
+            self._actors.append(_ghost(over, source.GetOutputPort(), mark))
 
     def place(self, start: ArrayLike | None, end: ArrayLike | None) -> None:
         """Run from `start` to `end` [mm]; hidden without both or without length."""
-        self._actor.VisibilityOff()
-        if start is None or end is None:
+        self._ends = None
+        if start is not None and end is not None:
+            ends = np.array([start, end], np.float64)
+            if np.linalg.norm(ends[1] - ends[0]) > SHORTEST_MM:
+                self._ends = ends
+        self._stand()
+
+    def zoom(self, mm_per_px: float) -> None:
+        """Be seen at this size of a pixel [mm]."""
+        if self._least_px > 0.0 and mm_per_px != self._mm_per_px:
+            self._mm_per_px = mm_per_px
+            self._stand()
+
+    def _stand(self) -> None:
+        for actor in self._actors:
+            actor.SetVisibility(self._ends is not None)
+        if self._ends is None:
             return
-        first, last = np.asarray(start, np.float64), np.asarray(end, np.float64)
+        first, last = self._ends
         length = float(np.linalg.norm(last - first))
-        if length > SHORTEST_MM:
-            turn = rotation_between([0.0, 1.0, 0.0], last - first)
-            placed = np.eye(4)
-            placed[:3, :3] = turn @ np.diag([1.0, length, 1.0])
-            placed[:3, 3] = (first + last) / 2
-            self._actor.SetUserMatrix(_matrix(placed))
-            self._actor.VisibilityOn()
+        radius = max(self._radius_mm, 0.5 * self._least_px * self._mm_per_px)
+        placed = np.eye(4)
+        turn = rotation_between([0.0, 1.0, 0.0], last - first)
+        placed[:3, :3] = turn @ np.diag([radius, length, radius])
+        placed[:3, 3] = (first + last) / 2
+        for actor in self._actors:
+            actor.SetUserMatrix(_matrix(placed))
 
     def set_colour(self, mark: Mark) -> None:
         """Take the colour of `mark`."""
-        self._actor.GetProperty().SetColor(*colour(mark.colour))
+        for actor in self._actors:
+            actor.GetProperty().SetColor(*colour(mark.colour))
 
 
 class Ball:
-    """A sphere at a point."""
+    """A sphere at a point, as large as asked for or as can be seen; arguments as of `Rod`."""
 
-    def __init__(self, renderer: vtkRenderer, mark: Mark, radius_mm: float) -> None:
+    def __init__(
+        self,
+        renderer: vtkRenderer,
+        mark: Mark,
+        radius_mm: float,
+        least_px: float = 0.0,
+        over: vtkRenderer | None = None,
+    ) -> None:
         source = vtkSphereSource()
-        source.SetRadius(radius_mm)
+        source.SetRadius(1.0)
         source.SetThetaResolution(20)
         source.SetPhiResolution(14)
-        self._actor = _actor(renderer, source.GetOutputPort(), mark)
+        self._radius_mm, self._least_px = radius_mm, least_px
+        self._actors = [_actor(renderer, source.GetOutputPort(), mark)]
+        if over is not None:
+            self._actors.append(_ghost(over, source.GetOutputPort(), mark))
+        self.zoom(0.0)
 
     def place(self, at: ArrayLike | None) -> None:
         """Stand at a point [mm]; hidden without one."""
-        self._actor.SetVisibility(at is not None)
-        if at is not None:
-            self._actor.SetPosition(*np.asarray(at, dtype=np.float64))
+        for actor in self._actors:
+            actor.SetVisibility(at is not None)
+            if at is not None:
+                actor.SetPosition(*np.asarray(at, dtype=np.float64))
+
+    def zoom(self, mm_per_px: float) -> None:
+        """Be seen at this size of a pixel [mm]."""
+        for actor in self._actors:
+            actor.SetScale(max(self._radius_mm, 0.5 * self._least_px * mm_per_px))
 
 
 class Ellipsoid:
@@ -137,6 +193,12 @@ def _actor(renderer: vtkRenderer, port: object, mark: Mark) -> vtkActor:
     actor.GetProperty().SetAmbient(0.35)
     actor.VisibilityOff()
     renderer.AddActor(actor)
+    return actor
+
+
+def _ghost(over: vtkRenderer, port: object, mark: Mark) -> vtkActor:
+    actor = _actor(over, port, mark)
+    actor.GetProperty().SetOpacity(SEEN_THROUGH)
     return actor
 
 

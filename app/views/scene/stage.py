@@ -32,6 +32,8 @@ from app.views.scene.surfaces import Surfaces
 EYE_DISTANCE_MM = 2000.0
 LINK_RADIUS_MM, FULCRUM_RADIUS_MM = 4.0, 7.0
 NEEDLE_RADIUS_MM, PATH_RADIUS_MM, POINT_RADIUS_MM = 1.2, 0.7, 3.0
+NEEDLE_PX, PATH_PX, POINT_PX = 4.0, 2.0, 9.0
+"""Widths that needle, path and points never fall below on the screen, however small the zoom."""
 
 
 class SceneError(AcusError):
@@ -46,6 +48,9 @@ class Stage:
         self._renderer.SetBackground(*colour(theme.IMAGE_BACKGROUND))
         self._renderer.GetActiveCamera().ParallelProjectionOn()
         self._window: vtkRenderWindow | None = None
+        self._over = over = vtkRenderer()  # over the picture: what must be seen through the body
+        over.SetLayer(1)
+        over.SetActiveCamera(self._renderer.GetActiveCamera())
         self._skin = SurfaceActor(self._renderer, theme.SKIN, opacity=0.4)
         self._bone = SurfaceActor(self._renderer, theme.BONE, opacity=1.0)
         self._structures: list[SurfaceActor] = []
@@ -55,21 +60,29 @@ class Stage:
         ]
         self._links = [Rod(self._renderer, theme.ROBOT, LINK_RADIUS_MM) for _ in range(5)]
         self._fulcrum = Ball(self._renderer, theme.ROBOT, FULCRUM_RADIUS_MM)
-        self._needle = [Rod(self._renderer, theme.NEEDLE, NEEDLE_RADIUS_MM)]
-        self._tip = Ball(self._renderer, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM)
+        self._needle = [self._new_piece()]
+        self._tip = Ball(
+            self._renderer, theme.NEEDLE_TIP, 2 * NEEDLE_RADIUS_MM, 1.5 * NEEDLE_PX, over
+        )
         self._error = Ellipsoid(self._renderer, theme.NEEDLE_TIP, opacity=0.35)
-        self._path = Rod(self._renderer, theme.PATH, PATH_RADIUS_MM)
-        self._entry = Ball(self._renderer, theme.ENTRY, POINT_RADIUS_MM)
-        self._target = Ball(self._renderer, theme.TARGET, POINT_RADIUS_MM)
+        self._path = Rod(self._renderer, theme.PATH, PATH_RADIUS_MM, PATH_PX, over)
+        self._entry = Ball(self._renderer, theme.ENTRY, POINT_RADIUS_MM, POINT_PX, over)
+        self._target = Ball(self._renderer, theme.TARGET, POINT_RADIUS_MM, POINT_PX, over)
+
+    def _new_piece(self) -> Rod:
+        return Rod(self._renderer, theme.NEEDLE, NEEDLE_RADIUS_MM, NEEDLE_PX, self._over)
 
     def open(self) -> None:
         """Make the OpenGL context on the calling thread."""
         self._window = _off_screen_window()
+        self._window.SetNumberOfLayers(2)
         self._window.AddRenderer(self._renderer)
+        self._window.AddRenderer(self._over)
 
     def close(self) -> None:
         """Free the OpenGL context; idempotent."""
         if self._window is not None:
+            self._window.RemoveRenderer(self._over)
             self._window.RemoveRenderer(self._renderer)
             self._window.Finalize()
             self._window = None
@@ -112,7 +125,7 @@ class Stage:
             return
         pieces = list(pairwise(needle.points_mm))
         while len(self._needle) < len(pieces):
-            self._needle.append(Rod(self._renderer, theme.NEEDLE, NEEDLE_RADIUS_MM))
+            self._needle.append(self._new_piece())
         for number, rod in enumerate(self._needle):
             rod.place(*(pieces[number] if number < len(pieces) else (None, None)))
             rod.set_colour(theme.NEEDLE if needle.valid else theme.ROBOT)
@@ -166,6 +179,11 @@ class Stage:
         camera.SetViewUp(*orbit.up)
         camera.SetParallelScale(0.5 * size_px[1] * orbit.mm_per_px(size_px))
         camera.SetClippingRange(1.0, 2.0 * EYE_DISTANCE_MM)
+        mm_per_px = orbit.mm_per_px(size_px)
+        for rod in (*self._needle, self._path):
+            rod.zoom(mm_per_px)
+        for ball in (self._tip, self._entry, self._target):
+            ball.zoom(mm_per_px)
 
 
 def _off_screen_window() -> vtkRenderWindow:
