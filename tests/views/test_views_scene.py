@@ -108,6 +108,14 @@ def test_marrow_behind_a_shell_with_gaps_is_filled_and_a_foramen_is_not():
     assert (filled[:4] < BONE_HU).all()
 
 
+def test_marrow_at_the_end_of_the_scan_leaves_the_layer_around_it_outside():
+    values = np.full((12, 20, 20), -1000.0, np.float32)
+    values[1:-1, 4:16, 4:16] = 500.0
+    values[1:-1, 6:14, 6:14] = 40.0  # a tube of bone, cut at both ends
+    filled = without_marrow(values, np.eye(4))
+    assert (filled[[0, -1]] == -1000.0).all()
+
+
 def test_an_empty_volume_gives_an_empty_surface():
     mesh = isosurface(np.zeros((5, 5, 5), np.float32), np.eye(4), 0.5, 100)
     assert mesh.count == 0

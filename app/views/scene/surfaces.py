@@ -67,14 +67,14 @@ def extract_surfaces(volume: Volume, body: Body, progress: Progress) -> Surfaces
         lambda k: _air_to_tissue(volume.hu[k], mask[k], level), volume, SKIN_STEP_MM,
         progress.part(0.1, 0.25),
     )  # fmt: skip
-    soft = gaussian_filter(_closed(soft, level - AIR), SKIN_SIGMA)
+    soft = _blurred(_closed(soft, level - AIR), SKIN_SIGMA)
     skin = isosurface(soft, _shifted(affine), level, SKIN_TRIANGLES, progress.part(0.25, 0.35))
     progress.report(0.35, "bone")
     hard, affine = reduced(
         lambda k: np.where(mask[k], volume.hu[k], -1000), volume, BONE_STEP_MM,
         progress.part(0.35, 0.5),
     )  # fmt: skip
-    hard = gaussian_filter(without_marrow(_closed(hard, -1000.0), affine), BONE_SIGMA)
+    hard = _blurred(without_marrow(_closed(hard, -1000.0), affine), BONE_SIGMA)
     bone = isosurface(hard, _shifted(affine), BONE_HU, BONE_TRIANGLES, progress.part(0.55, 0.9))
     progress.report(0.9, "coarse versions")
     moving = (
@@ -160,6 +160,8 @@ def without_marrow(values: NDArray[np.float32], affine: FloatArray) -> NDArray[n
         votes += small[pieces]
     marrow = votes >= 2
     marrow |= _dilated(_dilated(marrow)) & _eroded(_dilated(solid | marrow))
+    for axis in range(3):  # the layer around stays outside
+        np.moveaxis(marrow, axis, 0)[[0, -1]] = False
     np.copyto(values, np.float32(MARROW_HU), where=marrow & ~solid)
     return values
 
@@ -183,6 +185,14 @@ def _eroded(mask: Mask) -> Mask:
 def _closed(values: NDArray[np.float32], outside: float) -> NDArray[np.float32]:
     """One layer of `outside` around, so that surfaces cut by the scan's edge are closed."""
     return np.pad(values, 1, constant_values=outside)
+
+
+def _blurred(values: NDArray[np.float32], sigma: float) -> NDArray[np.float32]:
+    """Blur a closed grid [cells]; its outermost layer stays, so that it stays closed."""
+    blurred: NDArray[np.float32] = gaussian_filter(values, sigma)
+    for axis in range(3):
+        np.moveaxis(blurred, axis, 0)[[0, -1]] = np.moveaxis(values, axis, 0)[[0, -1]]
+    return blurred
 
 
 def _shifted(affine: FloatArray) -> FloatArray:
