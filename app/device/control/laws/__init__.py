@@ -129,11 +129,10 @@ def _needed(law: Law) -> int:
 
 def _implementation(law: Law) -> ModuleType:
     """Import a law's file, once; one that is not the program's own is checked first."""
+    check = None if is_own(law) else law_check.check
+    return KIND.load(law, check, lambda module: _check_step(module, law))
 
-    def compiled(module: ModuleType) -> None:
-        if STAGE_SIGNATURE.args not in getattr(module.step, "signatures", ()):
-            raise LawError(
-                f"{law.path}: step is not compiled; put @stage of core.compiled before it"
-            )
 
-    return KIND.load(law, None if is_own(law) else law_check.check, compiled)
+def _check_step(module: ModuleType, law: Law) -> None:
+    if STAGE_SIGNATURE.args not in getattr(module.step, "signatures", ()):
+        raise LawError(f"{law.path}: step is not compiled; put @stage of core.compiled before it")
