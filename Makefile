@@ -28,9 +28,11 @@ demo: $(TRAINER)  ## the trainer on the built-in patient; with no display a whol
 run: $(TRAINER)  ## the trainer
 	$(BIN)/acus run
 
-test: setup  ## the tests (no display and no network needed), a file at a time on each core
+# One more than there are cores: a test of pauses waits more than it computes.
+WORKERS ?= $(shell expr $$(nproc) + 1)
+test: setup  ## the tests (no display and no network needed), a file at a time in each process
 	$(BIN)/python -m tools.compile_kernels
-	./tools/with-display $(BIN)/python -m pytest -q --numprocesses auto --dist loadfile $(TEST)
+	./tools/with-display $(BIN)/python -m pytest -q --numprocesses $(WORKERS) --dist loadfile $(TEST)
 
 by-hand: setup  ## one insertion in the real window with mouse and keyboard, on an X server of its own
 	env -u DISPLAY ACUS_BY_HAND=1 ./tools/with-display $(BIN)/python -m pytest -q tests/display
