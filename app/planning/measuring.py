@@ -117,7 +117,9 @@ def _values(item: Region, volume: Volume) -> NDArray[np.float64] | None:
     centre = np.array(item.centre_mm)
     vectors = [np.array(item.right_mm), np.array(item.down_mm)]
     halves = [float(np.linalg.norm(v)) for v in vectors]
-    units = [v / max(h, SMALLEST_MM) for v, h in zip(vectors, halves, strict=True)]
+    if min(halves) < SMALLEST_MM:  # a drag along a line
+        return np.empty(0)
+    units = [v / h for v, h in zip(vectors, halves, strict=True)]
     axes = [_voxel_axis(unit, volume) for unit in units]
     aligned = axes[0] is not None and axes[1] is not None and axes[0] != axes[1]
     steps, offsets = [], []

@@ -96,6 +96,12 @@ def test_a_region_beside_the_image_or_without_end_says_so() -> None:
     assert measured(huge, volume()).note == "too large"
 
 
+@pytest.mark.parametrize("flat", [0.0, 1e-9])
+def test_a_region_that_is_still_being_drawn_along_a_line_holds_no_voxel(flat: float) -> None:
+    item = Region((0.0, 20.0, 110.0), (flat, 0.0, 0.0), (0.0, 5.0, 0.0))
+    assert "no voxel inside" in measured(item, volume()).text
+
+
 @given(st.integers(0, 4), st.tuples(*[st.floats(-50, 50)] * 3))
 def test_moving_a_handle_of_a_region_keeps_the_end_that_was_not_moved(
     handle: int, to: tuple[float, float, float]
