@@ -4,7 +4,9 @@ from types import MappingProxyType, SimpleNamespace
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QMainWindow
 from views_exercise_attempts import placed_plan, review
 
 from app.session.errors import SessionError
@@ -106,6 +108,24 @@ def test_the_filter_looks_at_every_column(page):
     assert "1 of 3" in page._count.text()
     page.search.setText("nobody")
     assert page.proxy.rowCount() == 0
+
+
+def test_the_keys_of_undo_are_the_tables_even_beside_a_window_that_has_them_too(page, tmp_path, qt):
+    window, heard = QMainWindow(), []
+    action = QAction("Undo", window)
+    action.setShortcut("Ctrl+Z")
+    action.triggered.connect(lambda: heard.append("window"))
+    window.addAction(action)
+    window.setCentralWidget(page)
+    window.show()
+    window.activateWindow()
+    page.table.setFocus()
+    qt.processEvents()
+    page.undo_delete = lambda: heard.append("table")
+    QTest.keyClick(page.table, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert heard == ["table"]
+    window.takeCentralWidget()
+    window.close()
 
 
 def test_what_is_deleted_comes_back_with_undo(page, tmp_path):

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QModelIndex, QSortFilterProxyModel, Qt, Signal
-from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtCore import QEvent, QModelIndex, QObject, QSortFilterProxyModel, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHBoxLayout,
@@ -185,13 +185,22 @@ class SessionsPage(QWidget):
         self.export.clicked.connect(self._export)
         self.delete_button.clicked.connect(self.delete_selected)
         self.undo.clicked.connect(self.undo_delete)
-        for keys, action in (
-            (QKeySequence.StandardKey.Delete, self.delete_selected),
-            (QKeySequence.StandardKey.Undo, self.undo_delete),
-        ):
-            shortcut = QShortcut(QKeySequence(keys), self.table)
-            shortcut.setContext(Qt.ShortcutContext.WidgetShortcut)
-            shortcut.activated.connect(action)
+        delete = QShortcut(QKeySequence(QKeySequence.StandardKey.Delete), self.table)
+        delete.setContext(Qt.ShortcutContext.WidgetShortcut)
+        delete.activated.connect(self.delete_selected)
+        self.table.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """In the table, keep the keys of undo from the window, whose own they are too."""
+        keys = (QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress)
+        if not (isinstance(event, QKeyEvent) and event.type() in keys):
+            return super().eventFilter(watched, event)
+        if not event.matches(QKeySequence.StandardKey.Undo):
+            return False
+        event.accept()
+        if event.type() == QEvent.Type.KeyPress:
+            self.undo_delete()
+        return True
 
     def _export(self) -> None:
         readable = [summary for summary in self.selected() if summary.state != BROKEN]
