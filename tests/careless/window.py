@@ -20,7 +20,7 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import TypeVar
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtWidgets import QApplication, QFileDialog, QMenu
 
 from app.compose import Desktop
@@ -89,13 +89,21 @@ class Asked(QObject):
 
 
 class ReadOnlyFiles(QObject):
-    """Keeps dialogs of files from renaming or deleting any."""
+    """Keeps dialogs of files from renaming or deleting any.
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Look at every dialog that is shown."""
-        if event.type() == QEvent.Type.Show and isinstance(watched, QFileDialog):
-            watched.setOption(QFileDialog.Option.ReadOnly, True)
-        return False
+    It looks now and then: a filter of all events would make every one of them wait for Python.
+    """
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        timer = QTimer(self, interval=20)
+        timer.timeout.connect(self._look)
+        timer.start()
+
+    def _look(self) -> None:
+        for window in QApplication.topLevelWidgets():
+            if isinstance(window, QFileDialog):
+                window.setOption(QFileDialog.Option.ReadOnly, True)
 
 
 class CarelessUser(threading.Thread):
@@ -294,8 +302,7 @@ def main() -> None:
     parser.add_argument("--go-on", action="store_true", help="after a failure too")
     options = parser.parse_args()
     application = start()
-    guard = ReadOnlyFiles(application)
-    application.installEventFilter(guard)
+    ReadOnlyFiles(application)
     window = MainWindow(Desktop())
     collector = collect_for(window)
     window.resize(1366, 768)
