@@ -29,7 +29,7 @@ def screen_pixels(
     """Draw a picture into pixels of 0xAARRGGBB.
 
     Args:
-        values: int16 or float32, contiguous, shape (rows, columns).
+        values: int16 or float32, shape (rows, columns); copied where they are not contiguous.
         window: which of them become which grey, as in `window.to_grey`.
         inverted: whether high values are dark.
         place: left, top, width and height of the picture [px]; it may reach beyond the pixels.
@@ -44,6 +44,7 @@ def screen_pixels(
     """
     if values.ndim != 2 or not values.size or min(place[2:]) <= 0.0:
         raise NumericalError(f"a picture of {values.shape} values on {place} px cannot be drawn")
+    values = np.ascontiguousarray(values)  # every other order would be compiled for
     width, height = size
     out = np.empty((height, width), np.uint32)
     rows, row_weights = _sources(place[1], place[3], values.shape[0], height)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from app.core.arrays import frozen
+from app.core.arrays import frozen, read_only
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.imaging.series import Remedy, Series
@@ -108,4 +108,5 @@ def _load_verdict() -> None:
 
     soft, place = PRESETS["Soft tissue"], (0.0, 0.0, 1.0, 1.0)
     for kind in (np.int16, np.float32):
-        screen_pixels(np.zeros((1, 1), kind), soft, False, place, (1, 1))
+        for values in (np.zeros((1, 1), kind), read_only(np.zeros((1, 1), kind))):
+            screen_pixels(values, soft, False, place, (1, 1))  # compiled for either

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from app.core.errors import NumericalError
+from app.imaging import screen
 from app.imaging.screen import screen_pixels
 from app.imaging.window import WindowLevel, to_grey
+from app.planning.patient import _load_verdict
 
 SOFT = WindowLevel(400.0, 40.0)
 
@@ -77,3 +79,15 @@ def test_a_single_value_fills_its_rectangle():
 def test_a_picture_without_size_is_refused(place):
     with pytest.raises(NumericalError, match="cannot be drawn"):
         screen_pixels(noise(np.int16), SOFT, False, place, (5, 5))
+
+
+@pytest.mark.parametrize("kind", [np.int16, np.float32])
+def test_once_a_patient_is_prepared_no_slice_of_a_volume_has_anything_compiled(kind):
+    _load_verdict()
+    before = [list(kernel.signatures) for kernel in (screen._by_table, screen._by_line)]
+    volume = np.zeros((4, 5, 6), kind)
+    volume.setflags(write=False)
+    for values in (volume[1], volume[:, 2], volume[:, :, 3], volume[1].copy()):
+        for picture in (values, values[::-1], values.T):
+            screen_pixels(picture, SOFT, False, (0.0, 0.0, 9.0, 9.0), (9, 9))
+    assert before == [list(kernel.signatures) for kernel in (screen._by_table, screen._by_line)]
