@@ -1,3 +1,4 @@
+import time
 from importlib.metadata import requires, version
 
 import pytest
@@ -33,6 +34,10 @@ def test_about_says_version_disclaimer_and_that_qt_is_under_the_lgpl(parent):
 
 def test_about_lists_every_library_with_version_and_licence(parent):
     table = AboutDialog(parent).table
+    end = time.monotonic() + 20.0
+    while not table.rowCount() and time.monotonic() < end:
+        QApplication.processEvents()
+        time.sleep(0.01)
     rows = [
         [table.item(row, column).text() for column in range(3)] for row in range(table.rowCount())
     ]

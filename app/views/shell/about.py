@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QSize, Qt, qVersion
 from PySide6.QtWidgets import (
     QDialog,
@@ -16,6 +18,8 @@ from PySide6.QtWidgets import (
 )
 
 from app import __version__
+from app.core.parts import Part, parts
+from app.views.kit.background import run_in_background
 from app.views.kit.text import disclaimer, tr
 from app.views.shell.application import icon
 
@@ -47,13 +51,30 @@ class AboutDialog(QDialog):
             words.addWidget(label)
         head.addLayout(words, 1)
         layout.addLayout(head)
-        layout.addWidget(QLabel(tr("Libraries, as installed:")))
+        self._head = QLabel(tr("Libraries, as installed (being read):"))
+        layout.addWidget(self._head)
         self.table = _table()
         layout.addWidget(self.table, 1)
+        # The metadata of every library take a good part of a second.
+        run_in_background(self, lambda _: parts(), self._show_parts, self._not_read)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.rejected.connect(self.reject)
         layout.addWidget(buttons)
         self.resize(680, 620)
+
+    def _show_parts(self, rows: Sequence[Part]) -> None:
+        self._head.setText(tr("Libraries, as installed:"))
+        self.table.setRowCount(len(rows))
+        for row, part in enumerate(rows):
+            for column, text in enumerate((part.name, part.version, part.licence)):
+                item = QTableWidgetItem(text)
+                item.setToolTip(text)
+                self.table.setItem(row, column, item)
+        self.table.resizeColumnsToContents()
+        self.table.horizontalHeader().setSectionResizeMode(2, QHeaderView.ResizeMode.Stretch)
+
+    def _not_read(self, error: Exception) -> None:
+        self._head.setText(tr("The libraries cannot be listed: {error}", error=error))
 
 
 def _sentences() -> tuple[str, ...]:
@@ -70,20 +91,10 @@ def _sentences() -> tuple[str, ...]:
 
 
 def _table() -> QTableWidget:
-    from app.core.parts import parts  # reads the metadata of every library
-
-    rows = parts()
-    table = QTableWidget(len(rows), 3)
+    table = QTableWidget(0, 3)
     table.setHorizontalHeaderLabels([tr("Library"), tr("Version"), tr("Licence")])
     table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
     table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
     table.verticalHeader().hide()
     table.setFocusPolicy(Qt.FocusPolicy.ClickFocus)  # no row is chosen until somebody does
-    for row, part in enumerate(rows):
-        for column, text in enumerate((part.name, part.version, part.licence)):
-            item = QTableWidgetItem(text)
-            item.setToolTip(text)
-            table.setItem(row, column, item)
-    table.resizeColumnsToContents()
-    table.horizontalHeader().setSectionResizeMode(2, QHeaderView.ResizeMode.Stretch)
     return table
