@@ -126,3 +126,13 @@ def test_every_panel_has_a_page_of_its_own(window):
 
 def _keys(action):
     return [key.toString() for key in action.shortcuts()]
+
+
+def test_help_that_is_asked_for_again_is_the_window_that_is_open(parent, monkeypatch, tmp_path):
+    monkeypatch.setattr(user_guide, "SITE", tmp_path)
+    window = user_guide.show_help(parent, "planning.md")
+    assert user_guide.show_help(parent, "planning.md") is window
+    other = user_guide.show_help(parent, "pen.md")
+    assert other is not window
+    assert not window.isVisible()
+    other.close()

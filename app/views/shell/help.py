@@ -53,6 +53,8 @@ def page_of(widget: QWidget | None) -> str:
 def show_help(parent: QWidget, page: str = HOME) -> QDialog | None:
     """Open a page, `file.md#heading`: of the built site in the browser, else in a window.
 
+    There is one window: asked for again it comes to the front, for another page it is replaced.
+
     Returns the window, or None where a browser shows the page.
     """
     name, _, heading = page.partition("#")
@@ -62,6 +64,12 @@ def show_help(parent: QWidget, page: str = HOME) -> QDialog | None:
         url.setFragment(heading)
         if QDesktopServices.openUrl(url):
             return None
+    for shown in parent.findChildren(HelpWindow):
+        if shown.isVisible() and shown.asked == (name, heading):
+            shown.raise_()
+            shown.activateWindow()
+            return shown
+        shown.close()
     window = HelpWindow(name, heading, parent)
     window.finished.connect(window.deleteLater)
     window.show()
@@ -75,11 +83,14 @@ class HelpWindow(QDialog):
         name: file in `SOURCES`.
         heading: anchor of a heading on it, "" for its beginning.
         parent: window that it belongs to.
+
+    Attributes:
+        asked: name and heading.
     """
 
     def __init__(self, name: str, heading: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._heading = heading
+        self.asked, self._heading = (name, heading), heading
         self.setWindowTitle(tr("User guide"))
         self.resize(900, 700)
         layout = QVBoxLayout(self)
