@@ -79,12 +79,14 @@ class Bullseye(QWidget):
 
     def _fit_words(self) -> None:
         """Reserve the lines that the longest words take; leave out what can be done without."""
-        across = self.width() // 2 - 2 * theme.SPACING
-        for label, longest in ((self._in_plane, 46), (self._out_of_plane, 46),
-                               (self._remaining, 16), (self._lateral, 40),
-                               (self._source, 28)):  # fmt: skip
+        across = max(self.width() // 2 - 2 * theme.SPACING, 1)
+        beside = max(min(across, self.depth_bar.width()), 1)
+        for label, longest, room in (
+            (self._in_plane, 46, across), (self._out_of_plane, 46, across),
+            (self._remaining, 16, beside), (self._lateral, 40, beside), (self._source, 28, beside),
+        ):  # fmt: skip
             metrics = label.fontMetrics()
-            lines = -(-longest * metrics.averageCharWidth() // max(across, 1))
+            lines = -(-longest * metrics.averageCharWidth() // room)
             label.setMinimumHeight(min(lines, 2) * metrics.lineSpacing())
         self._angles.setVisible(not self._hides_needle and self.height() >= TALL * theme.SMALL_PX)
         if not self._hides_needle:
