@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import faulthandler
 import logging
 import math
 import os
@@ -29,7 +28,6 @@ from tests.careless.texts import all_windows, cut_texts
 ANSWER_S = 1.0
 """Longest that the window may keep its user waiting [s], where the machine does nothing else."""
 BEAT_MS = 20
-ARM_S = 0.2
 FORCE_SLACK = 1.01
 USERS_OWN = re.compile(r"by the user|closed|another (patient|exercise|CT)|not begun", re.IGNORECASE)
 """Reasons of an abort that a user asked for; any other one voided the attempt."""
@@ -65,13 +63,14 @@ class Checks(QObject):
         self._labels: set[str] = set()
         self._beat = time.monotonic()
         self._slowest = self._felt = self._true = 0.0
-        self._stated, self._armed = "", 0.0
-        self._stacks = stacks.open("w+")
+        self._stated = ""
+        self._file, self._stacks = stacks, ""
         self._listen()
         self._timer = QTimer(self, interval=BEAT_MS)
         self._timer.timeout.connect(self._look)
         self._timer.start()
         window.conductor.controller.finished.connect(self._finished)
+        threading.Thread(target=self._watch, name="careless-stacks", daemon=True).start()
 
     def after(self) -> list[Failure]:
         """Return what failed since the last call, and what does not hold now."""
@@ -125,9 +124,6 @@ class Checks(QObject):
     def _look(self) -> None:
         now = time.monotonic()
         self._slowest, self._beat = max(self._slowest, now - self._beat), now
-        if now - self._armed > ARM_S:  # from a thread of its own, which waits for no interpreter
-            self._armed = now
-            faulthandler.dump_traceback_later(0.8 * self._answer_s, file=self._stacks)
         run = self._window.conductor.controller.run
         device = None if run is None else run.trainer.snapshot().device
         row = getattr(device, "row", None)
@@ -144,12 +140,24 @@ class Checks(QObject):
                 f"{felt:.2f} N stated, {true:.2f} N true at {depth:.0f} mm, limit {limit:.2f} N"
             )
 
+    def _watch(self) -> None:
+        """Note what every thread is at when the window does not answer; the window's comes last.
+
+        With the interpreter's lock: `faulthandler` takes stacks without it, and crashed at times.
+        """
+        told, main = 0.0, threading.main_thread().ident
+        while True:
+            time.sleep(0.05)
+            beat = self._beat
+            if beat != told and time.monotonic() - beat > 0.8 * self._answer_s:
+                told = beat
+                frames = sorted(sys._current_frames().items(), key=lambda item: item[0] == main)
+                self._stacks = "\n".join("".join(traceback.format_stack(f)) for _, f in frames)
+                self._file.write_text(self._stacks)
+
     def _read_stacks(self) -> str:
-        """Return what every thread was at when the window did not answer."""
-        self._stacks.seek(0)
-        words = self._stacks.read()
-        self._stacks.seek(0)
-        self._stacks.truncate()
+        """Return what was noted last, once."""
+        words, self._stacks = self._stacks, ""
         return words
 
     # --- attempts -----------------------------------------------------------------------------
