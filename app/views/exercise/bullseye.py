@@ -87,7 +87,7 @@ class Bullseye(QWidget):
         ):  # fmt: skip
             metrics = label.fontMetrics()
             lines = -(-longest * metrics.averageCharWidth() // room)
-            label.setMinimumHeight(min(lines, 2) * metrics.lineSpacing())
+            label.setMinimumHeight(min(lines, 3) * metrics.lineSpacing())
         self._angles.setVisible(not self._hides_needle and self.height() >= TALL * theme.SMALL_PX)
         if not self._hides_needle:
             self.source.set_brief(self.width() < WIDE * theme.SMALL_PX)
