@@ -112,7 +112,7 @@ def draw(rng: random.Random, screen: Screen) -> Action:
     kinds = {"control": 20, "drag": 16, "wheel": 12, "key": 16, "poke": 8, "wait": 8, "text": 2}
     if screen.is_main:
         kinds |= {"menus": 5, "exercise": 1, "ct": 1, "page": 2, "size": 2}
-        kinds |= {"end": 2, "scan": 2, "drag": 30, "wheel": 24} if screen.runs else {"start": 9}
+        kinds |= {"end": 3, "scan": 6, "drag": 30, "wheel": 24} if screen.runs else {"start": 9}
     kind = rng.choices(list(kinds), list(kinds.values()))[0]
     return _DRAWN[kind](rng, screen) or Action("wait", seconds=0.2)
 

@@ -85,14 +85,14 @@ def test_what_cannot_be_used_is_said_and_nothing_is_written(open_dialog):
 def test_the_test_asks_the_archive_of_the_form_without_keeping_it(open_dialog, pacs, settle):
     dialog = open_dialog()
     dialog.add()
-    wanted = pacs.settings().model_dump(exclude_none=True)
+    wanted = pacs.settings(timeout_s=10.0).model_dump(exclude_none=True)
     enter(dialog, **wanted)
     dialog.test()
-    assert settle(lambda: "answers in" in dialog.note.text(), 10.0)
+    assert settle(lambda: "answers in" in dialog.note.text(), 10.0), dialog.note.text()
     enter(dialog, **(wanted | {"title": "WRONG"}))
     settle(dialog.test_button.isEnabled, 5.0)
     dialog.test()
-    assert settle(lambda: "another AE title" in dialog.note.text(), 10.0)
+    assert settle(lambda: "another AE title" in dialog.note.text(), 10.0), dialog.note.text()
     assert not pacs_path().exists()
 
 
