@@ -19,6 +19,7 @@ from PySide6.QtCore import QObject, QTimer, QtMsgType, qInstallMessageHandler
 from PySide6.QtWidgets import QLabel
 
 from app.core import state_vector as sv
+from app.session.header import TRASH
 from app.session.machine import RUNNING
 from app.session.recording import read_recording
 from app.session.result import AttemptResult
@@ -167,7 +168,10 @@ class Checks(QObject):
             self._say("void", f"an attempt was voided: {summary.reason}")
         if result.record is not None and result.trajectory is not None:
             begin = time.monotonic()
-            kept, shown = read_recording(result.record).trajectory(), result.trajectory
+            record = result.record
+            if not record.exists():  # deleted in the list before its debrief was there
+                record = record.parent / TRASH / record.name
+            kept, shown = read_recording(record).trajectory(), result.trajectory
             if kept.tip.shape != shown.tip.shape or not np.allclose(kept.tip, shown.tip, atol=1e-6):
                 self._say("quantity", "the record has another way of the tip than the debrief")
             self._beat += time.monotonic() - begin
