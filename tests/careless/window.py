@@ -238,11 +238,11 @@ class CarelessUser(threading.Thread):
         hands.click(target.box, action)
 
     def _show_exercise(self, identifier: str) -> None:
-        """Go to the start button; where no patient is open, begin an exercise first."""
+        """Go to the start button; where no patient is open, or no plan, begin an exercise first."""
         window = self._window
         if QApplication.activeModalWidget() is not None:
             return
-        if window.conductor.patient is None:
+        if window.conductor.patient is None or window.editor.verdict.placed is None:
             window.begin_exercise(identifier)
         else:
             window.show_workspace()
