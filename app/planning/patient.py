@@ -104,9 +104,10 @@ def _load_verdict() -> None:
     for entry in ((0.0, -50.0, 0.0), (50.0, -10.0, 0.0)):  # straight down, and too oblique
         reach(Plan(frozen(entry), frozen((0.0, 0.0, 0.0))), Placement(), profile)
     with ONE_AT_A_TIME:
-        from app.imaging.screen import screen_pixels
+        from app.imaging.screen import STROKE, draw_strokes, screen_pixels
 
     soft, place = PRESETS["Soft tissue"], (0.0, 0.0, 1.0, 1.0)
     for kind in (np.int16, np.float32):
         for values in (np.zeros((1, 1), kind), read_only(np.zeros((1, 1), kind))):
-            screen_pixels(values, soft, False, place, (1, 1))  # compiled for either
+            pixels = screen_pixels(values, soft, False, place, (1, 1))  # compiled for either
+            draw_strokes(pixels, np.zeros((0, STROKE)), (0.0, 0.0), 1.0, 1.0)

@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.views.slices.corners import Overlay
+from app.views.slices.words import Overlay
 
 SLACK_PX = 1
 ELIDED = "…"

@@ -14,7 +14,7 @@ from app.views.slices.looks import Slab
 from app.views.slices.needle_source import NeedlePlanes
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, NEEDLE_PANES, PaneId
-from app.views.slices.picture_maker import Picture
+from app.views.slices.pictures import Picture
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
 
@@ -248,7 +248,7 @@ def test_a_picture_that_was_overtaken_or_dropped_never_comes_back(room, settle):
             feed.drop()
         feed.is_waiting = True
         maker._made[id(feed)] = Picture.of(old)
-        feed._look()
+        feed.look()
         assert feed.picture is (None if drop else newest)
 
 

@@ -56,7 +56,7 @@ def test_each_line_lies_in_both_planes(viewing, planes, pane):
     assert lines
     plane, index = pane.canvas.plane, pane.canvas.index
     for name, line in lines.items():
-        for start, end in line._ends:
+        for start, end in line.lines:
             for place in (start, end):
                 point = plane.lps_mm(place.x(), place.y(), index)
                 assert abs(viewing.frame(name).point(point)[2]) < 1e-6

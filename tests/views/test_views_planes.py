@@ -116,7 +116,7 @@ def test_the_crosshair_turns_with_the_other_plane(viewing, make_pane):
     pane.canvas.flush()
     frame = viewing.frame(PaneId.CORONAL)
     line = pane.canvas.layers.crosshair._lines[PaneId.CORONAL]
-    start, end = line._ends[0]
+    start, end = line.lines[0]
     run, fall = end.x() - start.x(), end.y() - start.y()
     assert abs(np.arctan(fall / run)) == pytest.approx(TILT, abs=1e-6)
     plane = pane.canvas.plane

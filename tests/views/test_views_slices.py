@@ -19,7 +19,7 @@ from app.views.slices.camera import Camera, ruler
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
-from app.views.slices.picture_maker import Picture
+from app.views.slices.pictures import Picture
 from app.views.slices.plane import own_plane
 from app.views.slices.presets import default_window, keyed_window, menu_windows
 from app.views.slices.slab import PlanePoint, pieces

@@ -53,7 +53,11 @@ class LiveNeedle:
         needle = NeedleOverlay.of_world(
             p_end, pose.axis, length, transform, pose.measured, spread, bent
         )
-        self._workspace.viewing.set_needle(needle if run.shown.shows(View.LIVE_OVERLAY) else None)
+        viewing = self._workspace.viewing
+        if run.shown.shows(View.LIVE_OVERLAY):
+            viewing.follow_needle(needle)
+        else:
+            viewing.set_needle(None)
         if not run.shown.shows(View.THREE_D):
             return
         ends = needle.points_mm

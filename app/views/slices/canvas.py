@@ -11,18 +11,17 @@ from PySide6.QtGui import QColor, QHideEvent, QPainter, QPaintEvent, QShowEvent
 from PySide6.QtWidgets import QWidget
 
 from app.views.kit import theme
-from app.views.slices.corners import Written
 from app.views.slices.drawing import Drawing
 from app.views.slices.items import MarkItem
 from app.views.slices.layer_stack import ALL_LAYERS, WAITED_FOR, Due, Layer, LayerStack
 from app.views.slices.looks import Turn
 from app.views.slices.panes import PaneId
-from app.views.slices.picture_feed import PictureFeed
-from app.views.slices.picture_maker import Screen
+from app.views.slices.pictures import Picture, PictureFeed, Screen
 from app.views.slices.plane import Rect, SlicePlane
 from app.views.slices.plane_view import PlaneView
 from app.views.slices.unhurried import Unhurried
 from app.views.slices.viewing import Viewing
+from app.views.slices.words import Written
 
 
 class SliceCanvas(PlaneView):
@@ -59,10 +58,11 @@ class SliceCanvas(PlaneView):
         self._due: set[Due] = set()
         self._slice: tuple[SlicePlane, float] | None = None
         self._asked = False
+        self._painted: Picture | None = None
         self._wanted.connect(self._draw_together, Qt.ConnectionType.QueuedConnection)
         self._words = Unhurried(self._write, self)
-        self.feed = PictureFeed(viewing.pictures, self)
-        self.feed.arrived.connect(self._draw)
+        self.feed = PictureFeed(viewing.pictures, self._draw)
+        self.destroyed.connect(self.feed.drop)
         self._seen = self._screen = Screen(0.0, 0.0, 1.0, 1, 1, 1.0)
         self.drawing = Drawing(self.update)
         self.written: list[Written] = []
@@ -227,7 +227,8 @@ class SliceCanvas(PlaneView):
         if moved or zoomed or due - {Due.CROSSHAIR}:
             hurried = (Due.NEEDLE in due or not due) and not due & WAITED_FOR
             (self._words.ask if hurried else self._words.do)()
-        self.update()
+        if zoomed or picture is not self._painted:
+            self.update()
 
     def _write(self) -> None:
         """Write the read-outs, and find the names of marks their places."""
@@ -239,13 +240,17 @@ class SliceCanvas(PlaneView):
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the picture, the shapes over it, and the words over both."""
         picture, screen = self.feed.picture, self._screen
+        self._painted = picture
         painter = QPainter(self)
-        if picture is None or picture.wish.screen != screen:
+        pixels = None
+        if picture is not None and picture.wish.screen == screen:
+            pixels = picture.pixels
+        else:
             painter.fillRect(event.rect(), self._background)
-        if picture is not None:
-            painter.setTransform(self._to_pixels)
-            picture.paint(painter, screen)
-        self.drawing.paint(painter, self._to_pixels)
+            if picture is not None:
+                painter.setTransform(self._to_pixels)
+                picture.paint(painter)
+        self.drawing.paint(painter, self._to_pixels, screen, pixels)
         for words in self.written:
             words.paint(painter)
         painter.end()

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPointF, QRectF
-from PySide6.QtGui import QPainter, QPolygonF
-
 from app.views.kit.theme import Mark
-from app.views.slices.drawing import Shape
+from app.views.slices.drawing import Ink, Strokes, stroke
 from app.views.slices.slab import chord
 
 GAP_PX = 14.0
@@ -17,16 +14,13 @@ END_SHARE = 0.06
 """Length of the ends of a line that shows nothing else, as a share of it."""
 
 
-class CrossLine(Shape):
+class CrossLine(Strokes):
     """One line of the crosshair through the whole plane, with a gap around the point."""
-
-    smooth = False
 
     def __init__(self, mark: Mark, alpha: float = 0.9) -> None:
         super().__init__(1.0)
-        self._pen = mark.pen(alpha=alpha)
+        self._ink = Ink.of(mark, alpha, smooth=False)
         self._state: tuple[float, ...] = ()
-        self._ends: tuple[tuple[QPointF, QPointF], ...] = ()
 
     def place(
         self,
@@ -57,20 +51,8 @@ class CrossLine(Shape):
             end = END_SHARE * (last - first)
             halves = ((first, min(-gap, first + end)), (max(gap, last - end), last))
         x, y, (dx, dy) = *at, direction
-        self._ends = tuple(
-            (QPointF(x + a * dx, y + a * dy), QPointF(x + b * dx, y + b * dy))
-            for a, b in halves
-            if b > a
-        )
-        self.touch()
-
-    def boundingRect(self) -> QRectF:
-        """Return the rectangle between its ends [mm]."""
-        corners = [point for ends in self._ends for point in ends]
-        return QPolygonF(corners).boundingRect() if corners else QRectF()
-
-    def paint(self, painter: QPainter) -> None:
-        """Draw the two halves of the line."""
-        painter.setPen(self._pen)
-        for start, end in self._ends:
-            painter.drawLine(start, end)
+        rows: list[float] = []
+        for a, b in halves:
+            if b > a:
+                rows += stroke((x + a * dx, y + a * dy), (x + b * dx, y + b * dy), self._ink)
+        self.set_rows(rows)

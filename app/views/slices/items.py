@@ -2,90 +2,47 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 from math import ceil
 
 from PySide6.QtCore import QPointF, QRectF, QSizeF, Qt
-from PySide6.QtGui import (
-    QBrush,
-    QColor,
-    QFont,
-    QFontMetrics,
-    QLinearGradient,
-    QPainter,
-    QPen,
-    QPixmap,
-)
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPixmap
 
 from app.views.kit import theme
 from app.views.kit.theme import Mark, Symbol
-from app.views.slices.drawing import Shape
+from app.views.slices.drawing import Ink, Shape, Strokes, stroke
 from app.views.slices.labels import Placed, Wanted
-from app.views.slices.rimmed_text import rimmed
-
-RIM = 0.55
-"""Opacity of the dark rim of a line."""
+from app.views.slices.words import rimmed
 
 
-class SegmentItem(Shape):
+class SegmentItem(Strokes):
     """A straight piece of needle or path with a dark rim, so that it shows on bone."""
 
     def __init__(self, z: float) -> None:
         super().__init__(z, visible=False)
-        self._start, self._end = QPointF(), QPointF()
-        self._pen, self._alphas = QPen(), (1.0, 1.0)
         self._state: tuple[object, ...] = ()
 
     def place(
         self,
         start: tuple[float, float],
         end: tuple[float, float],
-        pen: QPen,
+        ink: Ink,
         alphas: tuple[float, float] = (1.0, 1.0),
     ) -> None:
-        """Run from `start` to `end` [mm] in this pen.
+        """Run from `start` to `end` [mm].
 
         Args:
             start: one end [mm].
             end: the other [mm].
-            pen: cosmetic, opaque.
+            ink: of the line.
             alphas: opacity at either end; it changes evenly between them.
         """
-        state = (start, end, pen, alphas)
+        state = (start, end, ink, alphas)
         if state == self._state:
             return
         self._state = state
-        self._start, self._end = QPointF(*start), QPointF(*end)
-        self._pen, self._alphas = pen, alphas
-        self.touch()
-
-    def boundingRect(self) -> QRectF:
-        """Return the rectangle between its ends [mm]."""
-        return QRectF(self._start, self._end).normalized()
-
-    def paint(self, painter: QPainter) -> None:
-        """Draw rim and line."""
-        start, end, alphas = self._start, self._end, self._alphas
-        solid = alphas == (1.0, 1.0)
-        painter.setPen(_rim_of(self._pen) if solid else _faded(self._pen, start, end, alphas, True))
-        painter.drawLine(start, end)
-        painter.setPen(self._pen if solid else _faded(self._pen, start, end, alphas))
-        painter.drawLine(start, end)
-
-
-def _faded(
-    pen: QPen, start: QPointF, end: QPointF, alphas: tuple[float, float], dark: bool = False
-) -> QPen:
-    """Pen, or the dark one below it, that fades evenly between the ends of a line."""
-    made = QPen(_rim_of(pen) if dark else pen)
-    colour = made.color()
-    red, green, blue = colour.red(), colour.green(), colour.blue()
-    share = 255.0 * (RIM if dark else 1.0)
-    gradient = QLinearGradient(start, end)
-    for place, alpha in zip((0.0, 1.0), alphas, strict=True):
-        gradient.setColorAt(place, QColor(red, green, blue, round(share * alpha)))
-    made.setBrush(QBrush(gradient))
-    return made
+        self.set_rows([*stroke(start, end, ink.rim, alphas), *stroke(start, end, ink, alphas)])
 
 
 class MarkItem(Shape):
@@ -97,7 +54,8 @@ class MarkItem(Shape):
         """Make a mark; an `optional` label is left out where there is no good place for it."""
         super().__init__(z)
         self._mark, self._optional = mark, optional
-        self._label, self._near, self._text_px = "", True, theme.SMALL_PX
+        self._label, self._near = "", True
+        self._words: Callable[[], str] = str
         self._size = QSizeF()
         self._at = QPointF()
         self._rect: QRectF | None = None
@@ -111,19 +69,30 @@ class MarkItem(Shape):
         """Where it stands [mm]."""
         return self._at.y()
 
-    def place(self, x: float, y: float, label: str, near: bool) -> None:
-        """Stand at (x, y) [mm]; faded and with a broken outline where the slice is not `near`."""
-        state = (label, near, theme.SMALL_PX)
-        if state != (self._label, self._near, self._text_px):
-            self._size = _text_size(label, theme.SMALL_PX)
-            self._label, self._near, self._text_px = state
+    def place(self, x: float, y: float, words: Callable[[], str], near: bool) -> None:
+        """Stand at (x, y) [mm].
+
+        Args:
+            x: place in the plane, to the right.
+            y: place in the plane, down.
+            words: its name; asked only as often as words are written.
+            near: whether it lies in the slice; else it is faded, with a broken outline.
+        """
+        self._words, self._near = words, near
         self._at = QPointF(x, y)
         self.touch()
 
     def wanted(self, at: QPointF) -> Wanted | None:
         """Say what place the label wants, the mark standing at this pixel; None without a label."""
-        if not self._label or not self.isVisible():
+        if not self.isVisible():
             return None
+        label = self._words()
+        if label != self._label:
+            self._label = label
+            self.touch()
+        if not label:
+            return None
+        self._size = _text_size(self._label, theme.SMALL_PX)
         width, height = self._size.width(), self._size.height()
         return Wanted(at.x(), at.y(), width, height, self.RADIUS, self._last, self._optional)
 
@@ -150,26 +119,13 @@ class MarkItem(Shape):
         symbol = _symbol(self._mark, self._near, ratio)
         half = _reach(self._mark)
         painter.drawPixmap(at - QPointF(half, half), symbol)
-        if self._rect is None:
+        if self._rect is None or not self._label:
             return
         colour = _label_colour(self._mark, self._near)
         picture = rimmed(self._label, theme.SMALL_PX, colour, ratio)
         middle, size = self._rect.center() + at, picture.deviceIndependentSize()
         corner = QPointF(middle.x() - size.width() / 2, middle.y() - size.height() / 2)
         painter.drawPixmap(corner, picture)
-
-
-@lru_cache(maxsize=64)
-def _rim(width: float, cap: Qt.PenCapStyle) -> QPen:
-    pen = QPen(QColor.fromRgbF(0.0, 0.0, 0.0, RIM), width + 2.0)
-    pen.setCosmetic(True)
-    pen.setCapStyle(cap)
-    return pen
-
-
-def _rim_of(pen: QPen) -> QPen:
-    """Dark pen below a lighter one."""
-    return _rim(pen.widthF(), pen.capStyle())
 
 
 def _reach(mark: Mark) -> float:

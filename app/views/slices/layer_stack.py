@@ -42,6 +42,10 @@ WAITED_FOR = frozenset({Due.CAMERA, Due.GREYS, Due.PLAN, Due.ADDED})
 """What somebody does and looks at: its words are written at once."""
 
 
+UNSEEN_PX = 0.1
+"""What moves by less is not placed and painted anew."""
+
+
 class Layer(Protocol):
     """Something drawn over a slice: owns shapes of the pane's `drawing`."""
 
@@ -117,6 +121,8 @@ class LayerStack:
                 self.traces.place(plane, index, scale)
         if Due.PLAN in due:
             self._place_plan(plane, index, scale)
+        if Due.NEEDLE in due and due == {Due.NEEDLE} and self._stands(scale):
+            due = frozenset()
         if Due.NEEDLE in due:
             self._place_needle(plane, index)
         if self.ticks is not None and (Due.PLAN in due or Due.NEEDLE in due):
@@ -137,6 +143,19 @@ class LayerStack:
         self.needle.place(needle, plane, index)
         error = needle.error if needle is not None and self._viewing.shows_errors else None
         self.errors.place_tip(error, plane, index)
+
+    def _stands(self, scale: float) -> bool:
+        """Whether the needle has moved less than can be seen since it was placed last."""
+        before, now = self.needle.shown, self._viewing.needle
+        if before is None or now is None or before is now or before.valid is not now.valid:
+            return False
+        old, new = before.points_mm, now.points_mm
+        if old.shape != new.shape or np.abs(new - old).max() * scale > UNSEEN_PX:
+            return False
+        if before.error is None or now.error is None:
+            return before.error is now.error
+        change = np.abs(now.error.covariance_mm2 - before.error.covariance_mm2).max()
+        return bool(np.sqrt(change) * scale <= UNSEEN_PX)
 
     def arrange_labels(
         self,

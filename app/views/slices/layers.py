@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -15,7 +16,7 @@ from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.kit.theme import Mark
 from app.views.slices.cross_line import CrossLine
-from app.views.slices.drawing import Drawing
+from app.views.slices.drawing import Drawing, Ink
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.labels import arrange
 from app.views.slices.panes import PANE_MARKS, PaneId, crossing_panes
@@ -85,8 +86,7 @@ class SegmentLayer:
     """A segment in space: solid in the slab, outside dashed and the fainter the farther off."""
 
     def __init__(self, drawing: Drawing, mark: Mark, z: float) -> None:
-        self._solid, self._broken = mark.pen(), mark.pen()
-        self._broken.setDashPattern([4.0, 3.0])
+        self._solid, self._broken = Ink.of(mark), Ink.of(mark, dash=(4.0, 3.0))
         self._items = [SegmentItem(z) for _ in range(3)]
         for item in self._items:
             drawing.add(item)
@@ -97,8 +97,8 @@ class SegmentLayer:
         for item, part in zip(self._items, parts, strict=False):
             near, far = (fading(distance, half_mm) for distance in part.distances)
             alphas = (1.0, 1.0) if part.inside else (near, far)
-            pen = self._solid if part.inside else self._broken
-            item.place(part.start, part.end, pen, alphas)
+            ink = self._solid if part.inside else self._broken
+            item.place(part.start, part.end, ink, alphas)
         for number, item in enumerate(self._items):
             item.setVisible(number < len(parts))
 
@@ -152,6 +152,7 @@ class NeedleLayer:
     """Shaft and tip of the live needle.
 
     Attributes:
+        shown: the needle that was placed last; None for none.
         tip: its mark; its label is left out where there is no room beside those of the plan.
     """
 
@@ -161,10 +162,12 @@ class NeedleLayer:
         self._doubtful = SegmentLayer(drawing, Mark(theme.IMAGE_DIM, width=2.0), 3)
         self.tip = MarkItem(theme.NEEDLE_TIP, 5, optional=True)
         self.tip.setVisible(False)
+        self.shown: NeedleOverlay | None = None
         drawing.add(self.tip)
 
     def place(self, needle: NeedleOverlay | None, plane: SlicePlane, index: float) -> None:
         """Show the needle, grey where its pose is not valid."""
+        self.shown = needle
         if needle is None:
             self.hide()
             return
@@ -243,6 +246,11 @@ def place_mark(item: MarkItem, at: PlanePoint | None, name: str, plane: SlicePla
     if at is None:
         return
     near = abs(at.distance) <= plane.half_slab_mm
-    side = plane.towards(at.distance)
-    distance = "" if near else tr("{distance:.0f} mm {side}", distance=abs(at.distance), side=side)
-    item.place(at.x, at.y, f"{name} {distance}".strip(), near)
+    item.place(at.x, at.y, partial(_words, name, at.distance, near, plane), near)
+
+
+def _words(name: str, distance: float, near: bool, plane: SlicePlane) -> str:
+    if near:
+        return name
+    side = plane.towards(distance)
+    return f"{name} {tr('{distance:.0f} mm {side}', distance=abs(distance), side=side)}".strip()

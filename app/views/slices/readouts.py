@@ -13,10 +13,10 @@ from app.views.kit.coordinates import lps_words
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.slices.canvas import SliceCanvas
-from app.views.slices.corners import PADDING, Overlay, Ruler
 from app.views.slices.needle_source import Along
 from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
 from app.views.slices.plane import SlicePlane
+from app.views.slices.words import PADDING, Overlay, Ruler
 
 _A = Qt.AlignmentFlag
 

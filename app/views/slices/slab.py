@@ -42,21 +42,17 @@ def pieces(start: PlanePoint, end: PlanePoint, half_mm: float) -> list[Piece]:
     A segment parallel to the slice gives one piece. Pieces shorter than 1e-9 of the whole are left
     out, so that no zero-length line is drawn.
     """
-    cuts = [0.0, *_crossings(start.distance, end.distance, half_mm), 1.0]
-    return [
-        Piece(
-            _between(start, end, a),
-            _between(start, end, b),
-            inside,
-            (
-                abs(_mix(start.distance, end.distance, a)),
-                abs(_mix(start.distance, end.distance, b)),
-            ),
-        )
-        for a, b in pairwise(cuts)
-        if b - a > 1e-9
-        for inside in [_off(start, end, (a + b) / 2) <= half_mm]
-    ]
+    low, high = start.distance, end.distance
+    if max(abs(low), abs(high)) <= half_mm:
+        return [Piece(start[:2], end[:2], True, (abs(low), abs(high)))]
+    cuts = [0.0, *_crossings(low, high, half_mm), 1.0]
+    found = []
+    for a, b in pairwise(cuts):
+        if b - a > 1e-9:
+            inside = abs(_mix(low, high, (a + b) / 2)) <= half_mm
+            distances = abs(_mix(low, high, a)), abs(_mix(low, high, b))
+            found.append(Piece(_between(start, end, a), _between(start, end, b), inside, distances))
+    return found
 
 
 def chord(
@@ -80,8 +76,8 @@ def chord(
             if not low <= position <= low + size:
                 return inf, -inf
             continue
-        one, other = sorted(((low - position) / rate, (low + size - position) / rate))
-        first, last = max(first, one), min(last, other)
+        one, other = (low - position) / rate, (low + size - position) / rate
+        first, last = max(first, min(one, other)), min(last, max(one, other))
     return first, last
 
 
@@ -107,10 +103,6 @@ def _crossings(first: float, last: float, half_mm: float) -> list[float]:
 
 def _between(start: PlanePoint, end: PlanePoint, fraction: float) -> tuple[float, float]:
     return _mix(start.x, end.x, fraction), _mix(start.y, end.y, fraction)
-
-
-def _off(start: PlanePoint, end: PlanePoint, fraction: float) -> float:
-    return abs(_mix(start.distance, end.distance, fraction))
 
 
 def _mix(a: float, b: float, fraction: float) -> float:

@@ -5,16 +5,16 @@ from __future__ import annotations
 from math import hypot
 
 import numpy as np
-from PySide6.QtCore import QLineF, QPointF, QRectF
-from PySide6.QtGui import QPainter, QPen
+from PySide6.QtCore import QPointF
+from PySide6.QtGui import QPainter
 
 from app.core.arrays import FloatArray
 from app.views.kit import theme
 from app.views.kit.theme import Mark
-from app.views.slices.drawing import Drawing, Shape
+from app.views.slices.drawing import Drawing, Ink, Shape, Strokes, stroke
 from app.views.slices.plane import SlicePlane
-from app.views.slices.rimmed_text import rimmed
 from app.views.slices.viewing import Viewing
+from app.views.slices.words import rimmed
 
 STEP_MM = 10.0
 LABEL_PX = 42.0
@@ -25,22 +25,23 @@ BEYOND_MM, SHORTEST_MM, LONGEST_MM = 20.0, 50.0, 200.0
 """The line goes so far beyond the target, and is at least and at most so long."""
 
 LINE = Mark(theme.NEEDLE_TIP.colour, dash=(1.5, 3.0), width=1.5)
+_LINE_INK, _TICK_INK = Ink.of(LINE), Ink.of(LINE, dash=())
 
 
-_LINE_PEN, _TICK_PEN = LINE.pen(), QPen(LINE.qcolor(), 1.5)
-_TICK_PEN.setCosmetic(True)
-
-
-class TicksItem(Shape):
-    """A dotted line with ticks and their distances from its start."""
+class TicksItem(Strokes):
+    """A dotted line with ticks; their distances from its start stand in `labels`."""
 
     def __init__(self) -> None:
         super().__init__(2.5, visible=False)
-        self._start, self._along = QPointF(), QPointF()
-        self._length = self._step = self._scale = 0.0
-        self._label_mm = STEP_MM
-        self._faded = False
+        self.labels = _Labels()
+        self._start, self._along = (0.0, 0.0), (0.0, 0.0)
+        self._length = self._step = 0.0
         self._state: tuple[object, ...] = ()
+
+    def setVisible(self, visible: bool) -> None:
+        """Draw line and labels from now on, or not."""
+        super().setVisible(visible)
+        self.labels.setVisible(visible)
 
     def place(
         self,
@@ -69,54 +70,60 @@ class TicksItem(Shape):
         if state == self._state:
             return
         self._state = state
-        self._start, self._along = QPointF(*start), QPointF(run / seen, fall / seen)
+        self._start, self._along = start, (run / seen, fall / seen)
         self._length, self._step = seen, STEP_MM * seen / length_mm
-        self._scale, self._faded = scale, faded
-        steps = (1, 2, 5, 10, 20)
         apart = self._step * scale
-        self._label_mm = STEP_MM * next((n for n in steps if n * apart >= LABEL_PX), 50)
-        self.touch()
+        label_mm = STEP_MM * next((n for n in (1, 2, 5, 10, 20) if n * apart >= LABEL_PX), 50)
+        opacity = 0.5 if faded else 0.95
+        alphas = (opacity, opacity)
+        rows = [*stroke(start, end, _LINE_INK, alphas)]
+        dx, dy = -self._along[1] / scale, self._along[0] / scale
+        labels: list[tuple[QPointF, str]] = []
+        for number, (x, y) in enumerate(self._places(), start=1):
+            reach = LONG_TICK_PX if number % 5 == 0 else TICK_PX
+            across, down = reach * dx, reach * dy
+            rows += stroke((x - across, y - down), (x + across, y + down), _TICK_INK, alphas)
+            depth = number * STEP_MM
+            if round(depth % label_mm, 6) == 0:
+                beside = 2.2 * LONG_TICK_PX
+                labels.append((QPointF(x + beside * dx, y + beside * dy), f"{depth:.0f}"))
+        self.set_rows(rows)
+        self.labels.show(labels, opacity)
+
+    def _places(self) -> list[tuple[float, float]]:
+        count = int(self._length / self._step + 1e-9) if self._step > 0.0 else 0
+        (x, y), (dx, dy), step = self._start, self._along, self._step
+        return [(x + n * step * dx, y + n * step * dy) for n in range(1, count + 1)]
 
     @property
     def ticks(self) -> list[QPointF]:
         """Places of the ticks [mm], the first one step from the start."""
-        count = int(self._length / self._step + 1e-9) if self._step > 0.0 else 0
-        return [self._start + self._along * (n * self._step) for n in range(1, count + 1)]
+        return [QPointF(x, y) for x, y in self._places()]
 
-    def boundingRect(self) -> QRectF:
-        """Return the rectangle between the line's ends [mm]."""
-        return QRectF(self._start, self._start + self._along * self._length).normalized()
+
+class _Labels(Shape):
+    """Distances beside the ticks; they do not zoom."""
+
+    def __init__(self) -> None:
+        super().__init__(3.9, visible=False)
+        self._labels: list[tuple[QPointF, str]] = []
+        self._opacity = 1.0
+
+    def show(self, labels: list[tuple[QPointF, str]], opacity: float) -> None:
+        """Write these in the middle of these places [mm]."""
+        self._labels, self._opacity = labels, opacity
+        self.touch()
 
     def paint(self, painter: QPainter) -> None:
-        """Draw line, ticks and labels with a dark rim."""
-        painter.setOpacity(0.5 if self._faded else 0.95)
-        painter.setPen(_LINE_PEN)
-        painter.drawLine(self._start, self._start + self._along * self._length)
-        across = QPointF(-self._along.y(), self._along.x()) / self._scale
-        painter.setPen(_TICK_PEN)
-        lines: list[QLineF] = []
-        labels: list[tuple[QPointF, str]] = []
-        to_pixels = painter.transform()
-        for number, tick in enumerate(self.ticks, start=1):
-            reach = across * (LONG_TICK_PX if number % 5 == 0 else TICK_PX)
-            lines.append(QLineF(tick - reach, tick + reach))
-            depth = number * STEP_MM
-            if round(depth % self._label_mm, 6) == 0:
-                at = to_pixels.map(tick + across * (2.2 * LONG_TICK_PX))
-                labels.append((QPointF(at), f"{depth:.0f}"))
-        painter.drawLines(lines)
-        self._draw_labels(painter, labels)
-        painter.setOpacity(1.0)
-
-    @staticmethod
-    def _draw_labels(painter: QPainter, labels: list[tuple[QPointF, str]]) -> None:
-        """Copy the labels to these pixels of the device."""
-        ratio = painter.device().devicePixelRatioF()
+        """Copy the words."""
+        ratio, to_pixels = painter.device().devicePixelRatioF(), painter.transform()
         painter.resetTransform()
-        for at, text in labels:
+        painter.setOpacity(self._opacity)
+        for place, text in self._labels:
             picture = rimmed(text, theme.SMALL_PX, theme.NEEDLE_TIP.colour, ratio)
-            size = picture.deviceIndependentSize()
+            size, at = picture.deviceIndependentSize(), to_pixels.map(place)
             painter.drawPixmap(at - QPointF(size.width() / 2, size.height() / 2), picture)
+        painter.setOpacity(1.0)
 
 
 class TickLayer:
@@ -126,6 +133,7 @@ class TickLayer:
         self._viewing = viewing
         self.item = TicksItem()
         drawing.add(self.item)
+        drawing.add(self.item.labels)
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Show the ticks where needle or path are."""

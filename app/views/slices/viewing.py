@@ -22,7 +22,7 @@ from app.views.slices.bindings import OHIF, Scheme
 from app.views.slices.greys import Greys
 from app.views.slices.looks import Look
 from app.views.slices.panes import PaneId
-from app.views.slices.picture_maker import PictureMaker
+from app.views.slices.pictures import PictureMaker
 from app.views.slices.plane import SlicePlane
 from app.views.slices.planes import Planes
 
@@ -77,7 +77,9 @@ class Viewing(QObject):
         self.volume: Volume | None = None
         self.slicer: OrthogonalSlicer | None = None
         self._planes = Planes()
-        self.pictures = PictureMaker()
+        self.pictures = PictureMaker(self)
+        self.pictures.idle.connect(self._go_on)
+        self._next_needle: NeedleOverlay | None = None
         self.greys = Greys(window, self)
         self.greys.changed.connect(self.window_changed)
         self.scheme, self.left_zooms, self.level_reversed = OHIF, False, False
@@ -107,6 +109,7 @@ class Viewing(QObject):
         """Show another volume; the crosshair goes to its middle."""
         before = "HU" if self.volume is None else self.volume.unit
         self.volume, self.slicer = volume, OrthogonalSlicer(volume)
+        self._next_needle = None  # of another patient
         self._planes.begin(volume, self.slicer)
         self.volume_changed.emit()
         if volume.unit != before or volume.unit != "HU":
@@ -232,9 +235,24 @@ class Viewing(QObject):
         self.tolerances_mm = radii_mm
         self.plan_changed.emit()
 
+    def follow_needle(self, needle: NeedleOverlay) -> None:
+        """Show a needle that moves, as soon as every pane has drawn the last one.
+
+        On a machine that cannot keep up, panes then draw fewer needles, but each of them whole: in
+        all panes the same one, over pictures that are its own. The newest one is never left out.
+        """
+        if self.pictures.is_awaited:
+            self._next_needle = needle
+        else:
+            self.set_needle(needle)
+
+    def _go_on(self) -> None:
+        if self._next_needle is not None:
+            self.set_needle(self._next_needle)
+
     def set_needle(self, needle: NeedleOverlay | None) -> None:
         """Show the live needle (None hides it); the image is not touched unless slices follow."""
-        self.needle = needle
+        self.needle, self._next_needle = needle, None
         self.needle_changed.emit()
         if needle is None or not needle.valid or not self.follows_tip:
             return

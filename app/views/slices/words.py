@@ -1,9 +1,11 @@
-"""Read-outs over a pane: text with a dark rim in the corners, letters on the edges, the ruler.
+"""Words over a pane: text with a dark rim at marks, in the corners, on the edges, and the ruler.
 
 Each is drawn once, as a picture, and copied with every painting of the slice below it.
 """
 
 from __future__ import annotations
+
+from functools import lru_cache
 
 from PySide6.QtCore import QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen, QPixmap
@@ -16,6 +18,57 @@ from app.views.slices.camera import ruler
 PADDING = 6
 RULER_PX = 110.0
 _A = Qt.AlignmentFlag
+_RIM = ((-1, 0), (1, 0), (0, -1), (0, 1))
+_RIM_COLOUR = QColor(0, 0, 0, 220)
+
+
+def blank(size: QSize, ratio: float) -> QPixmap:
+    """Return a transparent picture of a size in the window's pixels, `ratio` times as fine."""
+    picture = QPixmap(size * ratio)
+    picture.setDevicePixelRatio(ratio)
+    picture.fill(Qt.GlobalColor.transparent)
+    return picture
+
+
+def with_rim(text: QPixmap, size: QSize, rim: QColor | Qt.GlobalColor) -> QPixmap:
+    """Put a dark rim round text that is drawn already: letters are slow to draw, quick to copy.
+
+    Args:
+        text: on transparent ground.
+        size: of it in the window's pixels.
+        rim: colour of the rim.
+    """
+    dark, picture = QPixmap(text), blank(size, text.devicePixelRatio())
+    with QPainter(dark) as painter:
+        painter.setCompositionMode(QPainter.CompositionMode.CompositionMode_SourceIn)
+        painter.fillRect(QRect(QPoint(), size), rim)
+    with QPainter(picture) as painter:
+        for dx, dy in _RIM:
+            painter.drawPixmap(dx, dy, dark)
+        painter.drawPixmap(0, 0, text)
+    return picture
+
+
+@lru_cache(maxsize=256)
+def rimmed(text: str, pixels: int, colour: str, ratio: float) -> QPixmap:
+    """Return a picture of a text.
+
+    Args:
+        text: a few letters.
+        pixels: height of the font.
+        colour: of the text.
+        ratio: the screen's pixels to one of the window's.
+    """
+    font = QFont()
+    font.setPixelSize(pixels)
+    metrics = QFontMetrics(font)
+    size = QSize(metrics.horizontalAdvance(text) + 4, metrics.height() + 2)
+    letters = blank(size, ratio)
+    with QPainter(letters) as painter:
+        painter.setFont(font)
+        painter.setPen(QColor(colour))
+        painter.drawText(QRect(QPoint(), size), _A.AlignCenter | Qt.TextFlag.TextDontClip, text)
+    return with_rim(letters, size, Qt.GlobalColor.black)
 
 
 class Written:
@@ -59,11 +112,7 @@ class Written:
     def _blank(self, size: QSize) -> QPixmap:
         """Become so large; return a transparent picture of that size in the screen's pixels."""
         self._rect.setSize(size)
-        ratio = self._pane.devicePixelRatioF()
-        picture = QPixmap(size * ratio)
-        picture.setDevicePixelRatio(ratio)
-        picture.fill(Qt.GlobalColor.transparent)
-        return picture
+        return blank(size, self._pane.devicePixelRatioF())
 
 
 class Overlay(Written):
@@ -131,25 +180,22 @@ class Overlay(Written):
         self.move(x, y)
 
     def _draw(self) -> None:
-        """Every line several times: a dark rim, then the text."""
         font = QFont(self._pane.font())
         font.setPixelSize(theme.SMALL_PX + self._larger)
         font.setBold(self._bold)
         metrics = QFontMetrics(font)
         height = metrics.height()
         width = max((metrics.horizontalAdvance(line) for line in self.lines), default=0) + 4
-        picture = self._blank(QSize(width, height * len(self.lines) + 2))
-        with QPainter(picture) as painter:
+        size = QSize(width, height * len(self.lines) + 2)
+        letters = self._blank(size)
+        with QPainter(letters) as painter:
             painter.setFont(font)
             for number, line in enumerate(self.lines):
                 box = QRect(1, 1 + number * height, width - 2, height)
-                painter.setPen(QColor(0, 0, 0, 220))
-                for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-                    painter.drawText(box.translated(dx, dy), self._flags, line)
                 first = self._first if number == 0 and self._first is not None else self._colour
                 painter.setPen(first)
                 painter.drawText(box, self._flags, line)
-        self._picture = picture
+        self._picture = with_rim(letters, size, _RIM_COLOUR)
         self._pane.update()
 
 
