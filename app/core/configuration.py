@@ -5,6 +5,7 @@ from typing import Any, TypeVar
 
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError, ValidationInfo, field_validator
+from pydantic_core import ErrorDetails
 
 from app.core.errors import ConfigurationError
 
@@ -15,6 +16,9 @@ LARGEST_FILE = 1 << 20
 
 MOST_VALUES = 200_000
 """Nor holds more values than this; a few lines of aliases can stand for any number of them."""
+
+MOST_PROBLEMS = 12
+"""A message names so many wrong values; a list may hold thousands."""
 
 
 class Strict(BaseModel):
@@ -136,15 +140,40 @@ def load(path: Path, model: type[M]) -> M:
 
 
 def parse(document: Any, model: type[M], origin: str) -> M:
-    """Check a document that is already in memory; `origin` names it in messages."""
+    """Check a document that is already in memory; `origin` names it in messages.
+
+    Raises:
+        ConfigurationError: naming every field that is wrong or missing, its value and what would
+            be valid.
+    """
     try:
         return model.model_validate(document)
     except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        field = ".".join(str(part) for part in first["loc"]) or "(document)"
-        more = f" (and {error.error_count() - 1} more)" if error.error_count() > 1 else ""
-        value = shown(first.get("input"))
-        raise ConfigurationError(f"{origin}: {field}: {first['msg']}, got {value}{more}") from error
+        problems = error.errors(include_url=False)
+        missing = [_field(one) for one in problems if one["type"] == "missing"]
+        said = [f"required and missing: {', '.join(missing)}"] if missing else []
+        said += [_problem(one, model) for one in problems if one["type"] != "missing"]
+        if len(said) > MOST_PROBLEMS:
+            said[MOST_PROBLEMS:] = [f"and {len(said) - MOST_PROBLEMS} more like these"]
+        raise ConfigurationError(f"{origin}: {'; '.join(said)}") from error
+
+
+def _field(problem: ErrorDetails) -> str:
+    return ".".join(str(part) for part in problem["loc"]) or "(document)"
+
+
+def _problem(problem: ErrorDetails, model: type[Strict]) -> str:
+    """Say what is wrong with one field; of a mapping or a list its kind, not all that it holds."""
+    value = problem.get("input")
+    text = f"{_field(problem)}: {problem['msg']}, got "
+    if isinstance(value, dict | list):
+        text += f"a {'mapping' if isinstance(value, dict) else 'list'} of {len(value)}"
+    else:
+        text += shown(value)
+    if problem["type"] == "extra_forbidden" and len(problem["loc"]) == 1:
+        valid = (field.alias or name for name, field in model.model_fields.items())
+        text += f"; valid names: {', '.join(valid)}"
+    return text
 
 
 def shown(value: object) -> str:

@@ -12,6 +12,12 @@ class Probe(Strict):
     name: str = "probe"
 
 
+class Pair(Strict):
+    first: Probe
+    second: Probe
+    sizes: tuple[int, ...] = ()
+
+
 def written(tmp_path, text):
     path = tmp_path / "probe.yaml"
     path.write_text(text)
@@ -51,6 +57,25 @@ def test_a_bad_file_is_refused_naming_file_field_and_value(tmp_path, text, parts
     for part in ["probe.yaml", *parts]:
         assert part.lower() in message.lower()
     assert "\n" not in message
+
+
+def test_every_field_that_is_wrong_is_named_at_once_and_nothing_is_dumped(tmp_path):
+    with pytest.raises(ConfigurationError) as caught:
+        load(written(tmp_path, "first: {name: x, rate: 3}\nsizes: {a: 1}\nthird: [4, 5]\n"), Pair)
+    message = str(caught.value).partition("probe.yaml: ")[2]
+    assert message == (
+        "required and missing: first.rate_hz, second; "
+        "first.rate: Extra inputs are not permitted, got 3; "
+        "sizes: Input should be a valid tuple, got a mapping of 1; "
+        "third: Extra inputs are not permitted, got a list of 2; "
+        "valid names: first, second, sizes"
+    )
+
+
+def test_thousands_of_wrong_values_are_named_by_the_first_of_them(tmp_path):
+    text = f"first: {{rate_hz: 1}}\nsecond: {{rate_hz: 1}}\nsizes: [{'x, ' * 3000}]\n"
+    with pytest.raises(ConfigurationError, match="and 2988 more like these"):
+        load(written(tmp_path, text), Pair)
 
 
 def test_a_missing_file_is_named(tmp_path):
