@@ -14,8 +14,8 @@ from app import __version__
 from app.commands.answer import Commands
 
 NOUNS = (
-    *("run", "demo", "check", "ct", "library", "pacs", "structures", "transform", "session"),
-    *("device", "camera", "calibrate", "registration", "plate", "pen", "urdf", "explain"),
+    *("run", "demo", "check", "ct", "pacs", "structures", "transform", "session"),
+    *("device", "camera", "calibrate", "registration", "pen", "urdf", "explain"),
     *("law", "study"),
 )
 

@@ -1,32 +1,176 @@
-"""`acus calibrate`: cameras from pictures of a board."""
+"""`acus calibrate mono`, `stereo` and `views`: pictures in, calibration out."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from app.commands.answer import Answer
-from app.commands.calibrate_cameras import mono, stereo
 from app.commands.calibrate_parts import (
     BoardSpec,
-    Images,
     app,
+    mono_document,
+    mono_lines,
+    stereo_document,
+    stereo_lines,
     view_document,
     view_line,
     with_progress,
 )
+from app.commands.calibrate_parts import Images as Folder
 
-app.command("mono")(mono)
-app.command("stereo")(stereo)
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from app.core.progress import Progress
+    from app.tracking.calibration.boards import Board
+    from app.tracking.calibration.checks import Check
+    from app.tracking.calibration.pairing import Pair, Paired
+    from app.tracking.calibration.sets import MonoSet, StereoSet
+
+DEFAULT = "charuco:9x6:20mm:15mm:DICT_5X5_100"
+Images = Annotated[
+    Path | None, typer.Option("--images", metavar="DIR", help="Folder of the pictures.")
+]
+HoldBack = Annotated[
+    int | None,
+    typer.Option("--hold-back", min=0, help="Views held back for validation; 0: none."),
+]
+Window = Annotated[
+    int | None,
+    typer.Option(min=1, max=50, help="Half the sub-pixel window [px], to compare; else chosen."),
+]
+Out = Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the YAML here.")]
 
 
 def register(root: typer.Typer) -> None:
     """Add `calibrate` to the command line, with the commands of its other files."""
-    from app.commands import calibrate_exchange, calibrate_history, calibrate_world  # noqa: F401
+    from app.commands import calibrate_history, calibrate_world  # noqa: F401
 
     root.add_typer(app, name="calibrate")
 
 
+@app.command("mono")
+def mono(
+    images: Images = None,
+    board: BoardSpec = DEFAULT,
+    hold_back: HoldBack = None,
+    window: Window = None,
+    out: Out = None,
+) -> Answer:
+    """Calibrate one camera, or each of two by itself.
+
+    Of two, their names stand in the pictures' names.
+
+    With --out one camera's lens is written, as `acus pen calibrate --lens` and `pen.yaml` take it.
+    """
+    from app.core.errors import ConfigurationError
+    from app.tracking.calibration.boards import parse_board
+    from app.tracking.calibration.formats.own import save_camera
+    from app.tracking.calibration.pairing import cameras_of
+    from app.tracking.calibration.pictures import list_pictures
+    from app.tracking.calibration.sets import mono_set
+
+    known = parse_board(board)
+    groups, strays = cameras_of(list_pictures(_folder(images)))
+
+    def work(progress: "Progress") -> "list[MonoSet]":
+        share = 1.0 / len(groups)
+        return [
+            mono_set(
+                name, paths, known, hold_back, window, progress.part(i * share, (i + 1) * share)
+            )
+            for i, (name, paths) in enumerate(groups.items())
+        ]
+
+    for path in strays:
+        typer.echo(f"skipped: {path.name}: its name says none of the two cameras", err=True)
+    if out is not None and len(groups) != 1:
+        raise ConfigurationError(
+            f"--out takes the lens of one camera; these pictures are of {', '.join(groups)}: "
+            "give a folder for each, or use `acus calibrate stereo`"
+        )
+    found = with_progress(work)
+    if out is not None:
+        save_camera(out, found[0].result.calibration)
+        typer.echo(f"wrote {out}", err=True)
+    facts = {"board": known.spec, "cameras": [mono_document(one) for one in found]}
+    return Answer(facts, [line for one in found for line in mono_lines(one)])
+
+
+@app.command("stereo")
+def stereo(
+    images: Images = None,
+    board: BoardSpec = DEFAULT,
+    left: Annotated[
+        str | None, typer.Option(metavar="DIR|GLOB", help="Left pictures, in place of --images.")
+    ] = None,
+    right: Annotated[str | None, typer.Option(metavar="DIR|GLOB", help="Right pictures.")] = None,
+    left_alone: Annotated[
+        str | None,
+        typer.Option(
+            metavar="DIR|GLOB", help="More left pictures, of no pair: they help the left lens."
+        ),
+    ] = None,
+    right_alone: Annotated[
+        str | None, typer.Option(metavar="DIR|GLOB", help="More right pictures, of no pair.")
+    ] = None,
+    hold_back: HoldBack = None,
+    names: Annotated[str, typer.Option(help="The cameras' names in the rig.")] = "left,right",
+    baseline_mm: Annotated[
+        float | None,
+        typer.Option(min=0.1, help="Distance of the cameras by ruler [mm]: checks the board."),
+    ] = None,
+    check_images: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Pairs of a second board: checks the first.")
+    ] = None,
+    check_board: Annotated[
+        str | None, typer.Option(metavar="SPEC", help="The second board.")
+    ] = None,
+    window: Window = None,
+    out: Out = None,
+    keep: Annotated[
+        bool, typer.Option("--keep", help="Keep it in the history and use it from now on.")
+    ] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="Write and keep it even if it is not good enough.")
+    ] = False,
+) -> Answer:
+    """Calibrate two cameras from pairs of pictures. Validated on pairs held back.
+
+    Pictures are paired by name (docs/calibration.md): left01.png with right01.png, camera0_3.png
+    with camera1_3.png; one without a partner helps its own lens. A known baseline or a second board
+    contradicts a wrong board size. Exit code 3: it is not good enough, nothing was written or kept.
+    """
+    from app.tracking.calibration.boards import parse_board
+    from app.tracking.calibration.sets import stereo_set
+    from app.tracking.calibration.verdict import Grade, judge
+
+    known = parse_board(board)
+    second = _second(check_images, check_board)
+    paired = _paired(images, left, right)
+    both = _names(names)
+    alone = _alone(paired, left_alone, right_alone)
+    found = with_progress(
+        lambda progress: stereo_set(
+            paired.pairs, known, both, hold_back, window, progress, alone=alone
+        )
+    )
+    checks = _checks(found, baseline_mm, second)
+    verdict = judge(found.calibration, checks)
+    facts = stereo_document(found, checks, verdict) | {"remarks": paired.remarks}
+    lines = [*stereo_lines(found, checks, verdict), *(f"  {line}" for line in paired.remarks)]
+    if verdict.grade is Grade.NOT_GOOD_ENOUGH and not force:
+        if out is not None or keep:
+            typer.echo("not written and not kept; --force does it all the same", err=True)
+        return Answer(facts, lines, yes=False)
+    _write(found, out, keep)
+    return Answer(facts, lines, yes=True)
+
+
 @app.command("views")
 def list_views(
-    images: Images,
+    images: Folder,
     board: BoardSpec = "charuco:9x6:20mm:15mm:DICT_5X5_100",
 ) -> Answer:
     """Say of every picture whether it can be used. Or why it cannot."""
@@ -38,3 +182,80 @@ def list_views(
     found = with_progress(lambda progress: look_at_all(paths, known, progress))
     facts = {"board": known.spec, "views": [view_document(view) for view in found]}
     return Answer(facts, [view_line(view) for view in found])
+
+
+def _folder(images: Path | None) -> Path:
+    from app.core.errors import ConfigurationError
+
+    if images is None:
+        raise ConfigurationError("name the folder of the pictures: --images DIR")
+    return images
+
+
+def _alone(paired: "Paired", left: str | None, right: str | None) -> tuple[list[Path], list[Path]]:
+    from app.tracking.calibration.pictures import list_matching
+
+    first, second = (
+        [*lone, *(list_matching(text) if text is not None else ())]
+        for lone, text in zip(paired.alone, (left, right), strict=True)
+    )
+    return first, second
+
+
+def _paired(images: Path | None, left: str | None, right: str | None) -> "Paired":
+    from app.core.errors import ConfigurationError
+    from app.tracking.calibration.pairing import pair_folder, pair_folders
+    from app.tracking.calibration.pictures import list_matching
+
+    if (left is None) != (right is None) or (images is None) == (left is None):
+        raise ConfigurationError("name the pictures: either --images DIR, or --left and --right")
+    if left is not None and right is not None:
+        return pair_folders(list_matching(left), list_matching(right))
+    return pair_folder(_folder(images))
+
+
+def _second(images: Path | None, spec: str | None) -> "tuple[Sequence[Pair], Board] | None":
+    from app.core.errors import ConfigurationError
+    from app.tracking.calibration.boards import parse_board
+    from app.tracking.calibration.pairing import pair_folder
+
+    if (images is None) != (spec is None):
+        raise ConfigurationError("--check-images DIR and --check-board SPEC go together; give both")
+    return (
+        None if images is None or spec is None else (pair_folder(images).pairs, parse_board(spec))
+    )
+
+
+def _names(text: str) -> tuple[str, str]:
+    from app.core.errors import ConfigurationError
+
+    parts = [part.strip() for part in text.split(",")]
+    if len(parts) != 2 or not all(parts) or parts[0] == parts[1]:
+        raise ConfigurationError(f"--names {text!r} is not two names, e.g. left,right")
+    return parts[0], parts[1]
+
+
+def _checks(
+    found: "StereoSet", baseline_mm: float | None, second: "tuple[Sequence[Pair], Board] | None"
+) -> "list[Check]":
+    from app.tracking.calibration.checks import check_baseline, check_second_board
+    from app.tracking.calibration.sets import seen_by_both
+
+    checks = []
+    if baseline_mm is not None:
+        checks.append(check_baseline(found.calibration, baseline_mm))
+    if second is not None:
+        pairs = seen_by_both(*second, found.result.estimate)
+        checks.append(check_second_board(found.calibration, pairs))
+    return checks
+
+
+def _write(found: "StereoSet", out: Path | None, keep: bool) -> None:
+    from app.tracking.calibration.formats.own import save_calibration
+    from app.tracking.calibration.history import CalibrationHistory
+
+    if out is not None:
+        save_calibration(out, found.calibration)
+        typer.echo(f"wrote {out}", err=True)
+    if keep:
+        typer.echo(f"kept {CalibrationHistory().keep(found.calibration)}", err=True)

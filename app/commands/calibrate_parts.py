@@ -1,5 +1,6 @@
-"""What the commands of `acus calibrate` share: their group, options, a bar of progress."""
+"""What the commands of `acus calibrate` share: group, options, progress, how results are told."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
@@ -11,7 +12,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from app.core.progress import Progress
+    from app.tracking.calibration.checks import Check
+    from app.tracking.calibration.mono import MonoResult
+    from app.tracking.calibration.remarks import ViewResidual
+    from app.tracking.calibration.sets import MonoSet, Seen, StereoSet
+    from app.tracking.calibration.verdict import Judgement
     from app.tracking.calibration.views import BoardView, Rejection
+    from app.tracking.optics.calibration import CameraCalibration
 
 T = TypeVar("T")
 
@@ -74,3 +81,180 @@ def view_line(view: "BoardView | Rejection") -> str:
         f"{view.name:<24} {view.ids.size:>3} corners  squares {view.square_px:.0f} px  "
         f"edges {view.sharpness:.1f} px  window ±{view.window} px"
     )
+
+
+def mono_document(found: "MonoSet") -> dict[str, Any]:
+    """One camera as JSON."""
+    result = found.result
+    return {
+        **camera_document(result.calibration),
+        "opencv_rms_px": result.usual_rms_px,
+        "held_back_rms_px": result.held_back_rms_px,
+        "dropped": [{"name": d.name, "value": d.value, "sd": d.sd} for d in result.dropped],
+        "residuals": _residuals(result.residuals),
+        "pictures": [view_document(view) for view in found.looked],
+        "notes": list(result.notes),
+    }
+
+
+def stereo_document(
+    found: "StereoSet", checks: "Sequence[Check]", verdict: "Judgement"
+) -> dict[str, Any]:
+    """Two cameras as JSON."""
+    calibration, estimate = found.calibration, found.result.estimate
+    pose = calibration.pose
+    return {
+        "id": calibration.id,
+        "created": calibration.created.isoformat(),
+        "board": calibration.board,
+        "verdict": verdict.grade.value,
+        "reason": verdict.why.value,
+        "text": verdict.text,
+        "rms_px": calibration.rms_px,
+        "together": calibration.together.model_dump() if calibration.together else None,
+        "opencv_rms_px": estimate.usual_rms_px,
+        "cameras": [
+            camera_document(camera) | _lens_alone(mono)
+            for camera, mono in zip(
+                calibration.cameras, (estimate.left, estimate.right), strict=True
+            )
+        ],
+        "rotation": [list(row) for row in pose.rotation],
+        "translation_mm": list(pose.translation_mm),
+        "pose_sd": _sd(pose.covariance),
+        "baseline_mm": calibration.baseline * 1e3,
+        "validation": calibration.validation.model_dump() if calibration.validation else None,
+        "mended": list(estimate.mended),
+        "residuals": _residuals(found.result.residuals),
+        "pictures": [view_document(view) for view in found.looked],
+        "checks": [
+            {
+                "name": check.name,
+                "known_mm": check.known_mm,
+                "measured_mm": check.measured_mm,
+                "passed": check.passed,
+                "text": check.text,
+            }
+            for check in checks
+        ],
+        "notes": list(calibration.notes),
+    }
+
+
+def camera_document(camera: "CameraCalibration") -> dict[str, Any]:
+    """Parameters of one camera as JSON."""
+    from app.tracking.optics.calibration import PARAMETERS
+
+    values = [*camera.focal_px, *camera.centre_px, *camera.distortion]
+    return {
+        "name": camera.name,
+        "image_size": list(camera.image_size),
+        "views": camera.views,
+        "rms_px": camera.rms_px,
+        "parameters": dict(zip(PARAMETERS, values, strict=True)),
+        "sd": dict(zip(PARAMETERS, _sd(camera.covariance), strict=True)),
+        "estimated": list(camera.estimated),
+        "covariance": [list(row) for row in camera.covariance],
+    }
+
+
+def mono_lines(found: "MonoSet") -> list[str]:
+    """One camera for people."""
+    result = found.result
+    camera = result.calibration
+    lines = [_camera_line(camera), *_parameter_lines(camera)]
+    lines += _plain_line(result.usual_rms_px)
+    if result.held_back_rms_px is not None:
+        lines.append(f"  views held back      {result.held_back_rms_px:.4f} px")
+    lines += _residual_lines(result.residuals)
+    return lines + _refused(found.looked) + [f"  {note}" for note in result.notes]
+
+
+def stereo_lines(found: "StereoSet", checks: "Sequence[Check]", verdict: "Judgement") -> list[str]:
+    """Two cameras for people."""
+    calibration, estimate = found.calibration, found.result.estimate
+    lines = [f"calibration {calibration.id}, {calibration.board}"]
+    for camera, mono in zip(calibration.cameras, (estimate.left, estimate.right), strict=True):
+        lines += [_camera_line(camera), *_parameter_lines(camera)]
+        lines.append(f"  by itself {mono.calibration.rms_px:.4f} px")
+        lines += _plain_line(mono.usual_rms_px)
+    sd = _sd(calibration.pose.covariance)
+    x, y, z = calibration.pose.translation_mm
+    lines += [
+        f"both     {calibration.rms_px:.4f} px RMS over {len(estimate.pairs)} pairs",
+        f"  T_right_left ({x:.3f}, {y:.3f}, {z:.3f}) mm ± "
+        + ", ".join(f"{1e3 * value:.3f}" for value in sd[:3])
+        + f"; baseline {calibration.baseline * 1e3:.3f} mm",
+    ]
+    lines += _plain_line(estimate.usual_rms_px)
+    lines += _validation_lines(found)
+    lines += [f"  {'agrees' if check.passed else 'CONTRADICTS'}: {check.text}" for check in checks]
+    if not checks:
+        lines.append(
+            "  not checked: the board's size; give --baseline-mm, or a second board "
+            "(--check-images, --check-board)"
+        )
+    lines += _residual_lines(found.result.residuals)
+    lines += _refused(found.looked) + [f"  {note}" for note in calibration.notes]
+    return [*lines, f"verdict: {verdict.grade.value}: {verdict.text}"]
+
+
+def _plain_line(rms_px: float | None) -> list[str]:
+    if rms_px is None:
+        return []
+    return [f"  OpenCV's plain recipe (every view, five coefficients): {rms_px:.4f} px"]
+
+
+def _validation_lines(found: "StereoSet") -> list[str]:
+    value = found.calibration.validation
+    if value is None:
+        return ["  not validated: no pairs were held back (--hold-back N)"]
+    return [
+        f"  {value.views} pairs held back: corners within {value.rms_mm:.3f} mm RMS (at most "
+        f"{value.max_mm:.3f} mm) of the true board, lengths x {value.scale:.5f} ± "
+        f"{value.scale_sd:.5f}, epipolar {value.epipolar_px:.3f} px"
+    ]
+
+
+def _camera_line(camera: "CameraCalibration") -> str:
+    width, height = camera.image_size
+    return (
+        f"{camera.name:<8} {camera.rms_px:.4f} px RMS over {camera.views} views of {width}x{height}"
+    )
+
+
+def _parameter_lines(camera: "CameraCalibration") -> list[str]:
+    document = camera_document(camera)
+    return [
+        f"  {name}  {value:>12.6g} ± {document['sd'][name]:.2g}"
+        if name in camera.estimated
+        else f"  {name}  {0:>12} (not supported by the views)"
+        for name, value in document["parameters"].items()
+    ]
+
+
+def _residual_lines(residuals: "Sequence[ViewResidual]") -> list[str]:
+    words = {"used": "", "outlier": "left out", "held_back": "held back"}
+    return [f"  {r.name:<32} {r.rms_px:7.3f} px  {words[r.role]}".rstrip() for r in residuals]
+
+
+def _refused(looked: "Sequence[Seen]") -> list[str]:
+    from app.tracking.calibration.views import Rejection
+
+    return [f"  {v.name:<32} not used: {v.text}" for v in looked if isinstance(v, Rejection)]
+
+
+def _residuals(residuals: "Sequence[ViewResidual]") -> list[dict[str, Any]]:
+    return [{"name": r.name, "rms_px": r.rms_px, "role": r.role} for r in residuals]
+
+
+def _lens_alone(mono: "MonoResult") -> dict[str, Any]:
+    return {
+        "alone_rms_px": mono.calibration.rms_px,
+        "opencv_rms_px": mono.usual_rms_px,
+        "dropped": [{"name": d.name, "value": d.value, "sd": d.sd} for d in mono.dropped],
+    }
+
+
+def _sd(covariance: Sequence[Sequence[float]]) -> list[float]:
+    return [max(row[i], 0.0) ** 0.5 for i, row in enumerate(covariance)]

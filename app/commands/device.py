@@ -1,18 +1,27 @@
-"""`acus device`: robots on serial ports, and one that is emulated."""
+"""`acus device`: robots on serial ports, commissioning one, and one that is emulated."""
 
 from __future__ import annotations
 
+import queue
+import stat
+import sys
+import threading
+from enum import StrEnum
+from os import fstat
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from app.commands import completion
-from app.commands.answer import Answer, Commands
-from app.commands.device_calibrate import calibrate
+from app.commands.answer import Answer, Commands, wants_json
 
 if TYPE_CHECKING:
+    from app.commands.answers import Answers
     from app.compose.emulator import Emulator
+    from app.device.commissioning.bench import Bench
+    from app.device.commissioning.report import Report
+    from app.device.commissioning.results import AnyResult, Step
 
 Port = Annotated[str, typer.Argument(help="Serial port, e.g. /dev/ttyACM0.")]
 Profile = Annotated[
@@ -95,6 +104,113 @@ def measure(
     return Answer(result.document(), lines)
 
 
+class StepName(StrEnum):
+    """Routines that can be asked for."""
+
+    HOMING = "homing"
+    OFFSETS = "offsets"
+    SIGNS = "signs"
+    FRICTION = "friction"
+    LATENCY = "latency"
+    FORCE = "force"
+    GAUGE = "gauge"
+
+
+def calibrate(
+    port: Annotated[str, typer.Argument(help="Serial port, e.g. /dev/ttyACM0.")],
+    profile: Annotated[str, typer.Option(help="Device profile: a name or a YAML file.")] = "icube",
+    step: Annotated[
+        list[StepName] | None,
+        typer.Option(help="Routine; repeatable. Default: homing, signs, latency, force."),
+    ] = None,
+    readings: Annotated[
+        str, typer.Option(help="Scale readings in grams at 0.2, 0.5 and 0.9 N, e.g. 20.5,51,92.")
+    ] = "",
+    yes: Annotated[
+        bool,
+        typer.Option("--yes", help="Confirm everything; signs by pulses only. For scripts."),
+    ] = False,
+    undo: Annotated[bool, typer.Option("--undo", help="Take the newest result back.")] = False,
+) -> Answer:
+    """Commission a robot: homing, signs, latency, force scale.
+
+    And its friction, offsets and gauge where asked for (docs/hardware.md).
+
+    Results are kept for the device by its serial number. Ctrl-C ends at zero torque at any time.
+    """
+    from app.commands.answers import Answers, numbers
+    from app.device.commissioning.bench import Bench
+    from app.device.commissioning.results import Step
+    from app.device.links.serial_link import SerialLink
+    from app.mechanisms.profile import load_profile
+
+    chosen = load_profile(profile)
+    steps = [Step(name.value) for name in step or ()] or [
+        Step.HOMING,
+        Step.SIGNS,
+        Step.LATENCY,
+        Step.FORCE,
+    ]
+    answers = Answers(yes, numbers(readings, "--readings", 3) if readings else ())
+    with Bench(SerialLink(port, chosen), chosen) as bench:
+        _wait_for_the_robot(bench)
+        if undo:
+            bench.undo(*(steps if step else ()))
+        results = [] if undo else [_commission(bench, one, answers, yes) for one in steps]
+        return _answer(bench, results)
+
+
+def _commission(bench: Bench, step: Step, answers: Answers, yes: bool) -> AnyResult:
+    """Run one routine to its end and keep what it found; a check that fails takes back its own."""
+    from app.device.commissioning.errors import CommissioningError
+    from app.device.commissioning.settle import settle
+
+    routine = bench.routine(step, by_hand=not yes)
+    said: list[str] = []
+    aside = wants_json()  # what is said on the way is not the answer
+
+    def tell(report: Report) -> None:
+        if report.message not in said[-1:] and not report.needs:
+            said.append(report.message)
+            typer.echo(f"  {report.message}", err=aside)
+
+    typer.echo(f"{routine.TITLE}", err=aside)
+    report = bench.run(routine, lambda report: answers.to(routine, report, aside), tell)
+    failure = settle(bench, step, report)
+    if report.result is None:
+        raise CommissioningError(failure)
+    return report.result
+
+
+def _wait_for_the_robot(bench: Bench) -> None:
+    """Wait for the first angles: compiled code is loaded on the first start."""
+    from app.core import state_vector as sv
+    from app.device.commissioning.errors import CommissioningError
+
+    end = bench.clock.now() + 120.0
+    while bench.loop.latest().row[sv.Q_TIME] == 0.0:
+        if bench.clock.now() > end:
+            raise CommissioningError(
+                "the robot was greeted but sends no joint angles; see `acus device test`"
+            )
+        bench.advance(0.05)
+
+
+def _answer(bench: Bench, results: list[AnyResult]) -> Answer:
+    from dataclasses import asdict
+
+    clearance = bench.clearance()
+    facts = {
+        "device": bench.record.device,
+        "boot": bench.info.boot,
+        "results": [result.model_dump(mode="json") for result in results],
+        "clearance": asdict(clearance),
+    }
+    text = clearance.reason or f"cleared for {clearance.force_cap:g} N"
+    lines = [f"{result.step.value:<10} {result.summary()}" for result in results]
+    return Answer(facts, [*lines, f"{'device':<10} {bench.record.device}: {text}"])
+
+
 def emulate(
     profile: Profile = "icube",
     link: Annotated[Path | None, typer.Option(help="Link to the terminal, e.g. robot.")] = None,
@@ -129,7 +245,6 @@ def _serve(emulator: Emulator) -> None:
     import signal
     import time
 
-    from app.commands.orders import Orders
     from app.core.errors import AcusError
 
     ended: list[int] = []
@@ -152,3 +267,29 @@ def _serve(emulator: Emulator) -> None:
             time.sleep(0.01)
     finally:
         emulator.close()
+
+
+class Orders:
+    """Lines of the standard input, read by a thread.
+
+    `ended` becomes true when a pipe ends: whoever gave orders through it has gone. The end of a
+    terminal or of /dev/null means nothing.
+    """
+
+    def __init__(self) -> None:
+        self.ended = False
+        self._lines: queue.SimpleQueue[str] = queue.SimpleQueue()
+        threading.Thread(target=self._read, name="acus orders", daemon=True).start()
+
+    def waiting(self) -> list[str]:
+        """Take the lines that have come, without blanks."""
+        lines = []
+        while not self._lines.empty():
+            lines.append(self._lines.get())
+        return lines
+
+    def _read(self) -> None:
+        for line in sys.stdin:
+            if line.strip():
+                self._lines.put(line.strip())
+        self.ended = stat.S_ISFIFO(fstat(sys.stdin.fileno()).st_mode)

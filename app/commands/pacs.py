@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.answer import Answer, Commands
-from app.commands.ct import Mend
-from app.commands.library import MASK_HELP
+from app.commands.ct import MASK_HELP, Mend
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
@@ -169,7 +168,7 @@ def _take(
     remedy: str | None,
 ) -> Answer:
     from app.commands.calibrate_parts import with_progress
-    from app.commands.library import boxes_of, imported_answer, remedy_of
+    from app.commands.ct import boxes_of, imported_answer, remedy_of
     from app.imaging.library import CtLibrary
     from app.imaging.pacs.client import Pacs
     from app.imaging.pacs.settings import chosen

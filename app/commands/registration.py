@@ -1,4 +1,4 @@
-"""`acus registration`: fiducials touched on a plate, and what they say of a target."""
+"""`acus registration` and `acus plate`: fiducials touched on a plate, what they say of a target."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from app.planning.registration.uncertainty import FiducialError
 
 app = Commands(help="Check where cameras or a phantom stand, with a plate.")
+plates = Commands(help="Fiducial plates (docs/registration.md).")
 
 Touched = Annotated[Path, typer.Option(help="Touched points in world, CSV or YAML, mm.")]
 Plate = Annotated[str, typer.Option(help="Name of a plate, or a .yaml file.")]
@@ -26,8 +27,9 @@ DEFAULT_TARGET_MM = (0.0, 160.56, 30.0)
 
 
 def register(root: typer.Typer) -> None:
-    """Add `registration` to the command line."""
+    """Add `registration` and `plate` to the command line."""
     root.add_typer(app, name="registration")
+    root.add_typer(plates, name="plate")
 
 
 @app.command()
@@ -54,6 +56,7 @@ def check(
     return Answer(_document(found, point), _lines(found, point), yes=found.trusted)
 
 
+@plates.command("list")
 @app.command("plates", hidden=True)
 def list_plates() -> Answer:
     """List the plates that come with the program."""

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from app.commands import build
 from app.commands.answers import AnswerError, Answers, numbers
-from app.commands.device_calibrate import _run
+from app.commands.device import _commission as _run
 from app.device.commissioning.errors import CommissioningError
 from app.device.commissioning.report import Report
 from app.device.commissioning.results import Step
