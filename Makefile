@@ -35,7 +35,8 @@ WORKERS ?= $(shell expr $$(nproc) + 1)
 AGAIN := --reruns 1 --reruns-delay 2 -rR
 test: setup  ## the tests (no display and no network needed), a file at a time in each process
 	$(BIN)/python -m tools.compile_kernels
-	./tools/with-display $(BIN)/python -m pytest -q --numprocesses $(WORKERS) --dist loadfile $(AGAIN) $(TEST)
+	./tools/with-display $(BIN)/python -m pytest -q --numprocesses $(WORKERS) --dist loadfile \
+		--no-loadscope-reorder --durations 10 --durations-min 0.5 $(AGAIN) $(TEST)
 
 by-hand: setup  ## one insertion in the real window with mouse and keyboard, on an X server of its own
 	env -u DISPLAY ACUS_BY_HAND=1 ./tools/with-display $(BIN)/python -m pytest -q tests/display

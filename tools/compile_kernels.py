@@ -3,25 +3,27 @@
 `make test` runs a process of tests on each core. With a cold cache every one of them would compile
 the same kernels, a few minutes of processor time each. A kernel's module is compiled by importing
 it, what is built for its arguments by the first call; the cache (`app.core.compiled`) keeps the
-result for whoever needs it next.
+result for whoever needs it next. A cache that was filled by this program before is left as it is.
 
     python -m tools.compile_kernels
 """
 
+import hashlib
 import os
+import sys
 import time
 from collections.abc import Mapping, Set
 from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, wait
 from graphlib import TopologicalSorter
 from importlib import import_module
 from multiprocessing import get_context
-
-import grimp
-import numpy as np
+from pathlib import Path
 
 
 def kernel_modules() -> Mapping[str, Set[str]]:
     """Return every module that holds kernels with the ones that its import imports before it."""
+    import grimp
+
     graph = grimp.build_graph("app", exclude_type_checking_imports=True, cache_dir=None)
     kernels = graph.find_modules_that_directly_import("app.core.compiled")
     return {name: graph.find_upstream_modules(name) & kernels for name in kernels}
@@ -53,6 +55,8 @@ def import_module_of(name: str) -> None:
 
 def find_first(name: str) -> None:
     """Render a needle and find its marker this way: compiles what is built for its arguments."""
+    import numpy as np
+
     from app.tracking.markers.choice import ExtractorName, extractors
     from app.tracking.optics.rig import load_rig
     from app.tracking.simulated.cameras import NeedleRenderer
@@ -72,11 +76,27 @@ def find_first(name: str) -> None:
 def main() -> None:
     """Compile, and say how many modules in how much time."""
     begin = time.perf_counter()
+    done = _filled()
+    if done.exists():
+        print("kernels are ready")
+        return
     modules = kernel_modules()
     with ProcessPoolExecutor(os.cpu_count(), get_context("spawn")) as processes:
         compile_all(modules, processes)
         list(processes.map(find_first, ("model_fit", "outline_centroid")))
+    done.touch()
     print(f"kernels of {len(modules)} modules ready after {time.perf_counter() - begin:.0f} s")
+
+
+def _filled() -> Path:
+    """File in the cache that says that it holds every kernel of these sources, parts and tool."""
+    import numba
+
+    from app.core import compiled  # noqa: F401  (names the cache's folder)
+
+    tool = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:8]
+    made_by = f"{sys.version_info.major}.{sys.version_info.minor}-numba-{numba.__version__}-{tool}"
+    return Path(os.environ["NUMBA_CACHE_DIR"]) / f"filled-{made_by}"
 
 
 if __name__ == "__main__":
