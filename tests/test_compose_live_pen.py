@@ -14,7 +14,7 @@ from app.tracking.pen.settings import PenSettings
 from tests.tracking.pen_rig import camera, picture, renderer, scene
 
 
-def until(so, timeout=20.0):
+def until(so, timeout=60.0):
     end = time.monotonic() + timeout
     while not so() and time.monotonic() < end:
         time.sleep(0.01)

@@ -28,7 +28,7 @@ def sticks(state, p):
         fence()
 
 
-def _until(done, patience=30.0):
+def _until(done, patience=60.0):
     end = time.monotonic() + patience
     while not done():
         assert time.monotonic() < end
@@ -70,4 +70,4 @@ def test_the_window_is_told_which_law_and_the_attempt_is_saved(sticky, tmp_path)
     finally:
         began = time.monotonic()
         trainer.close()
-    assert time.monotonic() - began < 3.0
+    assert time.monotonic() - began < 4.5  # five seconds would be a thread that is waited for

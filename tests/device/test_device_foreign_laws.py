@@ -244,10 +244,10 @@ def test_a_tick_that_does_not_return_is_named_and_closing_waits_for_nothing():
         began = time.monotonic()
         with pytest.raises(LoopError, match="force law or effect 'sticky' does not return"):
             _until(lambda: loop.latest() is None)
-        assert time.monotonic() - began < 2.0
+        assert time.monotonic() - began < 30.0
         began = time.monotonic()
         loop.close()
-        assert time.monotonic() - began < 0.5
+        assert time.monotonic() - began < 4.0  # five seconds would be a thread that is waited for
         with pytest.raises(LoopError, match="'sticky' does not return"):
             loop.open()
         assert isinstance(loop.rows(), np.ndarray)
@@ -257,7 +257,7 @@ def test_a_tick_that_does_not_return_is_named_and_closing_waits_for_nothing():
         p[1] = 1.0
 
 
-def _until(done, patience=20.0):
+def _until(done, patience=60.0):
     end = time.monotonic() + patience
     while not done():
         assert time.monotonic() < end

@@ -34,7 +34,7 @@ def compare_inputs(state, p):
         p[0] += 1.0
 
 
-def wait_for(condition, seconds=20.0):
+def wait_for(condition, seconds=60.0):
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, "waited too long"

@@ -128,7 +128,7 @@ def test_a_line_that_never_falls_silent_does_not_hold_a_greeting():
     try:
         begin = time.monotonic()
         assert port.exchange(b"\0")
-        assert time.monotonic() - begin < 5.0
+        assert time.monotonic() - begin < 30.0
     finally:
         ended.set()
         noise.join()

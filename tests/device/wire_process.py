@@ -36,7 +36,7 @@ def want_torque(state, p):
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = p[0], p[1]
 
 
-def wait_for(condition, seconds=20.0, what="it"):
+def wait_for(condition, seconds=60.0, what="it"):
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end, f"waited too long for {what}"

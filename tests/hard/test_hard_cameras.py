@@ -64,12 +64,13 @@ class _OnOrder(Camera):
     """Hands out what it is given, one after the other; hangs meanwhile."""
 
     def __init__(self):
-        self.orders = SimpleQueue()
+        self.orders, self.asked = SimpleQueue(), 0
 
     def open(self):
         pass
 
     def read(self):
+        self.asked += 1
         order = self.orders.get()
         if isinstance(order, Exception):
             raise order
@@ -89,15 +90,14 @@ def _state_after(seconds, later):
     for number, order in enumerate(later, 1):
         clock.time = 10.0 + seconds * number / len(later)
         camera.orders.put(order if isinstance(order, Exception) else _frame(*order))
-        _until(camera.orders.empty)
-        threading.Event().wait(0.01)
+        _until(lambda number=number: camera.asked >= number + 2)  # it has taken this one in
     state = reader.health(10.0 + seconds).state
     reader.close()
     return state
 
 
 def _until(condition):
-    end = real_time.monotonic() + 10.0
+    end = real_time.monotonic() + 60.0
     while not condition():
         assert real_time.monotonic() < end
         real_time.sleep(0.001)

@@ -1,7 +1,9 @@
 """A PACS in this process, for tests: it behaves, or misbehaves as it is told."""
 
+import os
 import socket
-import time
+import threading
+from itertools import count
 from pathlib import Path
 
 import pydicom
@@ -18,12 +20,22 @@ from pynetdicom.sop_class import (
 from app.imaging.pacs.settings import PacsSettings
 
 PENDING, SUCCESS = 0xFF00, 0x0000
+SILENCE_S = 60.0
+"""How long one that says nothing would be silent; it ends with the test."""
+
+_numbers = count(20_000 + 1000 * int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:]))
+"""Below the ports that the system gives away, and others in every process of the tests."""
 
 
 def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    for number in _numbers:
+        with socket.socket() as probe:
+            try:
+                probe.bind(("127.0.0.1", number))
+            except OSError:
+                continue
+            return number
+    raise AssertionError("there are always numbers left")
 
 
 def _another(file: Dataset) -> Dataset:
@@ -43,6 +55,7 @@ class FakePacs:
         self.files = [pydicom.dcmread(path) for path in sorted(folder.glob("*"))]
         self.ill, self.asked, self.sent = ill, [], []
         self.port, self.own_port = free_port(), free_port()
+        self._over = threading.Event()
         self._ae = AE("FAKE")
         self._ae.require_called_aet = True
         self._ae.require_calling_aet = list(calling)
@@ -69,25 +82,26 @@ class FakePacs:
         return self
 
     def __exit__(self, *_):
+        self._over.set()
         self._server.shutdown()
 
     def settings(self, **changed) -> PacsSettings:
         given = {
             "name": "fake", "host": "127.0.0.1", "port": self.port, "title": "FAKE",
-            "own_host": "127.0.0.1", "own_port": self.own_port, "timeout_s": 2.0,
+            "own_host": "127.0.0.1", "own_port": self.own_port, "timeout_s": 30.0,
         }  # fmt: skip
         return PacsSettings(**(given | changed))
 
     def _echo(self, event):
         if self.ill == "silent":
-            time.sleep(4.0)
+            self._over.wait(SILENCE_S)
         return 0x0124 if self.ill == "not authorized" else SUCCESS
 
     def _find(self, event):
         keys = event.identifier
         self.asked.append(keys)
         if self.ill == "slow find":
-            time.sleep(5.0)
+            self._over.wait(SILENCE_S)
         if self.ill == "find fails":
             yield 0xA700, None
             return
@@ -134,7 +148,7 @@ class FakePacs:
                 event.assoc.abort()
                 return
             if self.ill == "stalls" and index == 2:
-                time.sleep(4.0)
+                self._over.wait(SILENCE_S)
             if self.ill == "forgets" and index == 2:
                 continue
             self.sent.append(file.SOPInstanceUID)

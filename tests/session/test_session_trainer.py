@@ -337,7 +337,7 @@ def test_a_fault_of_the_program_in_the_ticker_switches_the_forces_off(
     bench.trainer.open()
     bench.trainer.begin()
     bench.loop.latest = lambda: 1 / 0
-    assert died.wait(5.0)
+    assert died.wait(30.0)
     assert bench.loop.inbox.values["enabled"] == 0.0
     assert bench.trainer.result is not None
     assert "ZeroDivisionError" in bench.trainer.result.reason
@@ -369,7 +369,7 @@ def test_after_a_fault_of_the_program_the_forces_are_off_and_stay_off(
         raise ZeroDivisionError("nobody thought of it")
 
     monkeypatch.setattr(bench.trainer._sources, "observe", broken)
-    deadline = time.monotonic() + 5.0
+    deadline = time.monotonic() + 30.0
     while bench.trainer.result is None and time.monotonic() < deadline:
         time.sleep(0.01)
     assert bench.trainer.result is not None

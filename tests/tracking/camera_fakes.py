@@ -66,7 +66,7 @@ class FakeCapture:
         time.sleep(0.005)
         if self.mode == "hang":
             self.hanging.set()
-            self.resume.wait(10.0)
+            self.resume.wait(60.0)
             return False
         self.grabbed += 1
         if self.mode != "same time":

@@ -346,7 +346,7 @@ def running(wide, wide_renderers, needle):
     tracker.close()
 
 
-def _until(condition, seconds=8.0):
+def _until(condition, seconds=30.0):
     end = real_time.monotonic() + seconds
     while not condition():
         assert real_time.monotonic() < end, "it did not happen"

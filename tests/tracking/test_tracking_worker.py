@@ -11,14 +11,14 @@ def test_a_thread_that_outlives_its_end_is_named_and_publishes_nothing_more():
 
     def step(stopped):
         begun.set()
-        release.wait(5.0)
+        release.wait(30.0)
         if not stopped():
             published.append(1)
 
     worker = Worker(step, lambda kind, message: told.append((kind, message)))
     worker.open()
     assert worker.is_open
-    assert begun.wait(5.0)
+    assert begun.wait(30.0)
     worker.stop()
     worker.join(patience=0.02)
     assert not worker.is_open
@@ -30,7 +30,7 @@ def test_a_thread_that_outlives_its_end_is_named_and_publishes_nothing_more():
     release.set()
     worker.join()
     for thread in first:
-        thread.join(5.0)
+        thread.join(30.0)
     assert not any(thread.is_alive() for thread in first)
     assert published == []
     assert len(told) == 1
@@ -49,7 +49,7 @@ def test_a_step_that_fails_is_told_once_until_one_succeeds():
 
     worker = Worker(step, lambda kind, message: told.append((kind, message)))
     worker.open()
-    assert done.wait(5.0)
+    assert done.wait(30.0)
     worker.stop()
     worker.join()
     assert told == [("fault", "the tracker failed: ValueError: no picture")]

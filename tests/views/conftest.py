@@ -28,6 +28,10 @@ from app.views.shell.window import MainWindow
 
 Settle = Callable[..., bool]
 
+PATIENCE_S = 60.0
+"""A busy machine takes its time; only a test that fails waits for so long."""
+PAUSE_S = 0.05
+
 
 @pytest.fixture(scope="session")
 def application() -> QApplication:
@@ -57,12 +61,14 @@ def no_window_is_left_open(application: QApplication) -> Iterator[None]:
 
 @pytest.fixture
 def settle(application: QApplication) -> Settle:
-    def process(until: Callable[[], bool] = lambda: False, timeout: float = 0.05) -> bool:
-        end = time.monotonic() + timeout
-        while not until() and time.monotonic() < end:
+    def process(until: Callable[[], bool] | None = None, timeout: float | None = None) -> bool:
+        """Let the window live until something is so, or for a moment; returns whether it is so."""
+        patience = timeout or (PAUSE_S if until is None else PATIENCE_S)
+        end = time.monotonic() + patience
+        while not (until and until()) and time.monotonic() < end:
             application.processEvents()
             time.sleep(0.002)
-        return until()
+        return until is not None and until()
 
     return process
 

@@ -93,13 +93,13 @@ def test_from_pictures_to_a_calibration_in_use(wizard, job, pictures, at_place, 
     wizard.show_page(1)
     wizard.capture_page.begin_folder(pictures)
     assert not wizard.next.isEnabled()
-    assert settle(lambda: not wizard.capture_page.running, 60.0)
+    assert settle(lambda: not wizard.capture_page.running)
     assert job.pairs >= 8
     assert f"{job.pairs} pairs, all of which are used" in wizard.capture_page.state.text()
     assert wizard.next.isEnabled()
     wizard.show_page(2)  # computes by itself
     assert wizard.result_page.running
-    assert settle(lambda: not wizard.result_page.running, 60.0)
+    assert settle(lambda: not wizard.result_page.running)
     assert job.result is not None
     left = job.result.calibration.cameras[0]
     assert left.focal_px[0] == pytest.approx(1070.0, rel=0.01)
@@ -115,7 +115,7 @@ def test_from_pictures_to_a_calibration_in_use(wizard, job, pictures, at_place, 
     for field, value in zip(wizard.world_page.fields, AT, strict=True):
         field.setValue(value)
     wizard.world_page.begin_folder(at_place)
-    assert settle(lambda: not wizard.world_page.running, 30.0)
+    assert settle(lambda: not wizard.world_page.running)
     assert job.world is not None
     for centre, model in zip(job.world.centres, load_rig("wide").models, strict=True):
         np.testing.assert_allclose(centre, model.centre, atol=8e-3)
@@ -125,7 +125,7 @@ def test_from_pictures_to_a_calibration_in_use(wizard, job, pictures, at_place, 
     wizard.used.connect(lambda: used.append(True))
     wizard.save_page.save.click()
     assert not wizard.next.isEnabled()  # the file is being written
-    assert settle(lambda: used == [True], 10.0)
+    assert settle(lambda: used == [True])
     assert titles(wizard)[4] == "✔ Save"
     active = job.history.active()
     assert active is not None
@@ -161,9 +161,9 @@ def test_the_history_can_be_undone_and_condemned(wizard, job, settle) -> None:
     page = wizard.save_page
 
     def done(active: str) -> bool:
-        return settle(lambda: not page.running and job.history.active().id == active, 10.0)
+        return settle(lambda: not page.running and job.history.active().id == active)
 
-    assert settle(lambda: "held back" in page.table.item(0, 1).text(), 10.0)
+    assert settle(lambda: "held back" in page.table.item(0, 1).text())
     page.undo.click()
     assert done("one")
     page.table.selectRow(0)
@@ -183,7 +183,7 @@ def test_a_damaged_calibration_is_listed_with_its_reason(wizard, job, settle) ->
     path = job.history.keep(sample(load_rig("wide"), "one"))
     path.write_text("id: 3\n")
     wizard.show_page(4)
-    assert settle(lambda: "unreadable" in wizard.save_page.table.item(0, 3).text(), 10.0)
+    assert settle(lambda: "unreadable" in wizard.save_page.table.item(0, 3).text())
 
 
 def test_a_folder_without_pairs_says_so(wizard, tmp_path: Path) -> None:
@@ -198,7 +198,7 @@ def test_pictures_without_a_board_are_named(wizard, job, tmp_path: Path, settle)
     for name in ("left01.png", "right01.png"):
         cv2.imwrite(str(tmp_path / name), np.full((120, 160, 3), 90, np.uint8))
     wizard.capture_page.begin_folder(tmp_path)
-    assert settle(lambda: not wizard.capture_page.running, 30.0)
+    assert settle(lambda: not wizard.capture_page.running)
     assert "not used: left01.png, right01.png" in wizard.capture_page.state.text()
     assert job.pairs == 0
 
@@ -209,9 +209,9 @@ def test_too_few_pairs_fail_with_a_reason_and_nothing_to_save(
     for name in ("left00.png", "right00.png"):
         (tmp_path / name).write_bytes((pictures / name).read_bytes())
     wizard.capture_page.begin_folder(tmp_path)
-    assert settle(lambda: not wizard.capture_page.running, 30.0)
+    assert settle(lambda: not wizard.capture_page.running)
     wizard.show_page(2)
-    assert settle(lambda: not wizard.result_page.running, 30.0)
+    assert settle(lambda: not wizard.result_page.running)
     assert "at least 3" in wizard.result_page.state.text()
     wizard.show_page(4)
     assert "nothing new" in wizard.save_page.state.text()
@@ -219,7 +219,7 @@ def test_too_few_pairs_fail_with_a_reason_and_nothing_to_save(
 
 def test_another_board_forgets_the_pictures(wizard, job, pictures, settle) -> None:
     wizard.capture_page.begin_folder(pictures)
-    assert settle(lambda: not wizard.capture_page.running, 60.0)
+    assert settle(lambda: not wizard.capture_page.running)
     wizard.board_page.square.setValue(12.0)
     assert job.board.square == pytest.approx(0.012)
     assert job.views == ()
@@ -274,7 +274,7 @@ def test_live_cameras_are_searched_and_let_go(application, job, cameras, destroy
     dialog.show_page(1)
     page = dialog.capture_page
     page.begin_live()
-    assert settle(lambda: page.search is not None and len(page.search.collector.kept) >= 2, 30.0)
+    assert settle(lambda: page.search is not None and len(page.search.collector.kept) >= 2)
     dialog.show_page(0)
     assert dialog.pages.currentIndex() == 1  # it keeps its page while it works
     page.stop.click()
@@ -291,7 +291,7 @@ def test_cameras_that_do_not_open_are_told(application, job, destroy, settle) ->
     dialog = CalibrationWizard(job, refuse)
     destroy(dialog)
     dialog.capture_page.begin_live()
-    assert settle(lambda: not dialog.capture_page.running, 5.0)
+    assert settle(lambda: not dialog.capture_page.running)
     assert "no such camera" in dialog.capture_page.state.text()
     dialog.close()
 
@@ -323,18 +323,18 @@ def test_what_other_programs_wrote_is_imported_on_the_last_page(
     assert not dialog.take.isEnabled()
     dialog.set_files([left, tmp_path / "nowhere.yaml"])
     dialog.take.click()
-    assert settle(lambda: "nowhere.yaml" in dialog.state.text(), 10.0)
+    assert settle(lambda: "nowhere.yaml" in dialog.state.text())
     dialog.set_files([left, right])
     dialog.size_box.setText("big")
     dialog.take.click()
-    assert settle(lambda: "--size big" in dialog.state.text(), 10.0)
+    assert settle(lambda: "--size big" in dialog.state.text())
     dialog.size_box.clear()
     dialog.take.click()
-    assert settle(lambda: used == [True], 10.0)
+    assert settle(lambda: used == [True])
     assert job.history.active().notes[0].startswith("imported: ROS")
     assert "it has no place yet" in wizard.save_page.state.text()
     table = wizard.save_page.table
-    assert settle(lambda: "own uncertainty not known" in table.item(0, 1).text(), 10.0)
+    assert settle(lambda: "own uncertainty not known" in table.item(0, 1).text())
 
 
 def test_the_lens_of_one_camera_is_told_from_a_calibration_of_two(tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ def running(window, patient, services, settle):
     window.feature(CamerasFeature).use_real(True)
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert settle(lambda: window.runs.run is not None)
     return window
 
 
@@ -45,7 +45,7 @@ def test_choosing_real_cameras_begins_a_run_on_them_and_is_remembered(running, s
 
 def test_simulated_cameras_can_be_taken_for_this_start_only(running, services, settle):
     running.equipment.take_cameras(CameraSettings())
-    assert settle(lambda: services.opened[-1].setup.cameras is None, 10.0)
+    assert settle(lambda: services.opened[-1].setup.cameras is None)
     assert str(running.settings.value("cameras/real")).lower() == "true"
 
 
@@ -91,13 +91,13 @@ def test_aiming_lets_the_run_go_shows_the_cone_and_gives_the_cameras_back(
     run = services.opened[-1]
     running.feature(CamerasFeature).menu.aim.trigger()
     dialog = running.equipment.dialog
-    assert run.closed.wait(5.0)
-    assert settle(lambda: len(services.lives) == 2 and "51 %" in dialog.share.text(), 10.0)
+    assert run.closed.wait(30.0)
+    assert settle(lambda: len(services.lives) == 2 and "51 %" in dialog.share.text())
     assert "everything at -30 to 25 mm" in dialog.losses.text()
-    assert settle(lambda: dialog.previews[0].picture.has_image, 5.0)
+    assert settle(lambda: dialog.previews[0].picture.has_image)
     assert dialog.previews[0].picture._outline.shape == (3, 2)
     dialog.reject()
-    assert settle(lambda: running.runs.run is not None, 10.0)
+    assert settle(lambda: running.runs.run is not None)
     assert all(live.closed.is_set() for live in services.lives)
     assert len(services.opened) == 2
 
@@ -108,7 +108,7 @@ def test_a_cone_that_nobody_measured_is_not_told_as_seen(running, services, sett
     monkeypatch.setattr(services, "aim", lambda *_: found)
     running.feature(CamerasFeature).menu.aim.trigger()
     dialog = running.equipment.dialog
-    assert settle(lambda: "would see 100 %" in dialog.share.text(), 10.0)
+    assert settle(lambda: "would see 100 %" in dialog.share.text())
     assert dialog.share.text().startswith("▲")
     assert dialog.titles[0].text() == "Left: would see 100 %"
     dialog.reject()
@@ -117,9 +117,9 @@ def test_a_cone_that_nobody_measured_is_not_told_as_seen(running, services, sett
 def test_a_camera_that_stops_is_said_below_its_darkened_picture(running, services, settle):
     running.feature(CamerasFeature).aim()
     preview = running.equipment.dialog.previews[1]
-    assert settle(lambda: preview.camera is not None, 10.0)
+    assert settle(lambda: preview.camera is not None)
     preview.camera.state = CameraState.STALLED
-    assert settle(lambda: "check its cable" in preview.note.text(), 5.0)
+    assert settle(lambda: "check its cable" in preview.note.text())
     assert preview.picture._dimmed
     running.equipment.dialog.reject()
 
@@ -130,7 +130,7 @@ def test_a_camera_that_cannot_be_opened_is_said_where_its_picture_would_be(
     services.refuses = "no camera at usb:1-1; none is plugged in"
     running.feature(CamerasFeature).set_up()
     editor = running.equipment.dialog.sides[0]
-    assert settle(lambda: "none is plugged in" in editor.preview.note.text(), 10.0)
+    assert settle(lambda: "none is plugged in" in editor.preview.note.text())
     services.refuses = ""
     running.equipment.dialog.reject()
 
@@ -146,8 +146,8 @@ def test_the_settings_take_what_is_chosen_and_refuse_what_cannot_work(window, se
     right.source.setEditText("folder:/pictures")
     right.exposure.setValue(5.0)
     dialog.size_box.setCurrentText("1280x720")
-    assert settle(lambda: {live.side for live in services.lives} == {"left", "right"}, 10.0)
-    assert settle(lambda: "did not accept" in left.preview.note.text(), 5.0)
+    assert settle(lambda: {live.side for live in services.lives} == {"left", "right"})
+    assert settle(lambda: "did not accept" in left.preview.note.text())
     dialog.swap.click()
     assert dialog.settings().left.source == "folder:/pictures"
     dialog._take()
@@ -156,7 +156,7 @@ def test_the_settings_take_what_is_chosen_and_refuse_what_cannot_work(window, se
     assert saved.left.exposure_ms == 5.0
     assert saved.right.source == "usb:1-1"
     assert window.feature(CamerasFeature).menu.real.isChecked()
-    assert settle(lambda: all(live.closed.is_set() for live in services.lives), 10.0)
+    assert settle(lambda: all(live.closed.is_set() for live in services.lives))
 
 
 def test_what_was_measured_goes_with_its_camera(window):
@@ -174,15 +174,15 @@ def test_the_latency_is_measured_by_the_blinking_patch_and_kept(running, service
     running.feature(CamerasFeature).measure_latency("right")
     dialog = running.equipment.dialog
     dialog._seconds = 5.0
-    assert settle(lambda: dialog.start.isEnabled(), 10.0)
+    assert settle(lambda: dialog.start.isEnabled())
     dialog.preview.camera.patch = dialog.patch
     dialog.start.click()
     assert dialog.preview.camera.taken
-    assert settle(lambda: dialog.latency is not None, 15.0), dialog.outcome.text()
+    assert settle(lambda: dialog.latency is not None), dialog.outcome.text()
     assert dialog.latency.median == pytest.approx(0.04, abs=5e-3)
     dialog.keep.click()
     assert load_settings().right.latency_ms == pytest.approx(40.0, abs=5.0)
-    assert settle(lambda: running.runs.run is not None, 10.0)
+    assert settle(lambda: running.runs.run is not None)
 
 
 def test_a_settings_file_that_cannot_be_read_is_told_not_replaced(window, services, tmp_path):
@@ -204,14 +204,14 @@ def test_calibrating_lets_the_run_go_searches_both_pictures_and_gives_the_camera
     dialog = running.equipment.dialog
     dialog.show_page(1)
     dialog.capture_page.begin_live()
-    assert run.closed.wait(5.0)
-    assert settle(lambda: dialog.capture_page.search is not None, 10.0)
-    assert settle(lambda: "no ChArUco board" in dialog.capture_page.state.text(), 10.0)
+    assert run.closed.wait(30.0)
+    assert settle(lambda: dialog.capture_page.search is not None)
+    assert settle(lambda: "no ChArUco board" in dialog.capture_page.state.text())
     assert len(services.lives) == 2
     dialog.capture_page.stop.click()
     dialog.reject()
-    assert settle(lambda: running.runs.run is not None, 10.0)
-    assert all(live.closed.wait(5.0) for live in services.lives)
+    assert settle(lambda: running.runs.run is not None)
+    assert all(live.closed.wait(30.0) for live in services.lives)
 
 
 def test_without_real_cameras_a_calibration_is_made_from_folders(window):
@@ -237,12 +237,12 @@ def test_what_a_first_start_waits_for_is_said_in_the_dialog_and_cancel_ends_it(
     cameras.aim() if which == "aim" else cameras.measure_latency("left")
     dialog = running.equipment.dialog
     previews = dialog.previews if which == "aim" else (dialog.preview,)
-    assert settle(lambda: "waiting 12 s" in previews[0].note.text(), 10.0)
+    assert settle(lambda: "waiting 12 s" in previews[0].note.text())
     row = dialog.waiting.layout().itemAt(0).widget()
-    assert settle(lambda: "waiting 12 s" in row._text.text(), 10.0)
+    assert settle(lambda: "waiting 12 s" in row._text.text())
     row.cancel.click()
-    assert settle(lambda: running.equipment.dialog is None, 10.0)
-    assert settle(lambda: running.runs.run is not None, 10.0)
+    assert settle(lambda: running.equipment.dialog is None)
+    assert settle(lambda: running.runs.run is not None)
 
 
 def test_the_board_chosen_last_is_remembered_between_starts(window):

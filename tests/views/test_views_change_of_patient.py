@@ -124,7 +124,7 @@ def settled(window, settle):
     """The window with the bull's-eye, once surfaces and words are there."""
     window.workspace.show_bullseye(True)
     window.workspace.side.setCurrentIndex(0)
-    assert settle(lambda: not window.conductor._surfaces.is_running, 20.0)
+    assert settle(lambda: not window.conductor._surfaces.is_running)
     settle(timeout=0.4)
     return window
 
@@ -134,7 +134,7 @@ def fill(window, settle, live=True):
     workspace = window.workspace
     plan(window)
     window.editor.set_placement(Placement(rotation_deg=(0.0, 0.0, 12.34)))
-    assert settle(lambda: window.runs.run is not None and window.conductor.settled, 20.0)
+    assert settle(lambda: window.runs.run is not None and window.conductor.settled)
     window.editor.saved(Path("OLDPLAN.mrk.json"))
     placed = window.runs.run.placed
     where = pose_of(placed, 0.2, 0.0777, deflection=0.0987, deflection_sigma=1e-4)
@@ -162,7 +162,7 @@ def fill(window, settle, live=True):
         workspace.tracker_panel._shown = window.feature(RobotFeature).panel._shown = -1e9
         controller._display._status_time = controller._display._figures_time = -1.0
         controller.look()
-    assert settle(lambda: not window.conductor.scans.is_busy, 20.0)
+    assert settle(lambda: not window.conductor.scans.is_busy)
     window.editors.measures.add(Distance((0.0, 0.0, 130.0), (3.0, 2.0, 131.0), "oldnote"))
     volume = window.conductor.patient.volume
     vessel = brushed(None, volume, (5.0, -5.0, 140.0), 4.0, True)
@@ -210,12 +210,12 @@ def test_a_patient_without_a_plan_leaves_no_robot_of_the_last_one(
     old, new = patients
     window.show_patient(old)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 20.0)
+    assert settle(lambda: window.runs.run is not None)
     window.show_patient(new)
     settle(timeout=0.5)
     assert window.runs.run is None
     assert len(services.opened) == 1  # none was built again for the plan that is gone
-    assert services.opened[0].closed.wait(5.0)
+    assert services.opened[0].closed.wait(30.0)
     assert not window.workspace.exercise_panel.buttons.start.isEnabled()
 
 
@@ -227,7 +227,7 @@ def test_a_maximised_scan_does_not_make_the_next_ct_black(window, patients, sett
     assert not window.workspace.panes[0].isVisible()
     window.show_patient(new)
     assert window.workspace.panes[0].isVisible()
-    assert settle(lambda: window.workspace.panes[0].canvas.is_settled, 20.0)
+    assert settle(lambda: window.workspace.panes[0].canvas.is_settled)
 
 
 # --- asking -----------------------------------------------------------------------------------
@@ -265,9 +265,9 @@ def slow(monkeypatch, patients):
 def with_attempt(window, patient, settle):
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 20.0)
+    assert settle(lambda: window.runs.run is not None)
     window.conductor.controller.begin("")
-    assert settle(lambda: window.editor.locked, 5.0)
+    assert settle(lambda: window.editor.locked)
 
 
 def test_what_would_be_replaced_is_named_and_cancelling_changes_nothing(
@@ -310,7 +310,7 @@ def test_until_the_new_patient_is_there_the_old_one_is_whole(
         go.set()
     else:
         window.open_ct._task.cancel()
-    assert settle(lambda: not window.open_ct.is_reading, 5.0)
+    assert settle(lambda: not window.open_ct.is_reading)
     window.message_bar.clear()
     settle(timeout=0.1)
     after = texts(window, health=False)
@@ -332,8 +332,8 @@ def test_then_the_attempt_is_saved_and_the_new_patient_has_its_exercise(
     given.append(QMessageBox.StandardButton.Discard)
     window.begin_exercise("thick-tissue")
     go.set()
-    assert settle(lambda: window.conductor.patient is patients[1], 5.0)
-    assert settle(lambda: reasons == ["another patient was opened"], 5.0)  # beside the window
+    assert settle(lambda: window.conductor.patient is patients[1])
+    assert settle(lambda: reasons == ["another patient was opened"])  # beside the window
     assert window.conductor.exercise.id == "thick-tissue"
     assert not window.editor.locked
     assert window.pages.currentWidget() is window.workspace
@@ -346,7 +346,7 @@ def test_start_waits_while_a_patient_is_loaded_and_says_why(
     go, outcome = slow
     window.show_patient(patients[0])
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 20.0)
+    assert settle(lambda: window.runs.run is not None)
     panel, run = window.workspace.exercise_panel, window.runs.run
     assert panel.buttons.start.isEnabled()
     given.append(QMessageBox.StandardButton.Discard)
@@ -360,7 +360,7 @@ def test_start_waits_while_a_patient_is_loaded_and_says_why(
     assert run.trainer.state is State.READY
     outcome["error"] = ImagingError("the CT cannot be read")
     go.set()
-    assert settle(lambda: not window.open_ct.is_reading, 5.0)
+    assert settle(lambda: not window.open_ct.is_reading)
     assert panel.buttons.start.isEnabled()
     assert not panel._note.isVisible()
 

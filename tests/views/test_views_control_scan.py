@@ -47,7 +47,7 @@ def guided(window, patient: Patient, settle, services):
     window.conductor.set_exercise(next(iter(window.feature(ExerciseFeature).exercises.values())))
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None and window.conductor.settled, 20.0)
+    assert settle(lambda: window.runs.run is not None and window.conductor.settled)
     placed = window.runs.run.placed
     trainer = Recorder(placed, now=snapshot_of(placed))
     run = ExerciseRun(trainer, placed, window.runs.run.profile, guidance=GuidancePart(streak=True),
@@ -128,7 +128,7 @@ def test_structures_are_said_nothing_of_while_scans_guide(guided, settle) -> Non
     assert window.feature(StructuresFeature).watch.needle is None
     assert window.feature(StructuresFeature).watch.items(trainer.now) == ()
     window.conductor._attach(replace(window.conductor.controller.run, shown=Shown(), inspect=None))
-    settle(lambda: bool(breaches), 2.0)
+    settle(lambda: bool(breaches))
     assert breaches  # the same needle, shown live
 
 
@@ -228,7 +228,7 @@ def test_the_slices_of_the_last_scan_are_shown_and_counted(guided, settle) -> No
     window.conductor.controller.begin("s")
     trainer.events.put(scan_event(1))
     trainer.events.put(scan_event(2, order=ScanOrder(144.0, 5, 2.0)))
-    assert settle(lambda: view.scan is not None and view.scan.number == 2, 60.0)
+    assert settle(lambda: view.scan is not None and view.scan.number == 2)
     volume = view.viewing.volume
     assert volume is not None
     assert volume.size[2] == 5
@@ -245,7 +245,7 @@ def test_the_scan_pane_draws_nothing_live(guided, settle) -> None:
     window, trainer = guided
     view = window.workspace.scan_view
     trainer.events.put(scan_event())
-    assert settle(lambda: view.scan is not None, 60.0)
+    assert settle(lambda: view.scan is not None)
     window.conductor.controller.look()
     assert view.viewing.needle is None
     assert not view.viewing.draft.complete
@@ -255,7 +255,7 @@ def test_the_scan_follows_window_and_crosshair_of_the_planning_ct(guided, settle
     window, trainer = guided
     view, planning = window.workspace.scan_view, window.workspace.viewing
     trainer.events.put(scan_event())
-    assert settle(lambda: view.scan is not None, 60.0)
+    assert settle(lambda: view.scan is not None)
     view.viewing.set_window(replace(planning.window, width=1234.0))
     assert planning.window.width == 1234.0
     slice_before = float(view.viewing.cursor_mm[2])
@@ -282,7 +282,7 @@ def test_a_live_exercise_shows_neither_panel_nor_scan(window, patient, settle) -
     window.conductor.set_exercise(next(iter(window.feature(ExerciseFeature).exercises.values())))
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None and window.conductor.settled, 20.0)
+    assert settle(lambda: window.runs.run is not None and window.conductor.settled)
     window.workspace.show_exercise()
     assert not window.workspace.exercise_panel.scan.isVisible()
     assert not window.workspace.scan_view.isVisible()
@@ -328,7 +328,7 @@ def test_the_debrief_shows_a_scan_again_beside_the_truth(guided, settle) -> None
     window, _ = guided
     window.feature(DebriefFeature).page.show_review(reviewed())
     window.feature(DebriefFeature).page.scans.cellActivated.emit(0, 0)
-    assert settle(lambda: window.feature(DebriefFeature).scan_pictures.dialog is not None, 60.0)
+    assert settle(lambda: window.feature(DebriefFeature).scan_pictures.dialog is not None)
     view = window.feature(DebriefFeature).scan_pictures.dialog.findChild(ScanView)
     assert view.viewing.needle is not None
     assert view.viewing.draft.complete
@@ -352,7 +352,7 @@ def test_the_debrief_reads_the_ct_again_as_it_was_in_the_attempt(
         window.feature(DebriefFeature).scan_pictures.dialog = None
         window.feature(DebriefFeature).page.show_review(reviewed(ct=CtFacts(pseudonym, (), recipe)))
         window.feature(DebriefFeature).page.scans.cellActivated.emit(0, 0)
-        assert settle(lambda: window.feature(DebriefFeature).scan_pictures.dialog is not None, 60.0)
+        assert settle(lambda: window.feature(DebriefFeature).scan_pictures.dialog is not None)
         window.feature(DebriefFeature).scan_pictures.dialog.close()
     assert asked == [(volume.series, Recipe(Remedy.HALVE, (2, 2, 1)))]
 

@@ -64,7 +64,7 @@ def test_without_a_proposed_entry_it_says_what_to_do(window, own, patient) -> No
 def test_where_scans_guide_one_is_taken_at_the_target(window, patient, settle) -> None:
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None and window.conductor.settled, 20.0)
+    assert settle(lambda: window.runs.run is not None and window.conductor.settled)
     run = window.conductor.controller.run
     object.__setattr__(run, "shown", Shown(live=False))
     scans = []

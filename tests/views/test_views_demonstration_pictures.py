@@ -28,12 +28,12 @@ def test_a_picture_shows_the_needle_that_came_just_now(
     viewing.set_volume(volume)
     middle = viewing.cursor_mm
     for depth in (-10.0, 5.0):
-        settle(lambda: pane.canvas.is_settled, 5.0)
+        settle(lambda: pane.canvas.is_settled)
         tip = middle + [0.0, depth, 0.0]
         viewing.set_needle(NeedleOverlay(tip - [0.0, 40.0, 0.0], tip))
     pictures = StillPictures(window, tmp_path)
     pictures.take("now")
-    settle(lambda: pane.canvas.is_settled, 5.0)
+    settle(lambda: pane.canvas.is_settled)
     settle()
     pictures.take("at rest")
     assert pixels(pictures, "now") == pixels(pictures, "at rest")

@@ -42,7 +42,7 @@ class Room:
 
     def arrive(self, settle):
         self.flush()
-        assert settle(lambda: all(not pane.canvas.feed.is_waiting for pane in self.panes), 20.0)
+        assert settle(lambda: all(not pane.canvas.feed.is_waiting for pane in self.panes))
         self.flush()
 
 
@@ -153,7 +153,7 @@ def test_however_much_changes_each_layer_is_placed_once(room, settle, monkeypatc
     for _ in range(6):
         one.viewing.set_needle(random_needle(rng, one.viewing.cursor_mm))
     assert not placed
-    assert settle(lambda: pane.canvas.is_settled, 20.0)
+    assert settle(lambda: pane.canvas.is_settled)
     assert len(placed) == 1
 
 
@@ -167,7 +167,7 @@ def test_what_lies_over_a_picture_that_is_still_to_come_comes_with_it(room, sett
     pane.canvas._draw_together()  # the event loop has come round
     assert pane.canvas.feed.is_waiting
     assert [item_state(item) for item in pane.canvas.drawing.shapes] == before
-    assert settle(lambda: pane.canvas.is_settled, 20.0)
+    assert settle(lambda: pane.canvas.is_settled)
     assert [item_state(item) for item in pane.canvas.drawing.shapes] != before
 
 
@@ -227,7 +227,7 @@ def test_a_picture_that_is_late_is_not_waited_for(room, settle, monkeypatch):
     monkeypatch.setattr(one.viewing.pictures, "waits", lambda _: True)
     before = ticks._state
     one.viewing.set_needle(NeedleOverlay([30.0, -80.0, 9.0], [4.0, 5.0, 3.0]))
-    assert settle(lambda: ticks._state != before, 5.0)
+    assert settle(lambda: ticks._state != before)
     assert pane.canvas.feed.is_waiting
     one.viewing.set_needle(None)
 
@@ -261,5 +261,5 @@ def test_a_thread_that_gets_no_turn_holds_up_nothing_that_is_quickly_made(
     monkeypatch.setattr(one.viewing.pictures, "waits", lambda _: True)
     one.viewing.set_window(WindowLevel(1234.0, 40.0))
     canvas = one.panes[0].canvas
-    assert settle(lambda: canvas.feed.picture.wish.window.width == 1234.0, 2.0)
-    assert settle(lambda: canvas.is_settled, 2.0)
+    assert settle(lambda: canvas.feed.picture.wish.window.width == 1234.0)
+    assert settle(lambda: canvas.is_settled)

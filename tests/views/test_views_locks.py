@@ -34,7 +34,7 @@ def opened(window, patient, settle):
         window.show_patient(patient)
         if window.conductor._editor.edit.draft.target_mm is None:
             plan(window)
-        assert settle(lambda: window.runs.run is not None and window.conductor.settled, 20.0)
+        assert settle(lambda: window.runs.run is not None and window.conductor.settled)
         window.conductor.controller._timer.stop()
         window.workspace.show_exercise()
         settle(timeout=0.05)

@@ -91,7 +91,7 @@ def test_the_title_of_what_is_going_on_loses_the_folder(window, settle, tmp_path
     window.projector.hide_names(True)
     texts = [label.text() for label in rows.findChildren(QLabel)]
     assert not any("Smith" in text for text in texts)
-    assert settle(lambda: bool(window.message_bar.text), 20.0)
+    assert settle(lambda: bool(window.message_bar.text))
     assert "Smith" not in window.message_bar.text
 
 

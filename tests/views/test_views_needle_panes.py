@@ -118,7 +118,7 @@ def test_unseen_panes_cost_nothing(viewing, planes, monkeypatch):
 
 def test_the_picture_comes_at_the_panes_own_pixels(viewing, planes, pane, settle):
     viewing.set_needle(needle_at(viewing, (0.3, 0.2, 0.1), (0.1, 1.0, 0.2)))
-    assert settle(lambda: pane.canvas.is_settled, 20.0)
+    assert settle(lambda: pane.canvas.is_settled)
     feed, canvas = pane.canvas.feed, pane.canvas
     left, top, width, height = feed.bounds_mm
     rows, columns = feed.hu.shape
@@ -133,7 +133,7 @@ def test_the_picture_comes_at_the_panes_own_pixels(viewing, planes, pane, settle
 def test_of_many_wishes_only_the_newest_is_drawn(viewing, planes, pane, settle):
     for n in range(50):
         viewing.set_needle(needle_at(viewing, (0.5 * n - 10.0, 0.0, 0.0)))
-    assert settle(lambda: pane.canvas.is_settled, 20.0)
+    assert settle(lambda: pane.canvas.is_settled)
     assert pane.canvas.feed.wish.plane is pane.canvas.plane
 
 
@@ -226,14 +226,14 @@ def test_in_a_narrow_pane_the_lower_letter_gives_way_to_the_words(viewing, plane
     viewing.set_needle(needle_at(viewing))
     letter, words = pane.readouts.letters[3], pane.readouts.slice
     pane.resize(600, 300)
-    settle(lambda: pane.canvas.is_settled, 5.0)
+    settle(lambda: pane.canvas.is_settled)
     middle = pane.canvas.width() / 2
     assert abs(letter.geometry().center().x() - middle) <= 3  # where there is room
     pane.resize(230, 300)
-    settle(lambda: pane.canvas.is_settled, 5.0)
+    settle(lambda: pane.canvas.is_settled)
     assert "through the needle" in words.text()
     assert not letter.geometry().intersects(words.geometry())
     assert pane.canvas.rect().contains(letter.geometry())
     pane.resize(600, 300)
-    settle(lambda: pane.canvas.is_settled, 5.0)
+    settle(lambda: pane.canvas.is_settled)
     assert abs(letter.geometry().center().x() - pane.canvas.width() / 2) <= 3

@@ -56,7 +56,7 @@ def test_work_beside_the_window_reports_and_answers_on_its_thread(application, s
     )
     reports = []
     task.progressed.connect(lambda share, text: reports.append((share, text)))
-    assert settle(lambda: bool(seen), 5.0)
+    assert settle(lambda: bool(seen))
     assert seen == [("acus-background", threading.main_thread())]
     assert reports == [(0.5, "half")]
 
@@ -68,7 +68,7 @@ def test_an_error_beside_the_window_is_handed_over(application, settle):
         raise AcusError("no such thing")
 
     run_in_background(parent, work, lambda _: None, errors.append)
-    assert settle(lambda: bool(errors), 5.0)
+    assert settle(lambda: bool(errors))
     assert str(errors[0]) == "no such thing"
 
 
@@ -82,9 +82,9 @@ def test_cancelling_ends_the_work_without_an_error(application, settle):
 
     task = run_in_background(parent, work, ended.append, ended.append, lambda: ended.append("off"))
     task.cancel()
-    assert settle(lambda: bool(ended), 5.0)
+    assert settle(lambda: bool(ended))
     assert ended == ["off"]
-    assert settle(lambda: "acus-background" not in {t.name for t in threading.enumerate()}, 5.0)
+    assert settle(lambda: "acus-background" not in {t.name for t in threading.enumerate()})
 
 
 def test_a_closed_task_calls_nobody(application, settle):
@@ -98,11 +98,11 @@ def test_a_closed_task_calls_nobody(application, settle):
 def test_work_that_is_replaced_holds_nobody_and_leaves_the_strip(application, settle):
     strip, ended = ProgressStrip(), []
     gate = threading.Event()
-    task = run_in_background(strip, lambda _: gate.wait(5.0), ended.append, ended.append,
+    task = run_in_background(strip, lambda _: gate.wait(60.0), ended.append, ended.append,
                              title="Reading", indicator=strip)  # fmt: skip
     began = time.monotonic()
     task.drop()
-    assert time.monotonic() - began < 0.5  # the work hears of it when it reports next
+    assert time.monotonic() - began < 30.0  # the work hears of it when it reports next, after 60
     assert strip.count == 0
     gate.set()
     settle(timeout=0.15)
@@ -112,7 +112,7 @@ def test_work_that_is_replaced_holds_nobody_and_leaves_the_strip(application, se
 def test_work_that_has_ended_can_still_be_dropped_and_closed(application, settle):
     parent, ended = QObject(), []
     task = run_in_background(parent, lambda _: 1, ended.append, ended.append)
-    assert settle(lambda: ended == [1], 5.0)
+    assert settle(lambda: ended == [1])
     settle(timeout=0.1)  # Qt deletes it
     task.drop()
     task.close()
@@ -122,12 +122,12 @@ def test_work_that_has_ended_can_still_be_dropped_and_closed(application, settle
 def test_the_strip_shows_a_task_and_its_cancel(application, settle):
     strip, ended = ProgressStrip(), []
     gate = threading.Event()
-    run_in_background(strip, lambda _: gate.wait(5.0), ended.append, ended.append,
+    run_in_background(strip, lambda _: gate.wait(60.0), ended.append, ended.append,
                       title="Reading", indicator=strip)  # fmt: skip
     assert strip.count == 1
     assert not strip.isHidden()
     gate.set()
-    assert settle(lambda: strip.count == 0, 5.0)
+    assert settle(lambda: strip.count == 0)
     assert strip.isHidden()
 
 
@@ -135,7 +135,7 @@ def test_a_long_title_ends_in_an_ellipsis_and_its_tooltip_has_the_whole(applicat
     strip, gate = ProgressStrip(), threading.Event()
     strip.resize(420, 40)
     title = "Starting robot and cameras: waiting for the program to be compiled, a minute or two"
-    run_in_background(strip, lambda _: gate.wait(5.0), print, print, title=title, indicator=strip)
+    run_in_background(strip, lambda _: gate.wait(60.0), print, print, title=title, indicator=strip)
     strip.show()
     settle(timeout=0.1)
     (label,) = strip.findChildren(ElidedLabel)
@@ -146,7 +146,7 @@ def test_a_long_title_ends_in_an_ellipsis_and_its_tooltip_has_the_whole(applicat
     settle(timeout=0.1)
     assert (label.text(), label.toolTip()) == (title, "")
     gate.set()
-    assert settle(lambda: strip.count == 0, 5.0)
+    assert settle(lambda: strip.count == 0)
 
 
 def test_the_message_bar_says_what_happened_and_keeps_the_details(application):

@@ -123,7 +123,7 @@ def test_there_is_no_map_without_a_target(window, patient):
 def test_a_map_is_made_shown_and_changes_no_plan_until_a_path_is_taken(planned, settle):
     before = planned.editor.edit.draft
     planned.feature(PathsFeature).make()
-    assert settle(lambda: planned.feature(PathsFeature).scores is not None, 60.0)
+    assert settle(lambda: planned.feature(PathsFeature).scores is not None)
     assert planned.editor.edit.draft == before
     table = planned.feature(PathsFeature).panel.table
     assert table.rowCount() > 0
@@ -151,17 +151,17 @@ def test_cancelling_leaves_neither_map_nor_message(planned, settle, monkeypatch)
 
     monkeypatch.setattr(skin, "skin_points", slow)
     planned.feature(PathsFeature).make()
-    assert settle(begun.is_set, 20.0)
+    assert settle(begun.is_set)
     assert not planned.feature(PathsFeature).panel.make.isEnabled()
     planned.feature(PathsFeature)._task.cancel()
-    assert settle(lambda: planned.feature(PathsFeature).panel.make.isEnabled(), 20.0)
+    assert settle(lambda: planned.feature(PathsFeature).panel.make.isEnabled())
     assert planned.feature(PathsFeature).scores is None
     assert planned.message_bar.text == ""
 
 
 def test_another_target_takes_the_map_away(planned, settle):
     planned.feature(PathsFeature).make()
-    assert settle(lambda: planned.feature(PathsFeature).scores is not None, 60.0)
+    assert settle(lambda: planned.feature(PathsFeature).scores is not None)
     planned.editor.start(DraftPlan(None, (-7.0, 6.0, 140.0), "another"))
     assert planned.feature(PathsFeature).scores is None
     assert planned.feature(PathsFeature).panel.table.rowCount() == 0
@@ -173,26 +173,26 @@ def test_a_failure_is_told_and_another_try_is_possible(planned, settle, monkeypa
 
     monkeypatch.setattr(skin, "skin_points", fails)
     planned.feature(PathsFeature).make()
-    assert settle(lambda: "no skin here" in planned.message_bar.text, 20.0)
+    assert settle(lambda: "no skin here" in planned.message_bar.text)
     assert planned.feature(PathsFeature).panel.make.isEnabled()
 
 
 def test_the_map_reaches_panes_that_a_later_layout_shows(planned, settle):
     planned.feature(PathsFeature).make()
-    assert settle(lambda: planned.feature(PathsFeature).scores is not None, 60.0)
+    assert settle(lambda: planned.feature(PathsFeature).scores is not None)
     planned.editor.take(
         planned.editor.edit.draft.with_entry((-6.0, -18.0, 140.0)), planned.editor.edit.placement
     )
     assert planned.feature(PathsFeature).scores is not None  # another entry, the same target
     planned.workspace.show_layout("needle")
     pane = planned.workspace.needle_panes[0]
-    assert settle(lambda: pane.canvas.plane is not None, 5.0)
+    assert settle(lambda: pane.canvas.plane is not None)
     layer = planned.feature(PathsFeature)._layers[planned.workspace.slices.index(pane)]
-    assert settle(lambda: layer._dots.isVisible() and len(layer._dots._places) > 0, 5.0)
+    assert settle(lambda: layer._dots.isVisible() and len(layer._dots._places) > 0)
 
 
 def test_patients_that_come_and_go_leave_no_map(planned, patient, settle):
     planned.feature(PathsFeature).make()
-    assert settle(lambda: planned.feature(PathsFeature).scores is not None, 60.0)
+    assert settle(lambda: planned.feature(PathsFeature).scores is not None)
     planned.show_patient(Patient(patient.volume, patient.body, "CT-OTHER"))
     assert planned.feature(PathsFeature).scores is None

@@ -56,7 +56,7 @@ def page(window, services, settle, seen):
     save_settings(PenSettings(source="usb:1-1"))
     window.feature(PenFeature).menu.page.trigger()
     opened = window.feature(PenFeature).dialog
-    assert settle(lambda: opened.tip.begin.isEnabled(), 10.0)
+    assert settle(lambda: opened.tip.begin.isEnabled())
     yield opened
     opened.tip.end()
     opened.tip.found = None
@@ -157,8 +157,8 @@ def test_the_lens_of_either_camera_of_a_pair_can_be_chosen(page, tmp_path):
 
 # --- the live picture -----------------------------------------------------------------------------
 def test_the_page_shows_the_picture_the_accuracy_and_what_is_seen(page, settle):
-    assert settle(lambda: page.preview.picture.has_image, 5.0)
-    assert settle(lambda: "known to ±" in page.status.accuracy.text(), 5.0)
+    assert settle(lambda: page.preview.picture.has_image)
+    assert settle(lambda: "known to ±" in page.status.accuracy.text())
     assert "faces of the cube" in page.status.lines.text
 
 
@@ -167,27 +167,27 @@ def test_a_webcam_that_stops_is_said_and_the_pen_is_shown_again_when_it_comes_ba
 ):
     live = services.pens[-1]
     live.state = CameraState.STALLED
-    assert settle(lambda: "check its cable" in page.status.accuracy.text(), 5.0)
+    assert settle(lambda: "check its cable" in page.status.accuracy.text())
     assert page.preview.picture._dimmed
     live.state = CameraState.LIVE
-    assert settle(lambda: "known to ±" in page.status.accuracy.text(), 5.0)
+    assert settle(lambda: "known to ±" in page.status.accuracy.text())
 
 
 def test_a_fault_of_the_tracker_is_said(page, services, settle):
     services.pens[-1].fault = "the pictures are 640x480, the calibration is of 1280x720"
-    assert settle(lambda: "1280x720" in page.status.accuracy.text(), 5.0)
+    assert settle(lambda: "1280x720" in page.status.accuracy.text())
 
 
 def test_a_webcam_that_is_missing_is_said_and_can_be_tried_again(window, services, settle):
     services.refuses = "no camera at usb:1-1; none is plugged in"
     window.feature(PenFeature).open()
     page = window.feature(PenFeature).dialog
-    assert settle(lambda: "none is plugged in" in page.preview.note.text(), 10.0)
+    assert settle(lambda: "none is plugged in" in page.preview.note.text())
     assert "could not be opened" in page.status.accuracy.text()
     assert not page.tip.begin.isEnabled()
     services.refuses = ""
     page.again.click()
-    assert settle(lambda: page.tip.begin.isEnabled(), 10.0)
+    assert settle(lambda: page.tip.begin.isEnabled())
     page.reject()
 
 
@@ -196,8 +196,8 @@ def test_another_webcam_is_opened_a_moment_after_it_was_chosen_and_the_first_is_
 ):
     first = services.pens[-1]
     page.choice.source.setEditText("folder:/pictures")
-    assert settle(lambda: services.pens[-1].opened_with.source == "folder:/pictures", 10.0)
-    assert first.closed.wait(5.0)
+    assert settle(lambda: services.pens[-1].opened_with.source == "folder:/pictures")
+    assert first.closed.wait(30.0)
 
 
 # --- the tip --------------------------------------------------------------------------------------
@@ -210,7 +210,7 @@ def test_a_rocked_pen_is_measured_with_progress_sides_and_positions_held_back(
     assert len(page.tip.directions.covered) == len(SIDES)
     page.tip.compute.click()
     assert services.pens[-1].collect is None, "nothing is collected any more"
-    assert settle(lambda: page.tip.found is not None, 10.0)
+    assert settle(lambda: page.tip.found is not None)
     assert "standard deviation" in page.tip.lines.text
     assert "positions held back" in page.tip.lines.text
     assert "not saved" in page.tip.state.text()
@@ -219,15 +219,15 @@ def test_a_rocked_pen_is_measured_with_progress_sides_and_positions_held_back(
 def test_a_measured_tip_is_saved_used_and_taken_back(page, services, settle, looks):
     rock(page, services, looks)
     page.tip.finish()
-    assert settle(lambda: page.tip.found is not None, 10.0)
+    assert settle(lambda: page.tip.found is not None)
     assert not can_undo("cube")
     page.tip.save.click()
     assert PenSettings().profile().tip.calibrated
-    assert settle(lambda: len(services.pens) == 2 and page.tip.begin.isEnabled(), 10.0)
+    assert settle(lambda: len(services.pens) == 2 and page.tip.begin.isEnabled())
     assert "the tip is measured" in page.tip.state.text()
     page.tip.undo.click()
     assert not PenSettings().profile().tip.calibrated
-    assert settle(lambda: len(services.pens) == 3 and page.tip.undo.isEnabled(), 10.0)
+    assert settle(lambda: len(services.pens) == 3 and page.tip.undo.isEnabled())
     page.tip.undo.click()
     assert PenSettings().profile().tip.calibrated
 
@@ -248,15 +248,15 @@ def test_too_few_positions_cannot_be_computed_and_a_pen_held_still_is_refused_by
     assert not page.tip.compute.isEnabled()
     page.tip.rocking.collector.poses = page.tip.rocking.collector.poses[:1] * 30
     page.tip.finish()
-    assert settle(lambda: "held still" in page.tip.state.text(), 10.0)
+    assert settle(lambda: "held still" in page.tip.state.text())
     assert page.tip.begin.isEnabled()
 
 
 def test_another_pen_stops_the_measurement(page, services, looks, settle):
     rock(page, services, looks, 5)
     page.choice.body.setCurrentIndex(page.choice.body.findData("ring"))
-    assert settle(lambda: not page.tip.running, 5.0)
-    assert settle(lambda: services.pens[-1].opened_with.pen == "ring", 10.0)
+    assert settle(lambda: not page.tip.running)
+    assert settle(lambda: services.pens[-1].opened_with.pen == "ring")
 
 
 def test_a_simulated_pen_is_practice_and_is_not_kept(application, settle, looks):
@@ -266,7 +266,7 @@ def test_a_simulated_pen_is_practice_and_is_not_kept(application, settle, looks)
     for one in looks:
         live.collect(one)
     tip.finish()
-    assert settle(lambda: tip.found is not None, 10.0)
+    assert settle(lambda: tip.found is not None)
     assert "practice" in tip.state.text()
     assert not tip.save.isEnabled()
 
@@ -277,12 +277,12 @@ def test_a_tip_that_is_not_saved_is_asked_about_when_the_page_is_left(
 ):
     rock(page, services, looks)
     page.tip.finish()
-    assert settle(lambda: page.tip.found is not None, 10.0)
+    assert settle(lambda: page.tip.found is not None)
     page.reject()
     (box,) = page.findChildren(QMessageBox)
     assert page.isVisible()
     box.button(QMessageBox.StandardButton[answer]).click()
-    assert settle(lambda: not page.isVisible(), 5.0)
+    assert settle(lambda: not page.isVisible())
     assert calibrated_path("cube").is_file() == stays
 
 
@@ -292,22 +292,22 @@ def test_using_the_pen_begins_a_run_on_it_is_remembered_and_the_robot_comes_back
 ):
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert settle(lambda: window.runs.run is not None)
     window.feature(PenFeature).open()
     page = window.feature(PenFeature).dialog
     page.choice.source.setEditText("usb:1-1")
     page.use.click()
-    assert settle(lambda: services.opened[-1].setup.robot.pen == "usb:1-1", 10.0)
-    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert settle(lambda: services.opened[-1].setup.robot.pen == "usb:1-1")
+    assert settle(lambda: window.runs.run is not None)
     assert load_settings().source == "usb:1-1"
     assert window.feature(PenFeature).menu.pen.isChecked()
     assert "usb:1-1" in window.feature(PenFeature).menu.pen.text()
     assert "The pen is the needle now" in window.message_bar.text
     window.feature(PenFeature).menu.robot.trigger()
-    assert settle(lambda: services.opened[-1].setup.robot.pen == "", 10.0)
+    assert settle(lambda: services.opened[-1].setup.robot.pen == "")
     assert window.feature(PenFeature).menu.robot.isChecked()
     window.feature(PenFeature).menu.pen.trigger()
-    assert settle(lambda: services.opened[-1].setup.robot.pen == "usb:1-1", 10.0)
+    assert settle(lambda: services.opened[-1].setup.robot.pen == "usb:1-1")
 
 
 def test_the_run_on_the_pen_lets_its_webcam_go_while_the_page_is_open(
@@ -316,14 +316,14 @@ def test_the_run_on_the_pen_lets_its_webcam_go_while_the_page_is_open(
     window.equipment.use_pen("usb:1-1")
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert settle(lambda: window.runs.run is not None)
     run = services.opened[-1]
     window.feature(PenFeature).open()
     page = window.feature(PenFeature).dialog
-    assert run.closed.wait(5.0)
-    assert settle(lambda: bool(services.pens), 10.0)
+    assert run.closed.wait(30.0)
+    assert settle(lambda: bool(services.pens))
     page.close_button.click()
-    assert settle(lambda: len(services.opened) == 2 and window.runs.run is not None, 10.0)
+    assert settle(lambda: len(services.opened) == 2 and window.runs.run is not None)
     assert services.pens[-1].closed.is_set()
     assert services.opened[-1].setup.robot.pen == "usb:1-1"
 
@@ -332,10 +332,10 @@ def test_the_page_leads_back_to_the_robot(window, patient, services, settle):
     window.equipment.use_pen("usb:1-1")
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert settle(lambda: window.runs.run is not None)
     window.feature(PenFeature).open()
     window.feature(PenFeature).dialog.back.click()
-    assert settle(lambda: services.opened[-1].setup.robot.pen == "", 10.0)
+    assert settle(lambda: services.opened[-1].setup.robot.pen == "")
     assert not window.feature(PenFeature).used
 
 
@@ -362,7 +362,7 @@ def test_the_robot_s_menu_opens_the_same_page(window):
 def test_pen_and_page_stay_closed_while_an_attempt_runs(window, patient, settle):
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert settle(lambda: window.runs.run is not None)
     window.runs.run.trainer.state = State.INSERTING
     window.feature(PenFeature).open()
     assert window.feature(PenFeature).dialog is None
@@ -375,8 +375,8 @@ def test_real_cameras_are_let_go_for_the_page(window, patient, services, settle)
     window.equipment.take_cameras(CameraSettings(left=one[0], right=one[1]))
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert settle(lambda: window.runs.run is not None)
     window.feature(PenFeature).open()
-    assert services.opened[-1].closed.wait(5.0)
+    assert services.opened[-1].closed.wait(30.0)
     window.feature(PenFeature).dialog.reject()
-    assert settle(lambda: len(services.opened) == 2, 10.0)
+    assert settle(lambda: len(services.opened) == 2)

@@ -302,6 +302,6 @@ def test_the_crosshair_stays_at_its_pixel_while_its_pane_turns(viewing, make_pan
     turn_planes(viewing, start, viewing.frame(PaneId.AXIAL).normal, TILT)
     after = pixel()
     assert (after.x(), after.y()) == pytest.approx((before.x(), before.y()), abs=1e-6)
-    assert settle(lambda: pane.canvas.is_settled, 20.0)
+    assert settle(lambda: pane.canvas.is_settled)
     assert "20° oblique" in pane.readouts.slice.text()
     viewing.pictures.close()

@@ -123,7 +123,7 @@ def test_titles_of_the_robots_health_are_whole_in_large_text(window, patient, de
     plan(window)
     panel = window.feature(RobotFeature).panel
     window.feature(RobotFeature).show_health()
-    assert settle(lambda: len(titles_of(panel)) > 0, 20.0)
+    assert settle(lambda: len(titles_of(panel)) > 0)
     for large in (False, True, False):
         window.projector.set_large(large)
         settle(timeout=0.1)

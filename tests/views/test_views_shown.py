@@ -33,7 +33,7 @@ def shows(window, patient, settle):
         window.conductor.set_exercise(first)
         window.show_patient(patient)
         plan(window)
-        assert settle(lambda: window.runs.run is not None and window.conductor.settled, 20.0)
+        assert settle(lambda: window.runs.run is not None and window.conductor.settled)
         placed = window.runs.run.placed
         where, moved = pose_of(placed, 0.1, 0.03), placed.p_target + SHIFT
         moment = snapshot_of(
@@ -164,13 +164,13 @@ def test_a_student_switches_views_in_practice_and_the_run_is_built_anew_with_the
     window.conductor.set_exercise(load_exercise("first-insertion"))
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 20.0)
+    assert settle(lambda: window.runs.run is not None)
     action = window.view_menu.shown[View.FORCE_GAUGE]
     assert action.isEnabled()
     assert not action.isChecked()
     before = len(services.opened)
     action.trigger()
-    assert settle(lambda: len(services.opened) > before and window.runs.run is not None, 20.0)
+    assert settle(lambda: len(services.opened) > before and window.runs.run is not None)
     assert View.FORCE_GAUGE in services.opened[-1].setup.exercise.views
     assert action.isChecked()
     assert window.workspace.needle_cell.gauge.isVisibleTo(window.workspace.needle_cell)

@@ -349,12 +349,12 @@ def test_the_value_under_a_resting_mouse_follows_the_slice(pane, viewing):
 def test_a_fast_window_drag_makes_grey_values_only_for_what_is_painted(
     pane, viewing, settle, monkeypatch
 ):
-    settle(lambda: pane.canvas.is_settled, 5.0)
+    settle(lambda: pane.canvas.is_settled)
     made, make = [], Picture.of
     monkeypatch.setattr(Picture, "of", lambda wish: made.append(wish.window) or make(wish))
     for width in range(300, 320):
         viewing.set_window(WindowLevel(width, 40))
-    assert settle(lambda: pane.canvas.is_settled, 5.0)
+    assert settle(lambda: pane.canvas.is_settled)
     assert made == [WindowLevel(319, 40)]
     assert pane.canvas.feed.picture.wish.window == made[0]
 

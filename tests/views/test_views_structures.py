@@ -284,16 +284,16 @@ def test_structures_of_an_exercise_come_with_its_ct(
     window.conductor.set_exercise(with_structures())
     window.show_patient(patient)
     book = window.editors.structures
-    assert settle(lambda: len(book.structures) == 2, 20.0)
+    assert settle(lambda: len(book.structures) == 2)
     vessel, liver = book.structures.find("vessel"), book.structures.find("liver")
     assert (vessel.kind, vessel.warn_mm) == (Kind.RISK, 4.0)
     assert liver.kind is not Kind.RISK
     assert not window.undo.can_undo
     plan(window)
-    assert settle(lambda: "vessel" in window.feature(StructuresFeature).watch.path, 20.0)
+    assert settle(lambda: "vessel" in window.feature(StructuresFeature).watch.path)
     other = next(e for e in window.feature(ExerciseFeature).exercises.values() if not e.structures)
     window.conductor.set_exercise(other)
-    assert settle(lambda: len(book.structures) == 0, 5.0)
+    assert settle(lambda: len(book.structures) == 0)
 
 
 def test_structures_that_an_exercise_lacks_are_said(
@@ -304,8 +304,8 @@ def test_structures_that_an_exercise_lacks_are_said(
     window.feature(StructuresFeature).failed.connect(said.append)
     window.conductor.set_exercise(with_structures("spleen"))
     window.show_patient(patient)
-    assert settle(lambda: bool(said), 20.0)
+    assert settle(lambda: bool(said))
     assert "there is no structure 'spleen'; there are: vessel, liver" in str(said[0])
     window.conductor.set_exercise(with_structures(file=tmp_path / "gone.nrrd"))
-    assert settle(lambda: len(said) > 1, 20.0)
+    assert settle(lambda: len(said) > 1)
     assert "gone.nrrd" in str(said[1])

@@ -28,7 +28,7 @@ def test_the_first_time_is_at_once_and_the_last_one_is_never_left_out(applicatio
     words.ask()
     assert done == [10.0]
     assert words.is_waiting
-    assert settle(lambda: len(done) == 2, 5.0)
+    assert settle(lambda: len(done) == 2)
     assert not words.is_waiting
 
 
@@ -61,9 +61,9 @@ def test_read_outs_of_a_following_slice_rest_a_moment_and_are_right_in_the_end(
         application.processEvents()
         shown.append(pane.readouts.slice.text())
     assert shown[1] == shown[2]
-    assert settle(lambda: pane.canvas.is_settled, 5.0)
+    assert settle(lambda: pane.canvas.is_settled)
     assert pane.readouts.slice.text() != shown[2]
     viewing.set_cursor(middle)  # by hand: with its picture
-    assert settle(lambda: not pane.canvas.feed.is_waiting and pane.canvas.is_settled, 5.0)
+    assert settle(lambda: not pane.canvas.feed.is_waiting and pane.canvas.is_settled)
     assert pane.readouts.slice.text() == shown[0]
     viewing.pictures.close()

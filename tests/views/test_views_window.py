@@ -37,14 +37,14 @@ def test_a_patient_comes_up_in_all_panes(window, patient, settle):
     assert window.pages.currentWidget() is window.workspace
     assert all(pane.canvas.plane is not None for pane in window.workspace.panes)
     assert "CT-TEST" in window.windowTitle()
-    assert settle(lambda: not window.conductor._surfaces.is_running, 20.0)
+    assert settle(lambda: not window.conductor._surfaces.is_running)
 
 
 def test_a_finished_plan_starts_robot_and_needle(window, patient, services, settle):
     window.show_patient(patient)
     plan(window)
     assert window.editor.verdict.placed is not None
-    assert settle(lambda: window.workspace.viewing.needle is not None, 10.0)
+    assert settle(lambda: window.workspace.viewing.needle is not None)
     needle = window.workspace.viewing.needle
     draft = window.editor.edit.draft
     path = np.subtract(draft.target_mm, draft.entry_mm)
@@ -56,7 +56,7 @@ def test_a_finished_plan_starts_robot_and_needle(window, patient, services, sett
 def test_another_plan_moves_the_same_trainer(window, patient, services, settle):
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert settle(lambda: window.runs.run is not None)
     window.editor.place(Tool.TARGET, (6.0, 6.0, 141.0), True)
     assert len(services.opened) == 1
     assert tuple(window.runs.run.placed.plan.target_mm) == (6.0, 6.0, 141.0)
@@ -65,9 +65,9 @@ def test_another_plan_moves_the_same_trainer(window, patient, services, settle):
 def test_the_plan_is_locked_while_an_attempt_runs(window, patient, services, settle):
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert settle(lambda: window.runs.run is not None)
     window.workspace.exercise_panel.buttons.start.click()
-    assert settle(lambda: window.editor.locked, 5.0)
+    assert settle(lambda: window.editor.locked)
     assert window.workspace.grid.shown == FIVE
     window.editor.undo()
     assert "attempt" in window.message_bar.text
@@ -86,17 +86,17 @@ def test_a_trainer_that_cannot_start_is_told_and_the_program_goes_on(
     services.refuses = "no robot answers on /dev/x: connect it"
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: "no robot answers" in window.message_bar.text, 10.0)
+    assert settle(lambda: "no robot answers" in window.message_bar.text)
     assert window.workspace.viewing.draft.complete
 
 
 def test_another_patient_ends_the_trainer_of_the_last(window, patient, services, settle):
     window.show_patient(patient)
     plan(window)
-    assert settle(lambda: window.runs.run is not None, 10.0)
+    assert settle(lambda: window.runs.run is not None)
     window.editor.saved(Path("kept"))
     window.show_patient(patient)
-    assert services.opened[0].closed.wait(5.0)
+    assert services.opened[0].closed.wait(30.0)
     assert window.workspace.viewing.needle is None
 
 
@@ -108,7 +108,7 @@ def test_a_folder_that_cannot_be_opened_is_told(window, tmp_path, settle, kind):
     if kind == "text":
         (folder / "notes.dcm").write_text("not an image")
     window.open_ct.open_folder(folder)
-    assert settle(lambda: window.message_bar.text != "", 20.0)
+    assert settle(lambda: window.message_bar.text != "")
     assert window.pages.currentWidget() is window.start_page
 
 
@@ -128,7 +128,7 @@ def test_several_usable_series_are_offered(window, volume, monkeypatch, settle):
     listing = Listing(Path("x"), (volume.series, other), ())
     monkeypatch.setattr(scanning, "scan_folder", lambda *_: listing)
     window.open_ct.open_folder(Path("x"))
-    assert settle(lambda: bool(window.findChildren(SeriesBrowser)), 5.0)
+    assert settle(lambda: bool(window.findChildren(SeriesBrowser)))
     for dialog in window.findChildren(SeriesBrowser):
         dialog.reject()
 
@@ -189,30 +189,30 @@ def test_closing_leaves_no_thread_behind(application, services, patient, settle,
     window.show()
     window.show_patient(patient)
     plan(window)
-    settle(lambda: window.runs.run is not None, 10.0)
+    settle(lambda: window.runs.run is not None)
     window.editor.saved(Path("kept"))
     window.close()
     assert services.opened[0].closed.is_set()
     ours = lambda: [t for t in threading.enumerate() if t.name.startswith("acus-")]  # noqa: E731
-    assert settle(lambda: not ours(), 10.0), ours()
+    assert settle(lambda: not ours()), ours()
 
 
 def test_heavy_parts_load_once_the_window_is_shown(window, services, settle):
     assert not services.prepared.is_set()
     window.show()
-    assert settle(services.prepared.is_set, 5.0)
+    assert settle(services.prepared.is_set)
 
 
 def test_a_part_that_cannot_be_loaded_is_told(window, services, settle):
     services.missing = "no module named 'vtkmodules'"
     window.show()
-    assert settle(lambda: "vtkmodules" in window.message_bar.text, 5.0)
+    assert settle(lambda: "vtkmodules" in window.message_bar.text)
 
 
 def test_a_force_law_that_is_refused_is_listed_with_the_reason(window, services, settle):
     services.unusable = ("mine.py, line 7: a while loop may never end",)
     window.show()
-    assert settle(lambda: "mine.py, line 7: a while loop" in window.message_bar.text, 5.0)
+    assert settle(lambda: "mine.py, line 7: a while loop" in window.message_bar.text)
 
 
 def test_every_key_of_the_menus_is_used_once(window):

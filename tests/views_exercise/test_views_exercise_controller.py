@@ -43,7 +43,7 @@ def desk(qt):
         getattr(views, name).deleteLater()
 
 
-def until(holds, seconds=2.0):
+def until(holds, seconds=30.0):
     """Let the window live until something holds; returns whether it does."""
     end = time.monotonic() + seconds
     while not holds() and time.monotonic() < end:
@@ -133,7 +133,7 @@ def test_aborting_disarms_at_once_and_writes_beside_the_window(desk):
     written = threading.Event()
 
     def slow(reason=""):
-        written.wait(5.0)
+        written.wait(30.0)
         return honest(reason)
 
     desk.trainer.abort = slow

@@ -48,7 +48,7 @@ def fill(folder: Path) -> None:
     (folder / "broken.mcap").write_bytes(b"text")
 
 
-def wait_until(condition, timeout=5.0):
+def wait_until(condition, timeout=30.0):
     for _ in range(int(timeout / 0.01)):
         if condition():
             return
