@@ -1,4 +1,6 @@
+import json
 import threading
+from itertools import combinations
 
 import numpy as np
 import pytest
@@ -8,17 +10,25 @@ from numpy.testing import assert_allclose
 from PySide6.QtCore import QPointF, Qt
 from PySide6.QtTest import QSignalSpy, QTest
 from scipy.spatial import cKDTree
+from window_rig import plan
 
 from app.core.progress import Cancelled, Progress
 from app.core.transform import RigidTransform
 from app.imaging.body import find_body
+from app.imaging.phantom.anatomy import anatomy, organ_fields
+from app.imaging.reformat import Frame
 from app.imaging.structures.structure import Structure
+from app.imaging.window import WindowLevel
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
+from app.planning.patient import Patient
+from app.planning.placement import Placement
 from app.views.scene import mesh as meshes
-from app.views.scene.compass import compass_ends
+from app.views.scene import surfaces as extraction
+from app.views.scene.display import LIGHT_BACKGROUND, ORGAN_COLOURS, Display, Section
+from app.views.scene.feature import SceneFeature
 from app.views.scene.mesh import coarser, isosurface, structure_mesh
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneRenderer, Shot
@@ -26,6 +36,7 @@ from app.views.scene.robot import RobotShape
 from app.views.scene.stage import SceneError, Stage
 from app.views.scene.surfaces import BONE_HU, Surfaces, extract_surfaces, reduced, without_marrow
 from app.views.scene.view import SceneView
+from app.views.scene.words import compass_ends
 
 SIZE = (120, 90)
 
@@ -388,3 +399,267 @@ def test_a_structure_is_a_surface_where_its_voxels_end(volume):
     dot = np.zeros(volume.hu.shape, bool)
     dot[20, 30, 30] = True
     assert structure_mesh(Structure.of("dot", dot, volume), 5_000).count > 0
+
+
+# --- how it is shown --------------------------------------------------------------------------
+def plane_of(volume, body, normal_axis=1):
+    """A section through the middle of the block, along a patient axis."""
+    right, down = [np.eye(3)[axis] for axis in range(3) if axis != normal_axis]
+    middle = volume.lps_mm((np.array(volume.size) - 1) / 2)
+    patient = Patient(volume, body, "CT-TEST")
+    return patient, Section(patient, Frame(middle, right, down), WindowLevel(400, 40))
+
+
+MATRICES = {  # Machado, Oliveira and Fernandes 2009, severity 1, on linear RGB
+    "protanopia": [[0.152, 1.053, -0.205], [0.115, 0.786, 0.099], [-0.004, -0.048, 1.052]],
+    "deuteranopia": [[0.367, 0.861, -0.228], [0.280, 0.673, 0.047], [-0.012, 0.043, 0.969]],
+}
+
+
+def lab(name, matrix):
+    """CIELAB of `#rrggbb` as somebody sees it."""
+    values = np.array([int(name[at : at + 2], 16) for at in (1, 3, 5)]) / 255.0
+    linear = np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)
+    linear = np.clip(np.array(matrix) @ linear, 0.0, 1.0)
+    to_xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
+    x, y, z = np.cbrt(np.array(to_xyz) @ linear / [0.9505, 1.0, 1.089])
+    return np.array([116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)])
+
+
+@pytest.mark.parametrize("sight", [*MATRICES, "usual"])
+def test_organs_are_told_apart_by_colour_blind_people_too(sight):
+    matrix = MATRICES.get(sight, np.eye(3))
+    seen = {name: lab(colour, matrix) for name, colour in ORGAN_COLOURS.items()}
+    apart = {pair: np.linalg.norm(seen[pair[0]] - seen[pair[1]]) for pair in combinations(seen, 2)}
+    assert min(apart.values()) > 9.0, min(apart, key=apart.get)
+
+
+def test_what_is_chosen_is_read_back_and_nonsense_is_left():
+    display = Display(light=True, xray=True, cut=True, volume="bone")
+    assert Display.of_document(json.loads(json.dumps(display.document()))) == display
+    assert Display.of_document({"light": "yes", "volume": 3, "new": 1}) == Display()
+
+
+def test_the_organs_of_the_built_in_patient_hold_the_points_that_are_known():
+    truth, fields = anatomy(1), organ_fields(1, 4.0)
+    inside = {"liver": "liver", "right kidney": "kidneys", "left kidney": "kidneys",
+              "spleen": "spleen", "aorta": "arteries", "vena cava": "veins"}  # fmt: skip
+    for point, organ in inside.items():
+        values, affine = fields[organ]
+        at = np.linalg.inv(affine) @ [*truth.organs[point], 1.0]
+        i, j, k = np.rint(at[:3]).astype(int)
+        assert values[k, j, i] > -1.0, point
+    values, affine = fields["lesion"]
+    points = isosurface(values, affine, 0.0, 2000).points
+    assert_allclose(points.mean(axis=0), truth.lesion_mm, atol=1.5)
+
+
+def test_lungs_are_an_organ_and_gas_outside_the_body_is_not(volume, monkeypatch):
+    monkeypatch.setattr(extraction, "LUNG_ML", 5.0)
+    hu = np.full((40, 100, 110), -1000, np.int16)
+    hu[2:-2, 12:-12, 10:-10] = 40
+    hu[10:30, 30:70, 30:80] = -840
+    lunged = type(volume)(hu, volume.affine_mm, volume.series)
+    found = extract_surfaces(lunged, find_body(lunged), Progress())
+    fine, coarse = found.organs["lungs"]
+    assert open_edges(fine) == 0
+    assert coarse.count <= fine.count
+    assert_allclose(fine.points.min(axis=0), volume.lps_mm((29.5, 29.5, 9.5)), atol=2.0)
+    assert "lungs" not in extract_surfaces(volume, find_body(volume), Progress()).organs
+
+
+def test_the_background_is_light_and_marks_are_dark_on_it(stage):
+    orbit = Orbit.look_from("A", np.zeros(3), 60.0)
+    stage.set_needle(NeedleOverlay([0, 0, 50], [0, 0, 0]))
+    stage.set_display(Display(light=True))
+    picture = stage.render(orbit, SIZE, False)[:, :, :3].astype(int)
+    assert picture[2, 2].tolist() == [int(LIGHT_BACKGROUND[at : at + 2], 16) for at in (1, 3, 5)]
+    shaft = picture[25, 55:65]
+    assert (np.abs(shaft - picture[2, 2]).max(axis=1) > 80).any()
+    stage.set_display(Display())
+    assert stage.render(orbit, SIZE, False)[2, 2, :3].max() == 0
+
+
+def test_in_an_x_ray_the_needle_is_never_hidden_and_three_pixels_wide(stage, surfaces):
+    size = (420, 330)  # the 3D view of a window of 1366 × 768
+    orbit = Orbit.look_from("A", np.full(3, 14.5), 300.0)
+    stage.set_surfaces(surfaces)
+    stage.set_needle(NeedleOverlay([14.5, 60.0, 214.5], [14.5, 14.5, 4.5]))
+    stage.set_display(Display(xray=True))
+    picture = stage.render(orbit, size, False)[:, :, :3].astype(int)
+    orange = (picture[58:158, :, 0] - picture[58:158, :, 2]) > 100
+    assert (orange.sum(axis=1) >= 3).all()
+    near = Orbit.look_from("A", np.full(3, 14.5), 20.0)
+    inside = stage.render(near, SIZE, False)[38, 60, :3].astype(int)
+    assert inside[0] - inside[2] > 100  # solid orange in the middle of the ball
+
+
+@pytest.mark.parametrize("peels", [True, False])
+def test_what_is_nearer_lies_over_what_is_farther_in_whatever_order_it_came(stage, peels):
+    def sheet(y):
+        mesh = isosurface(ball(), np.eye(4), 0.0, 4000)
+        return meshes.Mesh(mesh.points + np.float32([0, y, 0]), mesh.triangles, mesh.normals)
+
+    red, blue = (220, 20, 20), (20, 20, 220)
+    orbit = Orbit.look_from("A", np.full(3, 14.5), 20.0)
+    stage._peels = peels
+    seen = []
+    for shown in (((red, sheet(0)), (blue, sheet(40))), ((blue, sheet(40)), (red, sheet(0)))):
+        stage.set_structures(shown)
+        stage.set_display(Display(xray=True))
+        seen.append(stage.render(orbit, SIZE, False)[45, 60, :3].astype(int))
+    assert seen[0][0] > seen[0][2] > 0
+    assert_allclose(seen[0], seen[1], atol=2)
+
+
+def test_path_and_tolerance_are_seen_through_the_body(stage, surfaces):
+    orbit = Orbit.look_from("A", np.full(3, 14.5), 20.0)
+    stage.set_surfaces(surfaces)
+    plain = stage.render(orbit, SIZE, False)[:, :, :3].astype(int)
+    stage.set_plan(DraftPlan((14.5, 14.5, 34.5), (14.5, 14.5, 14.5)))
+    stage.set_tolerances((2.0, 5.0))
+    planned = stage.render(orbit, SIZE, False)[:, :, :3].astype(int)
+    changed = np.abs(planned - plain).max(axis=2) > 12
+    assert changed[20:44, 58:63].any(axis=1).all()  # the path, inside the ball
+    ring = changed[43:48, 45:76].any(axis=0)
+    assert ring[[4, 26]].any()  # 5 mm beside the target, across the path
+    stage.set_plan(DraftPlan())
+    assert np.abs(stage.render(orbit, SIZE, False)[:, :, :3] - plain).max() <= 2
+
+
+def test_slices_stand_where_they_are_with_the_values_of_the_ct(stage, volume):
+    _, section = plane_of(volume, find_body(volume))
+    orbit = Orbit.look_from("A", section.frame.origin_mm, 40.0)
+    stage.set_sections((section,))
+    picture = stage.render(orbit, (160, 160), False)[:, :, :3]
+    assert picture[80, 80].min() > 250  # bone
+    assert_allclose(picture[80, 80 + 24], 127, atol=6)  # tissue of 40 HU at level 40
+    assert picture[80, 2].max() == 0
+    stage.set_sections(())
+    assert stage.render(orbit, (160, 160), False)[:, :, :3].max() == 0
+
+
+def test_a_cut_takes_away_what_lies_before_it_from_either_side(stage, volume):
+    body = find_body(volume)
+    _, section = plane_of(volume, body)
+    stage.set_surfaces(extract_surfaces(volume, body, Progress()))
+    for side in "AP":
+        orbit = Orbit.look_from(side, section.frame.origin_mm, 40.0)
+        stage.set_cut(None)
+        whole = stage.render(orbit, (160, 160), False)[80, 80 + 24, :3].astype(int)
+        stage.set_cut(section)
+        cut = stage.render(orbit, (160, 160), False)[80, 80 + 24, :3].astype(int)
+        assert whole[0] - whole[2] > 8  # skin
+        assert_allclose(cut, 127, atol=6)  # the CT
+    beside = Orbit.look_from("R", section.frame.origin_mm, 40.0)
+    picture = stage.render(beside, (160, 160), False)[80, :, :3].max(axis=1)
+    assert picture.max() > 30
+
+
+@pytest.mark.parametrize("preset", ["bone", "skin", "lung", "vessels"])
+def test_the_volume_is_rendered_where_it_is_asked_for(monkeypatch, volume, preset):
+    monkeypatch.setenv("ACUS_VOLUME", "1")
+    stage = Stage()
+    stage.open()
+    patient, section = plane_of(volume, find_body(volume))
+    orbit = Orbit.look_from("A", section.frame.origin_mm, 40.0)
+    try:
+        stage.set_patient(patient)
+        stage.set_display(Display(volume=preset))
+        shown = stage.render(orbit, (64, 64), False)[:, :, :3]
+        stage.set_display(Display())
+        assert stage.render(orbit, (64, 64), False)[:, :, :3].max() == 0
+        assert shown[32, 32].max() > 20
+        assert shown[2, 2].max() == 0
+        stage.set_patient(None)
+    finally:
+        stage.close()
+
+
+def test_without_a_graphics_card_surfaces_stay(monkeypatch, stage, surfaces, volume):
+    monkeypatch.setenv("ACUS_VOLUME", "0")
+    assert stage.driver
+    stage.set_patient(Patient(volume, find_body(volume), "CT-TEST"))
+    stage.set_surfaces(surfaces)
+    stage.set_display(Display(volume="bone"))
+    assert not stage.has_volume
+    shown = stage.render(Orbit.look_from("A", np.full(3, 14.5), 20.0), SIZE, False)
+    assert shown[45, 60, :3].max() > 60
+
+
+# --- from where one looks -----------------------------------------------------------------------
+@given(st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda way: np.linalg.norm(way) > 0.1))
+@settings(derandomize=True, deadline=None, max_examples=60)
+def test_one_can_look_along_every_direction(way):
+    orbit = Orbit.towards(way, (0.0, 0.0, 1.0), np.zeros(3), 50.0)
+    basis = np.array([orbit.right, orbit.up, orbit.backwards])
+    assert_allclose(basis @ basis.T, np.eye(3), atol=1e-9)
+    assert_allclose(orbit.backwards, -np.asarray(way) / np.linalg.norm(way), atol=1e-9)
+
+
+def test_the_operator_sees_the_motors_right_on_the_right_and_looks_down():
+    R_world_patient = Placement().rotation
+    orbit = Orbit.from_operator(R_world_patient, np.zeros(3), 50.0)
+    assert_allclose(R_world_patient @ orbit.right, [1.0, 0.0, 0.0], atol=1e-9)
+    eye = R_world_patient @ orbit.backwards
+    assert eye[1] < 0.0 < eye[2]
+
+
+def test_keys_look_along_the_needle_and_back(view):
+    home = view.orbit
+    QTest.keyClick(view, Qt.Key.Key_N)
+    assert view.orbit is home  # neither needle nor path
+    view.set_plan(DraftPlan((0.0, 0.0, 50.0), (0.0, 30.0, 0.0)))
+    QTest.keyClick(view, Qt.Key.Key_N)
+    way = np.array([0.0, 30.0, -50.0]) / np.hypot(30.0, 50.0)
+    assert_allclose(view.orbit.backwards, -way, atol=1e-9)
+    view.set_needle(NeedleOverlay([10.0, 0.0, 0.0], [0.0, 0.0, 0.0]))
+    QTest.keyClick(view, Qt.Key.Key_N)
+    assert_allclose(view.orbit.backwards, [1.0, 0.0, 0.0], atol=1e-9)
+    QTest.keyClick(view, Qt.Key.Key_W)
+    for _ in range(3):
+        QTest.keyClick(view, Qt.Key.Key_Backspace)
+    assert view.orbit is home
+    QTest.keyClick(view, Qt.Key.Key_Backspace)
+    assert view.orbit is home
+
+
+@pytest.mark.parametrize(("key", "part"), [
+    (Qt.Key.Key_X, "xray"), (Qt.Key.Key_C, "cut"), (Qt.Key.Key_M, "slices"),
+    (Qt.Key.Key_Y, "organs"), (Qt.Key.Key_Q, "light"),
+])  # fmt: skip
+def test_a_key_switches_what_is_shown(view, key, part):
+    spy = QSignalSpy(view.display_changed)
+    before = getattr(view.display, part)
+    QTest.keyClick(view, key)
+    assert getattr(view.display, part) is not before
+    QTest.keyClick(view, key)
+    assert view.display == Display()
+    assert spy.count() == 2
+
+
+def test_the_menu_of_the_3d_view_says_what_each_entry_does_and_is_remembered(
+    window, patient, settle
+):
+    feature = window.feature(SceneFeature)
+    window.show_patient(patient)
+    plan(window)
+    scene, menu = window.workspace.scene, feature.menu
+    entries = (*menu.looks.values(), *menu.switches.values())
+    assert all(action.toolTip() and "\t" in action.text() for action in entries)
+    menu.looks["S"].trigger()
+    assert_allclose(scene.orbit.backwards, [0, 0, 1], atol=1e-12)
+    menu.switches["Q"].trigger()
+    menu.switches["M"].trigger()
+    menu.switches["C"].trigger()
+    assert scene.display == Display(light=True, slices=True, cut=True)
+    assert settle(lambda: scene.is_settled, 30.0)
+    assert scene.picture().pixelColor(1, 1).name() == LIGHT_BACKGROUND
+    again = SceneFeature(feature.context)
+    assert again.context.views.scene.display == scene.display
+    menu.refresh()
+    if scene.why_no_volume:
+        assert not menu.presets["bone"].isEnabled()
+        assert "graphics card" in menu.presets["bone"].toolTip()
+    feature.forget()
+    scene.set_display(Display())

@@ -1,4 +1,4 @@
-"""Skin and bone of a patient, extracted beside the window and shown when they are there."""
+"""Surfaces of a patient, extracted beside the window and shown when they are there."""
 
 from __future__ import annotations
 
@@ -73,4 +73,4 @@ class SurfaceExtraction(QObject):
 def _surfaces(patient: Patient, progress: Progress) -> Surfaces:
     with ONE_AT_A_TIME:  # VTK and scipy: behind the window, not before it
         from app.views.scene.surfaces import extract_surfaces
-    return extract_surfaces(patient.volume, patient.body, progress)
+    return extract_surfaces(patient.volume, patient.body, progress, patient.phantom_seed)

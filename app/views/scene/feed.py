@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 
+from app.views.kit.text import tr
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import Change, SceneRenderer, Shot
 
@@ -47,6 +48,15 @@ class SceneFeed(QObject):
     def error(self) -> str:
         """Why no pictures come, one line; empty while all is well."""
         return self._renderer.error
+
+    @property
+    def why_no_volume(self) -> str:
+        """Say why the volume cannot be rendered here; empty where it can."""
+        renderer = self._renderer
+        if renderer.has_volume:
+            return ""
+        return tr("Volume rendering needs a graphics card; here {driver} draws.",
+                  driver=renderer.driver or tr("nothing yet"))  # fmt: skip
 
     def set_paused(self, paused: bool) -> None:
         """Ask for no pictures while nobody may see them."""

@@ -200,6 +200,8 @@ def _to_mesh(
     points = vtk_to_numpy(surface.GetPoints().GetData()).astype(np.float64)
     placed = (points @ affine_mm[:3, :3].T + affine_mm[:3, 3]).astype(np.float32)
     triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    uses = np.bincount(triangles.ravel(), minlength=len(points))
+    triangles = triangles[(uses[triangles] > 1).any(axis=1)]  # specks thinned to one triangle go
     if np.linalg.det(affine_mm[:3, :3]) < 0.0:  # a mirrored grid turns the triangles inside out
         triangles = triangles[:, ::-1]
     corners = placed[triangles].astype(np.float64)

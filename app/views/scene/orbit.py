@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import radians
+from math import cos, radians, sin
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +12,12 @@ from app.core.arrays import FloatArray, frozen, unit
 from app.core.rotation import rotation_exp
 
 TURN_PER_PX = radians(0.5)
+OPERATOR_PITCH = radians(40.0)
+"""How steeply an operator who stands at the table looks down on the patient."""
+
 SMALLEST_MM, LARGEST_MM = 5.0, 5000.0
+STEEP = 0.6
+"""Share of a direction across the line of sight below which another one says what is up."""
 
 # Directions from which one looks, and what is up then (LPS).
 _FROM = {
@@ -47,6 +52,37 @@ class Orbit:
         """Look from the patient's A, P, L, R, S or I side."""
         backwards, up = _FROM[letter]
         return cls(frozen(focus_mm), frozen(backwards), frozen(up), half_mm)
+
+    @classmethod
+    def towards(
+        cls, direction: ArrayLike, up: ArrayLike, focus_mm: FloatArray, half_mm: float
+    ) -> Orbit:
+        """Look along a direction, shape (3,); `up`, shape (3,), is up, as far as it can be seen.
+
+        Where it can hardly be seen the front or the head is up, whichever is seen better.
+        """
+        backwards, hint = -unit(direction), np.asarray(up, np.float64)
+        across = hint - (hint @ backwards) * backwards
+        if np.linalg.norm(across) < STEEP * np.linalg.norm(hint):  # one looks along it
+            others = [np.array(_FROM[side][1], np.float64) for side in ("S", "A")]
+            hint = min(others, key=lambda other: abs(float(other @ backwards)))
+            across = hint - (hint @ backwards) * backwards
+        return cls(frozen(focus_mm), frozen(backwards), frozen(unit(across)), half_mm)
+
+    @classmethod
+    def from_operator(
+        cls, R_world_patient: FloatArray, focus_mm: FloatArray, half_mm: float
+    ) -> Orbit:
+        """Look as the operator does: behind the motors, away from them (y), and down.
+
+        Args:
+            R_world_patient: rotation patient → world, shape (3, 3).
+            focus_mm: what is in the middle, LPS, shape (3,).
+            half_mm: half of what the view shows along its shorter side.
+        """
+        ahead = np.array([0.0, cos(OPERATOR_PITCH), -sin(OPERATOR_PITCH)])
+        above = R_world_patient.T @ np.array([0.0, 0.0, 1.0])
+        return cls.towards(R_world_patient.T @ ahead, above, focus_mm, half_mm)
 
     @property
     def right(self) -> FloatArray:

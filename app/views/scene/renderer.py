@@ -38,11 +38,14 @@ class SceneRenderer:
     Attributes:
         error: why no pictures come, one line; empty while all is well.
         seconds: what the newest fine picture took [s].
+        driver: what draws, in the driver's own words; empty before the first picture.
+        has_volume: whether it renders volumes in good time.
     """
 
     def __init__(self) -> None:
         self.error = ""
         self.seconds = 0.0
+        self.driver, self.has_volume = "", False
         self._changes: dict[str, Change] = {}
         self._shot: Shot | None = None
         self._picture: NDArray[np.uint8] | None = None
@@ -102,6 +105,7 @@ class SceneRenderer:
                 if stage is None:  # only now: the window comes before VTK
                     stage = _new_stage()
                     stage.open()
+                    self.driver, self.has_volume = stage.driver, stage.has_volume
                 self._work(stage, *work)
         except Exception as error:  # the slices go on without the 3D view; the pane says why
             _log.warning("3D view stopped", exc_info=error)

@@ -1,9 +1,9 @@
-"""Skin and bone of a volume as closed, smooth meshes small enough for any machine."""
+"""Skin, bone and organs of a volume as closed, smooth meshes small enough for any machine."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from math import ceil
 from typing import Any
 
@@ -15,6 +15,7 @@ from scipy.ndimage import gaussian_filter
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
 from app.imaging.body import Body, Mask, body_mask
+from app.imaging.phantom.anatomy import organ_fields
 from app.imaging.volume import Volume
 from app.views.scene.mesh import Mesh, coarser, isosurface
 
@@ -24,7 +25,10 @@ SKIN_TRIANGLES, BONE_TRIANGLES = 90_000, 110_000
 SKIN_MOVING, BONE_MOVING = 15_000, 45_000
 """Bounds while the picture moves."""
 
-SKIN_STEP_MM, BONE_STEP_MM = 3.5, 2.4
+ORGAN_TRIANGLES, ORGAN_MOVING = 14_000, 2_500
+"""Bounds of one organ, still and moving; the lungs have twice as many."""
+
+SKIN_STEP_MM, BONE_STEP_MM, LUNG_STEP_MM, ORGAN_STEP_MM = 3.5, 2.4, 3.5, 3.0
 BONE_HU = 240.0
 """Above organs with contrast agent, below cancellous bone."""
 
@@ -34,27 +38,42 @@ SKIN_SIGMA, BONE_SIGMA = 1.0, 0.7
 AIR = 500.0
 """How far beyond the skin's level values are told apart [HU]."""
 
+LUNG_HU, GAS_HU, LUNG_ML = -400.0, -960.0, 60.0
+"""What is darker is air; what is darker still on the mean is gas of the gut; the smallest lung."""
+
 MARROW_MM2, MARROW_HU = 1500.0, BONE_HU + 160.0
 """What bone encloses in a slice is marrow up to this area; the value that it gets."""
 
 
 @dataclass(frozen=True, slots=True)
 class Surfaces:
-    """Skin and bone, each for the still and for the moving picture; points in LPS [mm]."""
+    """Skin, bone and organs, each for the still and for the moving picture; points in LPS [mm].
+
+    Organs stand under their names: of every CT the lungs, of the built-in patient all it has.
+    """
 
     skin: Mesh
     skin_moving: Mesh
     bone: Mesh
     bone_moving: Mesh
+    organs: Mapping[str, tuple[Mesh, Mesh]] = field(default_factory=dict)
 
     @property
     def count(self) -> int:
-        """Triangles of the still picture."""
+        """Triangles of skin and bone in the still picture."""
         return self.skin.count + self.bone.count
 
 
-def extract_surfaces(volume: Volume, body: Body, progress: Progress) -> Surfaces:
+def extract_surfaces(
+    volume: Volume, body: Body, progress: Progress, phantom_seed: int | None = None
+) -> Surfaces:
     """Make the surfaces of a volume; lasts a few seconds, meant for a thread of its own.
+
+    Args:
+        volume: the CT.
+        body: of it.
+        progress: reports, and may be cancelled.
+        phantom_seed: of the built-in patient, whose organs are known; None for others.
 
     Raises:
         Cancelled: if `progress` was cancelled.
@@ -65,24 +84,66 @@ def extract_surfaces(volume: Volume, body: Body, progress: Progress) -> Surfaces
     level = body.skin_level
     soft, affine = reduced(
         lambda k: _air_to_tissue(volume.hu[k], mask[k], level), volume, SKIN_STEP_MM,
-        progress.part(0.1, 0.25),
+        progress.part(0.1, 0.2),
     )  # fmt: skip
     soft = _blurred(_closed(soft, level - AIR), SKIN_SIGMA)
-    skin = isosurface(soft, _shifted(affine), level, SKIN_TRIANGLES, progress.part(0.25, 0.35))
-    progress.report(0.35, "bone")
+    skin = isosurface(soft, _shifted(affine), level, SKIN_TRIANGLES, progress.part(0.2, 0.3))
+    progress.report(0.3, "bone")
     hard, affine = reduced(
         lambda k: np.where(mask[k], volume.hu[k], -1000), volume, BONE_STEP_MM,
-        progress.part(0.35, 0.5),
+        progress.part(0.3, 0.45),
     )  # fmt: skip
     hard = _blurred(without_marrow(_closed(hard, -1000.0), affine), BONE_SIGMA)
-    bone = isosurface(hard, _shifted(affine), BONE_HU, BONE_TRIANGLES, progress.part(0.55, 0.9))
-    progress.report(0.9, "coarse versions")
+    bone = isosurface(hard, _shifted(affine), BONE_HU, BONE_TRIANGLES, progress.part(0.5, 0.8))
+    progress.report(0.8, "organs")
+    organs = _organs(volume, mask, phantom_seed, progress.part(0.8, 0.95))
+    progress.report(0.95, "coarse versions")
     moving = (
-        coarser(skin, SKIN_MOVING, progress.part(0.9, 0.95)),
-        coarser(bone, BONE_MOVING, progress.part(0.95, 1.0)),
+        coarser(skin, SKIN_MOVING, progress.part(0.95, 0.97)),
+        coarser(bone, BONE_MOVING, progress.part(0.97, 1.0)),
     )
     progress.report(1.0, "surfaces")
-    return Surfaces(skin, moving[0], bone, moving[1])
+    return Surfaces(skin, moving[0], bone, moving[1], organs)
+
+
+def _organs(
+    volume: Volume, mask: Mask, phantom_seed: int | None, progress: Progress
+) -> dict[str, tuple[Mesh, Mesh]]:
+    """Fine and coarse surfaces of what is known of organs, by name."""
+    fields = {}
+    if volume.unit == "HU":
+        fields["lungs"] = _lungs(volume, mask, progress.part(0.0, 0.4))
+    if phantom_seed is not None:
+        fields |= organ_fields(phantom_seed, ORGAN_STEP_MM)
+    found = {}
+    for number, (name, (values, affine)) in enumerate(fields.items()):
+        share = 2 if name == "lungs" else 1
+        part = progress.part(
+            0.4 + 0.6 * number / len(fields), 0.4 + 0.6 * (number + 1) / len(fields)
+        )
+        if values.max() > 0.0:
+            mesh = isosurface(values, affine, 0.0, share * ORGAN_TRIANGLES, part)
+            found[name] = mesh, coarser(mesh, share * ORGAN_MOVING)
+    return found
+
+
+def _lungs(
+    volume: Volume, mask: Mask, progress: Progress
+) -> tuple[NDArray[np.float32], FloatArray]:
+    """Field above 0 in the lungs, vessels and airways filled; and its affine."""
+    air, affine = reduced(
+        lambda k: np.where(mask[k], np.minimum(volume.hu[k], 0), 0), volume, LUNG_STEP_MM, progress
+    )
+    pieces, count = ndimage.label(air < LUNG_HU)
+    numbers = np.arange(count + 1)
+    cell_ml = abs(float(np.linalg.det(affine[:3, :3]))) / 1000.0
+    is_lung = np.bincount(pieces.ravel(), minlength=count + 1) * cell_ml >= LUNG_ML
+    is_lung &= np.nan_to_num(ndimage.mean(air, pieces, numbers), nan=GAS_HU) > GAS_HU
+    is_lung[0] = False
+    filled = np.pad(is_lung[pieces], 3)
+    filled = _eroded(_eroded(_dilated(_dilated(filled))))[2:-2, 2:-2, 2:-2]
+    values = gaussian_filter(filled.astype(np.float32), 1.0) - np.float32(0.5)
+    return values, _shifted(affine)
 
 
 def reduced(

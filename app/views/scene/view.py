@@ -1,7 +1,9 @@
-"""The view `three_d`: shows the newest picture of the render thread, and turns it by mouse."""
+"""The view `three_d`: shows the newest picture of the render thread; mouse and keys turn it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -9,6 +11,7 @@ from PySide6.QtCore import QPointF, Qt, Signal
 from PySide6.QtGui import (
     QCloseEvent,
     QColor,
+    QContextMenuEvent,
     QImage,
     QKeyEvent,
     QMouseEvent,
@@ -17,7 +20,7 @@ from PySide6.QtGui import (
     QResizeEvent,
     QWheelEvent,
 )
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QMenu, QToolButton, QWidget
 
 from app.core.arrays import FloatArray
 from app.core.transform import RigidTransform
@@ -26,14 +29,16 @@ from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.planning.error_overlay import Enlargement
 from app.planning.needle_overlay import NeedleOverlay
+from app.planning.patient import Patient
+from app.planning.placement import Placement
 from app.views.kit import theme
 from app.views.kit.text import tr
-from app.views.scene.compass import draw_compass
+from app.views.scene.display import ORGAN_COLOURS, Display, Section, organ_title
 from app.views.scene.feed import SceneFeed
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneRenderer
 from app.views.scene.robot import RobotShape
-from app.views.scene.words import Entry, draw_words
+from app.views.scene.words import Entry, draw_compass, draw_words
 
 if TYPE_CHECKING:
     from app.imaging.structures.structure import Colour
@@ -52,6 +57,19 @@ HOME_TURN_PX = (-50.0, 30.0)
 
 ZOOM_PER_PX, ZOOM_PER_NOTCH, NOTCH = 1.01, 1.15, 120
 
+NEEDLE_HALF_MM = 75.0
+"""Half of what the view along the needle shows."""
+
+CUT_TURN_PX = (-36.0, 24.0)
+"""A cut is looked at a little from the side, so that one sees what it cuts."""
+
+SIDES = ("A", "P", "L", "R", "S", "I")
+PRESETS = ("", "bone", "skin", "lung", "vessels")
+"""Surfaces, then the presets of the volume rendering in their order."""
+
+MOST_BACK = 50
+"""So many places of the eye are kept to go back to."""
+
 STANDS_MM = 1.0
 """The home view is fitted anew when the robot's base moved more than this in the patient."""
 
@@ -63,10 +81,15 @@ class SceneView(QWidget):
         maximise_wanted(): double click.
         clicked(object, object): a click that did not turn: point and direction [mm, LPS] of the
             line of sight.
+        display_changed(): something else is shown, or otherwise.
+
+    Attributes:
+        commands: what the view does by itself, by the key that asks for it.
     """
 
     maximise_wanted = Signal()
     clicked = Signal(object, object)
+    display_changed = Signal()
 
     def __init__(self, renderer: SceneRenderer, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -79,8 +102,39 @@ class SceneView(QWidget):
         self._robot: FloatArray | None = None
         self.note = self.off = ""
         self.legend: tuple[Entry, ...] = ()
+        self._organs: tuple[str, ...] = ()
         self._enlargement = Enlargement()
         self._pressed, self._last = QPointF(), QPointF()
+        self.display, self._before = Display(), list[Orbit]()
+        self._needle: NeedleOverlay | None = None
+        self._draft, self._cut = DraftPlan(), False
+        self._R_world_patient = Placement().rotation
+        self.commands = self._commands()
+        self._button = QToolButton(self)
+        self._button.setText("☰")
+        self._button.setToolTip(tr("From where one looks, and what is shown"))
+        self._button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self._button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._button.hide()
+
+    def _commands(self) -> Mapping[str, Callable[[], None]]:
+        def side(letter: str) -> Callable[[], None]:
+            return lambda: self.look(self.orbit.seen_from(letter))
+
+        def switch(part: str) -> Callable[[], None]:
+            return lambda: self.set_display(self.display.switched(part))
+
+        return {letter: side(letter) for letter in SIDES} | {
+            "N": self.look_along_needle, "W": self.look_as_operator,
+            "Space": lambda: self.look(self._home), "Backspace": self.look_back,
+            "X": switch("xray"), "C": switch("cut"), "M": switch("slices"),
+            "Y": switch("organs"), "Q": switch("light"), "V": self.show_next_preset,
+        }  # fmt: skip
+
+    def set_menu(self, menu: QMenu) -> None:
+        """Offer a menu in the corner, and at a right click."""
+        self._button.setMenu(menu)
+        self._button.show()
 
     @property
     def orbit(self) -> Orbit:
@@ -98,12 +152,58 @@ class SceneView(QWidget):
         corners = volume.lps_mm(np.array([(0, 0, 0), volume.size]) - 0.5)
         self._body, self._robot = _box(corners), None
         self._feed.change("surfaces", lambda stage: stage.set_surfaces(None))
+        self._before, self._organs = [], ()
         self._fit_home()
         self.set_orbit(self._home)
 
+    def set_patient(self, patient: Patient | None) -> None:
+        """Take slices and volume from this patient; None forgets it."""
+        self._feed.change("patient", lambda stage: stage.set_patient(patient))
+
+    def set_placement(self, R_world_patient: FloatArray) -> None:
+        """Know how the patient lies before the operator: rotation patient → world, (3, 3)."""
+        self._R_world_patient = R_world_patient
+
+    def set_sections(self, sections: tuple[Section, ...]) -> None:
+        """Show slices as planes in the picture, and no others."""
+        self._feed.change("sections", lambda stage: stage.set_sections(sections))
+
+    def set_cut(self, section: Section | None) -> None:
+        """Take away what lies before a section; the first time one looks at it."""
+        self._feed.change("cut", lambda stage: stage.set_cut(section))
+        had, self._cut = self._cut, section is not None
+        if section is not None and not had:
+            eye, head = self.orbit, (0.0, 0.0, 1.0)  # as the pane of that plane shows it
+            facing = Orbit.towards(section.frame.normal, head, eye.focus_mm, eye.half_mm)
+            self.look(facing.turned(*CUT_TURN_PX))
+
+    def set_tolerances(self, radii_mm: tuple[float, ...]) -> None:
+        """Show rings of these radii round the target [mm]."""
+        self._feed.change("tolerances", lambda stage: stage.set_tolerances(radii_mm))
+
+    def set_display(self, display: Display) -> None:
+        """Show more or less of the patient, or on another background."""
+        if display != self.display:
+            self.display = display
+            self._feed.change("display", lambda stage: stage.set_display(display))
+            self.update()
+            self.display_changed.emit()
+
+    @property
+    def why_no_volume(self) -> str:
+        """Say why the volume cannot be rendered here; empty where it can."""
+        return self._feed.why_no_volume
+
+    def show_next_preset(self) -> None:
+        """Go on to the next preset of the volume rendering, after the last one to surfaces."""
+        if not self.why_no_volume:
+            at = PRESETS.index(self.display.volume) if self.display.volume in PRESETS else 0
+            self.set_display(replace(self.display, volume=PRESETS[(at + 1) % len(PRESETS)]))
+
     def set_surfaces(self, surfaces: Surfaces | None) -> None:
-        """Show skin and bone."""
+        """Show skin, bone and organs."""
         self._feed.change("surfaces", lambda stage: stage.set_surfaces(surfaces))
+        self._organs = () if surfaces is None else tuple(surfaces.organs)
         if surfaces is not None and len(surfaces.skin.points):
             self._body = _box(surfaces.skin.points.astype(np.float64))
             self._fit_home()
@@ -122,6 +222,7 @@ class SceneView(QWidget):
 
     def set_plan(self, draft: DraftPlan) -> None:
         """Show entry, target and path."""
+        self._draft = draft
         self._feed.change("plan", lambda stage: stage.set_plan(draft))
 
     def set_off(self, words: str) -> None:
@@ -134,6 +235,7 @@ class SceneView(QWidget):
 
     def set_needle(self, needle: NeedleOverlay | None) -> None:
         """Show the needle."""
+        self._needle = needle
         scale = self._enlargement.follow(needle.error if needle is not None else None)
         self._feed.change("needle", lambda stage: stage.set_needle(needle, scale))
 
@@ -142,6 +244,7 @@ class SceneView(QWidget):
         self._feed.change("robot", lambda stage: stage.set_robot(robot, T_patient_world))
         if robot is None:
             return
+        self._R_world_patient = T_patient_world.rotation.T
         rods = np.array([point for rod in robot.links() for point in rod])
         points = (T_patient_world @ rods) / MILLIMETRE
         if self._robot is None or np.abs(points[:2] - self._robot[:2]).max() > STANDS_MM:
@@ -164,6 +267,37 @@ class SceneView(QWidget):
         """Look from somewhere else."""
         self._feed.turn(orbit)
 
+    def look(self, orbit: Orbit) -> None:
+        """Look from somewhere else, and know the way back."""
+        self._keep_orbit()
+        self.set_orbit(orbit)
+
+    def _keep_orbit(self) -> None:
+        self._before = [*self._before, self.orbit][-MOST_BACK:]
+
+    def look_back(self) -> None:
+        """Look from where one looked before."""
+        if self._before:
+            self.set_orbit(self._before.pop())
+
+    def look_along_needle(self) -> None:
+        """Look from the hub along the needle, or along the path where there is no needle."""
+        needle, entry, target = self._needle, self._draft.entry_mm, self._draft.target_mm
+        if needle is not None and needle.valid:
+            tip, way = needle.tip_mm, needle.tip_direction
+        elif entry is not None and target is not None:
+            tip, way = np.asarray(target), np.subtract(target, entry)
+        else:
+            return
+        if np.linalg.norm(way) > 0.0:
+            self.look(Orbit.towards(way, (0.0, 0.0, 1.0), tip, NEEDLE_HALF_MM))
+
+    def look_as_operator(self) -> None:
+        """Look at the patient as the operator does who stands behind the robot."""
+        middle = self._body.mean(axis=0)
+        eye = Orbit.from_operator(self._R_world_patient, middle, 1.0)
+        self.look(eye.fitted(self._body))
+
     def set_note(self, note: str) -> None:
         """Write a line at the bottom, such as the progress of the surfaces."""
         self.note = note
@@ -181,7 +315,8 @@ class SceneView(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw the newest picture, stretched while a better one is on its way."""
         painter = QPainter(self)
-        painter.fillRect(self.rect(), QColor(theme.IMAGE_BACKGROUND))
+        display = self.display
+        painter.fillRect(self.rect(), QColor(display.background))
         if self.off:
             painter.setPen(QColor(theme.IMAGE_DIM))
             flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
@@ -190,18 +325,28 @@ class SceneView(QWidget):
         if not self._feed.image.isNull():
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
             painter.drawImage(self.rect(), self._feed.image)
-        draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0))
+        draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0), display)
         error = self._feed.error and tr("3D view off: {why}", why=self._feed.error)
         scale, note = self._enlargement.scale, error or self.note
-        draw_words(painter, self.rect(), scale, self.legend, note)
+        draw_words(
+            painter, self.rect(), display, scale, (*self.legend, *self._organ_legend()), note
+        )
+
+    def _organ_legend(self) -> tuple[Entry, ...]:
+        if not self.display.organs or self.display.volume:
+            return ()
+        colours = ((name, QColor(ORGAN_COLOURS[name])) for name in self._organs)
+        return tuple(((c.red(), c.green(), c.blue()), organ_title(name)) for name, c in colours)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Ask for a picture of the new size."""
+        self._button.move(self.width() - self._button.sizeHint().width() - 6, 6)
         self._feed.refresh()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin to turn, pan or zoom."""
         self._pressed = self._last = event.position()
+        self._keep_orbit()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
         """Left turns, middle pans, right zooms."""
@@ -218,9 +363,18 @@ class SceneView(QWidget):
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         """Tell of a click that stayed in place."""
         moved = (event.position() - self._pressed).manhattanLength()
+        if self._before and self._before[-1] is self.orbit:
+            self._before.pop()  # nothing was turned
         if event.button() is Qt.MouseButton.LeftButton and moved < 4 and not self.off:
             at = event.position()
             self.clicked.emit(*self.orbit.ray(at.x(), at.y(), self._size()))
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """Offer the menu at a right click, and by its key; a right drag zooms."""
+        menu = self._button.menu()
+        moved = (self._last - self._pressed).manhattanLength()
+        if menu is not None and not self.off and moved < 4:
+            menu.popup(event.globalPos())
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
         """Ask to be maximised, or restored."""
@@ -232,14 +386,14 @@ class SceneView(QWidget):
         self.set_orbit(self.orbit.zoomed(ZOOM_PER_NOTCH**notches))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Look from A, P, L, R (Shift+R), S or I; r and Space reset."""
-        letter = event.text().upper()
-        if event.text() == "r" or event.key() == Qt.Key.Key_Space:
-            self.set_orbit(self._home)
-        elif letter and letter in "APLRSI":
-            self.set_orbit(self.orbit.seen_from(letter))
-        else:
+        """Do what a key of `commands` stands for; a small r resets as the space bar does."""
+        names = {Qt.Key.Key_Space: "Space", Qt.Key.Key_Backspace: "Backspace"}
+        name = names.get(Qt.Key(event.key()), event.text().upper())
+        command = self.commands.get("Space" if event.text() == "r" else name)
+        if command is None or self.off:
             super().keyPressEvent(event)
+        else:
+            command()
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Stop the thread with the pane."""

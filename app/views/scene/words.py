@@ -1,12 +1,17 @@
-"""What is written over the 3D picture: its name, the scale of errors, a legend, a note."""
+"""What is written over the 3D picture: name, legend, notes, which way one looks."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QRect, Qt
-from PySide6.QtGui import QColor, QFontMetrics, QPainter
+import numpy as np
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen
 
+from app.core.arrays import FloatArray
 from app.views.kit import theme
 from app.views.kit.text import tr
+from app.views.kit.themes import LIGHT
+from app.views.scene.display import Display
+from app.views.scene.orbit import Orbit
 
 Entry = tuple[tuple[int, int, int], str]
 """Colour, and what has it."""
@@ -17,30 +22,52 @@ COMPASS_PX = 100
 
 
 def draw_words(
-    painter: QPainter, pane: QRect, error_scale: float, legend: tuple[Entry, ...], note: str
+    painter: QPainter,
+    pane: QRect,
+    display: Display,
+    error_scale: float,
+    legend: tuple[Entry, ...],
+    note: str,
 ) -> None:
     """Write into a pane.
 
     Args:
         painter: of the pane.
         pane: its rectangle.
+        display: what the picture shows, and on which background.
         error_scale: how much larger than true the tip's error is drawn; 0 where it is not.
         legend: of the structures, as many as there is room for; then says how many more.
         note: at the bottom.
     """
     height = QFontMetrics(painter.font()).height() + GAP
     line = QRect(LEFT, TOP, pane.width() - 2 * LEFT, height)
-    _write(painter, line, theme.IMAGE_TEXT, tr("3D"))
+    _write(painter, line, display, display.text, title(display))
     if error_scale > 0.0:
         line.translate(0, height)
-        _write(painter, line, theme.NEEDLE_TIP.colour, error_note(error_scale))
+        _write(painter, line, display, theme.NEEDLE_TIP.colour, error_note(error_scale))
     room = max(0, (pane.height() - COMPASS_PX - line.bottom()) // height)
     for rgb, text in fitted(legend, room):
         line.translate(0, height)
-        _write(painter, line, QColor(*rgb).lighter(125).name(), text)
-    painter.setPen(QColor(theme.IMAGE_TEXT))
+        shade = QColor(*rgb)
+        _write(
+            painter,
+            line,
+            display,
+            (shade.darker(150) if display.light else shade.lighter(125)).name(),
+            text,
+        )
+    painter.setPen(QColor(display.text))
     flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignBottom
     painter.drawText(pane.adjusted(110, 0, -8, -6), flags | Qt.TextFlag.TextWordWrap, note)
+
+
+def title(display: Display) -> str:
+    """Say what the pane shows."""
+    how = (
+        (display.xray, tr("x-ray")), (display.cut, tr("cut along the needle")),
+        (display.slices, tr("with slices")),
+    )  # fmt: skip
+    return ", ".join([tr("3D"), *(words for on, words in how if on)])
 
 
 def fitted(legend: tuple[Entry, ...], room: int) -> tuple[Entry, ...]:
@@ -62,11 +89,49 @@ def error_note(scale: float) -> str:
     return tr("Tip error 95 %, {scale:.0f}× enlarged", scale=scale)
 
 
-def _write(painter: QPainter, line: QRect, colour: str, text: str) -> None:
+def _write(painter: QPainter, line: QRect, display: Display, colour: str, text: str) -> None:
     flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
     shown = QFontMetrics(painter.font()).elidedText(text, Qt.TextElideMode.ElideRight, line.width())
     for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
-        painter.setPen(QColor(theme.IMAGE_BACKGROUND))
+        painter.setPen(QColor(display.background))
         painter.drawText(line.translated(dx, dy), flags, shown)
-    painter.setPen(QColor(colour))
+    painter.setPen(QColor(display.colour(colour)))
     painter.drawText(line, flags, shown)
+
+
+LENGTH_PX = 26.0
+_ENDS = (
+    ("L", (1, 0, 0)),
+    ("R", (-1, 0, 0)),
+    ("P", (0, 1, 0)),
+    ("A", (0, -1, 0)),
+    ("S", (0, 0, 1)),
+    ("I", (0, 0, -1)),
+)
+
+
+def compass_ends(orbit: Orbit) -> list[tuple[str, FloatArray]]:
+    """Letters and screen vectors (right, down, towards the eye) of the six ends, farthest first."""
+    screen = np.array([orbit.right, -np.asarray(orbit.up), orbit.backwards])
+    ends = [(letter, screen @ np.asarray(axis, dtype=np.float64)) for letter, axis in _ENDS]
+    return sorted(ends, key=lambda end: float(end[1][2]))
+
+
+def draw_compass(painter: QPainter, orbit: Orbit, middle: QPointF, display: Display) -> None:
+    """Draw the axes around `middle`; what points at the viewer is bright and on top."""
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    font = QFont(painter.font())
+    font.setPixelSize(theme.SMALL_PX)
+    font.setBold(True)
+    painter.setFont(font)
+    for letter, (right, down, near) in compass_ends(orbit):
+        colour = QColor(LIGHT.warning if display.light else theme.IMAGE_WARNING)
+        colour.setAlphaF(0.62 + 0.38 * float(np.clip(near, -1.0, 1.0)))
+        painter.setPen(QPen(colour, 1.5))
+        tip = middle + QPointF(right, down) * LENGTH_PX
+        painter.drawLine(middle, tip)
+        place = middle + QPointF(right, down) * (LENGTH_PX + 9.0)
+        box = QRectF(place.x() - 10, place.y() - 10, 20, 20)
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, letter)
+    painter.restore()

@@ -14,6 +14,7 @@ from app.views.plan.feature import PlanFeature
 from app.views.plan.paths import PathsFeature
 from app.views.plan.position import PositionFeature
 from app.views.robot.feature import RobotFeature
+from app.views.scene.feature import SceneFeature
 from app.views.series.feature import SeriesFeature
 from app.views.shell.feature import Feature
 from app.views.structures.feature import StructuresFeature
@@ -29,6 +30,7 @@ FEATURES: Final[tuple[type[Feature], ...]] = (
     ChecksFeature,
     MeasureFeature,
     StructuresFeature,
+    SceneFeature,
     PositionFeature,
     DebriefFeature,
 )
