@@ -93,6 +93,14 @@ class Section:
     frame: Frame
     window: WindowLevel
 
+    def shows_the_same(self, other: Section) -> bool:
+        """Whether the other one gives the same picture at the same place."""
+        if (self.patient, self.window) != (other.patient, other.window):
+            return False
+        pairs = ((getattr(self.frame, name), getattr(other.frame, name))
+                 for name in ("origin_mm", "right", "down"))  # fmt: skip
+        return all((one == another).all() for one, another in pairs)
+
 
 def rgb(name: str) -> Rgb:
     """Return `#rrggbb` as three floats in [0, 1]."""

@@ -35,6 +35,8 @@ class SceneFeature(Feature):
         self._scene, self._viewing = context.views.scene, context.views.viewing
         self._settings = context.shell.settings
         self._along: NeedleFrame | None = None
+        self._sections: tuple[Section, ...] = ()
+        self._cut: tuple[Section, ...] = ()
         self._late = QTimer(self, interval=LATEST_MS, singleShot=True)
         self._late.timeout.connect(self._lay)
         self.menu = SceneMenu(context.shell.menu(tr("&View"), tr("3D view")), self._scene)
@@ -50,7 +52,7 @@ class SceneFeature(Feature):
     def forget(self) -> None:
         """Let go of the patient who leaves."""
         self._late.stop()
-        self._along = None
+        self._along, self._sections, self._cut = None, (), ()
         self._scene.set_sections(())
         self._scene.set_cut(None)
         self._scene.set_patient(None)
@@ -101,8 +103,11 @@ class SceneFeature(Feature):
             self._along = self._needle_frame() if display.cut else None
             if self._along is not None:
                 cut = Section(patient, in_plane(self._along), viewing.window)
-        self._scene.set_sections(sections)
-        self._scene.set_cut(cut)
+        if not _alike(self._sections, sections):
+            self._scene.set_sections(sections)
+        if not _alike(self._cut, () if cut is None else (cut,)):
+            self._scene.set_cut(cut)
+        self._sections, self._cut = sections, () if cut is None else (cut,)
 
     def _needle_frame(self) -> NeedleFrame | None:
         """Planes of the needle, of the path where there is none, or None without either."""
@@ -113,6 +118,11 @@ class SceneFeature(Feature):
             return None
         way = np.subtract(draft.target_mm, draft.entry_mm)
         return frame_of(draft.target_mm, way) if np.linalg.norm(way) > 1.0 else None
+
+
+def _alike(one: tuple[Section, ...], other: tuple[Section, ...]) -> bool:
+    pairs = zip(one, other, strict=False)
+    return len(one) == len(other) and all(a.shows_the_same(b) for a, b in pairs)
 
 
 class SceneMenu:
