@@ -204,12 +204,16 @@ def _start(rng: random.Random, screen: Screen) -> Action | None:
 
 def _end(rng: random.Random, screen: Screen) -> Action | None:
     target = screen.end
-    return Action("click", target.path, words=target.words) if target is not None else None
+    if target is None:  # behind another panel or page: where the start button is, it is too
+        return Action("start", words=rng.choice(screen.exercises)) if screen.exercises else None
+    return Action("click", target.path, words=target.words)
 
 
 def _scan(rng: random.Random, screen: Screen) -> Action | None:
     target = screen.scan
-    return Action("click", target.path, words=target.words) if target is not None else None
+    if target is None:
+        return Action("key", words="s")
+    return Action("click", target.path, words=target.words)
 
 
 _DRAWN = {
