@@ -25,7 +25,7 @@ from app.session.recording import read_recording
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.views.exercise.bullseye import Bullseye
-from app.views.exercise.live_needle import LiveNeedle
+from app.views.exercise.conductor import LiveNeedle
 from app.views.exercise.readings import figures, pad_view
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.target_motion import TargetMotion

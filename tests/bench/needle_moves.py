@@ -34,7 +34,7 @@ PARTS = {
         "pyqtgraph:GraphicsView.paintEvent",
         "app.views.slices.canvas:SliceCanvas.paintEvent",
     ),
-    "panels": ("app.views.exercise.display:ExerciseDisplay.show",),
+    "panels": ("app.views.exercise.controller:ExerciseDisplay.show",),
 }
 """Functions whose processor time is told apart; those that a tree does not have are left out."""
 

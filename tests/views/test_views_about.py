@@ -12,8 +12,8 @@ from app.views.kit.text import disclaimer
 from app.views.robot.health_panel import HealthPanel
 from app.views.shell import help as user_guide
 from app.views.shell import window as shell_window
-from app.views.shell.about import AboutDialog
 from app.views.shell.application import icon
+from app.views.shell.help import AboutDialog
 
 
 @pytest.fixture

@@ -18,9 +18,8 @@ from app.planning.registration.record import Registrations
 from app.session.touch import Touch
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.inspection import Inspection
-from app.views.checks.feature import ChecksFeature
+from app.views.checks.feature import ChecksFeature, agreement_item
 from app.views.checks.registration_dialog import RegistrationDialog
-from app.views.checks.words import agreement_item
 from app.views.exercise.status_items import Verdict
 from app.views.scene.words import error_note
 

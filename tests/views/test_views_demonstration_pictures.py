@@ -5,7 +5,7 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from app.planning.needle_overlay import NeedleOverlay
-from app.views.shell.demonstration_pictures import StillPictures
+from app.views.shell.demonstration import StillPictures
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
 from app.views.slices.presets import default_window

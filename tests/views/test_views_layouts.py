@@ -3,7 +3,6 @@
 import pytest
 from PySide6.QtWidgets import QWidget
 
-from app.views.reading.grid import ViewGrid
 from app.views.reading.layouts import (
     BULLSEYE,
     COLUMNS,
@@ -14,6 +13,7 @@ from app.views.reading.layouts import (
     layout_title,
     possible,
 )
+from app.views.reading.workspace import ViewGrid
 
 ALL = sorted({pane for both in LAYOUTS.values() for layout in both for pane in layout.panes})
 EVERY = [layout for both in LAYOUTS.values() for layout in both]

@@ -13,11 +13,10 @@ from app.core.identifiers import HIDDEN
 from app.imaging.pacs.query import FoundSeries, FoundStudy
 from app.imaging.series import Ignored, Listing
 from app.views.debrief.feature import DebriefFeature
-from app.views.exercise.messages import MessageList
+from app.views.exercise.status import MessageList
 from app.views.kit.names import NAMES, Names
 from app.views.kit.progress_strip import ProgressStrip
-from app.views.series.browser import SeriesBrowser
-from app.views.series.card import SeriesCard
+from app.views.series.browser import SeriesBrowser, SeriesCard
 from app.views.series.pacs_panel import PacsPanel
 from app.views.shell.message_bar import MessageBar
 

@@ -5,8 +5,7 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QMainWindow, QWidget
 
-from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar
-from app.views.shell.notices import Notices
+from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar, Notices
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
 from app.views.slices.presets import default_window

@@ -10,8 +10,7 @@ from app.core.arrays import frozen
 from app.planning.draft import DraftPlan
 from app.planning.paths import Block, PathScores, best
 from app.planning.patient import Patient
-from app.views.plan.paths import PathsFeature
-from app.views.plan.paths_panel import PathsPanel
+from app.views.plan.paths import PathsFeature, PathsPanel
 
 TARGET = (-6.0, 5.0, 140.0)
 """Beside the rod of bone of the box."""

@@ -21,9 +21,8 @@ from app.tracking.pen.settings import PenSettings, load_settings, save_settings
 from app.tracking.pen.webcam import guessed_webcam
 from app.tracking.simulated.pen_scene import rocked
 from app.views.exercise.status_items import Verdict
-from app.views.pen.directions_view import DirectionsView
 from app.views.pen.feature import PenFeature
-from app.views.pen.tip_step import TipStep
+from app.views.pen.tip_step import DirectionsView, TipStep
 from app.views.pen.words import accuracy_line, status_lines
 from app.views.robot.feature import RobotFeature
 

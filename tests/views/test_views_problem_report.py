@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QApplication
 from app import __version__
 from app.core.log_file import LogFile
 from app.views.kit.names import NAMES
-from app.views.shell.problem_report import ProblemReport
+from app.views.shell.help import ProblemReport
 
 
 def test_a_report_holds_versions_and_the_log_and_nobody_is_named(application, tmp_path):

@@ -17,12 +17,10 @@ from app.device.wire_watch import WireWatch
 from app.mechanisms.profile import load_profile
 from app.views.exercise.energy_gauge import GaugeMode
 from app.views.exercise.status_items import Verdict
-from app.views.robot.health import health, let_go_item
-from app.views.robot.health_panel import HealthPanel
-from app.views.robot.health_wire import Rates, link_item
-from app.views.robot.key_dialog import KeyDialog, refusal
+from app.views.robot.feature import KeyDialog, refusal
+from app.views.robot.health import Rates, health, let_go_item, link_item
+from app.views.robot.health_panel import SPAN, HealthPanel, Trace
 from app.views.robot.settings import RobotSettings
-from app.views.robot.trace import SPAN, Trace
 
 BOARD = BoardInfo("icube", "A17-0042", "1.2.0", "1", 7)
 WIRE = {"link_replies": 1000.0, "round_trip": 8e-4, "let_go_scale": 1.0}

@@ -22,8 +22,7 @@ from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip, Mode
 from app.views.structures.feature import StructuresFeature
 from app.views.structures.layer import StructureLayer
-from app.views.structures.panel import StructurePanel
-from app.views.structures.table import NAME, PATH
+from app.views.structures.panel import NAME, PATH, StructurePanel
 from app.views.structures.watch import StructureWatch, words
 
 

@@ -8,8 +8,14 @@ from views_robot_fakes import RESULTS, FakeBench
 from app.device.commissioning.results import Step
 from app.views.exercise.status_items import Verdict
 from app.views.robot.wizard import Wizard
-from app.views.robot.wizard_pages import RoutinePage, SummaryPage
-from app.views.robot.wizard_words import clearance_words, state_of, step_words, steps_of
+from app.views.robot.wizard_pages import (
+    RoutinePage,
+    SummaryPage,
+    clearance_words,
+    state_of,
+    step_words,
+    steps_of,
+)
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from app.core.arrays import angle_between
 from app.device.state import DeviceState
 from app.session.pad.hand import HandPose
 from app.views.exercise.bullseye import Bullseye
-from app.views.exercise.pad_painter import PadArea, free_corner, spring
+from app.views.exercise.pad_canvas import PadArea, free_corner, spring
 from app.views.exercise.readings import hand_pose, pad_view
 from app.views.kit import theme
 

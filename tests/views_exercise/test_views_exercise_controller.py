@@ -21,9 +21,8 @@ from app.views.exercise.axial_gauge import AxialGauge
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.camera_view import CameraView
 from app.views.exercise.controller import ExerciseController, ExerciseViews
-from app.views.exercise.messages import LONGEST, MessageList
 from app.views.exercise.panel import ExercisePanel
-from app.views.exercise.status import StatusStrip
+from app.views.exercise.status import LONGEST, MessageList, StatusStrip
 from app.views.exercise.status_items import tracker_item
 from app.views.exercise.tracker_panel import TrackerFigures, TrackerPanel
 

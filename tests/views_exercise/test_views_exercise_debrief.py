@@ -18,11 +18,9 @@ from app.session.recording import Inputs, Recording
 from app.session.review import Span, TimeMark, marks, only_measured, spans
 from app.session.review import review as review_of
 from app.session.samples import Samples
-from app.views.debrief.curve_plot import peaks
-from app.views.debrief.curves import CurvesView, curves_of, value_range
+from app.views.debrief.curves import CurvesView, curves_of, peaks, value_range
 from app.views.debrief.page import DebriefPage, date_text
-from app.views.debrief.print_plot import polylines, ticks
-from app.views.debrief.report import report_bytes, write_report
+from app.views.debrief.report import polylines, report_bytes, ticks, write_report
 from app.views.debrief.score_words import number, row_texts, verdict
 from app.views.kit import theme
 

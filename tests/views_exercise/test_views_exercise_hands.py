@@ -23,8 +23,7 @@ from app.views.exercise.hands.gamepad import (
     Sticks,
     deflection,
 )
-from app.views.exercise.hands.source import STEP_MS
-from app.views.exercise.hands.tablet import FASTEST, RESTING_PRESSURE, pressed_speed
+from app.views.exercise.hands.source import FASTEST, RESTING_PRESSURE, STEP_MS, pressed_speed
 from app.views.exercise.readings import pad_view
 
 LEFT, RIGHT = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton

@@ -17,7 +17,7 @@ from app.session.pad.geometry import (
     downward,
     path_frame,
 )
-from app.views.exercise.words import lateral
+from app.views.exercise.bullseye import lateral
 
 SUPINE = np.array([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]])  # L→+x, S→+y, A→+z; columns L, P, S
 finite = st.floats(-1.0, 1.0)

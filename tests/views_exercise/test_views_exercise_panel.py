@@ -16,11 +16,10 @@ from app.planning.plan import Plan
 from app.session.machine import State
 from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.fix import FixStatus
-from app.views.exercise.depth_bar import DepthBar
+from app.views.exercise.bullseye import DepthBar
 from app.views.exercise.felt import guidance_limit
-from app.views.exercise.hold_key import HOLD_MS
 from app.views.exercise.live import LiveFigures
-from app.views.exercise.panel import ExercisePanel
+from app.views.exercise.panel import HOLD_MS, ExercisePanel
 from app.views.exercise.readings import figures, problem, status_items, tracker_figures
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.status_items import (

@@ -19,15 +19,18 @@ from app.views.exercise.assistance_dial import AssistanceDial, share_words
 from app.views.exercise.axial_gauge import AxialGauge
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.controller import ExerciseController, ExerciseViews
-from app.views.exercise.enable_switch import EnableSwitch
-from app.views.exercise.enable_words import Enabling, enable_words, enabling
-from app.views.exercise.energy import energy_figures, guard_words, millijoules
-from app.views.exercise.energy_gauge import EnergyGauge, GaugeMode
+from app.views.exercise.enable_switch import EnableSwitch, Enabling, enable_words, enabling
+from app.views.exercise.energy_gauge import (
+    EnergyGauge,
+    GaugeMode,
+    energy_figures,
+    guard_words,
+    millijoules,
+)
 from app.views.exercise.felt import felt, force_limit
-from app.views.exercise.messages import MessageList
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.readings import figures
-from app.views.exercise.status import StatusStrip
+from app.views.exercise.status import MessageList, StatusStrip
 from app.views.exercise.status_items import Verdict
 from app.views.exercise.tracker_panel import TrackerPanel
 

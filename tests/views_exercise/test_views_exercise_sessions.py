@@ -17,15 +17,15 @@ from app.session.samples import Samples
 from app.session.sidecar import write_summary
 from app.session.summary import Summary
 from app.session.ticks import Inputs
-from app.views.debrief.controller import DebriefController
+from app.views.debrief.feature import DebriefController
 from app.views.debrief.page import DebriefPage
-from app.views.debrief.sessions import SessionsPage
-from app.views.debrief.sessions_model import (
+from app.views.debrief.sessions import (
     DURATION,
     SCORE,
     STATE,
     STUDENT,
     SUMMARY_ROLE,
+    SessionsPage,
     score_text,
 )
 

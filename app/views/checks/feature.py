@@ -1,4 +1,4 @@
-"""The checks in the window, and the one in force: status strip and ellipse."""
+"""The checks in the window, and the one in force: words on the status strip, and an ellipse."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ from PySide6.QtCore import SignalInstance
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
 from app.core.transform import RigidTransform
+from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.planning.error_overlay import ErrorOverlay
+from app.planning.registration.check import Agreement
 from app.session.snapshot import Snapshot
-from app.views.checks.words import agreement_item
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.status_items import StatusItem
+from app.views.exercise.status_items import StatusItem, Verdict
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
@@ -26,6 +27,47 @@ if TYPE_CHECKING:
     from app.planning.registration.record import RegistrationRecord
     from app.views.checks.morning_page import MorningPage
     from app.views.checks.registration_dialog import RegistrationDialog
+
+
+GOOD_MM = 2.0
+"""Up to this radius [mm] the agreement counts as good; a lesion of 10 mm is then hit."""
+
+
+def agreement_item(
+    agreement: Agreement | None, reason: str = "", checked: str = "", known: bool = True
+) -> StatusItem:
+    """Return the line of the status strip.
+
+    Args:
+        agreement: at the target; None where nobody checked.
+        reason: why there is none, although somebody did.
+        checked: when and with what it was checked, for the help.
+        known: whether the cameras' calibration says how sure it is.
+    """
+    title = tr("Screen and needle")
+    if agreement is None:
+        text = tr("check failed") if reason else tr("not checked")
+        verdict = Verdict.WARNING if reason else Verdict.IDLE
+        help_ = reason or tr(
+            "Nobody has checked how well the needle on the screen agrees with the real one. "
+            "Menu Checks, Registration check: touch the fiducials of a plate."
+        )
+        return StatusItem(verdict, title, text, help_)
+    radius = agreement.radius / MILLIMETRE
+    text = tr("agree within ± {mm:.1f} mm (95 %)", mm=radius)
+    help_ = tr(
+        "How far the needle on the screen may be from the real one at the target: what the "
+        "registration check found, with the cameras' error. {checked}", checked=checked,
+    )  # fmt: skip
+    if not known:
+        text = tr("{size}; the calibration's own uncertainty is not known", size=text)
+        help_ += " " + tr(
+            "The calibration was imported and does not say how sure it is: the radius leaves its "
+            "error out. Calibrate with pictures of a board to know it."
+        )
+    good = radius <= GOOD_MM and known
+    return StatusItem(Verdict.GOOD if good else Verdict.WARNING, title, text, help_)
+
 
 FURTHEST_MM = 10.0
 """A measured place that moves the entry farther than this is not this patient's."""

@@ -1,4 +1,4 @@
-"""The page of the morning check: one line per step, what to do, and the day's result."""
+"""The page of the start-of-day check: one line per step, what to do, and the day's result."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from PySide6.QtGui import QCloseEvent, QShowEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
+    QFrame,
     QGridLayout,
     QHBoxLayout,
     QLabel,
@@ -27,11 +28,51 @@ from app.session.checks.record import DayCheck, newest_check, save_check
 from app.session.checks.steps import StepResult, Verdict, morning_check, overall
 from app.session.touch import Touch
 from app.tracking.inspection import Inspection
-from app.views.checks.step_row import LOOKS, StepRow, line
 from app.views.checks.toucher import Toucher, move_there, tell_tracker
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.text import tr
+
+LOOKS = {
+    Verdict.GOOD: theme.VERDICTS["good"],
+    Verdict.WARNING: theme.VERDICTS["warning"],
+    Verdict.BAD: theme.VERDICTS["bad"],
+    Verdict.WAITING: (theme.TEXT_DIM, "–"),
+}
+"""Colour and symbol of a verdict."""
+
+
+class StepRow:
+    """Symbol, title, and what was found above what to do."""
+
+    def __init__(self, grid: QGridLayout, row: int, parent: QWidget) -> None:
+        self._symbol, self._title = QLabel(parent), QLabel(parent)
+        self._text = QLabel(parent)
+        self._text.setWordWrap(True)
+        self._title.setProperty("role", "heading")
+        for column, label in enumerate((self._symbol, self._title, self._text)):
+            grid.addWidget(label, row, column)
+
+    def show_step(self, step: StepResult | None) -> None:
+        """Show a step; None hides the row."""
+        for label in (self._symbol, self._title, self._text):
+            label.setVisible(step is not None)
+        if step is None:
+            return
+        colour, symbol = LOOKS[step.verdict]
+        self._symbol.setText(symbol)
+        self._symbol.setStyleSheet(f"color: {theme.now(colour)};")
+        self._title.setText(tr(step.title))
+        self._text.setText(f"{step.found}\n→ {step.todo}" if step.todo else step.found)
+
+
+def line(parent: QWidget) -> QFrame:
+    """Return a horizontal line."""
+    made = QFrame(parent)
+    made.setFrameShape(QFrame.Shape.HLine)
+    made.setStyleSheet(f"color: {theme.BORDER};")
+    return made
+
 
 PERIOD_MS = 400
 

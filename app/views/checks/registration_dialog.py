@@ -1,4 +1,7 @@
-"""The registration check: each fiducial touched, or its bead picked in the CT; the result live."""
+"""The registration check: each fiducial touched, or its bead picked in the CT; the result live.
+
+The result is said large to everybody, its figures to technicians below, troubles between.
+"""
 
 from __future__ import annotations
 
@@ -6,35 +9,190 @@ from datetime import datetime
 from typing import Protocol
 
 import numpy as np
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
 from PySide6.QtWidgets import (
+    QAbstractItemView,
     QComboBox,
     QDialog,
     QHBoxLayout,
+    QHeaderView,
     QLabel,
     QProgressBar,
+    QPushButton,
+    QTableWidget,
+    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
 
 from app.core.arrays import FloatArray
+from app.core.confidence import covariance_radius
 from app.core.errors import AcusError
 from app.core.transform import RigidTransform
+from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
 from app.planning.history import History
+from app.planning.registration import words
 from app.planning.registration.check import RegistrationCheck
 from app.planning.registration.draft import CheckDraft
 from app.planning.registration.plate import load_plate, plate_names
-from app.planning.registration.record import RegistrationRecord, Registrations, new_id
+from app.planning.registration.record import RegistrationRecord, Registrations, new_id, points_of
 from app.session.touch import Touch
-from app.views.checks.fiducial_table import FiducialTable
-from app.views.checks.registration_buttons import make_buttons, row_of
-from app.views.checks.registration_result import RegistrationResult
 from app.views.checks.toucher import Toucher, move_there
 from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.text import tr
+
+_STRETCHED = (1, 3)
+
+
+class FiducialTable(QTableWidget):
+    """One row per fiducial; the chosen row is the next to be touched or picked."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        titles = [
+            tr("Fiducial"), tr("Tip: x  y  z [mm]"), tr("± 95 % [mm]"), tr("CT: L  P  S [mm]"),
+            tr("Residual [mm]"),
+        ]  # fmt: skip
+        self.setColumnCount(len(titles))
+        self.setHorizontalHeaderLabels(titles)
+        self.verticalHeader().hide()
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        header = self.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        for column in _STRETCHED:
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
+
+    def show_points(
+        self, names: tuple[str, ...], draft: CheckDraft, check: RegistrationCheck | None
+    ) -> None:
+        """Show what was found; the chosen row stays."""
+        row = max(0, self.currentRow())
+        self.setRowCount(len(names))
+        for i, name in enumerate(names):
+            for column, text in enumerate(_cells(draft, check, name)):
+                item = QTableWidgetItem(text)
+                if column:
+                    right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+                    item.setTextAlignment(right)
+                self.setItem(i, column, item)
+        self.selectRow(min(row, self.rowCount() - 1))
+
+
+def _cells(draft: CheckDraft, check: RegistrationCheck | None, name: str) -> tuple[str, ...]:
+    touched = next((one for one in draft.touched if one.name == name), None)
+    picked = next((one for one in draft.picked if one.name == name), None)
+    radius = ""
+    if touched is not None:
+        spread = points_of((touched,)).covariances[0]
+        radius = f"{covariance_radius(spread) / MILLIMETRE:.2f}" if spread.any() else "–"
+    residual = ""
+    if check is not None and name in check.world.names:
+        row = check.world.fit.residuals[check.world.names.index(name)]
+        residual = f"{float(np.linalg.norm(row)) / MILLIMETRE:.2f}"
+    return (
+        name,
+        _coordinates(touched.point_mm) if touched is not None else "",
+        radius,
+        _coordinates(picked.point_mm) if picked is not None else "",
+        residual,
+    )
+
+
+def _coordinates(point_mm: tuple[float, float, float]) -> str:
+    return "  ".join(f"{value:.1f}" for value in point_mm)
+
+
+class RegistrationResult(QWidget):
+    """Three texts.
+
+    Attributes:
+        student: the sentence for everybody; names no figure without a check.
+        trouble: what is wrong or still to be done.
+        figures: FRE, FLE, TRE and what they mean.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.student, self.trouble, self.figures = QLabel(self), QLabel(self), QLabel(self)
+        self.student.setStyleSheet(f"font-size: {theme.TITLE_PX}px;")
+        self.trouble.setStyleSheet(f"color: {theme.WARNING};")
+        self.figures.setProperty("role", "dim")
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(theme.SPACING)
+        for label in (self.student, self.trouble, self.figures):
+            label.setWordWrap(True)
+            column.addWidget(label)
+
+    def say(self, text: str) -> None:
+        """Say what is wrong; nothing for an empty text."""
+        self.trouble.setText(f"▲ {text}" if text else "")
+
+    def show_check(
+        self, found: RegistrationCheck | str, p_target: FloatArray, used: RigidTransform | None
+    ) -> None:
+        """Show a check, or why there is none yet.
+
+        Args:
+            found: the check, or what is still missing.
+            p_target: target in world [m], shape (3,).
+            used: T_world_patient that the screen uses; None without a run.
+        """
+        if isinstance(found, str):
+            self.student.setText(words.NOT_CHECKED.capitalize())
+            self.say(found.capitalize())
+            self.figures.setText("")
+            return
+        try:
+            agreement = found.agreement(p_target, T_world_patient=used)
+            self.student.setText(words.student_line(agreement).capitalize())
+            self.say("")
+        except AcusError as error:
+            self.student.setText(words.NOT_CHECKED.capitalize())
+            self.say(str(error))
+        if troubles := words.troubles(found):
+            self.say("\n".join(troubles))
+        lines = list(words.technician_lines(found))
+        if found.trusted:
+            lines.append(words.target_line(found, p_target))
+        self.figures.setText("\n".join([*lines, *words.MEANING]))
+
+
+_BUTTONS = {
+    "touch": tr("Touch now"),
+    "move": tr("Bring the simulated tip there"),
+    "pick": tr("Pick the bead at the crosshair"),
+    "forget": tr("Forget"),
+    "undo": tr("Undo"),
+    "redo": tr("Redo"),
+    "place": tr("Use the measured place"),
+    "save": tr("Save"),
+}
+
+
+def make_buttons(parent: QWidget) -> dict[str, QPushButton]:
+    """Return the buttons by name."""
+    buttons = {name: QPushButton(title, parent) for name, title in _BUTTONS.items()}
+    buttons["save"].setProperty("role", "primary")
+    return buttons
+
+
+def row_of(buttons: dict[str, QPushButton], *names: str | None) -> QHBoxLayout:
+    """Return a row of some of them; None is where the room is left, the end without one."""
+    row = QHBoxLayout()
+    for name in names:
+        if name is None:
+            row.addStretch(1)
+        else:
+            row.addWidget(buttons[name])
+    if None not in names:
+        row.addStretch(1)
+    return row
 
 
 class CheckSources(Protocol):

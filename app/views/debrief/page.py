@@ -1,23 +1,171 @@
-"""The debrief page: verdict, score, the tip's track and the curves of one attempt."""
+"""The debrief page: verdict, score, scans, the tip's track and the curves of one attempt."""
+
+from __future__ import annotations
 
 from datetime import datetime
 
 from PySide6.QtCore import Qt, Signal, SignalInstance
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSplitter, QVBoxLayout, QWidget
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QPushButton,
+    QSplitter,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
 
+from app.imaging.scan_order import Seen
+from app.scoring.result import Score
+from app.session.control_scan import TEACHING_ESTIMATE, ControlScan
 from app.session.review import Review
-from app.views.debrief.condition_words import facts_of, short_words
 from app.views.debrief.curves import CurvesView
 from app.views.debrief.path_view import PathView
-from app.views.debrief.risk_words import risk_lines
-from app.views.debrief.scan_list import ScanList
-from app.views.debrief.score_table import ScoreTable
-from app.views.debrief.score_words import total_text, verdict
+from app.views.debrief.score_words import (
+    counting,
+    facts_of,
+    risk_lines,
+    row_texts,
+    short_words,
+    shown_only,
+    total_text,
+    verdict,
+)
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.state_words import state_word
 from app.views.kit import theme
+from app.views.kit.coordinates import axis_words
 from app.views.kit.names import NAMES
 from app.views.kit.text import disclaimer, tr
+
+_ROW_HEIGHT = 24
+_COLUMNS = 5
+
+
+class ScanList(QTableWidget):
+    """One row for each scan; hidden where the attempt has none with slices.
+
+    Signals:
+        scan_wanted(ControlScan): a row was activated: its picture is asked for.
+    """
+
+    scan_wanted = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(0, _COLUMNS, parent)
+        self._scans: tuple[ControlScan, ...] = ()
+        estimate = tr(TEACHING_ESTIMATE).replace(" ", "\n")
+        dosed = tr("mGy·cm\n{estimate}", estimate=estimate)
+        titles = (tr("Scan"), tr("Time"), tr("Slices"), tr("Shows"), dosed)
+        for column, title in enumerate(titles):
+            self.setHorizontalHeaderItem(column, QTableWidgetItem(title))
+        dose = self.horizontalHeaderItem(_COLUMNS - 1)
+        if dose is not None:
+            dose.setToolTip(tr(TEACHING_ESTIMATE))
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.setShowGrid(False)
+        self.setAccessibleName(tr("Control scans"))
+        self.setToolTip(tr("Enter or a double click shows its slices, if the CT is open"))
+        self.verticalHeader().hide()
+        self.verticalHeader().setDefaultSectionSize(_ROW_HEIGHT)
+        small = f"font-size: {theme.SMALL_PX}px;"  # all five columns fit beside the curves
+        self.setStyleSheet(f"{small} QHeaderView::section {{ {small} padding: 3px 4px; }}")
+        header = self.horizontalHeader()
+        header.setMinimumSectionSize(24)
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(3, QHeaderView.ResizeMode.Stretch)
+        header.setHighlightSections(False)
+        self.cellActivated.connect(lambda row, _: self.scan_wanted.emit(self._scans[row]))
+        self.hide()
+
+    def show_review(self, review: Review) -> None:
+        """Fill the table."""
+        self._scans = review.control_scans
+        self.setRowCount(len(self._scans))
+        self.setVisible(bool(self._scans))
+        for row, scan in enumerate(self._scans):
+            for column, text in enumerate(cells(scan, review.origin)):
+                item = QTableWidgetItem(text)
+                if column == _COLUMNS - 1:
+                    item.setTextAlignment(
+                        Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+                    )
+                    item.setToolTip(tr(TEACHING_ESTIMATE))
+                self.setItem(row, column, item)
+
+
+def cells(scan: ControlScan, origin: float) -> tuple[str, ...]:
+    """Words of one row."""
+    low, high = scan.order.range_mm
+    slices = tr(
+        "{n} × {mm:g} mm, {low} to {high}", n=scan.order.slices, mm=scan.order.slice_mm,
+        low=axis_words(2, low), high=axis_words(2, high),
+    )  # fmt: skip
+    shows = {
+        Seen.TIP: tr("● tip"),
+        Seen.SHAFT: tr("▲ shaft only"),
+        Seen.NOTHING: tr("✖ no needle"),
+    }
+    time = clock_text(scan.time - origin)
+    return str(scan.number), time, slices, shows[scan.seen], f"{scan.dose:.1f}"
+
+
+_ROW_HEIGHT, _WEIGHT = 26, 4
+
+
+class ScoreTable(QTableWidget):
+    """Rows that count first, then those shown for information, dimmed."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(0, 5, parent)
+        titles = (tr("Metric"), tr("Value"), tr("Band"), tr("Points"), tr("Weight"))
+        for column, title in enumerate(titles):
+            self.setHorizontalHeaderItem(column, _cell(title, column))
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.setShowGrid(False)
+        self.verticalHeader().hide()
+        self.verticalHeader().setDefaultSectionSize(_ROW_HEIGHT)
+        header = self.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+        header.setHighlightSections(False)
+
+    def show_score(self, score: Score | None) -> None:
+        """Fill the table; None empties it."""
+        self.setRowCount(0)
+        self.verticalHeader().setDefaultSectionSize(theme.px(_ROW_HEIGHT))
+        self.setColumnHidden(_WEIGHT, theme.scale() > 1.0)  # the points say it too
+        if score is None:
+            return
+        for row in (*counting(score), *shown_only(score)):
+            texts = row_texts(row, score)
+            index = self.rowCount()
+            self.insertRow(index)
+            dim = row.tolerance is None
+            cells = (texts.label, texts.value, texts.band, texts.points, texts.weight)
+            for column, text in enumerate(cells):
+                item = _cell(text, column)
+                colour = texts.colour if column == 2 else theme.TEXT_DIM if dim else theme.TEXT
+                item.setForeground(QColor(theme.now(colour)))
+                item.setToolTip(texts.help)
+                self.setItem(index, column, item)
+
+
+def _cell(text: str, column: int) -> QTableWidgetItem:
+    """Cell aligned as its column: words to the left, numbers to the right."""
+    item = QTableWidgetItem(text)
+    side = Qt.AlignmentFlag.AlignLeft if column in (0, 2) else Qt.AlignmentFlag.AlignRight
+    item.setTextAlignment(side | Qt.AlignmentFlag.AlignVCenter)
+    return item
+
 
 _LEFT = 500
 """Width of what stands beside the curves [px]."""

@@ -11,7 +11,7 @@ from app.core.arrays import FloatArray
 from app.session.pad.hand import HandLimits
 from app.session.pad.view import PadScene
 from app.session.review import Review
-from app.views.exercise.pad_painter import PadArea, paint_background
+from app.views.exercise.pad_canvas import PadArea, paint_background
 from app.views.kit import theme
 from app.views.kit.text import tr
 

@@ -2,19 +2,222 @@
 
 from typing import Any, Final
 
-from PySide6.QtCore import Qt, QTimer, Signal
-from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+import numpy as np
+from numpy.typing import ArrayLike
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF, QResizeEvent
+from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
+from app.planning.off_path import Offset
+from app.session.pad.geometry import PathFrame
 from app.session.pad.hand import HandPose, PadHand
 from app.session.pad.view import PadScene, PadView
-from app.views.exercise.depth_bar import DepthBar
 from app.views.exercise.hands.chooser import HandChooser
 from app.views.exercise.hands.source import HandChange
 from app.views.exercise.pad_canvas import PadCanvas
-from app.views.exercise.words import corrections, ct_words, lateral, remaining
 from app.views.kit import theme
 from app.views.kit.text import tr
+
+_COLUMN = 26
+_TOP, _BOTTOM = 18, 14
+
+
+class DepthBar(QWidget):
+    """Depth along the path, the skin on top; drawn to one scale, marks told apart by shape."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._scene: PadScene | None = None
+        self._depth: float | None = None
+        self._hand: float | None = None
+        self._measured = True
+        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
+        self.setMinimumSize(150, 160)
+        self.setAccessibleName(tr("Depth bar"))
+
+    def sizeHint(self) -> QSize:
+        """Preferred size."""
+        return QSize(150, 300)
+
+    def set_scene(self, scene: PadScene | None) -> None:
+        """Take a new path; None clears the bar."""
+        self._scene, self._depth, self._hand = scene, None, None
+        self.update()
+
+    def show_depth(self, depth: float, measured: bool, hand: float | None) -> None:
+        """Draw a depth [m], whether it is a fresh measurement, and the depth the hand wants."""
+        self._depth, self._measured, self._hand = depth, measured, hand
+        self.update()
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """Shallowest and deepest depth on the bar [m]."""
+        scene = self._scene
+        if scene is None:
+            return -0.03, 0.1
+        return max(-0.03, scene.limits.shallowest), max(scene.stop_depth, scene.target_depth) * 1.15
+
+    def pixel(self, depth: float) -> float:
+        """Height on the widget [px] of a depth [m], kept on the bar."""
+        low, high = self.span
+        share = min(1.0, max(0.0, (depth - low) / (high - low)))
+        return _TOP + share * (self.height() - _TOP - _BOTTOM)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the bar."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        font = QFont(painter.font())
+        font.setPixelSize(theme.SMALL_PX)
+        painter.setFont(font)
+        low, high = self.span
+        top, bottom = self.pixel(low), self.pixel(high)
+        painter.setPen(QPen(QColor(theme.BORDER), 1.0))
+        painter.setBrush(QColor("#0e1114"))
+        painter.drawRect(QRectF(10, top, _COLUMN, bottom - top))
+        if self._scene is not None:
+            self._paint_depth(painter)
+            self._paint_marks(painter, self._scene)
+
+    def _paint_depth(self, painter: QPainter) -> None:
+        if self._depth is None:
+            return
+        if self._measured:  # a guess is never drawn as if the needle were there
+            self._paint_needle(painter, self.pixel(self._depth))
+        if self._hand is not None:
+            self._paint_hand(painter, self.pixel(self._hand))
+
+    def _paint_needle(self, painter: QPainter, tip: float) -> None:
+        skin, top = self.pixel(0.0), self.pixel(self.span[0])
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(theme.NEEDLE.qcolor(0.35))
+        painter.drawRect(QRectF(10 + _COLUMN / 2 - 2, top, 4, min(skin, tip) - top))
+        painter.setBrush(theme.NEEDLE.qcolor(0.85))
+        painter.drawRect(QRectF(10 + _COLUMN / 2 - 5, skin, 10, max(0.0, tip - skin)))
+        painter.setPen(theme.NEEDLE_TIP.pen(2.0))
+        painter.setBrush(theme.NEEDLE_TIP.qcolor())
+        at = QPointF(10 + _COLUMN / 2, tip)
+        painter.drawPolygon(QPolygonF([at + QPointF(-8, -8), at + QPointF(8, -8), at]))
+
+    def _paint_hand(self, painter: QPainter, y: float) -> None:
+        painter.setPen(QPen(QColor(theme.TEXT), 1.5))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawPolygon(QPolygonF([QPointF(0, y - 6), QPointF(9, y), QPointF(0, y + 6)]))
+
+    def _paint_marks(self, painter: QPainter, scene: PadScene) -> None:
+        band = scene.depth_tolerance
+        first, last = (self.pixel(scene.target_depth + sign * band) for sign in (-1, 1))
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(theme.TARGET.qcolor(0.35))
+        painter.drawRect(QRectF(10, first, _COLUMN, max(2.0, last - first)))
+        target, stop = self.pixel(scene.target_depth), self.pixel(scene.stop_depth)
+        # The two labels keep a line's height apart even when the marks lie closer.
+        label = max(stop, target + 16)
+        self._mark(painter, self.pixel(0.0), self.pixel(0.0), theme.SKIN.colour, tr("Skin"))
+        self._mark(
+            painter, target, target, theme.TARGET.colour,
+            tr("Target {mm:.0f}", mm=1e3 * scene.target_depth),
+        )  # fmt: skip
+        self._mark(
+            painter, stop, label, theme.BAD, tr("Stop {mm:.0f}", mm=1e3 * scene.stop_depth), 4.0
+        )
+
+    @staticmethod
+    def _mark(
+        painter: QPainter, y: float, label_y: float, colour: str, text: str, width: float = 2.0
+    ) -> None:
+        painter.setPen(QPen(QColor(colour), width))
+        painter.drawLine(QPointF(8, y), QPointF(12 + _COLUMN, y))
+        painter.setPen(QPen(QColor(theme.now(colour)), 1.0))
+        painter.drawLine(QPointF(12 + _COLUMN, y), QPointF(18 + _COLUMN, label_y))
+        painter.drawText(QPointF(21 + _COLUMN, label_y + 5), text)
+
+
+STRAIGHT_DEG = 0.1
+"""Corrections below this [°] are not asked for: five encoder counts."""
+
+
+def towards(letters: str) -> str:
+    """Patient direction of a letter group in words: `L` → "patient left (L)".
+
+    Only the largest share is spelt out: the pad's edges show the rest.
+    """
+    words = {
+        "L": tr("patient left"),
+        "R": tr("patient right"),
+        "A": tr("front"),
+        "P": tr("back"),
+        "S": tr("head"),
+        "I": tr("feet"),
+    }
+    return f"{words[letters[0]]} ({letters})"
+
+
+def corrections(frame: PathFrame, needle_tilts: ArrayLike) -> tuple[str, str]:
+    """How to turn the tip onto the path: in the plane of the slice, and out of it.
+
+    Args:
+        frame: axes of the pad.
+        needle_tilts: the needle's tilts against the path [rad], shape (2,).
+    """
+    right, up = np.degrees(np.asarray(needle_tilts, dtype=np.float64)).tolist()
+    left_letters, right_letters, top, bottom = frame.letters
+    first, second = (
+        (tr("In plane"), tr("Out of plane")) if frame.axial else (tr("Sideways"), tr("Up / down"))
+    )
+    return (
+        _correction(first, -right, right_letters, left_letters),
+        _correction(second, -up, top, bottom),
+    )
+
+
+def _correction(name: str, angle_deg: float, positive: str, negative: str) -> str:
+    if abs(angle_deg) < STRAIGHT_DEG:
+        return tr("{name}: ✔ on path", name=name)
+    where = towards(positive if angle_deg > 0.0 else negative)
+    return tr(
+        "{name}: tip {angle:.1f}° towards {where}", name=name, angle=abs(angle_deg), where=where
+    )
+
+
+def lateral(frame: PathFrame, offset: Offset) -> str:
+    """How far the tip is off the path, and to which side.
+
+    Args:
+        frame: of the path to the target as it is now.
+        offset: of the tip from it.
+    """
+    length = 1e3 * offset.lateral
+    if length < 0.05:
+        return tr("off the path: 0.0 mm")
+    right, up = 1e3 * float(offset.across @ frame.right), 1e3 * float(offset.across @ frame.up)
+    left_letters, right_letters, top, bottom = frame.letters
+    parts = ((abs(right), right_letters if right > 0.0 else left_letters),
+             (abs(up), top if up > 0.0 else bottom))  # fmt: skip
+    sides = "  ".join(f"{letters} {size:.1f}" for size, letters in parts if size >= 0.05)
+    return tr("off the path: {length:.1f} mm  ({sides})", length=length, sides=sides)
+
+
+def ct_words(frame: PathFrame, direction: ArrayLike) -> str:
+    """Angles of the needle against the axial slices, and those of the path."""
+    needle, path = frame.ct_angles(direction), frame.ct_angles(frame.axis)
+    return tr(
+        "CT angles: in plane {a:+.1f}° (path {b:+.1f}°)\nout of plane {c:+.1f}° (path {d:+.1f}°)",
+        a=needle[0], b=path[0], c=needle[1], d=path[1],
+    )  # fmt: skip
+
+
+def remaining(offset: Offset, across: float, along: float) -> str:
+    """Millimetres to the target, or beyond it; at it only within both tolerances [m]."""
+    gap_mm = 1e3 * offset.remaining
+    if offset.arrived(across, along):
+        return tr("✔ at target ({gap:+.1f} mm)", gap=-gap_mm)
+    if abs(offset.remaining) <= along:
+        return tr("beside the target")
+    if gap_mm > 0.0:
+        return tr("{gap:.1f} mm to go", gap=gap_mm)
+    return tr("▲ {gap:.1f} mm too deep", gap=-gap_mm)
+
 
 DECLARATION: Final[dict[str, Any]] = {
     "view": "bullseye",

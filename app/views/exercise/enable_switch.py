@@ -1,13 +1,158 @@
-"""The enabling switch on the page: a large button that is held, and the state of the forces."""
+"""The enabling switch: a large button, a key or a pedal held down, and the state of the forces."""
 
-from PySide6.QtCore import QRectF, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
+from dataclasses import dataclass
+
+from PySide6.QtCore import QEvent, QObject, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QKeyEvent, QKeySequence, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
-from app.views.exercise.enable_key import EnableKey, key_name
-from app.views.exercise.enable_words import Enabling, enable_words
+from app.core import state_vector as sv
+from app.session.machine import RUNNING, State
+from app.session.snapshot import Snapshot
+from app.views.exercise.readings import fault_text
+from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.text import tr
+
+DEFAULT_KEY = Qt.Key.Key_H
+"""`H` for hold: F, B, E, T and S have other meanings in the window."""
+
+_GONE = (QEvent.Type.WindowDeactivate, QEvent.Type.Hide, QEvent.Type.Close)
+_UNFOCUSED = QEvent.Type.FocusOut
+
+
+class EnableKey(QObject):
+    """Watches a window for one key, whatever modifiers are down and whoever has the focus.
+
+    It looks at the window itself, not at its widgets: no field can swallow the release. A pedal on
+    USB is a keyboard with one key. Anything that takes the keyboard away counts as letting go.
+
+    Signals:
+        held(bool): pressed, or let go; each change once.
+    """
+
+    held = Signal(bool)
+
+    def __init__(self, parent: QWidget, key: Qt.Key = DEFAULT_KEY) -> None:
+        super().__init__(parent)
+        self._key = key
+        self._down = False
+        self._active = False
+
+    @property
+    def key(self) -> Qt.Key:
+        """Key that is watched."""
+        return self._key
+
+    @property
+    def name(self) -> str:
+        """Key as it is written on the keyboard."""
+        return key_name(self._key)
+
+    def set_key(self, key: Qt.Key) -> None:
+        """Watch another key; lets go of the present one."""
+        self._change(False)
+        self._key = key
+
+    def set_active(self, active: bool) -> None:
+        """Watch, or let go and leave the key to whoever else wants it."""
+        if not active:
+            self._change(False)
+        self._active = active
+
+    def watch(self, window: QWidget) -> None:
+        """Watch a top-level widget; it is given its native window if it has none yet."""
+        window.installEventFilter(self)
+        window.winId()
+        handle = window.windowHandle()
+        if handle is not None:
+            handle.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Follow the key; while the watch is on, nobody else gets it."""
+        if event.type() in _GONE or (_is_window(watched) and event.type() is _UNFOCUSED):
+            self._change(False)
+        elif isinstance(event, QKeyEvent) and event.key() == self._key and self._active:
+            return self._take(event)
+        return False
+
+    def _take(self, event: QKeyEvent) -> bool:
+        if event.isAutoRepeat():
+            return True
+        if event.type() == QEvent.Type.KeyPress:
+            self._change(True)
+            return True
+        if event.type() == QEvent.Type.KeyRelease:
+            self._change(False)
+            return True
+        return False
+
+    def _change(self, down: bool) -> None:
+        if down is not self._down:
+            self._down = down
+            self.held.emit(down)
+
+
+def key_name(key: Qt.Key) -> str:
+    """Name of a key as it is written on the keyboard."""
+    return QKeySequence(key).toString(QKeySequence.SequenceFormat.NativeText)
+
+
+def _is_window(watched: QObject) -> bool:
+    return not watched.isWidgetType()
+
+
+@dataclass(frozen=True, slots=True)
+class Enabling:
+    """How the forces are armed now.
+
+    Attributes:
+        running: whether an attempt runs; without one there is nothing to arm.
+        held: whether key, pedal or button is held.
+        ramp: arming ramp, 0 off … 1 fully on.
+        fault: what holds the force at zero, in words; empty if nothing does.
+        ready: whether an attempt can begin on this robot: it is homed, its signs are checked.
+    """
+
+    running: bool
+    held: bool
+    ramp: float
+    fault: str = ""
+    ready: bool = True
+
+
+def enabling(snapshot: Snapshot, held: bool) -> Enabling:
+    """How a snapshot says that the forces are armed."""
+    device = snapshot.device
+    ramp = float(device.row[sv.ARMING]) if device is not None else 0.0
+    fault = fault_text(int(device.fault)) if device is not None else ""
+    clearance = snapshot.clearance
+    ready = clearance is None or clearance.homed > 0.5
+    running = snapshot.state in RUNNING and snapshot.state is not State.WITHDRAWING
+    return Enabling(running, held, min(1.0, max(0.0, ramp)), fault, ready)
+
+
+def enable_words(now: Enabling, key: str) -> tuple[Verdict, str, str]:
+    """Verdict, the state in a few words, and what to do; `key` is the key's name."""
+    if not now.running and not now.ready:
+        return Verdict.BAD, tr("✖ robot not ready"), tr("why, and what to do: Robot's health (F8)")
+    if not now.running:
+        return Verdict.IDLE, tr("– forces off"), tr("start the attempt first")
+    if now.fault:
+        todo = tr("let go of {key}", key=key) if now.held else tr("hold {key} again", key=key)
+        return Verdict.BAD, tr("✖ no force: {todo}", todo=todo), now.fault
+    if not now.held:
+        return Verdict.IDLE, tr("○ forces off"), hold(key)
+    if now.ramp < 1.0:
+        percent = tr("◐ switching on {percent:.0f} %", percent=100 * now.ramp)
+        return Verdict.WARNING, percent, tr("keep holding {key}", key=key)
+    return Verdict.GOOD, tr("● FORCES ON"), tr("let go of {key}: forces off", key=key)
+
+
+def hold(key: str) -> str:
+    """Say how to switch on."""
+    return tr("hold {key}, pedal or this button to switch on", key=key)
+
 
 _OFF = Enabling(False, False, 0.0)
 

@@ -1,23 +1,260 @@
-"""The pad itself: draws, and turns mouse and keys into steps of the hand."""
+"""The bull's-eye pad: rings, letters, needle, aim, hand and its spring; mouse and keys move the
+hand.
+"""
 
-from math import radians
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import atan2, hypot, radians
 from typing import Final
 
+import numpy as np
 from numpy.typing import ArrayLike
-from PySide6.QtCore import QPointF, QSize, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QWheelEvent
+from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPolygonF,
+    QWheelEvent,
+)
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.session.pad.view import PadScene, PadView
-from app.views.exercise.pad_painter import (
-    PadArea,
-    paint_background,
-    paint_hand,
-    paint_hidden,
-    paint_needle,
-)
 from app.views.kit import theme
 from app.views.kit.text import tr
+
+_ANGLES_DEG: Final = (10, 30)
+HAND_COLOUR: Final = "#ffffff"
+_CORNERS: Final = ((1, -1), (1, 1), (-1, 1), (-1, -1))
+"""Where a ring's size may stand, to the right and downwards from the middle."""
+
+RING_POINTS: Final = 48
+"""Corners of a ring that is drawn beside the middle."""
+
+_LEAD: Final = radians(0.15)
+"""Below this angle between hand and needle no spring is drawn [rad]."""
+
+
+@dataclass(frozen=True, slots=True)
+class PadArea:
+    """Where the pad lies in its widget: centre and radius [px]."""
+
+    centre: QPointF
+    radius: float
+
+    @classmethod
+    def inside(cls, width: float, height: float, margin: float) -> "PadArea":
+        """Largest pad in a rectangle, leaving `margin` [px] for the letters."""
+        return cls(QPointF(width / 2, height / 2), max(10.0, min(width, height) / 2 - margin))
+
+    def point(self, place: ArrayLike) -> QPointF:
+        """Pixel of a place on the pad; places beyond the rim are drawn on it."""
+        x, y = np.asarray(place, dtype=np.float64)
+        shrink = self.radius / max(1.0, hypot(x, y))
+        return self.centre + QPointF(shrink * x, -shrink * y)
+
+
+def paint_hidden(painter: QPainter, area: PadArea, words: str) -> None:
+    """Rim and words: a field to move the hand in that says nothing of where it is."""
+    painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.5))
+    painter.setBrush(QColor("#0e1114"))
+    painter.drawEllipse(area.centre, area.radius, area.radius)
+    painter.setPen(QColor(theme.IMAGE_DIM))
+    half = 0.7 * area.radius
+    box = QRectF(area.centre.x() - half, area.centre.y() - half, 2 * half, 2 * half)
+    flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+    painter.drawText(box, flags, words)
+
+
+def paint_background(
+    painter: QPainter, area: PadArea, scene: PadScene, view: PadView | None = None
+) -> None:
+    """Rim, rings with their sizes, cross, letters, target.
+
+    With a `view` whose target has moved, target and rings stand where it is now: the rings as the
+    ovals that the pad's scale makes of circles beside its middle.
+    """
+    painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.5))
+    painter.setBrush(QColor("#0e1114"))
+    painter.drawEllipse(area.centre, area.radius, area.radius)
+    _cross(painter, area)
+    taken: list[QRectF] = []
+    moved = view if view is not None and view.frame(scene) is not scene.frame else None
+    for i, ring in reversed(list(enumerate(scene.rings))):
+        if moved is not None:
+            painter.setBrush(Qt.BrushStyle.NoBrush)
+            painter.setPen(QPen(QColor(theme.TARGET.colour), 2.5 if i == 0 else 1.6))
+            painter.drawPolygon(moved_ring(area, scene, moved, ring))
+            continue
+        radius = scene.scale.radius(atan2(ring, scene.scale.length))
+        _ring(painter, area, radius, theme.TARGET.colour, 2.5 if i == 0 else 1.6)
+        name = tr("{mm:g} mm", mm=1e3 * ring)
+        _ring_name(painter, area, radius, theme.TARGET.colour, name, taken)
+    for angle_deg in _ANGLES_DEG:
+        radius = scene.scale.radius(radians(angle_deg))
+        _ring(painter, area, radius, theme.IMAGE_LINE, 1.0)
+        _ring_name(painter, area, radius, theme.IMAGE_DIM, f"{angle_deg}°", taken)
+    _letters(painter, area, scene.frame.letters)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(theme.TARGET.qcolor())
+    at = area.centre if moved is None else area.point(moved.place(scene, np.zeros(3)))
+    painter.drawEllipse(at, 3.5, 3.5)
+
+
+def moved_ring(area: PadArea, scene: PadScene, view: PadView, radius: float) -> QPolygonF:
+    """Ring of `radius` [m] round the target as it is now, on the pad."""
+    frame = view.frame(scene)
+    turns = np.linspace(0.0, 2.0 * np.pi, RING_POINTS, endpoint=False)
+    around = radius * (np.cos(turns)[:, None] * frame.right + np.sin(turns)[:, None] * frame.up)
+    return QPolygonF([area.point(view.place(scene, across)) for across in around])
+
+
+def paint_needle(painter: QPainter, area: PadArea, scene: PadScene, view: PadView) -> None:
+    """Needle from hub to tip, and where it is heading: a dashed line to the aim's cross."""
+    tip, hub = (
+        area.point(view.place(scene, across)) for across in (view.offset.across, view.hub_across)
+    )
+    aim = area.point(scene.scale.place(scene.frame.tilts(view.direction)))
+    painter.setPen(theme.NEEDLE.pen(1.5, 0.9))
+    dashed = painter.pen()
+    dashed.setDashPattern([4.0, 3.0])
+    painter.setPen(dashed)
+    painter.drawLine(tip, aim)
+    _cross_mark(painter, aim)
+    painter.setPen(theme.NEEDLE.pen(4.0))
+    between = () if view.curve_across is None else view.curve_across[:-1]
+    bent = [area.point(view.place(scene, across)) for across in between]
+    painter.drawPolyline(QPolygonF([hub, *bent, tip]))
+    _hub_mark(painter, hub)
+    _tip_mark(painter, tip, view.measured)
+
+
+def paint_hand(
+    painter: QPainter, area: PadArea, scene: PadScene, view: PadView, hand_tilts: ArrayLike
+) -> None:
+    """Draw the hand's ghost, and the spring to the needle while the hand leads it.
+
+    The spring is as long as the lead, and the thicker and wider the stronger it pulls.
+    """
+    needle = scene.frame.tilts(view.direction)
+    tilts = np.asarray(hand_tilts, dtype=np.float64)
+    ghost = area.point(scene.scale.place(tilts))
+    if hypot(*(tilts - needle)) > _LEAD:
+        share = min(1.0, view.force / view.force_limit) if view.force_limit > 0.0 else 0.0
+        aim = area.point(scene.scale.place(needle))
+        painter.setPen(QPen(QColor(HAND_COLOUR), 1.4 + 3.0 * share))
+        painter.drawPolyline(spring(aim, ghost, 5.0 + 6.0 * share))
+    pen = QPen(QColor(HAND_COLOUR), 2.0)
+    painter.setPen(pen)
+    painter.setBrush(QColor(255, 255, 255, 40))
+    painter.drawEllipse(ghost, 11.0, 11.0)
+
+
+def spring(start: QPointF, end: QPointF, amplitude: float, coils: int = 6) -> QPolygonF:
+    """Zigzag line [px] between two points; straight ends, `coils` teeth between."""
+    along = end - start
+    length = hypot(along.x(), along.y())
+    if length < 1e-6:
+        return QPolygonF([start, end])
+    across = QPointF(-along.y(), along.x()) * (min(amplitude, length / 4) / length)
+    points = [start, start + along * 0.1]
+    for i in range(2 * coils):
+        side = 1 if i % 2 == 0 else -1
+        points.append(start + along * (0.1 + 0.8 * (i + 0.5) / (2 * coils)) + across * side)
+    return QPolygonF([*points, start + along * 0.9, end])
+
+
+def _cross(painter: QPainter, area: PadArea) -> None:
+    painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.0))
+    for x, y in ((1.0, 0.0), (0.0, 1.0)):
+        painter.drawLine(area.point((-x, -y)), area.point((x, y)))
+
+
+def _ring(painter: QPainter, area: PadArea, radius: float, colour: str, width: float) -> None:
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    painter.setPen(QPen(QColor(colour), width))
+    size = radius * area.radius
+    painter.drawEllipse(area.centre, size, size)
+
+
+def _ring_name(
+    painter: QPainter, area: PadArea, radius: float, colour: str, name: str, taken: list[QRectF]
+) -> None:
+    """Write a ring's size beside it, where no other one's stands."""
+    painter.setFont(_font(painter, theme.SMALL_PX))
+    metrics = painter.fontMetrics()
+    size = QSizeF(metrics.horizontalAdvance(name) + 4.0, float(metrics.height()))
+    box = free_corner(area, radius, size, taken)
+    if box is None:
+        return
+    taken.append(box)
+    painter.fillRect(box, QColor(theme.IMAGE_GROUND))
+    painter.setPen(QColor(colour))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, name)
+
+
+def free_corner(
+    area: PadArea, radius: float, size: QSizeF, taken: Sequence[QRectF]
+) -> QRectF | None:
+    """Return the first corner of a ring in which a text covers none that is taken.
+
+    Args:
+        area: of the pad.
+        radius: of the ring, in radii of the pad.
+        size: of the text [px].
+        taken: places of other texts.
+    """
+    reach = 0.7071 * radius * area.radius
+    for x, y in _CORNERS:
+        corner = area.centre + QPointF(x * reach, y * reach)
+        left = corner.x() + 3.0 if x > 0 else corner.x() - 3.0 - size.width()
+        top = corner.y() if y > 0 else corner.y() - size.height()
+        box = QRectF(QPointF(left, top), size)
+        if not any(box.intersects(other) for other in taken):
+            return box
+    return None
+
+
+def _letters(painter: QPainter, area: PadArea, letters: Sequence[str]) -> None:
+    painter.setFont(_font(painter, theme.FONT_PX + 3, bold=True))
+    painter.setPen(QColor(theme.TEXT))
+    reach = area.radius + 14
+    for text, (x, y) in zip(letters, ((-1, 0), (1, 0), (0, -1), (0, 1)), strict=True):
+        centre = area.centre + QPointF(reach * x, reach * y)
+        box = QRectF(centre.x() - 24, centre.y() - 12, 48, 24)
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+
+def _cross_mark(painter: QPainter, at: QPointF) -> None:
+    painter.setPen(theme.NEEDLE.pen(2.0))
+    painter.drawLine(at + QPointF(-7, -7), at + QPointF(7, 7))
+    painter.drawLine(at + QPointF(-7, 7), at + QPointF(7, -7))
+
+
+def _hub_mark(painter: QPainter, at: QPointF) -> None:
+    painter.setPen(theme.NEEDLE.pen(2.0))
+    painter.setBrush(QColor(theme.IMAGE_GROUND))
+    painter.drawRect(QRectF(at.x() - 6, at.y() - 6, 12, 12))
+
+
+def _tip_mark(painter: QPainter, at: QPointF, measured: bool) -> None:
+    """Diamond; hollow while the depth is not measured."""
+    painter.setPen(theme.NEEDLE_TIP.pen(2.0))
+    painter.setBrush(theme.NEEDLE_TIP.qcolor() if measured else QColor(theme.IMAGE_GROUND))
+    corners = ((0, -9), (9, 0), (0, 9), (-9, 0))
+    painter.drawPolygon(QPolygonF([at + QPointF(x, y) for x, y in corners]))
+
+
+def _font(painter: QPainter, pixels: int, bold: bool = False) -> QFont:
+    font = QFont(painter.font())
+    font.setPixelSize(pixels)
+    font.setBold(bold)
+    return font
+
 
 TILT_STEP: Final = radians(0.2)
 FINE_TILT_STEP: Final = radians(0.05)

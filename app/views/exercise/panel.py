@@ -1,16 +1,20 @@
-"""The exercise panel: what is practised, by whom, with how much help, and how it goes."""
+"""The exercise panel: what is practised, by whom, with how much help, its buttons, and how it
+goes.
+"""
 
 from collections.abc import Sequence
 from typing import Final
 
-from PySide6.QtCore import QRegularExpression, QSignalBlocker, Signal
-from PySide6.QtGui import QRegularExpressionValidator
+from PySide6.QtCore import QEvent, QObject, QRegularExpression, QSignalBlocker, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent, QKeySequence, QRegularExpressionValidator, QShortcut
 from PySide6.QtWidgets import (
     QComboBox,
     QFormLayout,
     QFrame,
+    QGridLayout,
     QLabel,
     QLineEdit,
+    QPushButton,
     QSizePolicy,
     QVBoxLayout,
     QWidget,
@@ -19,7 +23,7 @@ from PySide6.QtWidgets import (
 from app.exercises.guidance import GuidancePart
 from app.planning.plan import Plan
 from app.session.machine import RUNNING, State
-from app.views.exercise.actions import AttemptActions
+from app.session.snapshot import Snapshot
 from app.views.exercise.assistance_dial import AssistanceDial
 from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
@@ -27,9 +31,174 @@ from app.views.exercise.live import LiveFigures
 from app.views.exercise.readouts import AttemptReadouts
 from app.views.exercise.scan_panel import ScanPanel
 from app.views.exercise.steps import Steps
-from app.views.exercise.withdrawal_note import WithdrawalNote
 from app.views.kit import theme
 from app.views.kit.text import tr
+
+
+class AttemptActions(QWidget):
+    """Start, control scan, end, abort.
+
+    Signals:
+        start_requested(), scan_requested(), end_requested(), abort_requested().
+    """
+
+    start_requested = Signal()
+    scan_requested = Signal()
+    end_requested = Signal()
+    abort_requested = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.start = _button(tr("Start attempt"), _starts())
+        self.start.setProperty("role", "primary")
+        self.scan = _button(tr("Control scan (S)"), _counts())
+        self.end = _button(tr("End attempt (Enter)"), tr("The needle stays as it is and is scored"))
+        self.abort = _button(
+            tr("Abort (hold Esc)"), tr("Force to zero at once; the attempt is kept but not scored")
+        )
+        self._keys: list[tuple[QShortcut, QPushButton]] = []
+        self._escape = HoldKey(Qt.Key.Key_Escape, self)
+        self._escape.held.connect(self.abort.click)  # a disabled button ignores it
+        self._lay_out()
+        self._connect()
+        self.show_state(None, False)
+
+    def set_pedal(self, scans: bool) -> None:
+        """Say what the scan's key does: it takes slices, or counts a scan only."""
+        self.scan.setToolTip(_takes() if scans else _counts())
+
+    def watch(self, window: QWidget) -> None:
+        """Listen for Esc held down anywhere in `window`."""
+        window.installEventFilter(self._escape)
+
+    def show_state(self, state: State | None, can_start: bool, why: str = "") -> None:
+        """Enable what is legal.
+
+        Args:
+            state: of the attempt; None without one.
+            can_start: whether everything is there for a new attempt.
+            why: it cannot start now, if there is more to say than that something is missing.
+        """
+        running = state in RUNNING
+        self.start.setToolTip(why or _starts())
+        for button, legal in (
+            (self.start, can_start and not running),
+            (self.scan, running and state is not State.WITHDRAWING),
+            (self.end, running),
+            (self.abort, running),
+        ):
+            button.setEnabled(legal)
+        for shortcut, button in self._keys:
+            shortcut.setEnabled(button.isEnabled())
+
+    def _lay_out(self) -> None:
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.addWidget(self.start, 0, 0, 1, 2)
+        grid.addWidget(self.scan, 1, 0)
+        grid.addWidget(self.end, 1, 1)
+        grid.addWidget(self.abort, 2, 0, 1, 2)
+
+    def _connect(self) -> None:
+        for button, signal, keys in (
+            (self.start, self.start_requested, (Qt.Key.Key_F5,)),
+            (self.scan, self.scan_requested, (Qt.Key.Key_S,)),
+            (self.end, self.end_requested, (Qt.Key.Key_Return, Qt.Key.Key_Enter)),
+            (self.abort, self.abort_requested, ()),
+        ):
+            button.clicked.connect(signal)
+            for key in keys:
+                shortcut = QShortcut(QKeySequence(key), self)
+                shortcut.setAutoRepeat(False)
+                shortcut.activated.connect(button.click)
+                self._keys.append((shortcut, button))
+
+
+def _starts() -> str:
+    return tr("Arm the robot and begin recording (F5)")
+
+
+def _counts() -> str:
+    return tr("Counts a scan and keeps the needle's place with it")
+
+
+def _takes() -> str:
+    return tr("The pedal: takes the slices that are set below, with the needle where it is now")
+
+
+def _button(text: str, help_text: str) -> QPushButton:
+    button = QPushButton(text)
+    button.setToolTip(help_text)
+    # A button that keeps the focus would swallow the pad's keys; Space on it would repeat it.
+    button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+    return button
+
+
+HOLD_MS = 700
+
+
+class HoldKey(QObject):
+    """Watches a window for one key; auto-repeat and other keys change nothing.
+
+    Signals:
+        held(): the key was down for `HOLD_MS` without a break.
+    """
+
+    held = Signal()
+
+    def __init__(self, key: Qt.Key, parent: QObject) -> None:
+        super().__init__(parent)
+        self._key = key
+        self._timer = QTimer(self, interval=HOLD_MS, singleShot=True)
+        self._timer.timeout.connect(self.held)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Start and stop the clock; the event goes on to whoever wants it."""
+        kinds = (QEvent.Type.KeyPress, QEvent.Type.KeyRelease)
+        if event.type() in kinds and isinstance(event, QKeyEvent) and event.key() == self._key:
+            if event.isAutoRepeat():
+                return False
+            if event.type() == QEvent.Type.KeyPress:
+                self._timer.start()
+            else:
+                self._timer.stop()
+        elif event.type() == QEvent.Type.WindowDeactivate:
+            self._timer.stop()
+        return False
+
+
+class WithdrawalNote(QWidget):
+    """Words and, where nothing measures the depth, the button by which the student vouches for it.
+
+    Signals:
+        confirmed(): the student says that the needle is out.
+    """
+
+    confirmed = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._words = QLabel(self)
+        self._words.setWordWrap(True)
+        self._words.setStyleSheet(f"color: {theme.WARNING};")
+        self.button = QPushButton(tr("The needle is out"), self)
+        self.button.setToolTip(
+            tr("Recorded as your word, not as measured; a depth inside the skin refutes it")
+        )
+        self.button.clicked.connect(self.confirmed)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self._words)
+        column.addWidget(self.button)
+        self.hide()
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Show what a snapshot says, or nothing."""
+        if snapshot.withdrawal != self._words.text():
+            self._words.setText(snapshot.withdrawal)
+            self.setVisible(bool(snapshot.withdrawal))
+        self.button.setVisible(snapshot.may_confirm)
+
 
 PSEUDONYM: Final = r"([A-Za-z0-9][A-Za-z0-9._-]{0,31})?"
 """What a pseudonym may look like; empty for an anonymous attempt."""

@@ -17,10 +17,8 @@ from app.planning.measurements import Measurement
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.text import tr
 from app.views.measure.editor import MeasureEditor, MeasureTool
-from app.views.measure.grip import MeasureGrip
-from app.views.measure.layer import MeasureLayer
-from app.views.measure.panel import TOOLS, MeasurePanel
-from app.views.measure.words import tool_help, tool_title
+from app.views.measure.layer import MeasureGrip, MeasureLayer
+from app.views.measure.panel import TOOLS, MeasurePanel, tool_help, tool_title
 from app.views.shell.feature import Context, Feature
 from app.views.slices.pane import SlicePane
 from app.views.slices.viewing import Tool

@@ -10,7 +10,7 @@ from PySide6.QtCore import SignalInstance
 from app.views.kit.menu_entries import add_entries, add_recent
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
-from app.views.plan.files import PlanFiles
+from app.views.plan.editor import PlanFiles
 from app.views.plan.panel import PlanPanel
 from app.views.shell.feature import Context, Feature
 from app.views.shell.settings import Recents

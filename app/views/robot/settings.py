@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PySide6.QtCore import QSettings, Qt
 
-from app.views.exercise.enable_key import DEFAULT_KEY
+from app.views.exercise.enable_switch import DEFAULT_KEY
 from app.views.exercise.energy_gauge import GaugeMode
 
 

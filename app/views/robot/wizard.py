@@ -21,8 +21,14 @@ from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.robot.runner import Runner
-from app.views.robot.wizard_pages import ConnectionPage, RoutinePage, SummaryPage
-from app.views.robot.wizard_words import state_of, step_words, steps_of
+from app.views.robot.wizard_pages import (
+    ConnectionPage,
+    RoutinePage,
+    SummaryPage,
+    state_of,
+    step_words,
+    steps_of,
+)
 
 if TYPE_CHECKING:
     from app.device.commissioning.bench import Bench

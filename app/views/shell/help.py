@@ -1,16 +1,219 @@
-"""Help: the user guide at the page about the part of the window that is in use."""
+"""Help: the user guide at the page about the part in use, *About*, and *Report a problem*.
+
+A report holds what a developer needs, without identifiers, for the user to read before it is sent.
+"""
 
 from __future__ import annotations
 
+import os
+import platform
 import re
+import sys
+from collections.abc import Sequence
+from importlib import metadata
 from pathlib import Path
 from typing import Final
 
-from PySide6.QtCore import QByteArray, Qt, QUrl
-from PySide6.QtGui import QDesktopServices, QImage, QShowEvent, QTextBlock, QTextDocument
-from PySide6.QtWidgets import QDialog, QDialogButtonBox, QLabel, QTextBrowser, QVBoxLayout, QWidget
+from PySide6.QtCore import QByteArray, QSize, Qt, QUrl, qVersion
+from PySide6.QtGui import (
+    QDesktopServices,
+    QFontDatabase,
+    QGuiApplication,
+    QImage,
+    QShowEvent,
+    QTextBlock,
+    QTextDocument,
+)
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QFileDialog,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QPlainTextEdit,
+    QTableWidget,
+    QTableWidgetItem,
+    QTextBrowser,
+    QVBoxLayout,
+    QWidget,
+)
 
-from app.views.kit.text import tr
+from app import __version__
+from app.core.files import write_atomically
+from app.core.identifiers import without_identifiers
+from app.core.log_file import crash_text, tail
+from app.core.parts import Part, parts
+from app.views.kit.background import run_in_background
+from app.views.kit.names import NAMES
+from app.views.kit.text import disclaimer, tr
+from app.views.shell.application import icon
+
+_ICON_PX = 96
+
+
+def about(parent: QWidget) -> QDialog:
+    """Return the dialog that says what this is and what it is not."""
+    dialog = AboutDialog(parent)
+    dialog.finished.connect(dialog.deleteLater)
+    return dialog
+
+
+class AboutDialog(QDialog):
+    """Version, disclaimer, licence, and the libraries with their versions and licences."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("About Acus"))
+        layout = QVBoxLayout(self)
+        head = QHBoxLayout()
+        picture = QLabel()
+        picture.setPixmap(icon().pixmap(QSize(_ICON_PX, _ICON_PX), self.devicePixelRatioF()))
+        head.addWidget(picture, 0, Qt.AlignmentFlag.AlignTop)
+        words = QVBoxLayout()
+        for text in (f"<h2>{tr('Acus {version}', version=__version__)}</h2>", *_sentences()):
+            label = QLabel(text)
+            label.setWordWrap(True)
+            words.addWidget(label)
+        head.addLayout(words, 1)
+        layout.addLayout(head)
+        self._head = QLabel(tr("Libraries, as installed (being read):"))
+        layout.addWidget(self._head)
+        self.table = _table()
+        layout.addWidget(self.table, 1)
+        # The metadata of every library take a good part of a second.
+        run_in_background(self, lambda _: parts(), self._show_parts, self._not_read)
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons.rejected.connect(self.reject)
+        layout.addWidget(buttons)
+        self.resize(680, 620)
+
+    def _show_parts(self, rows: Sequence[Part]) -> None:
+        self._head.setText(tr("Libraries, as installed:"))
+        self.table.setRowCount(len(rows))
+        for row, part in enumerate(rows):
+            for column, text in enumerate((part.name, part.version, part.licence)):
+                item = QTableWidgetItem(text)
+                item.setToolTip(text)
+                self.table.setItem(row, column, item)
+        self.table.resizeColumnsToContents()
+        self.table.horizontalHeader().setSectionResizeMode(2, QHeaderView.ResizeMode.Stretch)
+
+    def _not_read(self, error: Exception) -> None:
+        self._head.setText(tr("The libraries cannot be listed: {error}", error=error))
+
+
+def _sentences() -> tuple[str, ...]:
+    return (
+        disclaimer(),
+        tr("Acus is under the Apache License 2.0 (LICENSE, NOTICE)."),
+        tr(
+            "Qt {version} and PySide6 are used under the GNU Lesser General Public License (LGPL), "
+            "version 3: they lie beside the program as libraries of their own, and you may replace "
+            "them by versions that you have changed.",
+            version=qVersion(),
+        ),
+    )
+
+
+def _table() -> QTableWidget:
+    table = QTableWidget(0, 3)
+    table.setHorizontalHeaderLabels([tr("Library"), tr("Version"), tr("Licence")])
+    table.setEditTriggers(QTableWidget.EditTrigger.NoEditTriggers)
+    table.setSelectionBehavior(QTableWidget.SelectionBehavior.SelectRows)
+    table.verticalHeader().hide()
+    table.setFocusPolicy(Qt.FocusPolicy.ClickFocus)  # no row is chosen until somebody does
+    return table
+
+
+_PARTS = (
+    "PySide6-Essentials",
+    "vtk",
+    "numpy",
+    "numba",
+    "opencv-contrib-python-headless",
+    "pydicom",
+)
+
+
+def report_text() -> str:
+    """Return program, system, screens, the last crash and the end of the log, nobody named."""
+    parts = [
+        f"Acus {__version__}, Python {sys.version.split()[0]}, Qt {qVersion()}",
+        f"{platform.system()} {platform.release()} {platform.machine()}",
+        f"{os.cpu_count()} processors",
+        ", ".join(f"{name} {_version(name)}" for name in _PARTS),
+        "; ".join(_screens()),
+    ]
+    crash = crash_text()
+    if crash:
+        parts += ["", "--- the last crash ---", crash]
+    parts += ["", "--- the log ---", tail() or "(empty)"]
+    return without_identifiers("\n".join(parts), NAMES.known)
+
+
+def _screens() -> list[str]:
+    return [
+        f"screen {screen.size().width()}x{screen.size().height()} at {screen.devicePixelRatio():g}"
+        for screen in QGuiApplication.screens()
+    ]
+
+
+def _version(name: str) -> str:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return "-"
+
+
+class ProblemReport(QDialog):
+    """Shows the report as it would leave the computer; it is copied or saved, never sent."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(tr("Report a problem"))
+        self.resize(760, 520)
+        words = QLabel(
+            tr(
+                "This is all that a report holds: no names, no pictures, no paths. Look through "
+                "it, say above it what you did and what you expected, and send it to whoever looks "
+                "after this computer. The program sends nothing by itself."
+            ),
+            self,
+        )
+        words.setWordWrap(True)
+        self.text = QPlainTextEdit(report_text(), self)
+        self.text.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
+        self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close, self)
+        self.copy = self.buttons.addButton(tr("Copy"), QDialogButtonBox.ButtonRole.ActionRole)
+        self.save = self.buttons.addButton(tr("Save as…"), QDialogButtonBox.ButtonRole.ActionRole)
+        self.said = QLabel(self)
+        column = QVBoxLayout(self)
+        for part in (words, self.text, self.said, self.buttons):
+            column.addWidget(part)
+        self.copy.clicked.connect(self._copy)
+        self.save.clicked.connect(self._ask)
+        self.buttons.rejected.connect(self.reject)
+
+    def _copy(self) -> None:
+        QGuiApplication.clipboard().setText(self.text.toPlainText())
+        self.said.setText(tr("✔ copied"))
+
+    def _ask(self) -> None:
+        name, _ = QFileDialog.getSaveFileName(self, tr("Save the report"), "acus-problem.txt")
+        if name:
+            self.save_as(name)
+
+    def save_as(self, name: str) -> None:
+        """Write the report; says if that does not work."""
+        try:
+            write_atomically(Path(name), self.text.toPlainText().encode())
+        except OSError as error:
+            self.said.setText(tr("✖ not saved: {why}", why=error.strerror or ""))
+        else:
+            self.said.setText(tr("✔ saved"))
+
 
 _PACKAGE: Final = Path(__file__).resolve().parents[2]
 SITE: Final = _PACKAGE / "site"

@@ -25,15 +25,12 @@ from app.views.plan.editor import PlanEditor
 from app.views.reading.editors import Editors
 from app.views.reading.workspace import WorkspacePage
 from app.views.series.open_ct import OpenCt
-from app.views.shell.about import about
 from app.views.shell.change_of_patient import ChangeOfPatient
 from app.views.shell.feature import Context, Feature
 from app.views.shell.features import FEATURES
-from app.views.shell.help import page_of, show_help
-from app.views.shell.message_bar import MessageBar
+from app.views.shell.help import ProblemReport, about, page_of, show_help
+from app.views.shell.message_bar import MessageBar, Notices
 from app.views.shell.message_topics import connect_messages
-from app.views.shell.notices import Notices
-from app.views.shell.problem_report import ProblemReport
 from app.views.shell.projector import Projector
 from app.views.shell.remembered import Remembered
 from app.views.shell.services import Services

@@ -2,26 +2,161 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QColor, QIcon, QPixmap
 from PySide6.QtWidgets import (
+    QAbstractItemView,
     QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
     QGridLayout,
     QHBoxLayout,
+    QHeaderView,
     QLabel,
     QPushButton,
+    QTableWidget,
+    QTableWidgetItem,
     QVBoxLayout,
     QWidget,
 )
 
+from app.imaging.structures.structure import Kind, Structure
 from app.planning.clearance import Clearance, Nearness
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, Mode
-from app.views.structures.looks import LOOKS
-from app.views.structures.table import StructureTable, spin_box
+from app.views.structures.layer import LOOKS, SIGNS, kind_names
 from app.views.structures.watch import StructureWatch
+
+NAME, KIND, WARN, PATH = range(4)
+
+
+class StructureTable(QTableWidget):
+    """Shows the book, one structure a row, and turns clicks into changes of it."""
+
+    def __init__(
+        self, book: StructureBook, watch: StructureWatch, parent: QWidget | None = None
+    ) -> None:
+        super().__init__(0, 4, parent)
+        self._book, self._watch = book, watch
+        self._style()
+        self.itemChanged.connect(self._edited)
+        self.itemSelectionChanged.connect(self._chosen)
+        watch.path_changed.connect(self.refresh_path)
+
+    def refresh(self) -> None:
+        """Show the book's present state."""
+        book, structures = self._book, self._book.structures
+        with QSignalBlocker(self):
+            self.setRowCount(len(structures))
+            for row, structure in enumerate(structures):
+                self._show_row(row, structure)
+            selected = next((n for n, s in enumerate(structures) if s.name == book.chosen), -1)
+            self.setCurrentCell(selected, NAME)
+        self.refresh_path()
+
+    def refresh_path(self) -> None:
+        """Show the distances of the planned path."""
+        for row, structure in enumerate(self._book.structures):
+            self._show_path(row, self._watch.path.get(structure.name))
+
+    def _show_row(self, row: int, structure: Structure) -> None:
+        item = QTableWidgetItem(structure.name)
+        visible = self._book.is_visible(structure.name)
+        item.setCheckState(Qt.CheckState.Checked if visible else Qt.CheckState.Unchecked)
+        item.setIcon(_swatch(structure))
+        item.setToolTip(tr("{ml:.2f} ml. Tick: drawn. Double click: rename.",
+                           ml=structure.millilitres))  # fmt: skip
+        self.setItem(row, NAME, item)
+        box = self.cellWidget(row, KIND)
+        spin = self.cellWidget(row, WARN)
+        if not isinstance(box, QComboBox) or not isinstance(spin, QDoubleSpinBox):
+            box, spin = self._row_widgets(row)
+        with QSignalBlocker(box), QSignalBlocker(spin):
+            box.setCurrentIndex(box.findData(structure.kind.value))
+            box.setAccessibleName(tr("Kind of {name}", name=structure.name))
+            spin.setValue(structure.warn_mm)
+            spin.setAccessibleName(tr("Warning distance of {name}", name=structure.name))
+
+    def _row_widgets(self, row: int) -> tuple[QComboBox, QDoubleSpinBox]:
+        box = QComboBox()
+        for kind, name in kind_names().items():
+            box.addItem(f"{SIGNS[kind]} {name}", kind.value)
+        box.activated.connect(lambda _: self._set_kind(row, Kind(box.currentData())))
+        spin = spin_box(0.0, 50.0, 0.0, "", 0.5)
+        spin.setToolTip(tr("Warn within so many mm; 0 never"))
+        spin.valueChanged.connect(lambda value: self._set_warn(row, value))
+        self.setCellWidget(row, KIND, box)
+        self.setCellWidget(row, WARN, spin)
+        return box, spin
+
+    def _show_path(self, row: int, clearance: Clearance | None) -> None:
+        item = QTableWidgetItem("–")
+        if clearance is not None:
+            look, sign = LOOKS[clearance.nearness]
+            item.setText(f"{sign} {clearance.distance_mm:z.1f}")
+            item.setForeground(QColor(theme.now(look)))
+            item.setToolTip(tr("The path comes nearest {depth:.0f} mm behind its entry",
+                               depth=clearance.depth_mm))  # fmt: skip
+        item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
+        with QSignalBlocker(self):
+            self.setItem(row, PATH, item)
+
+    def _set_kind(self, row: int, kind: Kind) -> None:
+        name = self._book.structures.structures[row].name
+        self._book.change(name, kind=kind, warn_mm=kind.warn_mm)
+
+    def _set_warn(self, row: int, warn_mm: float) -> None:
+        self._book.change(self._book.structures.structures[row].name, warn_mm=warn_mm)
+
+    def _edited(self, item: QTableWidgetItem) -> None:
+        if item.column() != NAME or item.row() >= len(self._book.structures):
+            return
+        structure = self._book.structures.structures[item.row()]
+        visible = item.checkState() is Qt.CheckState.Checked
+        if item.text() != structure.name:
+            self._book.change(structure.name, name=item.text())
+        elif visible != self._book.is_visible(structure.name):
+            self._book.set_visible(structure.name, visible)
+
+    def _chosen(self) -> None:
+        row = self.currentRow()
+        if 0 <= row < len(self._book.structures):
+            self._book.choose(self._book.structures.structures[row].name)
+
+    def _style(self) -> None:
+        self.setHorizontalHeaderLabels([tr("Name"), tr("Kind"), tr("Warn\n[mm]"), tr("Path\n[mm]")])
+        self.verticalHeader().setVisible(False)
+        self.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT + 2)
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.setMinimumHeight(180)
+        header = self.horizontalHeader()
+        header.setSectionResizeMode(NAME, QHeaderView.ResizeMode.Stretch)
+        for column, width in ((KIND, 92), (WARN, 68), (PATH, 66)):
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
+            self.setColumnWidth(column, width)
+        self.setAccessibleName(tr("Structures"))
+
+
+def spin_box(low: float, high: float, value: float, suffix: str, step: float) -> QDoubleSpinBox:
+    """Return a box for a number; a step of 1 or more shows whole ones."""
+    box = QDoubleSpinBox()
+    box.setRange(low, high)
+    box.setDecimals(0 if step >= 1.0 else 1)
+    box.setSingleStep(step)
+    box.setValue(value)
+    box.setSuffix(suffix)
+    box.setKeyboardTracking(False)
+    return box
+
+
+def _swatch(structure: Structure) -> QIcon:
+    pixmap = QPixmap(14, 14)
+    pixmap.fill(QColor(*structure.colour))
+    return QIcon(pixmap)
 
 
 class StructurePanel(QWidget):
