@@ -2,6 +2,7 @@
 
 import os
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -9,6 +10,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import pytest
 from modal_dialogs import forbid
+from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtWidgets import QApplication
 
 
@@ -24,3 +26,14 @@ def qt() -> QApplication:
     application = QApplication.instance() or QApplication([])
     assert isinstance(application, QApplication)
     return application
+
+
+@pytest.fixture(autouse=True)
+def widgets_go_with_their_test(qt: QApplication) -> Iterator[None]:
+    """Let Qt destroy what was put off with `deleteLater`, while Python still holds what is in it.
+
+    Without an event loop Qt never does; the garbage collector then takes the pages, some test
+    later, in an order of its own: pyqtgraph's items before the scenes that hold them.
+    """
+    yield
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QApplication
 from views_exercise_fakes import FakeTrainer, run, snapshot
 
 from app.views.exercise.bullseye import Bullseye
-from app.views.exercise.hands import choice
+from app.views.exercise.hands import chooser
 from app.views.exercise.hands import gamepad as gamepad_module
 from app.views.exercise.hands.gamepad import (
     DEAD_ZONE,
@@ -177,7 +177,7 @@ class FakePads:
 @pytest.fixture
 def gamepad(pad, monkeypatch):
     pads = FakePads()
-    sources = choice.SOURCES | {"gamepad": lambda where: GamepadHand(where, pads)}
+    sources = chooser.SOURCES | {"gamepad": lambda where: GamepadHand(where, pads)}
     monkeypatch.setattr("app.views.exercise.hands.chooser.SOURCES", sources)
     pad.source.set_source("gamepad")
     pad.source.source._timer.stop()
@@ -315,10 +315,10 @@ def test_the_real_library_opens_and_closes_without_a_gamepad():
 
 # --- choice -------------------------------------------------------------------------------------
 def test_every_source_has_a_name_a_title_and_a_help(qt):
-    for name, make in choice.SOURCES.items():
+    for name, make in chooser.SOURCES.items():
         assert make.name == name
-        assert choice.source_title(name)
-        assert choice.source_help(name)
+        assert chooser.source_title(name)
+        assert chooser.source_help(name)
 
 
 def test_only_the_chosen_source_moves_the_hand(pad):
