@@ -263,3 +263,58 @@ def test_a_thread_that_gets_no_turn_holds_up_nothing_that_is_quickly_made(
     canvas = one.panes[0].canvas
     assert settle(lambda: canvas.feed.picture.wish.window.width == 1234.0)
     assert settle(lambda: canvas.is_settled)
+
+
+def test_a_needle_that_moves_is_followed_as_soon_as_every_pane_has_drawn_the_last(room, settle):
+    one = room()
+    one.viewing.set_follows_tip(True)
+    one.arrive(settle)
+    rng = np.random.default_rng(3)
+    first, second, third = (random_needle(rng, one.viewing.cursor_mm) for _ in range(3))
+    one.viewing.follow_needle(first)
+    assert one.viewing.needle is first
+    for pane in one.panes:
+        pane.canvas._draw_together()  # the event loop has come round
+    assert one.viewing.pictures.is_awaited
+    shown = []
+    one.viewing.needle_changed.connect(lambda: shown.append(one.viewing.needle))
+    one.viewing.follow_needle(second)
+    one.viewing.follow_needle(third)
+    assert one.viewing.needle is first
+    assert settle(lambda: one.viewing.needle is third)
+    assert shown == [third]
+    assert all(pane.canvas.layers.needle.shown in (first, third) for pane in one.panes)
+    assert settle(lambda: all(pane.canvas.is_drawn for pane in one.panes))
+    assert all(pane.canvas.layers.needle.shown is third for pane in one.panes)
+
+
+def test_a_needle_taken_away_stays_away_whatever_was_to_be_followed(room, settle):
+    one = room()
+    one.viewing.set_follows_tip(True)
+    one.arrive(settle)
+    rng = np.random.default_rng(4)
+    one.viewing.follow_needle(random_needle(rng, one.viewing.cursor_mm))
+    for pane in one.panes:
+        pane.canvas._draw_together()
+    one.viewing.follow_needle(random_needle(rng, one.viewing.cursor_mm))
+    one.viewing.set_needle(None)
+    assert settle(lambda: all(pane.canvas.is_drawn for pane in one.panes))
+    settle(timeout=0.2)
+    assert one.viewing.needle is None
+
+
+def test_what_moves_by_less_than_can_be_seen_is_not_painted_anew(room, settle):
+    one = room()
+    tip = one.viewing.cursor_mm + [1.0, 2.0, 3.0]
+    one.viewing.set_needle(NeedleOverlay(tip - [0.0, 80.0, 0.0], tip))
+    one.arrive(settle)
+    settle(timeout=0.3)
+    painted = []
+    for pane in one.panes:
+        pane.canvas.painted.connect(lambda pane=pane: painted.append(pane.pane))
+    for step in (1e-4, 2e-4, 3e-4):
+        one.viewing.set_needle(NeedleOverlay(tip + step - [0.0, 80.0, 0.0], tip + step))
+        settle(timeout=0.15)
+    assert not painted
+    one.viewing.set_needle(NeedleOverlay(tip + 1.0 - [0.0, 80.0, 0.0], tip + 1.0))
+    assert settle(lambda: len(set(painted)) == len(one.panes))

@@ -51,7 +51,7 @@ def pane(request, viewing, settle, destroy):
     canvas = pane.canvas
     camera = canvas.camera.zoomed(1.37, 3.0, 2.0).panned(11.3, -7.7)
     canvas.set_camera(camera)
-    assert settle(lambda: canvas.is_settled, 20.0)
+    assert settle(lambda: canvas.is_settled)
     yield pane
     planes.deleteLater()
 
@@ -118,7 +118,7 @@ def test_every_pixel_is_the_plain_references_to_one_grey_level(
     viewing.set_window(window)
     viewing.greys.set_inverted(inverted)
     canvas = pane.canvas
-    assert settle(lambda: canvas.is_settled, 20.0)
+    assert settle(lambda: canvas.is_settled)
     expected, edge = reference(canvas, window, inverted)
     off = np.abs(greys(canvas) - expected)
     assert off[~edge].max() <= 1.0

@@ -60,6 +60,8 @@ class MarkItem(Shape):
         self._at = QPointF()
         self._rect: QRectF | None = None
         self._last = 0
+        self._looks: tuple[object, ...] = ()
+        self._symbol, self._picture, self._middle = QPixmap(), QPixmap(), QPointF()
 
     def x(self) -> float:
         """Where it stands [mm]."""
@@ -116,26 +118,24 @@ class MarkItem(Shape):
         at = painter.transform().map(self._at)
         painter.resetTransform()
         ratio = painter.device().devicePixelRatioF()
-        symbol = _symbol(self._mark, self._near, ratio)
+        looks = (self._near, self._label, theme.SMALL_PX, ratio)
+        if self._looks != looks:
+            self._looks = looks
+            self._symbol = _symbol(self._mark, self._near, ratio)
+            colour = self._mark.qcolor(1.0 if self._near else 0.95)
+            name = colour.name(QColor.NameFormat.HexArgb)
+            self._picture = rimmed(self._label, theme.SMALL_PX, name, ratio)
+            size = self._picture.deviceIndependentSize()
+            self._middle = QPointF(size.width() / 2, size.height() / 2)
         half = _reach(self._mark)
-        painter.drawPixmap(at - QPointF(half, half), symbol)
-        if self._rect is None or not self._label:
-            return
-        colour = _label_colour(self._mark, self._near)
-        picture = rimmed(self._label, theme.SMALL_PX, colour, ratio)
-        middle, size = self._rect.center() + at, picture.deviceIndependentSize()
-        corner = QPointF(middle.x() - size.width() / 2, middle.y() - size.height() / 2)
-        painter.drawPixmap(corner, picture)
+        painter.drawPixmap(at - QPointF(half, half), self._symbol)
+        if self._rect is not None and self._label:
+            painter.drawPixmap(self._rect.center() + at - self._middle, self._picture)
 
 
 def _reach(mark: Mark) -> float:
     """Half the side of a mark's picture [px]."""
     return float(ceil(MarkItem.RADIUS + mark.width + 2.0))
-
-
-@lru_cache(maxsize=64)
-def _label_colour(mark: Mark, near: bool) -> str:
-    return mark.qcolor(1.0 if near else 0.95).name(QColor.NameFormat.HexArgb)
 
 
 @lru_cache(maxsize=64)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from collections.abc import Set as AbstractSet
-from enum import Enum, auto
+from enum import IntEnum, auto
 from itertools import pairwise
 from typing import Protocol
 
@@ -23,8 +23,8 @@ from app.views.slices.ticks import TickLayer
 from app.views.slices.viewing import Viewing
 
 
-class Due(Enum):
-    """What of a slice is to be drawn anew."""
+class Due(IntEnum):
+    """What of a slice is to be drawn anew; whole numbers are looked up faster than names."""
 
     CAMERA = auto()
     GREYS = auto()
@@ -69,6 +69,7 @@ class LayerStack:
         crosshair, plan, needle, errors, disc: its own layers.
         ticks: the line ahead of the tip; None in panes that are not the needle's.
         traces: the needle's planes; None in the needle's own panes.
+        traced: panes whose traces are shown.
     """
 
     def __init__(self, drawing: Drawing, viewing: Viewing, pane: PaneId) -> None:
@@ -81,6 +82,8 @@ class LayerStack:
         self.traces = None if pane.is_needle else NeedleTraces(drawing, viewing)
         self._labels = Labels((self.plan.target, self.plan.entry, self.needle.tip))
         self._added: list[Layer] = []
+        own = self.crosshair.traced
+        self.traced = own if self.traces is None else own.union(NEEDLE_PANES)
 
     def add(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
         """Take another layer; names of its `marks` are arranged after those already there."""
@@ -99,12 +102,6 @@ class LayerStack:
                 more.hide()
         for layer in self._added:
             layer.hide()
-
-    @property
-    def traced(self) -> frozenset[PaneId]:
-        """Panes whose traces are shown."""
-        own = self.crosshair.traced
-        return own if self.traces is None else own.union(NEEDLE_PANES)
 
     def place(self, due: AbstractSet[Due], plane: SlicePlane, index: float, scale: float) -> None:
         """Put what has changed where it belongs.

@@ -9,6 +9,7 @@ interpolation.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from itertools import product
 from typing import Any
 
@@ -17,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import NumericalError
-from app.imaging.orthogonal import OrthogonalSlicer, View
+from app.imaging.orthogonal import OrthogonalSlicer, View, letters
 from app.imaging.reformat import Frame
 from app.imaging.volume import Volume
 from app.views.slices.looks import Look, Slab
@@ -136,8 +137,7 @@ class SlicePlane:
 
     def letters(self) -> tuple[str, str, str, str]:
         """Patient letters at the left, right, top and bottom edge."""
-        letters = self.first.letters()
-        return letters.left, letters.right, letters.top, letters.bottom
+        return _letters(*(round(share, 3) for share in (*self._axes[:3], *self._axes[4:7])))
 
     # --- places -------------------------------------------------------------------------------
     def point(self, lps_mm: ArrayLike, index: float) -> PlanePoint:
@@ -359,6 +359,13 @@ def _turned(frame: Frame, rect: Rect, look: Look, from_corner: bool) -> tuple[Fr
     if from_corner:
         return turned.at(turned.lps_mm(left, top)), (0.0, 0.0, width, height)
     return turned, (left, top, width, height)
+
+
+@lru_cache(maxsize=256)
+def _letters(*directions: float) -> tuple[str, str, str, str]:
+    """Letters at the edges of a plane, by its directions to the right and down."""
+    right, down = np.array(directions[:3]), np.array(directions[3:])
+    return letters(-right), letters(right), letters(-down), letters(down)
 
 
 def _corners(volume: Volume) -> FloatArray:

@@ -68,6 +68,7 @@ class Readouts(QObject):
         for one in (self.title, self.window, self.cursor, self.slice, *self.letters, self.ruler):
             canvas.written.append(one)
         self._room: tuple[object, ...] = ()
+        self._size: tuple[object, ...] = ()
         self._is_new = True
         canvas.changed.connect(self.refresh)
         canvas.left.connect(self.clear_cursor)
@@ -191,16 +192,17 @@ class Readouts(QObject):
         return f"{'RLAPIS'[2 * axis + (value >= 0)]} {abs(value):.1f}"
 
     def _place(self) -> None:
-        texts = (self.title, self.window, self.cursor, self.slice, *self.letters)
-        canvas = self._canvas
-        room = (canvas.width(), canvas.height(), theme.SMALL_PX, canvas.devicePixelRatioF(),
-                [one.lines for one in texts])  # fmt: skip
+        canvas, below, words = self._canvas, self.letters[3], self.slice
+        size = (canvas.width(), canvas.height(), theme.SMALL_PX, canvas.devicePixelRatioF())
+        room = (size, below.lines, words.lines)
         if room == self._room:
             return
         self._room = room
-        for overlay in texts:
-            overlay.place()
-        below, words = self.letters[3], self.slice
+        if size != self._size:  # else who changed has placed itself
+            self._size = size
+            for overlay in (self.title, self.window, self.cursor, words, *self.letters):
+                overlay.place()
+        below.place()
         if below.geometry().intersects(words.geometry()):  # a narrow pane: the letter gives way
             left = words.pos().x() - below.geometry().width() - PADDING
             below.move(max(PADDING, left), below.pos().y())
