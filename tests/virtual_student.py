@@ -26,6 +26,8 @@ PAD_RADIUS = 150.0
 """Of the pad on the screen [px]."""
 INTENT = 10
 """Ticks between two wishes of the window: 100 Hz."""
+LOOK = 20
+"""Ticks between two looks of the trainer: 50 Hz, as in the program."""
 
 
 class Student:
@@ -41,7 +43,7 @@ class Student:
         setup = TrainerSetup(chosen, placed, skill=skill, sessions=folder, clock=self.clock)
         self.rig = build_rig(setup)
         self._random = np.random.default_rng(5)
-        self._seen = 0.0
+        self._seen = self._looked = 0.0
         self.blind = False
         context = self.rig.trainer._context
         self.trainer = Trainer(
@@ -82,14 +84,22 @@ class Student:
             self.hand.follow(direction, float(row[sv.HAND_DEPTH]))
         x, y, _ = self.hand.pose.direction
         self.trainer.hand(float(x), float(y), self.hand.pose.depth, self.hand.pose.holds)
-        self.trainer.step(milliseconds)
+        self.trainer.heartbeat()
+        self._pass(milliseconds)
+
+    def _pass(self, milliseconds: int) -> None:
+        """Let the loop and the cameras go on, and the trainer look when it is time."""
+        self.rig.loop.step(milliseconds)
+        now = self.clock.now()
+        self._cameras(now)
+        if now - self._looked >= 1e-3 * LOOK - 1e-9:
+            self._looked = now
+            self.trainer.tick(now)
 
     def busy(self, milliseconds: int) -> None:
         """Let time pass in which the window gives no sign of life."""
         for _ in range(max(1, milliseconds // INTENT)):
-            self.rig.loop.step(INTENT)
-            self._cameras(self.clock.now())
-            self.trainer.tick(self.clock.now())
+            self._pass(INTENT)
 
     def pause(self, milliseconds: int) -> None:
         """Wish nothing else for a while."""
