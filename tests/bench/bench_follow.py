@@ -94,15 +94,19 @@ def main() -> None:
     for name, tree in sides.items():
         found = run(tree, SECONDS, 0)
         moved, cost, late = found["hz"], found["ms_per_move"], found["late_p99_ms"]
-        print(f"{name}: {moved:.1f} moves/s, {cost:.2f} ms each; loop late p99 {late:.3f} ms")
-        for pane, (rate, middle, last) in found["panes"].items():
+        print(
+            f"{name}: {moved:.1f} moves/s, {cost:.2f} ms each; loop late p99 {late:.3f} ms, "
+            f"{found['missed']} ticks missed"
+        )
+        for pane, one in found["panes"].items():
             print(
-                f"  {pane:<14}{rate:6.1f} states/s painted; age median {middle:5.1f} ms, "
-                f"p99 {last:5.1f} ms"
+                f"  {pane:<14}{one['hz']:6.1f} states/s painted; median (p99) of the age "
+                f"{one['age_ms'][0]:5.1f} ({one['age_ms'][1]:.1f}) ms, "
+                f"between two {one['gap_ms'][0]:5.1f} ({one['gap_ms'][1]:.1f}) ms"
             )
         if name == "now":
-            slowest = min(rate for rate, _, _ in found["panes"].values())
-            oldest = max(middle for _, middle, _ in found["panes"].values())
+            slowest = min(one["hz"] for one in found["panes"].values())
+            oldest = max(one["age_ms"][0] for one in found["panes"].values())
             good = slowest >= GOAL_HZ - 1.0 and oldest <= GOAL_AGE_MS
             print(
                 f"to reach {GOAL_HZ:g} Hz and {GOAL_AGE_MS:g} ms: {'' if good else 'NOT '}reached"

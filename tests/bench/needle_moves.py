@@ -158,13 +158,17 @@ def main() -> None:
     moves = hand.number - moved
     found: dict[str, Any] = {"hz": moves / took, "ms_per_move": 1e3 * used / max(moves, 1)}
     found["late_p99_ms"] = float(np.percentile(1e3 * rows[:, sv.LATENESS], 99))
+    found["missed"] = int(rows[-1, sv.MISSED] - rows[0, sv.MISSED])
     found["panes"] = {}
     for name, one in painted.items():
         times = np.array(one.times)
         inside = (times >= start) & (times <= start + took)
-        ages = 1e3 * np.array(one.ages)[inside]
-        middle, last = np.percentile(ages, (50, 99)).tolist()
-        found["panes"][name] = (int(inside.sum()) / took, middle, last)
+        ages, gaps = 1e3 * np.array(one.ages)[inside], 1e3 * np.diff(times[inside])
+        found["panes"][name] = {
+            "hz": int(inside.sum()) / took,
+            "age_ms": np.percentile(ages, (50, 99)).tolist(),
+            "gap_ms": np.percentile(gaps, (50, 99)).tolist(),
+        }
     if parts is not None:
         found["parts"] = {part: 1e3 * s / max(moves, 1) for part, s in parts.used.items()}
     print("FOUND " + json.dumps(found), flush=True)
