@@ -7,7 +7,8 @@ import pytest
 from app.core.errors import ConfigurationError
 from app.core.progress import Cancelled, Progress
 from app.imaging.body import find_body, is_inside, skin_entry
-from app.imaging.phantom import anatomy, phantom_series
+from app.imaging.phantom import anatomy, organs, phantom_series, skeleton
+from app.imaging.phantom.lesion import planned_patient
 from app.imaging.scanning import scan_folder
 
 SEEDS = range(1, 6)
@@ -128,3 +129,35 @@ def test_organs_have_their_density(phantom_volume, organ, low, high):
     offsets = np.random.default_rng(0).normal(0.0, 2.0, (30, 3))
     values = [phantom_volume.hu_at(point + offset) for offset in offsets]
     assert low < np.median(values) < high
+
+
+def test_the_liver_fills_the_dome_without_a_ring_of_fat_under_the_diaphragm(phantom_volume):
+    for x, y in ((-66.0, -6.0), (-80.0, 10.0), (-50.0, -20.0)):
+        column = [phantom_volume.hu_at((x, y, z)) for z in np.arange(215.0, 285.0, 1.0)]
+        lung = next(n for n, value in enumerate(column) if value < -600.0)
+        assert min(column[: lung - 9]) > 30.0, (x, y)  # fat would be at -100
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_default_path_keeps_clear_of_the_costal_arch(seed):
+    patient, entry = planned_patient(seed)
+    x, y, z = np.linspace(entry, patient.lesion_mm, 200).T
+    at = organs.place_of(patient, x, y, z)
+    p = np.abs(np.arctan2(at.x, at.y)) / np.pi
+    assert skeleton.costal_arch_distance(at.wall - 5.0, p, at.z).min() > 3.5
+
+
+@pytest.mark.parametrize(("x", "z"), [(0.0, 285.0), (0.0, 262.0)])
+def test_the_sternum_is_bone_in_the_midline(phantom_volume, x, z):
+    column = [phantom_volume.hu_at((x, y, z)) for y in np.arange(-112.0, -70.0, 1.0)]
+    assert max(column) > 300.0
+
+
+def test_the_pelvis_rises_to_a_crest_on_both_sides_and_joins_the_sacrum():
+    side, y = np.meshgrid(np.linspace(0.0, 160.0, 321), np.linspace(-45.0, 95.0, 281))
+    areas = [(skeleton.pelvis_distance(side, y, z) < 0.0).sum() for z in (2.0, 20.0, 40.0, 56.0)]
+    assert areas == sorted(areas, reverse=True)
+    assert areas[-1] > 0
+    assert not (skeleton.pelvis_distance(side, y, 62.0) < 0.0).any()
+    near = side < 40.0
+    assert (skeleton.pelvis_distance(side, y, 2.0)[near] < 0.0).any()

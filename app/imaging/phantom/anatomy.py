@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
-from app.imaging.phantom import organs
+from app.imaging.phantom import organs, skeleton
 from app.imaging.phantom.lesion import make_patient, planned_patient
 from app.imaging.phantom.patient import MODEL_TOP, Patient, Point
 from app.imaging.phantom.shapes import Field, union
@@ -78,6 +78,7 @@ _BOXES: Final[Mapping[str, _Box]] = {
     "spleen": ((40.0, 165.0), (-40.0, 95.0), (140.0, 265.0)),
     "kidneys": ((-115.0, 115.0), (0.0, 95.0), (55.0, 235.0)),
     "gallbladder": ((-72.0, -14.0), (-85.0, 10.0), (120.0, 196.0)),
+    "cartilage": ((-150.0, 150.0), (-118.0, 40.0), (180.0, 310.0)),
     "pancreas": ((-52.0, 92.0), (-45.0, 60.0), (125.0, 210.0)),
 }
 """Where each organ lies at most, model coordinates."""
@@ -119,11 +120,16 @@ def _distance(patient: Patient, name: str, at: organs.Place) -> Field:
     if name in ("gallbladder", "pancreas"):
         shape = {"gallbladder": organs.gallbladder, "pancreas": organs.pancreas}[name]
         return shape(at)
+    if name == "cartilage":
+        p = np.abs(np.arctan2(at.x, at.y)) / np.pi
+        _, ends = skeleton.rib_distance(at.wall - 5.0, p, at.z)
+        return np.minimum(ends, skeleton.costal_arch_distance(at.wall - 5.0, p, at.z))
     shapes = {
         "liver": organs.liver, "heart": organs.heart, "stomach": organs.stomach,
         "spleen": organs.spleen, "lesion": organs.lesion,
     }  # fmt: skip
-    return shapes[name](patient, at)
+    filling = name in ("liver", "stomach", "spleen")
+    return shapes[name](patient, organs.touching(at) if filling else at)
 
 
 def _tube_field(

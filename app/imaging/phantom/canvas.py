@@ -116,7 +116,7 @@ class Canvas:
 
     def _diaphragm(self, at: organs.Place) -> Field:
         """Thin muscle between lung and abdomen."""
-        return np.maximum(np.abs(at.above - 0.5) - 2.4, at.wall)
+        return np.maximum(np.abs(at.above - 2.3) - 1.4, at.wall)
 
     def _organs(self) -> None:
         z, patient = self.z, self.patient
@@ -128,7 +128,7 @@ class Canvas:
                 self.paint(organs.heart(patient, at) - 3.0, FAT, box)
                 self.paint(organs.heart(patient, at), 105.0 + 4.0 * texture, box)
                 self.paint(organs.heart_chambers(patient, at), 158.0 + 4.0 * texture, box)
-            self.paint(organs.liver(patient, at), 110.0 + 5.0 * texture, box)
+            self.paint(organs.liver(patient, organs.touching(at)), 110.0 + 5.0 * texture, box)
             self.paint(organs.gallbladder(at), 55.0, box)
             self.paint(organs.gallbladder(at) + 1.6, 9.0, box)
             self.paint(organs.pancreas(at), 98.0 + 14.0 * texture, box)
@@ -137,7 +137,7 @@ class Canvas:
         self._kidneys()
 
     def _left_side(self, box: Box) -> None:
-        at, texture = self.place(box), self.texture[box]
+        at, texture = organs.touching(self.place(box)), self.texture[box]
         stomach = organs.stomach(self.patient, at)
         self.paint(stomach, 72.0, box)
         content = np.where(at.y < -48.0 + 0.0 * at.x, AIR + 20.0, 28.0 + 22.0 * texture)
@@ -188,8 +188,11 @@ class Canvas:
     def _bones(self) -> None:
         self._ribs()
         self._spine()
-        if self.z < 62.0:
-            self._bone(skeleton.iliac_distance(self.grid.x, self.grid.y, self.z), 1.9)
+        if self.z < 64.0:
+            for x0, x1 in ((-165.0, 0.0), (0.0, 165.0)):
+                box = self.grid.box(x0, x1, -45.0, 95.0)
+                side, y = np.abs(self.grid.x[:, box[1]]), self.grid.y[box[0]]
+                self._bone(skeleton.pelvis_distance(side, y, self.z), 2.2, box)
 
     def _ribs(self) -> None:
         if self.z < 95.0:
@@ -198,14 +201,18 @@ class Canvas:
         off, p = self.wall[near] - 5.0, self.grid.p[near]
         bone, cartilage = skeleton.rib_distance(off, p, np.array(self.z, np.float32))
         full = np.full(self.image.shape, 9.0, np.float32)
-        full[near] = cartilage
+        arch = skeleton.costal_arch_distance(off, p, np.array(self.z, np.float32))
+        full[near] = np.minimum(cartilage, arch)
         self.paint(full, 105.0 + 12.0 * self.texture)
         full[near] = bone
-        self._bone(full, 1.5)
-        if self.z > 244.0:
+        self._bone(full, 1.9)
+        box = self.grid.box(-40.0, 40.0, 30.0, 90.0)
+        side, y = np.abs(self.grid.x[:, box[1]]), self.grid.y[box[0]]
+        self._bone(skeleton.rib_neck_distance(side, y, self.z), 1.9, box)
+        if self.z > 232.0:
             box = self.grid.box(-30.0, 30.0, -115.0, -50.0)
             self._bone(
-                skeleton.sternum_distance(self.grid.x[:, box[1]], self.wall[box], self.z), 1.2, box
+                skeleton.sternum_distance(self.grid.x[:, box[1]], self.wall[box], self.z), 2.0, box
             )
 
     def _spine(self) -> None:
@@ -213,7 +220,7 @@ class Canvas:
         x, y = self.grid.x[:, box[1]], self.grid.y[box[0]]
         section = skeleton.spine_section(x, y, self.z)
         self.paint(section.disc, 82.0 + 8.0 * self.texture[box], box)
-        self._bone(section.bone, 1.5, box, section.end_plate)
+        self._bone(section.bone, 2.2, box, section.end_plate)
         canal = np.maximum(section.canal, 0.4 - np.minimum(section.bone, section.disc))
         self.paint(canal, -40.0, box)
         self.paint(section.canal + 2.0, 28.0, box)
@@ -222,5 +229,5 @@ class Canvas:
     def _bone(self, distance: Field, shell_mm: float, box: Box = _ALL, dense: float = 0.0) -> None:
         """Cortex around spongy bone; `dense` 1 makes the whole cut as dense as an end plate."""
         texture = self.texture[box]
-        self.paint(distance, 640.0 + 60.0 * texture, box)
-        self.paint(distance + shell_mm, 195.0 + 230.0 * dense + 55.0 * texture, box)
+        self.paint(distance, 680.0 + 60.0 * texture, box)
+        self.paint(distance + shell_mm, 215.0 + 230.0 * dense + 55.0 * texture, box)

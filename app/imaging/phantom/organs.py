@@ -1,6 +1,6 @@
 """Soft organs of the phantom as signed distances [mm], model coordinates."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -37,6 +37,11 @@ def place_of(patient: Patient, x: Field, y: Field, z: Field) -> Place:
         rho - cavity_radius(patient, theta, z),
         z - diaphragm_height(patient, x, y),
     )  # fmt: skip
+
+
+def touching(at: Place, up_mm: float = 4.6) -> Place:
+    """Points for organs that fill the dome: they reach so much further up, to the diaphragm."""
+    return replace(at, above=at.above - np.float32(up_mm))
 
 
 def lungs(patient: Patient, at: Place) -> Field:

@@ -1,6 +1,7 @@
 """Bones of the phantom: ribs with their cartilage, vertebrae and iliac wings, model coordinates."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Final
 
 import numpy as np
@@ -51,7 +52,9 @@ RIBS: Final = (
 )
 """Ribs XII to V."""
 
-_FIRST_P: Final = 0.1
+_FIRST_P, _AROUND_MM = 0.1, 430.0
+"""Where the ribs begin; length of the way round, to turn p into millimetres."""
+
 _HALF_HEIGHT, _HALF_THICKNESS = 6.4, 3.6
 
 
@@ -69,11 +72,48 @@ def rib_distance(off_mm: Field, p: Field, z: Field) -> tuple[Field, Field]:
         dz = z - rib.z(p)
         tube = np.hypot(off_mm / _HALF_THICKNESS, dz / _HALF_HEIGHT)
         distance = (tube - 1.0) * _HALF_THICKNESS
-        mm = 430.0  # length of the way round, to turn p into millimetres
+        mm = _AROUND_MM
         np.minimum(bone, np.maximum(distance, mm * np.maximum(_FIRST_P - p, p - rib.end)), out=bone)
         past = mm * np.maximum(rib.end - p, p - rib.cartilage_end)
         np.minimum(cartilage, np.maximum(distance, past), out=cartilage)
     return bone, cartilage
+
+
+def costal_arch_distance(off_mm: Field, p: Field, z: Field) -> Field:
+    """Signed distance to the cartilage along the rim of the chest, arguments as of `rib_distance`.
+
+    From rib X up each cartilage joins the next one; that of rib VII joins the sternum.
+    """
+    ends = [(rib.cartilage_end, float(rib.z(np.array(rib.cartilage_end)))) for rib in RIBS[2:6]]
+    arch = np.full(np.broadcast(off_mm, p, z).shape, 50.0, np.float32)
+    for (p0, z0), (p1, z1) in pairwise(ends):
+        beside = capsule(_AROUND_MM * p, z, (_AROUND_MM * p0, z0), (_AROUND_MM * p1, z1), 0.0)
+        tube = np.hypot(off_mm / _HALF_THICKNESS, beside / _HALF_HEIGHT)
+        np.minimum(arch, (tube - 1.0) * _HALF_THICKNESS, out=arch)
+    return arch
+
+
+def rib_neck_distance(side: Field, y: Field, z: float) -> Field:
+    """Signed distance to heads and necks of the ribs, from the vertebrae to where ribs begin.
+
+    Args:
+        side: distance from the midline.
+        y: to the back.
+        z: height.
+    """
+    neck = np.full(np.broadcast(side, y).shape, 50.0, np.float32)
+    for rib in RIBS:
+        top = float(rib.z(np.array(_FIRST_P)))
+        start, end = np.array([11.0, 47.0, rib.height + 2.0]), np.array([25.0, 66.0, top])
+        way = end - start
+        t = (side - start[0]) * way[0] + (y - start[1]) * way[1] + (z - start[2]) * way[2]
+        t = np.clip(t / (way @ way), 0.0, 1.0)
+        gap = np.sqrt(
+            (side - start[0] - t * way[0]) ** 2 + (y - start[1] - t * way[1]) ** 2
+            + (z - start[2] - t * way[2]) ** 2
+        )  # fmt: skip
+        np.minimum(neck, gap - 4.2, out=neck)
+    return neck
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,21 +177,52 @@ def _arch(x: Field, y: Field, phase: float, lumbar: float) -> Field:
 
 
 def sternum_distance(x: Field, wall: Field, z: float) -> Field:
-    """Signed distance to the lower end of the sternum, in front of the cavity's wall."""
-    half_width = 15.0 * float(np.sqrt(min(1.0, max(0.02, (z - 244.0) / 22.0))))
-    return np.maximum(np.abs(x) - half_width, np.abs(wall - 5.0) - 4.6)
+    """Signed distance to the lower end of the sternum, in front of the cavity's wall.
+
+    Below stands the xiphoid process; the body is waisted between the cartilages that join it.
+    """
+    xiphoid = 7.0 * float(np.sqrt(min(1.0, max(0.0, (z - 232.0) / 8.0))))
+    body = 9.0 * float(smoothstep(np.array((z - 252.0) / 20.0)))
+    waist = 1.6 * float(np.cos(2.0 * np.pi * (z - 278.0) / 24.0)) * body / 9.0
+    half_width = max(0.1, xiphoid + body + waist)
+    flat = np.hypot(x / half_width, (wall - 5.0) / 4.8)
+    return np.maximum((flat - 1.0) * 4.8, np.abs(x) - half_width)
 
 
-def iliac_distance(x: Field, y: Field, z: float) -> Field:
-    """Signed distance to the iliac wings, which end at their crests."""
-    side = np.abs(x)
-    flare = 0.25 * z
-    knots = ((42.0, 72.0), (68.0, 58.0), (98.0 + flare, 22.0), (121.0 + flare, -22.0))
-    crest = (38.0, 50.0, 58.0, 30.0)
-    wing = np.full(np.broadcast(x, y).shape, 50.0, np.float32)
-    for n in range(3):
-        top = 0.5 * (crest[n] + crest[n + 1])
-        radius = (8.0, 4.6, 5.2)[n] * float(np.sqrt(max(0.0, min(1.0, (top - z) / 14.0))))
-        if radius > 0.3:
-            wing = union(wing, capsule(side, y, knots[n], knots[n + 1], radius), 7.0)
-    return wing
+_WING: Final = np.array([
+    # side, back, crest, half thickness
+    (41.0, 74.0, 30.0, 9.5), (54.0, 67.0, 44.0, 7.0), (72.0, 54.0, 54.0, 4.2),
+    (90.0, 34.0, 58.0, 3.8), (105.0, 12.0, 55.0, 4.2), (115.0, -6.0, 47.0, 5.0),
+    (121.0, -20.0, 33.0, 5.6), (123.0, -29.0, 18.0, 5.0),
+])  # fmt: skip
+"""An iliac wing from the sacrum to the anterior spine at the height of L5 [mm]."""
+
+_FLARE: Final = 0.25
+"""How far the wings lean outwards for each millimetre up, at their front."""
+
+
+def pelvis_distance(side: Field, y: Field, z: float) -> Field:
+    """Signed distance to one half of the pelvis: the iliac wing under its crest, and the sacrum.
+
+    Args:
+        side: distance from the midline.
+        y: to the back.
+        z: height.
+    """
+    lean = np.clip((72.0 - _WING[:, 1]) / 60.0, 0.0, 1.0) * _FLARE * z
+    knots = np.column_stack([_WING[:, 0] + lean, _WING[:, 1]])
+    bone = np.full(np.broadcast(side, y).shape, 50.0, np.float32)
+    for (x0, y0), (x1, y1), (top0, half0), (top1, half1) in zip(
+        knots[:-1], knots[1:], _WING[:-1, 2:], _WING[1:, 2:], strict=True
+    ):
+        dx, dy = x1 - x0, y1 - y0
+        t = np.clip(((side - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy), 0.0, 1.0)
+        below = top0 + t * (top1 - top0) - z
+        lip = 2.4 * np.exp(-(((below - 6.0) / 7.0) ** 2))  # the crest is thicker than the wing
+        half = (half0 + t * (half1 - half0) + lip) * np.sqrt(np.clip(below / 7.0, 0.0, 1.0))
+        gap = np.hypot(side - x0 - t * dx, y - y0 - t * dy)
+        np.minimum(bone, np.where(half > 0.3, gap - half, 50.0), out=bone)
+    ala = 13.0 * float(np.sqrt(max(0.0, min(1.0, (15.0 - z) / 16.0))))
+    if ala > 0.3:
+        bone = union(bone, capsule(side, y, (16.0, 42.0), (36.0, 63.0), ala), 3.0)
+    return bone

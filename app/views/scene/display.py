@@ -23,7 +23,7 @@ LIGHT_BACKGROUND = "#eef2f5"
 ORGAN_COLOURS: Mapping[str, str] = {
     "lungs": "#a8d4ee", "heart": "#c23b4e", "liver": "#8a5230", "gallbladder": "#a9c93c",
     "stomach": "#e9b7c0", "spleen": "#5b3a86", "kidneys": "#178a72", "pancreas": "#f2dd62",
-    "arteries": "#f4563e", "veins": "#2f62b8", "lesion": "#f7f3ff",
+    "arteries": "#f4563e", "veins": "#2f62b8", "cartilage": "#b9c6a4", "lesion": "#f7f3ff",
 }  # fmt: skip
 """Colours of organs: neighbours differ in lightness too, so that colour-blind people tell them."""
 
@@ -115,5 +115,6 @@ def organ_title(name: str) -> str:
         "gallbladder": tr("Gallbladder"), "stomach": tr("Stomach"), "spleen": tr("Spleen"),
         "kidneys": tr("Kidneys"), "pancreas": tr("Pancreas"), "arteries": tr("Arteries"),
         "veins": tr("Veins"), "lesion": tr("Lesion"),
+        "cartilage": tr("Cartilage"),
     }  # fmt: skip
     return titles[name]
