@@ -109,7 +109,7 @@ def digest(
 ) -> Answer:
     """Print a digest of values and geometry, to compare programs."""
     _start_reader()
-    from app.imaging.digest import digest_of
+    from app.imaging.volume import digest_of
 
     found = digest_of(_volume(folder, series, remedy))
     rows = [
@@ -308,7 +308,7 @@ def _start_reader() -> None:
 
 
 def _pixel(folder: Path, sop: str, place: list[int], frame: int) -> tuple[list[float], float | int]:
-    from app.imaging.pixel_place import pixel_lps_mm
+    from app.imaging.reading import pixel_lps_mm
 
     column, row = place
     lps_mm, hu = pixel_lps_mm(folder, sop, column, row, frame=frame)

@@ -55,7 +55,7 @@ def import_profile(
 
     from app.core.errors import ConfigurationError
     from app.exchange.text_export import write_text
-    from app.exchange.urdf_reading import profile_like, read_geometry
+    from app.exchange.urdf import profile_like, read_geometry
     from app.mechanisms.profile import load_profile
 
     if out.suffix not in (".yaml", ".yml"):

@@ -8,8 +8,8 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from app.imaging.codecs import keep_bits
 from app.imaging.deflated import Inflater
-from app.imaging.encapsulation import Place, frame_bytes, frame_places, walk
 from app.imaging.errors import FileDamagedError, brief
 from app.imaging.header import SliceHeader
 from app.imaging.pixel_data import (
@@ -20,7 +20,7 @@ from app.imaging.pixel_data import (
     PixelFormat,
     Stamp,
 )
-from app.imaging.stored_bits import keep_bits
+from app.imaging.pixel_finding import Place, frame_bytes, frame_places, walk
 
 Stored = NDArray[Any]
 

@@ -1,18 +1,208 @@
-"""What can be searched for series: a folder, a DICOMDIR, a zip archive, one file."""
+"""What can be searched for series: a folder, a DICOMDIR, a zip archive, one file.
+
+Archives and DICOMDIRs are foreign files: they are read in the worker process, by the functions that
+are called jobs here.
+"""
 
 import os
+import shutil
+import stat
+import weakref
+import zipfile
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
+from app.core.passing import passing_folder, sweep_passing
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError, FolderError
 from app.imaging.series import Ignored
-from app.imaging.unpacking import unpack
-from app.imaging.worker.jobs import DIRECTORY
+from app.imaging.worker.jobs import DIRECTORY, UNPACK
 from app.imaging.worker.limits import MOST_SECONDS, Allowance
 from app.imaging.worker.pool import shared_worker
+
+_CHUNK = 1 << 20
+_STORED, _DEFLATED = zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """What an archive may hold.
+
+    Attributes:
+        files: at most so many.
+        ratio: it may grow by this much on the whole, beyond `bomb_bytes`.
+        bomb_bytes: up to here it may grow as it likes.
+        free_bytes: the disk has so much for it.
+    """
+
+    files: int
+    ratio: float
+    bomb_bytes: int
+    free_bytes: int
+
+
+def unpack_into(
+    path: Path, root: Path, bounds: Bounds, progress: Progress
+) -> tuple[tuple[str, str], ...]:
+    """Job of the worker: unpack an archive into a folder.
+
+    Args:
+        path: the archive.
+        root: an empty folder.
+        bounds: what it may hold.
+        progress: told of each member.
+
+    Returns:
+        Members that were left out: a name for each, and why.
+
+    Raises:
+        FolderError: if it is damaged or does not keep the bounds.
+        OSError: if it cannot be read, or the folder not be written.
+    """
+    try:
+        with zipfile.ZipFile(path) as archive:
+            members = [member for member in archive.infolist() if not member.is_dir()]
+            _check(members, bounds)
+            return tuple(_extract(archive, members, root, progress))
+    except (zipfile.BadZipFile, NotImplementedError, EOFError) as error:
+        raise FolderError(f"it is damaged ({type(error).__name__})") from error
+
+
+def _check(members: list[zipfile.ZipInfo], bounds: Bounds) -> None:
+    whole = sum(member.file_size for member in members)
+    packed = max(sum(member.compress_size for member in members), 1)
+    if len(members) > bounds.files:
+        raise FolderError(f"it holds {len(members)} files; {bounds.files} are unpacked at most")
+    if whole > bounds.bomb_bytes and whole / packed > bounds.ratio:
+        raise FolderError(
+            f"it would grow {whole / packed:.0f} times to {whole / 1e9:.1f} GB: no archive of "
+            "pictures does that; unpack it yourself if you trust it"
+        )
+    if whole > bounds.free_bytes:
+        raise FolderError(
+            f"it unpacks to {whole / 1e9:.1f} GB and {max(bounds.free_bytes, 0) / 1e9:.1f} GB are "
+            "free in the temporary folder; make room, or unpack it elsewhere and open that folder"
+        )
+
+
+def _extract(
+    archive: zipfile.ZipFile, members: list[zipfile.ZipInfo], root: Path, progress: Progress
+) -> list[tuple[str, str]]:
+    left_out = []
+    for number, member in enumerate(members):
+        progress.report(number / len(members), f"unpacking {number + 1} of {len(members)}")
+        if reason := _refused(member):
+            left_out.append((member.filename.replace("\\", "/").replace("/", "_")[:100], reason))
+            continue
+        target = root.joinpath(*PurePosixPath(member.filename).parts)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with archive.open(member) as packed, target.open("xb") as plain:
+            while chunk := packed.read(_CHUNK):  # never more than the size that was checked
+                progress.report(number / len(members), f"unpacking {number + 1} of {len(members)}")
+                plain.write(chunk)
+    return left_out
+
+
+def _refused(member: zipfile.ZipInfo) -> str:
+    """Why a member is left out; empty if it is not."""
+    name = PurePosixPath(member.filename.replace("\\", "/"))
+    if name.is_absolute() or ".." in name.parts or ":" in member.filename or not name.parts:
+        return "leads out of the archive"
+    if "\\" in member.filename or any(len(os.fsencode(part)) > 255 for part in name.parts):
+        return "has a name that is no file's"
+    if stat.S_ISLNK(member.external_attr >> 16):
+        return "a link, not a file"
+    if member.flag_bits & 1:
+        return "encrypted; unpack the archive yourself"
+    if member.compress_type not in (_STORED, _DEFLATED):
+        return "packed in a way that is not read (stored and deflated are)"
+    return ""
+
+
+_MOST_RECORDS = 1_000_000
+
+
+def named_files(path: Path, progress: Progress) -> tuple[tuple[str, ...], ...]:
+    """Job of the worker: names of the files that a DICOMDIR refers to, folder by folder.
+
+    Raises:
+        FileDamagedError: if it holds more records than any medium.
+    """
+    import pydicom
+
+    records = pydicom.dcmread(path, force=True).get("DirectoryRecordSequence") or []
+    if len(records) > _MOST_RECORDS:
+        raise FileDamagedError(f"it holds {len(records)} records")
+    named = [record.get("ReferencedFileID") for record in records]
+    return tuple(
+        (each,) if isinstance(each, str) else tuple(map(str, each)) for each in named if each
+    )
+
+
+MOST_FILES = 200_000
+MOST_RATIO = 200.0
+"""An archive that grows by more than this on the whole, beyond `BOMB_BYTES`, is refused."""
+
+BOMB_BYTES = 1 << 30
+RESERVE_BYTES = 1 << 29
+"""Of the disk so much stays free."""
+
+
+class Unpacked:
+    """Files of an archive on the disk; deleted with this object, at `close` or at the end.
+
+    Those of a program that was killed are deleted by the next one.
+
+    Attributes:
+        root: the folder, for this user only.
+        ignored: members that were left out, and why.
+    """
+
+    def __init__(self) -> None:
+        sweep_passing()
+        self.root = passing_folder("zip")
+        self.ignored: list[Ignored] = []
+        self._finalizer = weakref.finalize(self, shutil.rmtree, self.root, True)
+
+    def close(self) -> None:
+        """Delete the files; idempotent."""
+        self._finalizer()
+
+
+def unpack(path: Path, progress: Progress) -> Unpacked:
+    """Unpack a zip archive, in the worker process.
+
+    Members are named relative to the archive; absolute names, ways out of it (`..`), links and
+    encrypted members are left out by name.
+
+    Raises:
+        FolderError: if it is damaged, grows out of all proportion, or does not fit the disk;
+            nothing is left behind.
+        WorkerError: if the process that unpacks it cannot be started.
+        Cancelled: if `progress` was cancelled; nothing is left behind.
+    """
+    try:
+        unpacked = Unpacked()
+    except OSError as error:
+        raise FolderError(f"{path} cannot be unpacked: {error.strerror or error}") from error
+    try:
+        free = shutil.disk_usage(unpacked.root).free - RESERVE_BYTES
+        bounds = Bounds(MOST_FILES, MOST_RATIO, BOMB_BYTES, free)
+        arguments = (path.absolute(), unpacked.root, bounds)
+        allowed = Allowance(MOST_SECONDS)
+        left_out = shared_worker().call(UNPACK, arguments, allowed, progress)
+    except (FolderError, FileDamagedError, OSError) as error:
+        unpacked.close()
+        reason = getattr(error, "strerror", None) or str(error)
+        raise FolderError(f"{path} cannot be unpacked: {reason}") from error
+    except BaseException:
+        unpacked.close()
+        raise
+    unpacked.ignored.extend(Ignored(unpacked.root / name, reason) for name, reason in left_out)
+    return unpacked
+
 
 _DIRECTORY_CLASS = b"1.2.840.10008.1.3.10"
 _HEAD = 512

@@ -1,5 +1,6 @@
 """A CT volume: Hounsfield values on a grid, and where each voxel lies in the patient."""
 
+import hashlib
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,6 +14,34 @@ from app.core.units import MILLIMETRE
 from app.imaging.interpolation import Interpolation, interpolate
 from app.imaging.recipe import AS_IT_IS, Recipe
 from app.imaging.series import Series
+
+
+@dataclass(frozen=True, slots=True)
+class VolumeDigest:
+    """What a volume is, by its content.
+
+    Attributes:
+        values: SHA-256 of the values as they are told by `kind`, k slowest, i fastest.
+        kind: `<i2`, or `<f4` where a value is no whole number or does not fit 16 bits.
+        size: columns, rows, slices (I, J, K).
+        affine_mm: voxel (i, j, k) -> LPS [mm], row by row, 16 numbers.
+    """
+
+    values: str
+    kind: str
+    size: tuple[int, int, int]
+    affine_mm: tuple[float, ...]
+
+
+def digest_of(volume: "Volume") -> VolumeDigest:
+    """Return a digest that other programs can compute too: of the values, and the geometry."""
+    kind = "<i2" if volume.hu.dtype == np.int16 else "<f4"
+    found = hashlib.sha256()
+    for plane in volume.hu:
+        found.update(np.ascontiguousarray(plane, dtype=kind).tobytes())
+    affine = tuple(float(number) for number in volume.affine_mm.ravel())
+    return VolumeDigest(found.hexdigest(), kind, volume.size, affine)
+
 
 SHEAR_MM = 0.01
 """Drift of the slices over the whole volume from which it counts as sheared [mm]."""

@@ -13,8 +13,7 @@ from app.commands import build
 from app.core.errors import AcusError, ConfigurationError
 from app.exchange.errors import ExportError, UrdfError
 from app.exchange.text_export import write_text
-from app.exchange.urdf import Origin, write_urdf
-from app.exchange.urdf_reading import profile_like, read_geometry
+from app.exchange.urdf import Origin, profile_like, read_geometry, write_urdf
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.pantograph import forward, inverse, passive_angles
 from app.mechanisms.profile import load_profile, profile_names

@@ -15,8 +15,7 @@ from app.core import paths
 from app.core.transform import RigidTransform
 from app.exchange.markups import read_plan, write_plan
 from app.exchange.transforms import read_tfm, write_tfm
-from app.exchange.urdf import write_urdf
-from app.exchange.urdf_reading import read_geometry
+from app.exchange.urdf import read_geometry, write_urdf
 from app.exercises.library import load_exercise
 from app.mechanisms.profile.files import load_profile
 from app.planning.plan import Plan

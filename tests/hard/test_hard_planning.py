@@ -13,9 +13,7 @@ from app.planning.errors import PlanError
 from app.planning.limits import ReachLimits, cone
 from app.planning.placement import PatientOrientation, PlacedPlan, Placement
 from app.planning.plan import Plan
-from app.planning.reach import Obstacle, reach
-from app.planning.remedy import nearest_direction, smallest_turn
-from app.planning.words import rotation_in_words
+from app.planning.reach import Obstacle, nearest_direction, reach, rotation_in_words, smallest_turn
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 PROFILE = load_profile("icube")

@@ -5,7 +5,7 @@ import sys
 
 import pydicom
 
-from app.imaging import archive_file
+from app.imaging import sources
 from app.imaging.worker import child
 
 FILES = 2
@@ -25,6 +25,6 @@ def save(self, path, **how):
 
 
 if __name__ == "__main__":
-    archive_file._extract = extract
+    sources._extract = extract
     pydicom.dataset.FileDataset.save_as = save
     child.main(int(sys.argv[1]))

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from test_imaging_structures import ball, made, middle, turned
 
-from app.imaging.structures.boundary import Boundary, _to_triangles
-from app.imaging.structures.distance import SignedDistance
+from app.imaging.structures.distance import Boundary, SignedDistance, _to_triangles
 from app.imaging.structures.structure import Structure
 
 

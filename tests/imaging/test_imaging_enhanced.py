@@ -10,8 +10,7 @@ from pydicom.sequence import Sequence
 from pydicom.uid import RLELossless
 
 from app.imaging.errors import SeriesAmbiguousError, SeriesUnknownError
-from app.imaging.pixel_place import pixel_lps_mm
-from app.imaging.reading import load_ct
+from app.imaging.reading import load_ct, pixel_lps_mm
 from app.imaging.scanning import scan_folder
 from tests.imaging import dicom_factory as factory
 from tests.imaging.dicom_factory import Slices

@@ -433,7 +433,7 @@ def test_compressed_big_endian_and_deflated_files_keep_their_pixels_bit_for_bit(
         if header is None:
             continue
         from app.imaging.privacy.actions import Rules
-        from app.imaging.privacy.files import convert
+        from app.imaging.privacy.deidentifying import convert
         from app.imaging.privacy.report import Tally
 
         rules = Rules(profile(), UidMap(b"k"), timedelta(days=-40), "P-1", "CT-00000001")

@@ -8,8 +8,7 @@ import pytest
 
 from app.core.progress import Cancelled, Progress
 from app.imaging.errors import SeriesAmbiguousError, SeriesUnknownError
-from app.imaging.pixel_place import pixel_lps_mm
-from app.imaging.reading import load_ct, read_series
+from app.imaging.reading import load_ct, pixel_lps_mm, read_series
 from app.imaging.scanning import scan_folder
 from tests.imaging import dicom_factory as factory
 from tests.imaging.dicom_factory import Slices

@@ -5,8 +5,7 @@ import os
 import pytest
 
 from app.imaging.errors import FolderError, SeriesRefusedError
-from app.imaging.pixel_place import pixel_lps_mm
-from app.imaging.reading import load_ct
+from app.imaging.reading import load_ct, pixel_lps_mm
 from app.imaging.scanning import scan_folder
 from tests.imaging import dicom_factory as factory
 from tests.imaging.dicom_factory import Slices

@@ -17,7 +17,7 @@ from pydicom.fileset import FileSet
 
 from app.core.passing import sweep_passing
 from app.core.progress import Cancelled, Progress
-from app.imaging import unpacking
+from app.imaging import sources
 from app.imaging.body import find_body, is_inside
 from app.imaging.errors import FolderError, SeriesRefusedError
 from app.imaging.reading import choose, load_ct, read_series
@@ -77,7 +77,7 @@ def test_members_that_lead_out_of_an_archive_are_left_out_by_name(tmp_path, temp
 
 
 def test_an_archive_that_grows_out_of_proportion_is_refused(tmp_path, temporary, monkeypatch):
-    monkeypatch.setattr(unpacking, "BOMB_BYTES", 1 << 20)
+    monkeypatch.setattr(sources, "BOMB_BYTES", 1 << 20)
     path = tmp_path / "bomb.zip"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("zeros", bytes(1 << 23))
@@ -89,7 +89,7 @@ def test_an_archive_that_grows_out_of_proportion_is_refused(tmp_path, temporary,
 def test_an_archive_that_does_not_fit_the_disk_is_refused(tmp_path, temporary, monkeypatch):
     Slices().write(tmp_path / "a")
     path = zipped(tmp_path / "a", tmp_path / "a.zip")
-    monkeypatch.setattr(unpacking, "RESERVE_BYTES", 1 << 60)
+    monkeypatch.setattr(sources, "RESERVE_BYTES", 1 << 60)
     with pytest.raises(FolderError, match=r"0\.0 GB are free"):
         scan_folder(path)
 
@@ -115,7 +115,7 @@ def test_a_full_disk_while_unpacking_leaves_nothing(tmp_path, temporary, monkeyp
     path = zipped(tmp_path / "a", tmp_path / "a.zip")
 
     worker = ImagingWorker(1, "tests.imaging.full_disk_child")
-    monkeypatch.setattr(unpacking, "shared_worker", lambda: worker)
+    monkeypatch.setattr(sources, "shared_worker", lambda: worker)
     with pytest.raises(FolderError, match="No space left"):
         scan_folder(path)
     worker.close()
@@ -125,7 +125,7 @@ def test_a_full_disk_while_unpacking_leaves_nothing(tmp_path, temporary, monkeyp
 def test_what_a_killed_program_unpacked_is_swept_away_and_nobody_elses(tmp_path, temporary):
     program = (
         "import sys, time; from pathlib import Path; from app.core.progress import Progress;"
-        "from app.imaging.unpacking import unpack; kept = unpack(Path(sys.argv[1]), Progress());"
+        "from app.imaging.sources import unpack; kept = unpack(Path(sys.argv[1]), Progress());"
         "print(kept.root.name, flush=True); time.sleep(60)"
     )
     Slices().write(tmp_path / "a")

@@ -9,7 +9,7 @@ from app.imaging.structures.contours import contours, outlines
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.errors import FrameOfReferenceError, StructureError
 from app.imaging.structures.placing import Found, Labelled, guessed_kind, place
-from app.imaging.structures.polygons import even_odd
+from app.imaging.structures.rtstruct import even_odd
 from app.imaging.structures.structure import Kind, Structure, StructureSet, cropped
 from app.imaging.volume import Volume
 

@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 
 from app.core.errors import AcusError
 from app.core.rotation import rotation_exp
-from app.exchange.errors import ExportError
-from app.exchange.measurements import (
+from app.exchange.csv_export import (
     measurements_document,
     measurements_table,
     write_measurements,
 )
+from app.exchange.errors import ExportError
 from app.imaging.series import Series
 from app.imaging.volume import Volume
 from app.planning.errors import MeasurementError

@@ -9,8 +9,7 @@ from app.mechanisms.profile import load_profile
 from app.planning.limits import ReachLimits, in_workspace, tilt_of
 from app.planning.placement import PatientOrientation, Placement
 from app.planning.plan import Plan
-from app.planning.reach import Obstacle, reach, reach_within
-from app.planning.remedy import MARGIN
+from app.planning.reach import MARGIN, Obstacle, reach, reach_within
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 DEGREE = np.pi / 180.0

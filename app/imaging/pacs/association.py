@@ -1,4 +1,7 @@
-"""Connections to a PACS: opened for one request, watched for a cancel, always closed."""
+"""Connections to a PACS: opened for one request, watched for a cancel, always closed.
+
+The other end of C-MOVE is here too: a storage service that stands only while a retrieval lasts.
+"""
 
 import logging
 import socket
@@ -10,9 +13,42 @@ from typing import Any
 from app.core.errors import ConfigurationError
 from app.core.progress import Cancelled, Progress
 from app.imaging.pacs.errors import PacsError, PacsRefusedError, PacsUnreachableError
+from app.imaging.pacs.incoming import COMPRESSED, PLAIN, STORAGE_CLASSES, Incoming, handler
 from app.imaging.pacs.settings import PacsSettings
 from app.imaging.pacs.statuses import rejected, words
-from app.imaging.pacs.tls import client_context, shake_hands
+from app.imaging.pacs.tls import client_context, server_context, shake_hands
+
+
+@contextmanager
+def receiving(settings: PacsSettings, incoming: Incoming, counter: Any) -> Iterator[None]:
+    """Listen on our own port for what the PACS sends; only it may, and only to our title.
+
+    Raises:
+        PacsError: if the port cannot be used.
+        ConfigurationError: if the encryption cannot.
+    """
+    pynetdicom = network()
+    made = entity(settings)
+    made.require_called_aet = True
+    made.require_calling_aet = [settings.title]
+    for kind in STORAGE_CLASSES:
+        made.add_supported_context(kind, [*PLAIN, *COMPRESSED])
+    address, context = own_address(settings), server_context(settings)
+    handlers = [(pynetdicom.evt.EVT_C_STORE, handler(incoming, counter))]
+    try:
+        server = made.start_server(
+            (address, settings.own_port), block=False, evt_handlers=handlers, ssl_context=context
+        )
+    except OSError as error:
+        raise PacsError(
+            f"port {settings.own_port} on {address} cannot be used to receive pictures: "
+            f"{error.strerror or error}; name another as own_port, or retrieve with C-GET"
+        ) from error
+    try:
+        yield
+    finally:
+        server.shutdown()
+
 
 _LOOK_S = 0.2
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from app.core.progress import Cancelled, Progress
 from app.imaging.pacs import statuses
-from app.imaging.pacs.association import association, lost, network, require
+from app.imaging.pacs.association import association, lost, network, receiving, require
 from app.imaging.pacs.errors import PacsDataError, PacsError
 from app.imaging.pacs.incoming import COMPRESSED, PLAIN, STORAGE_CLASSES, Incoming, handler
 from app.imaging.pacs.query import (
@@ -21,7 +21,6 @@ from app.imaging.pacs.query import (
     study_keys,
     wanted_keys,
 )
-from app.imaging.pacs.receiver import receiving
 from app.imaging.pacs.settings import PacsSettings
 
 _VERIFICATION = "1.2.840.10008.1.1"

@@ -12,6 +12,8 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
+import pydicom
+
 from app.core import paths
 from app.core.files import sync
 from app.core.progress import Progress
@@ -21,6 +23,18 @@ from app.imaging.privacy.key import derived, installation_key
 from app.imaging.worker.jobs import IDENTIFY, Identity
 from app.imaging.worker.limits import PACKAGE_SECONDS, for_file, size_of
 from app.imaging.worker.pool import shared_worker
+
+_IDENTITY = (
+    "SOPClassUID", "SOPInstanceUID", "SeriesInstanceUID", "StudyInstanceUID", "PatientID",
+)  # fmt: skip
+
+
+def identity(path: Path, progress: Progress) -> tuple[str, str, str, str, str]:
+    """Job of the worker: class, instance, series, study and patient of a file, "" if not said."""
+    head = pydicom.dcmread(path, stop_before_pixels=True, specific_tags=list(_IDENTITY))
+    kind, instance, series, study, patient = (str(head.get(name, "") or "") for name in _IDENTITY)
+    return kind, instance, series, study, patient
+
 
 ACCEPTED = 0x0000
 NO_ROOM = 0xA700

@@ -4,6 +4,15 @@ Of many points at once: the structure is resampled to a cubic grid (its edge whe
 voxels passes one half) and the exact distances of its cells are computed (Maurer et al. 2003, in
 scipy); beyond the grid the nearest of its surface cells counts. Of a line: exactly to the
 structure's boundary, at whatever size.
+
+The boundary of a structure as triangles, and exact distances to it.
+
+The boundary passes half-way between each voxel centre inside and its neighbour outside: where the
+share of the structure, linear between the two centres, is one half. In each cell of eight centres
+the half-way points on its faces are joined to segments (marching squares; of two corners inside
+across from each other, the structure holds together), and the segments to the cell's middle. The
+true boundary crosses the line between the two centres too, so at these points it is never further
+off than half of that distance.
 """
 
 from __future__ import annotations
@@ -18,8 +27,159 @@ from scipy.spatial import cKDTree
 
 from app.core.arrays import FloatArray, read_only
 from app.core.progress import Progress
-from app.imaging.structures.boundary import Boundary
 from app.imaging.structures.structure import Structure
+
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Boundary:
+    """Triangles of a structure's boundary, LPS [mm].
+
+    Attributes:
+        triangles: shape (m, 3, 3), those of one cell after the other; the last corner of each is
+            the cell's middle.
+        first: where those of each cell begin, shape (cells + 1,).
+        reach_mm: no corner is further from the middle of its cell.
+        accuracy_mm: half of the largest edge of a voxel; see above.
+    """
+
+    triangles: FloatArray
+    first: Indices
+    reach_mm: float
+    accuracy_mm: float
+    _middles: Any
+    _structure: Structure
+
+    @classmethod
+    def of(cls, structure: Structure) -> Boundary:
+        """Find the boundary; a tenth of a second for each 100 000 voxels of its surface."""
+        segments, cells = _segments(np.pad(structure.mask, 1))
+        names, cell = np.unique(np.ravel_multi_index(tuple(cells.T), _shape(structure)),
+                                return_inverse=True)  # fmt: skip
+        order = np.argsort(cell, kind="stable")
+        segments, cell = segments[order], cell[order]
+        counts = np.bincount(cell, minlength=len(names))
+        middles = np.stack(
+            [np.bincount(cell, segments.sum(axis=1)[:, a]) / (2.0 * counts) for a in range(3)],
+            axis=1,
+        )  # every half-way point of a cell ends two segments of it
+        triangles = np.concatenate([segments, middles[cell][:, None, :]], axis=1)
+        grid = structure.grid_mm
+        placed = (triangles[..., ::-1] - 1.0) @ grid[:3, :3].T + grid[:3, 3]
+        reach = float(np.linalg.norm(placed[:, :2] - placed[:, 2:], axis=2).max())
+        first = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
+        spacing = np.linalg.norm(structure.affine_mm[:3, :3], axis=0)
+        tree = cKDTree(placed[first[:-1], 2])
+        return cls(placed, first, reach, 0.5 * float(spacing.max()), tree, structure)
+
+    def bounds_mm(self, points_mm: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Between which values the signed distances of points lie, shape (n, 3) -> (n,) twice."""
+        most = np.asarray(self._middles.query(points_mm)[0], np.float64)
+        least = np.maximum(most - self.reach_mm, 0.0)
+        inside = self.inside(points_mm)
+        return np.where(inside, -most, least), np.where(inside, -least, most)
+
+    def at(self, points_mm: FloatArray) -> FloatArray:
+        """Signed distances [mm], negative inside, shape (n, 3) -> (n,)."""
+        near = np.asarray(self._middles.query(points_mm)[0], np.float64) + self.reach_mm * 1.0001
+        found = np.array(
+            [
+                _to_triangles(point, self._of_cells(self._middles.query_ball_point(point, radius)))
+                for point, radius in zip(points_mm, near, strict=True)
+            ]
+        )
+        result: FloatArray = np.where(self.inside(points_mm), -found, found)
+        return result
+
+    def inside(self, points_mm: FloatArray) -> NDArray[np.bool_]:
+        """Whether the structure's share at points, linear between voxel centres, is one half."""
+        inverse = np.linalg.inv(self._structure.grid_mm)
+        at = points_mm @ inverse[:3, :3].T + inverse[:3, 3] + 1.0  # one layer around
+        share = ndimage.map_coordinates(
+            self._structure.occupancy, at[:, ::-1].T, order=1, mode="constant", cval=0.0
+        )
+        result: NDArray[np.bool_] = share >= 0.5
+        return result
+
+    def _of_cells(self, cells: list[int]) -> FloatArray:
+        numbers = np.concatenate([np.arange(self.first[c], self.first[c + 1]) for c in cells])
+        result: FloatArray = self.triangles[numbers]
+        return result
+
+
+def _shape(structure: Structure) -> tuple[int, ...]:
+    return tuple(size + 2 for size in structure.mask.shape)
+
+
+def _segments(inside: NDArray[np.bool_]) -> tuple[FloatArray, Indices]:
+    """Segments on the faces of cells, each for both cells of its face.
+
+    Args:
+        inside: shape (K, J, I), False all around.
+
+    Returns:
+        Ends (k, j, i), shape (m, 2, 3), and the cell (its first corner), shape (m, 3).
+    """
+    parts, cells = [], []
+    for normal, a, b in ((0, 1, 2), (1, 0, 2), (2, 0, 1)):
+        one, two, across = (np.eye(3, dtype=np.intp)[axis] for axis in (a, b, normal))
+        corners = [
+            inside[tuple(slice(o, s - 1 + o if axis != normal else s) for axis, (o, s) in
+                         enumerate(zip(offset, inside.shape, strict=True)))]
+            for offset in (0 * one, one, one + two, two)
+        ]  # fmt: skip
+        mixed = np.argwhere((corners[0] != corners[1]) | (corners[1] != corners[2])
+                            | (corners[2] != corners[3]))  # fmt: skip
+        held = np.stack([corner[tuple(mixed.T)] for corner in corners], axis=1)
+        halves = 0.5 * np.array([one, 2 * one + two, one + 2 * two, two])  # of its four edges
+        for first, second, chosen in _joined(held):
+            ends = np.stack([mixed[chosen] + halves[first], mixed[chosen] + halves[second]], axis=1)
+            parts += [ends, ends]
+            cells += [mixed[chosen], mixed[chosen] - across]
+    return np.concatenate(parts), np.concatenate(cells)
+
+
+def _joined(held: NDArray[np.bool_]) -> list[tuple[int, int, NDArray[np.bool_]]]:
+    """Which two edges of a face a segment joins, and in which faces.
+
+    Edge e lies between corners e and e + 1. A corner that differs from both its neighbours is cut
+    off by the edges on either side; two corners against two others by opposite edges.
+    """
+    before, after, far = (np.roll(held, shift, axis=1) for shift in (1, -1, 2))
+    alone = (held != before) & (held != after)
+    diagonal = alone & (held == far)  # then the outside corners are cut off
+    cut = (alone & ~diagonal) | (diagonal & ~held)
+    pairs = [((corner - 1) % 4, corner, cut[:, corner]) for corner in range(4)]
+    split = (held[:, 0] != held[:, 1]) & (held[:, 2] != held[:, 3]) & ~alone.any(axis=1)
+    other = (held[:, 1] != held[:, 2]) & (held[:, 3] != held[:, 0]) & ~alone.any(axis=1)
+    return [*pairs, (0, 2, split), (1, 3, other)]
+
+
+def _to_triangles(point: FloatArray, triangles: FloatArray) -> float:
+    """Distance of a point from the nearest of some triangles, shape (m, 3, 3)."""
+    a, b, c = (triangles[:, corner] for corner in range(3))
+    edges = [_to_segments(point, *ends) for ends in ((a, b), (b, c), (c, a))]
+    nearest = float(np.min(edges))
+    normal = np.cross(b - a, c - a)
+    length = np.linalg.norm(normal, axis=1)
+    real = length > 1e-12  # what is no triangle is its edges
+    normal = normal / np.where(real, length, 1.0)[:, None]
+    height = ((point - a) * normal).sum(axis=1)
+    foot = point - height[:, None] * normal
+    over = real
+    for start, end in ((a, b), (b, c), (c, a)):
+        over = over & ((np.cross(end - start, foot - start) * normal).sum(axis=1) >= 0.0)
+    return min(nearest, float(np.abs(height[over]).min())) if over.any() else nearest
+
+
+def _to_segments(point: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    along = end - start
+    length2 = np.maximum((along * along).sum(axis=1), 1e-24)
+    share = np.clip(((point - start) * along).sum(axis=1) / length2, 0.0, 1.0)
+    result: FloatArray = np.linalg.norm(point - start - share[:, None] * along, axis=1)
+    return result
+
 
 MARGIN_MM = 16.0
 """The grid reaches this far around the structure [mm]."""

@@ -50,9 +50,9 @@ def main(descriptor: int) -> None:
 
 
 def _take_volume(descriptor: int) -> None:
-    from app.imaging.worker import slices
+    from app.imaging import rescaling
 
-    slices.take_volume(descriptor)
+    rescaling.take_volume(descriptor)
 
 
 def _do(channel: Channel, memory: MemoryLimit, message: list[Any]) -> None:

@@ -37,22 +37,22 @@ class Job(Generic[Result]):
 EXAMINE: Job[tuple[SliceHeader, ...] | Ignored] = Job(
     "app.imaging.examining:headers_in", tuple[SliceHeader, ...] | Ignored
 )
-LOAD_DECODERS: Job[None] = Job("app.imaging.worker.slices:load_decoders", None)
-FILL: Job[None] = Job("app.imaging.worker.slices:fill", None)
+LOAD_DECODERS: Job[None] = Job("app.imaging.rescaling:load_decoders", None)
+FILL: Job[None] = Job("app.imaging.rescaling:fill", None)
 NIFTI_HEADER: Job[NiftiHeader] = Job("app.imaging.nifti_file:nifti_header", NiftiHeader)
 NIFTI_VALUES: Job[NiftiValues] = Job("app.imaging.nifti_file:nifti_values", NiftiValues)
 DIRECTORY: Job[tuple[tuple[str, ...], ...]] = Job(
-    "app.imaging.directory_file:named_files", tuple[tuple[str, ...], ...]
+    "app.imaging.sources:named_files", tuple[tuple[str, ...], ...]
 )
 STRUCTURES: Job[Placed] = Job("app.imaging.structures.parsing:parse_structures", Placed)
 DEIDENTIFY: Job[Deidentified] = Job(
     "app.imaging.privacy.deidentifying:deidentify_series", Deidentified
 )
 Identity = tuple[str, str, str, str, str]
-IDENTIFY: Job[Identity] = Job("app.imaging.pacs.looking:identity", Identity)
-WRITE_SEG: Job[None] = Job("app.imaging.structures.seg_file:write_seg_file", None)
+IDENTIFY: Job[Identity] = Job("app.imaging.pacs.incoming:identity", Identity)
+WRITE_SEG: Job[None] = Job("app.imaging.structures.dicom_seg:write_seg_file", None)
 UNPACK: Job[tuple[tuple[str, str], ...]] = Job(
-    "app.imaging.archive_file:unpack_into", tuple[tuple[str, str], ...]
+    "app.imaging.sources:unpack_into", tuple[tuple[str, str], ...]
 )
 
 

@@ -12,7 +12,7 @@ from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QFileDialog, QMenu
 
 from app.core.errors import AcusError
-from app.exchange.measurements import write_measurements
+from app.exchange.csv_export import write_measurements
 from app.planning.measurements import Measurement
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.text import tr
