@@ -1,4 +1,7 @@
-"""Raw DICOM elements as plain values: quick, without pydicom's conversions and their warnings."""
+"""The DICOM elements that a series is made by, as plain values.
+
+Quick: without pydicom's conversions and their warnings. `element_reading` reads them.
+"""
 
 import math
 import re
@@ -7,22 +10,51 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, BinaryIO, Final
 
-from app.imaging.deflated import inflated_head
-from app.imaging.element_walk import OddError, Walk
 from app.imaging.errors import FileDamagedError
-from app.imaging.pixel_data import (
-    DECODERS,
-    DEFLATED,
-    EXPLICIT_BIG,
-    IMPLICIT_LITTLE,
-    RAW,
-)
 
-PREAMBLE: Final = 132
-TRANSFER_SYNTAX: Final = 0x00020010
-FIRST_PIXEL_TAG: Final = 0x7FE00008
-_FIRST_META_TAG: Final = 0x00020000
-_FIRST_DATA_TAG: Final = 0x00030000
+TAGS: Final = {
+    "SOPClassUID": 0x00080016,
+    "SOPInstanceUID": 0x00080018,
+    "ImageType": 0x00080008,
+    "AcquisitionTime": 0x00080032,
+    "Modality": 0x00080060,
+    "PatientID": 0x00100020,
+    "BodyPartExamined": 0x00180015,
+    "SliceThickness": 0x00180050,
+    "EchoNumbers": 0x00180086,
+    "TriggerTime": 0x00181060,
+    "ConvolutionKernel": 0x00181210,
+    "StudyInstanceUID": 0x0020000D,
+    "SeriesInstanceUID": 0x0020000E,
+    "StudyID": 0x00200010,
+    "SeriesNumber": 0x00200011,
+    "AcquisitionNumber": 0x00200012,
+    "ImagePositionPatient": 0x00200032,
+    "ImageOrientationPatient": 0x00200037,
+    "FrameOfReferenceUID": 0x00200052,
+    "TemporalPositionIdentifier": 0x00200100,
+    "SamplesPerPixel": 0x00280002,
+    "PhotometricInterpretation": 0x00280004,
+    "NumberOfFrames": 0x00280008,
+    "Rows": 0x00280010,
+    "Columns": 0x00280011,
+    "PixelSpacing": 0x00280030,
+    "BitsAllocated": 0x00280100,
+    "BitsStored": 0x00280101,
+    "HighBit": 0x00280102,
+    "PixelRepresentation": 0x00280103,
+    "PixelPaddingValue": 0x00280120,
+    "PixelPaddingRangeLimit": 0x00280121,
+    "WindowCenter": 0x00281050,
+    "WindowWidth": 0x00281051,
+    "RescaleIntercept": 0x00281052,
+    "RescaleSlope": 0x00281053,
+    "RescaleType": 0x00281054,
+}
+"""Keyword -> tag."""
+
+TAG_LIST: Final = list(TAGS.values())
+
 _NUMBER_LIKE: Final = re.compile(r"[-+0-9.,eE]{1,16}|[-+]?(nan|inf)", re.IGNORECASE)
 
 
@@ -41,40 +73,6 @@ class Elements:
     syntax: str
     inflated: BinaryIO | None = None
     start: int = 0
-
-
-def read_sound(stream: BinaryIO, wanted: frozenset[int]) -> Elements:
-    """Read a file that is what it says, and says so as the standard does.
-
-    Raises:
-        OddError: for any other.
-    """
-    walk = Walk(stream, PREAMBLE)
-    meta = walk.take(frozenset((TRANSFER_SYNTAX,)), False, _FIRST_META_TAG, _FIRST_DATA_TAG)
-    syntax = text(Elements(meta, ""), TRANSFER_SYNTAX)
-    if syntax == DEFLATED:
-        return _deflated(stream, walk.place, wanted)
-    if syntax == EXPLICIT_BIG or (syntax not in DECODERS and syntax not in RAW):
-        raise OddError
-    implicit = syntax == IMPLICIT_LITTLE
-    if walk.is_explicit() == implicit:
-        raise OddError
-    values = walk.take(wanted, implicit, _FIRST_DATA_TAG, FIRST_PIXEL_TAG)
-    stream.seek(walk.place)
-    return Elements(values, syntax)
-
-
-def _deflated(stream: BinaryIO, start: int, wanted: frozenset[int]) -> Elements:
-    """Read the elements of a deflated data set, which is explicit and little endian (PS3.5 A.5)."""
-    stream.seek(start)
-    try:
-        body = inflated_head(stream)
-    except FileDamagedError as error:
-        raise OddError from error
-    walk = Walk(body, 0)
-    values = walk.take(wanted, False, _FIRST_DATA_TAG, FIRST_PIXEL_TAG)
-    body.seek(walk.place)
-    return Elements(values, DEFLATED, body, start)
 
 
 def text(header: Elements, tag: int) -> str:

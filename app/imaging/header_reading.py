@@ -1,19 +1,30 @@
-"""Reading the header of one DICOM image file: one image, or one for each frame."""
+"""What one file holds: the headers of its images, or why it belongs to no series."""
 
-import contextlib
-from collections.abc import Sequence
+import importlib
+import os
+import stat
+import struct
+import sys
 from pathlib import Path
 from typing import BinaryIO, Final
 
+from app.core.progress import Progress
 from app.imaging import elements
-from app.imaging.element_walk import OddError
-from app.imaging.elements import Elements
-from app.imaging.errors import FileDamagedError, brief
-from app.imaging.header import MULTI_FRAME, Plane, Rescale, SliceHeader
-from app.imaging.header_identity import identity_of
-from app.imaging.header_tags import TAG_LIST, TAGS
+from app.imaging.element_reading import PREAMBLE, NotStandardError, read_elements
+from app.imaging.elements import TAG_LIST, TAGS, Elements
+from app.imaging.errors import FileDamagedError
+from app.imaging.header import MULTI_FRAME, Identity, Plane, Rescale, SliceHeader
 from app.imaging.pixel_data import PixelFormat
 from app.imaging.pixel_finding import find_pixels
+from app.imaging.privacy.known_words import body_parts, is_kernel
+from app.imaging.privacy.pseudonyms import former_pseudonym, pseudonym
+from app.imaging.series import Ignored
+
+_WITH_PYDICOM: Final = ("pydicom", "pydicom.filereader", "app.imaging.enhanced")
+"""What reads headers with pydicom, which takes half a second to load."""
+
+_FIRST_GROUPS: Final = (0x0002, 0x0008)
+_DICOMDIR: Final = b"1.2.840.10008.1.3.10"
 
 _MARKS: Final = {
     "acquisition": "AcquisitionNumber",
@@ -27,8 +38,77 @@ _MARKS: Final = {
 _AS_STORED: Final = Rescale(1.0, 0.0)
 
 
-def read_headers(
-    path: Path, stream: BinaryIO, forced: bool, sound: bool = False
+def headers_in(path: Path, settings: Path, progress: Progress) -> tuple[SliceHeader, ...] | Ignored:
+    """Job of the worker: `file_headers` with the key of the pseudonyms of these settings."""
+    os.environ["ACUS_SETTINGS"] = str(settings)
+    if all(module in sys.modules for module in _WITH_PYDICOM):
+        return file_headers(path)
+    try:
+        return file_headers(path, without_pydicom=True)
+    except NotStandardError:
+        for module in _WITH_PYDICOM:
+            importlib.import_module(module)
+        progress.report(0.0, "pydicom is loaded")  # its time is not the file's
+        return file_headers(path)
+
+
+def file_headers(path: Path, without_pydicom: bool = False) -> tuple[SliceHeader, ...] | Ignored:
+    """Read the headers of one file: an image, or each frame of it; or why it holds none.
+
+    Whatever stands in the file ends in one of the two; nothing else is raised.
+
+    Args:
+        path: the file.
+        without_pydicom: only if it can be done without it.
+
+    Raises:
+        NotStandardError: if it was to be done without pydicom, and cannot.
+    """
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):  # opening a pipe would wait for ever
+            return Ignored(path, "not a regular file")
+        with path.open("rb") as stream:
+            return _read(path, stream, without_pydicom)
+    except OSError as error:
+        return Ignored(path, f"cannot be read: {_why(error)}")
+    except FileDamagedError as error:
+        return Ignored(path, f"damaged DICOM file: {error}")
+
+
+def _read(path: Path, stream: BinaryIO, without_pydicom: bool) -> tuple[SliceHeader, ...] | Ignored:
+    head = stream.read(512)
+    preamble = head[PREAMBLE - 4 : PREAMBLE] == b"DICM"
+    if not preamble and not starts_like_dicom(head):
+        return Ignored(path, "empty file" if not head else "not a DICOM file")
+    if _DICOMDIR in head:
+        return Ignored(path, "DICOM directory (DICOMDIR), not an image")
+    stream.seek(0)
+    headers = _headers(path, stream, not preamble, without_pydicom)
+    if not headers:
+        what = "DICOM, but truncated or of no series (no SeriesInstanceUID)"
+        return Ignored(path, what if preamble else "not a DICOM file")
+    return headers
+
+
+def starts_like_dicom(head: bytes) -> bool:
+    """Whether bytes without a preamble start like a data set: a low group, a VR or a length."""
+    if len(head) < 16:
+        return False
+    for order in "<>":
+        group, element, length = struct.unpack_from(order + "HHL", head)
+        if group in _FIRST_GROUPS and element <= 0x0100:
+            explicit = head[4:6].isalpha() and head[4:6].isupper()
+            if explicit or length < 4096:
+                return True
+    return False
+
+
+def _why(error: Exception) -> str:
+    return getattr(error, "strerror", None) or str(error)
+
+
+def _headers(
+    path: Path, stream: BinaryIO, forced: bool, without_pydicom: bool
 ) -> tuple[SliceHeader, ...]:
     """Read the header of one file up to its pixels; nothing if it is no instance of a series.
 
@@ -36,7 +116,7 @@ def read_headers(
         path: the file, for messages.
         stream: the file, opened for reading at its start.
         forced: read although the DICOM preamble is missing.
-        sound: only if it can be done without pydicom.
+        without_pydicom: only if it can be done without it.
 
     Returns:
         One header for each image: one, or for a multi-frame file that says where its frames lie
@@ -44,52 +124,24 @@ def read_headers(
 
     Raises:
         FileDamagedError: if the header cannot be parsed.
-        OddError: if only what is sound was asked for, and this is not.
+        NotStandardError: if it was to be done without pydicom, and cannot.
     """
-    header = _elements(stream, TAG_LIST, forced, sound)
+    header = read_elements(stream, TAG_LIST, forced, without_pydicom)
     if not elements.text(header, TAGS["SeriesInstanceUID"]):
         return ()
     found = _slice_header(path, stream, header)
     if found.identity.sop_class not in MULTI_FRAME or found.damage:
         return (found,)
-    if sound:
-        raise OddError
+    if without_pydicom:
+        raise NotStandardError
     from app.imaging.enhanced import frames_of
 
     return frames_of(found, stream)
 
 
-def _elements(
-    stream: BinaryIO, wanted: Sequence[int], forced: bool, sound: bool = False
-) -> Elements:
-    """Read the wanted elements before the pixels; the stream then stands at the pixels.
-
-    Args:
-        stream: the file, at its start.
-        wanted: tags.
-        forced: read although the DICOM preamble is missing.
-        sound: only if it can be done without pydicom.
-
-    Raises:
-        FileDamagedError: if the header cannot be parsed.
-        OddError: if only what is sound was asked for, and this is not.
-    """
-    if not forced:
-        with contextlib.suppress(OddError):
-            return elements.read_sound(stream, frozenset(wanted))
-    if sound:
-        raise OddError
-    try:
-        from app.imaging.odd_elements import read_odd
-
-        return read_odd(stream, wanted, forced)
-    except Exception as error:  # hostile bytes make the parser raise nearly anything
-        raise FileDamagedError(f"its header cannot be read ({brief(error)})") from error
-
-
 def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader:
     problems: list[str] = []
-    identity = identity_of(header)
+    identity = _identity(header)
     pixel_format = _guarded(_format, header, problems) or PixelFormat.unknown()
     pixels = find_pixels(stream, header, pixel_format)
     plane = _guarded(_plane, header, problems)
@@ -109,6 +161,34 @@ def _slice_header(path: Path, stream: BinaryIO, header: Elements) -> SliceHeader
         thickness_mm=_thickness(header),
         marks=_marks(header),
     )
+
+
+def _identity(header: Elements) -> Identity:
+    """Which object a file holds; patient and study only inside the pseudonym."""
+
+    def get(name: str) -> str:
+        return elements.text(header, TAGS[name])
+
+    return Identity(
+        sop_uid=get("SOPInstanceUID"),
+        sop_class=get("SOPClassUID"),
+        series_uid=get("SeriesInstanceUID"),
+        modality=get("Modality"),
+        image_type=elements.parts(header, TAGS["ImageType"]),
+        label=_label(get("SeriesNumber"), get("BodyPartExamined"), get("ConvolutionKernel")),
+        pseudonym=pseudonym(get("PatientID"), get("StudyInstanceUID"), get("StudyID")),
+        former=former_pseudonym(get("PatientID"), get("StudyInstanceUID")),
+        frame_of_reference=get("FrameOfReferenceUID"),
+    )
+
+
+def _label(number: str, body_part: str, kernel: str) -> str:
+    """Built from coded elements, and of these from known words only: free text may hold a name."""
+    number = number if number.isdigit() and len(number) <= 5 else "?"
+    body_part = body_part if body_part in body_parts() else ""
+    first = kernel.split(chr(92))[0]
+    kernel = f"kernel {first}" if first and is_kernel(first) else ""
+    return ", ".join(part for part in (f"Series {number}", body_part, kernel) if part)
 
 
 def _thickness(header: Elements) -> float | None:

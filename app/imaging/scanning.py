@@ -14,7 +14,7 @@ from app.imaging.series import Ignored, Listing, Remedy, Series
 from app.imaging.sources import is_nifti, open_source
 from app.imaging.suitability import Verdict, is_mr, judge
 from app.imaging.worker.pool import shared_worker
-from app.imaging.worker.service import examine_files
+from app.imaging.worker.service import read_headers
 
 
 def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
@@ -37,7 +37,7 @@ def scan_folder(path: Path | str, progress: Progress | None = None) -> Listing:
     files = [file for file in source.files if not is_nifti(file)]
     headers: list[SliceHeader] = []
     begin = 0.0 if source.keeper is None else 0.5
-    for found in examine_files(files, progress.part(begin, 1.0)) if files else ():
+    for found in read_headers(files, progress.part(begin, 1.0)) if files else ():
         if isinstance(found, Ignored):
             ignored.append(found)
         else:

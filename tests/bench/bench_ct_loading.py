@@ -38,10 +38,10 @@ WARM = COLD.replace(
     "before, start",
     """
 from app.core.progress import Progress
-from app.imaging.worker.service import examine_files, load_decoders
+from app.imaging.worker.service import read_headers, load_decoders
 from pathlib import Path
 load_decoders(Progress())
-examine_files([Path(sys.argv[1])], Progress())  # the child is up, and has nothing in its cache
+read_headers([Path(sys.argv[1])], Progress())  # the child is up, and has nothing in its cache
 before, start""",
     1,
 )

@@ -9,8 +9,8 @@ import pydicom
 import pytest
 
 from app.imaging.errors import FileDamagedError, WorkerLostError
-from app.imaging.examining import examine
 from app.imaging.filling import filled
+from app.imaging.header_reading import file_headers
 from app.imaging.reading import load_ct
 from tests.fuzz.campaign import MOST_CHILD_BYTES, campaign
 from tests.fuzz.documents import documents
@@ -51,7 +51,7 @@ def test_rle_that_makes_its_decoder_panic_is_refused_by_name(tmp_path, known):
         data = bytearray(whole)
         data[start + 64 : start + 400] = dice.randbytes(336)
         path.write_bytes(data)
-        (header,) = examine(path)
+        (header,) = file_headers(path)
         try:
             filled([header], np.dtype(np.int16))
         except WorkerLostError:
@@ -80,7 +80,7 @@ def test_every_lossless_encoding_is_read_to_the_same_voxels(tmp_path, known, nam
 def test_a_deflate_bomb_is_read_no_further_than_its_header_says(tmp_path, known):
     path = Path(tmp_path, "bomb")
     path.write_bytes(bomb(known["deflated"].files[MIDDLE], 64))
-    (header,) = examine(path)
+    (header,) = file_headers(path)
     assert header.damage == ""
     np.testing.assert_array_equal(
         filled([header], np.dtype(np.int16))[0], known["deflated"].hu[MIDDLE]
@@ -93,7 +93,7 @@ def test_a_picture_larger_than_its_header_says_is_refused_at_the_scan(tmp_path, 
         file = pydicom.dcmread(io.BytesIO(known[name].files[0]))
         file.Rows = 16
         file.save_as(path, enforce_file_format=True)
-        (header,) = examine(path)
+        (header,) = file_headers(path)
         assert "its compressed picture is 32 × 32, its header says 32 × 16" in header.damage
 
 
@@ -103,7 +103,7 @@ def test_an_unknown_transfer_syntax_is_refused_by_name_at_the_scan(tmp_path, kno
     start = data.index(b"UI\x14\x001.2.840.10008.1.2.4.100")
     data = data[: start + 2] + b"\x18\0" + data[start + 4 :]
     path.write_bytes(data)
-    (header,) = examine(path)
+    (header,) = file_headers(path)
     assert "no decoder for transfer syntax 1.2.840.10008.1.2.4.100 (MPEG2" in header.damage
 
 
@@ -111,7 +111,7 @@ def test_compressed_pixels_cut_short_are_told_at_the_scan(tmp_path, known):
     path = Path(tmp_path, "cut")
     for name in ("RLE", "JPEG-LS", "JPEG 2000", "JPEG lossless"):
         path.write_bytes(known[name].files[0][:-40])
-        (header,) = examine(path)
+        (header,) = file_headers(path)
         assert header.damage
         with pytest.raises(FileDamagedError):
             filled([header], np.dtype(np.int16))

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 from app.core.progress import Progress
-from app.imaging import examining
+from app.imaging import header_reading
 from app.imaging.series import Ignored
 from app.imaging.worker import child
 
@@ -54,5 +54,5 @@ def headers_in(path: Path, settings: Path, progress: Progress):
 
 
 if __name__ == "__main__":
-    examining.headers_in = headers_in
+    header_reading.headers_in = headers_in
     child.main(int(sys.argv[1]))

@@ -1,4 +1,4 @@
-"""The quick reader of sound headers: it says what pydicom says, or leaves the file to it."""
+"""The quick reader of standard headers: it says what pydicom says, or leaves the file to it."""
 
 import io
 import random
@@ -12,11 +12,16 @@ import pytest
 from pydicom.data import DATA_ROOT
 from pydicom.dataset import Dataset
 
-from app.imaging import element_walk, elements, odd_elements
-from app.imaging.element_walk import OddError, Walk
+from app.imaging import element_reading
+from app.imaging.element_reading import (
+    NotStandardError,
+    Walk,
+    read_by_pydicom,
+    read_elements,
+    read_standard,
+)
+from app.imaging.elements import TAG_LIST
 from app.imaging.errors import FileDamagedError
-from app.imaging.header_reading import read_headers
-from app.imaging.header_tags import TAG_LIST
 from tests.imaging.dicom_factory import Slices
 
 FILES = [
@@ -31,12 +36,12 @@ def both(data):
     """What the quick reader says, None where it does not vouch for it, and what pydicom says."""
     stream, other = io.BytesIO(data), io.BytesIO(data)
     try:
-        quick = said(elements.read_sound(stream, frozenset(TAG_LIST)), stream)
-    except OddError:
+        quick = said(read_standard(stream, frozenset(TAG_LIST)), stream)
+    except NotStandardError:
         return None, None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return quick, said(odd_elements.read_odd(other, TAG_LIST, False), other)
+        return quick, said(read_by_pydicom(other, TAG_LIST, False), other)
 
 
 def said(found, stream):
@@ -105,15 +110,15 @@ def test_what_is_nested_in_sequences_is_passed_over_whatever_marks_its_end(tmp_p
 @pytest.mark.parametrize("cut", [140, 300, 700])
 def test_a_header_that_ends_too_early_is_not_vouched_for(tmp_path, cut):
     (path,) = Slices(offsets=(0.0,)).write(tmp_path)
-    with pytest.raises(OddError):
-        elements.read_sound(io.BytesIO(path.read_bytes()[:cut]), frozenset(TAG_LIST))
+    with pytest.raises(NotStandardError):
+        read_standard(io.BytesIO(path.read_bytes()[:cut]), frozenset(TAG_LIST))
 
 
 def test_values_across_the_borders_of_what_is_read_at_once_are_whole(tmp_path, monkeypatch):
     (path,) = Slices(offsets=(0.0,)).write(tmp_path)
     whole, _ = both(path.read_bytes())
     for chunk in (12, 13, 29, 64):
-        monkeypatch.setattr(element_walk, "_CHUNK", chunk)
+        monkeypatch.setattr(element_reading, "_CHUNK", chunk)
         assert both(path.read_bytes())[0] == whole
 
 
@@ -121,7 +126,7 @@ def test_sequences_nested_without_end_are_given_up():
     item = b"\xfe\xff\x00\xe0\xff\xff\xff\xff"
     nested = b"\x08\x00\x10\x11SQ\0\0\xff\xff\xff\xff" + item
     walk = Walk(io.BytesIO(nested * 200_000), 0)
-    with pytest.raises(OddError):
+    with pytest.raises(NotStandardError):
         walk.take(frozenset((0x00080018,)), False, 0x00080000, 0x7FE00008)
 
 
@@ -129,14 +134,14 @@ def test_what_pydicom_cannot_read_either_is_damaged(tmp_path):
     file = tmp_path / "file"
     file.write_bytes(bytes(128) + b"DICM" + b"\x08\0\x16\0SQ" + b"\0\0" + b"\xff" * 40)
     with file.open("rb") as stream, pytest.raises(FileDamagedError, match="header cannot be read"):
-        read_headers(file, stream, forced=False)
+        read_elements(stream, TAG_LIST, forced=False)
 
 
 def test_sound_headers_need_neither_pydicom_nor_numpy(tmp_path):
     (file,) = Slices(offsets=(0.0,)).write(tmp_path)
     program = (
         "import sys; from pathlib import Path; import app.imaging.worker.child;"
-        "from app.core.progress import Progress; from app.imaging.examining import headers_in;"
+        "from app.core.progress import Progress; from app.imaging.header_reading import headers_in;"
         "found = headers_in(Path(sys.argv[1]), Path(sys.argv[2]), Progress());"
         "heavy = ('pydicom', 'numpy', 'pydantic', 'yaml', 'scipy', 'nibabel', 'highdicom', 'gdcm');"
         "print(len(found), [name for name in heavy if name in sys.modules])"

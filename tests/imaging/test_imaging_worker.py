@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 
 from app.core.progress import Cancelled, Progress
 from app.imaging.errors import FileDamagedError, WorkerError, WorkerLostError
-from app.imaging.examining import examine
 from app.imaging.filling import filled
 from app.imaging.header import Plane, SliceHeader
+from app.imaging.header_reading import file_headers
 from app.imaging.worker import limits, service
 from app.imaging.worker.answers import lost as lost_error
 from app.imaging.worker.luggage import Luggage, LuggageError, opened
 from app.imaging.worker.pool import ImagingWorker
-from app.imaging.worker.service import examine_files
+from app.imaging.worker.service import read_headers
 from app.imaging.worker.values import ForeignValueError, plain, reader
 from tests.imaging.dicom_factory import Slices
 
@@ -40,7 +40,7 @@ def hostile():
 
 def reasons(worker, *names):
     paths = [Path("/nowhere", name) for name in names]
-    return [found.reason for found in examine_files(paths, Progress(), worker)]
+    return [found.reason for found in read_headers(paths, Progress(), worker)]
 
 
 @pytest.mark.parametrize(
@@ -82,7 +82,7 @@ def test_a_file_that_never_comes_is_given_up_too(hostile, monkeypatch):
 def test_a_long_job_that_tells_how_far_it_is_is_not_given_up_and_shows_it(hostile):
     told = []
     progress = Progress(lambda fraction, text: told.append((fraction, text)))
-    (found,) = examine_files([Path("/nowhere/slow")], progress, hostile)
+    (found,) = read_headers([Path("/nowhere/slow")], progress, hostile)
     assert found.reason == "read slow"
     assert (0.5, "step 5") in told
 
@@ -90,7 +90,7 @@ def test_a_long_job_that_tells_how_far_it_is_is_not_given_up_and_shows_it(hostil
 def test_a_file_that_takes_long_is_told_to_whoever_waits(hostile):
     told = []
     progress = Progress(lambda fraction, text: told.append(text))
-    examine_files([Path("/nowhere", name) for name in ("a", "hang")], progress, hostile)
+    read_headers([Path("/nowhere", name) for name in ("a", "hang")], progress, hostile)
     assert "2 of 2: 1 s so far" in told
 
 
@@ -120,7 +120,7 @@ def test_a_cancelled_task_leaves_no_child_behind(hostile):
     progress = Progress()
     threading.Timer(1.0, progress.cancel).start()
     with pytest.raises(Cancelled):
-        examine_files([Path("/nowhere/hang")], progress, hostile)
+        read_headers([Path("/nowhere/hang")], progress, hostile)
     assert hostile._idle == []
     assert reasons(hostile, "a") == ["read a"]
 
@@ -167,7 +167,7 @@ def test_the_child_ends_when_the_program_is_gone():
 
 def test_the_child_goes_first_where_the_machine_runs_out_of_memory():
     worker = ImagingWorker(1)
-    examine_files([Path("/nowhere/file")], Progress(), worker)
+    read_headers([Path("/nowhere/file")], Progress(), worker)
     pid = worker._idle[0]._process.pid
     assert Path(f"/proc/{pid}/oom_score_adj").read_text().strip() == "800"
     worker.close()
@@ -231,15 +231,15 @@ def test_whoever_waits_for_a_child_is_told_and_may_cancel(hostile):
         time.sleep(0.01)
     progress = Progress(lambda _, text: (told.append(text), progress.cancel()))
     with pytest.raises(Cancelled):
-        examine_files([Path("/nowhere/a")], progress, hostile)
+        read_headers([Path("/nowhere/a")], progress, hostile)
     first.join()
     assert told[0].startswith("waiting until other files are read")
 
 
 def test_headers_come_through_the_process_as_they_are(tmp_path):
     for path in Slices().write(tmp_path):
-        (here,) = examine(path)
-        (there,) = examine_files([path], Progress())[0]
+        (here,) = file_headers(path)
+        (there,) = read_headers([path], Progress())[0]
         assert there == here
 
 
@@ -292,7 +292,7 @@ def test_memory_that_its_maker_could_still_shrink_is_refused(tmp_path):
 
 def test_a_file_swapped_after_the_scan_is_not_read(tmp_path):
     path = Slices().write(tmp_path)[0]
-    (header,) = examine(path)
+    (header,) = file_headers(path)
     path.write_bytes(path.read_bytes() + b"\0\0")
     with pytest.raises(FileDamagedError, match="has changed since"):
         filled([header], np.dtype(np.int16))
@@ -300,14 +300,14 @@ def test_a_file_swapped_after_the_scan_is_not_read(tmp_path):
 
 def test_a_file_removed_after_the_scan_is_named(tmp_path):
     path = Slices().write(tmp_path)[0]
-    (header,) = examine(path)
+    (header,) = file_headers(path)
     path.unlink()
     with pytest.raises(FileDamagedError, match=rf"{path.name} cannot be read: No such file"):
         filled([header], np.dtype(np.int16))
 
 
 def test_a_slice_that_breaks_its_reader_ends_the_load_by_name(tmp_path, monkeypatch):
-    (header,) = examine(Slices().write(tmp_path)[0])
+    (header,) = file_headers(Slices().write(tmp_path)[0])
     encoded: SliceHeader = replace(
         header, pixels=replace(header.pixels, syntax="1.2.840.10008.1.2.5")
     )

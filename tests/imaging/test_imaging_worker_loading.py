@@ -7,14 +7,14 @@ import pydicom
 import pytest
 
 from app.core.progress import Progress
-from app.imaging import examining
-from app.imaging.element_walk import OddError
-from app.imaging.examining import headers_in
+from app.imaging import header_reading
+from app.imaging.element_reading import NotStandardError
 from app.imaging.filling import filled
+from app.imaging.header_reading import headers_in
 from app.imaging.scanning import scan_folder
 from app.imaging.worker import service
 from app.imaging.worker.pool import ImagingWorker
-from app.imaging.worker.service import examine_files, load_decoders
+from app.imaging.worker.service import load_decoders, read_headers
 from tests.imaging.dicom_factory import Slices
 
 
@@ -57,7 +57,7 @@ def test_a_file_that_needs_pydicom_is_not_charged_for_loading_it(tmp_path, monke
     """The program counts a file's processor time anew from each sign of progress."""
     file = tmp_path / "file"
     file.write_bytes(bytes(128) + b"DICM" + bytes(300))
-    monkeypatch.delitem(sys.modules, "app.imaging.odd_elements", raising=False)
+    monkeypatch.delitem(sys.modules, "app.imaging.enhanced", raising=False)
     told = []
     headers_in(file, tmp_path, Progress(lambda fraction, text: told.append(text)))
     assert told == ["pydicom is loaded"]
@@ -68,8 +68,8 @@ def test_a_file_that_needs_pydicom_is_not_charged_for_loading_it(tmp_path, monke
 def test_an_odd_file_is_left_alone_where_only_sound_ones_are_asked_for(tmp_path):
     file = tmp_path / "file"
     file.write_bytes(bytes(128) + b"DICM" + bytes(300))
-    with pytest.raises(OddError):
-        examining.examine(file, sound=True)
+    with pytest.raises(NotStandardError):
+        header_reading.file_headers(file, without_pydicom=True)
 
 
 def test_odd_and_sound_files_of_one_folder_are_both_read(tmp_path):
@@ -80,6 +80,6 @@ def test_odd_and_sound_files_of_one_folder_are_both_read(tmp_path):
         data.file_meta.TransferSyntaxUID = pydicom.uid.ExplicitVRBigEndian
         data.PixelData = data.pixel_array.astype(data.pixel_array.dtype.newbyteorder(">")).tobytes()
         pydicom.dcmwrite(file, data, implicit_vr=False, little_endian=False)
-    found = examine_files([*sound, *odd], Progress())
+    found = read_headers([*sound, *odd], Progress())
     planes = [headers[0].plane for headers in found]
     assert planes[: len(sound)] == planes[len(sound) :]

@@ -12,7 +12,7 @@ import numpy as np
 
 from app.core.progress import Progress
 from app.imaging.errors import brief
-from app.imaging.examining import starts_like_dicom
+from app.imaging.header_reading import starts_like_dicom
 from app.imaging.series import Series
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra

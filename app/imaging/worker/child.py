@@ -21,7 +21,7 @@ from app.imaging.worker.values import Convert, reader
 
 READY = "ready"
 
-_AT_START = ("app.imaging.examining:headers_in",)
+_AT_START = ("app.imaging.header_reading:headers_in",)
 """Imported before the child is ready: every folder needs it."""
 
 

@@ -34,8 +34,8 @@ class Job(Generic[Result]):
     gives: Any
 
 
-EXAMINE: Job[tuple[SliceHeader, ...] | Ignored] = Job(
-    "app.imaging.examining:headers_in", tuple[SliceHeader, ...] | Ignored
+READ_HEADERS: Job[tuple[SliceHeader, ...] | Ignored] = Job(
+    "app.imaging.header_reading:headers_in", tuple[SliceHeader, ...] | Ignored
 )
 LOAD_DECODERS: Job[None] = Job("app.imaging.rescaling:load_decoders", None)
 FILL: Job[None] = Job("app.imaging.rescaling:fill", None)

@@ -16,7 +16,7 @@ from app.imaging.header import SliceHeader
 from app.imaging.pixel_data import DECODERS, RLE
 from app.imaging.privacy.key import installation_key
 from app.imaging.series import Ignored
-from app.imaging.worker.jobs import EXAMINE, FILL, LOAD_DECODERS, Task
+from app.imaging.worker.jobs import FILL, LOAD_DECODERS, READ_HEADERS, Task
 from app.imaging.worker.limits import Allowance, for_file, size_of
 from app.imaging.worker.pool import ImagingWorker, shared_worker
 
@@ -26,7 +26,7 @@ a third of a second of JPEG-LS, more than one of JPEG 2000."""
 
 _LOADING = Allowance(60.0)
 
-Examined = tuple[SliceHeader, ...] | Ignored
+FileHeaders = tuple[SliceHeader, ...] | Ignored
 
 
 def load_decoders(progress: Progress, worker: ImagingWorker | None = None) -> None:
@@ -44,9 +44,9 @@ def load_decoders(progress: Progress, worker: ImagingWorker | None = None) -> No
     (worker or shared_worker()).call(LOAD_DECODERS, (), _LOADING, progress)
 
 
-def examine_files(
+def read_headers(
     paths: Sequence[Path], progress: Progress, worker: ImagingWorker | None = None
-) -> list[Examined]:
+) -> list[FileHeaders]:
     """Read the headers of files in the worker process.
 
     Args:
@@ -66,18 +66,18 @@ def examine_files(
     installation_key()  # what is wrong with it is told here, not once for each file
     settings = paths_of_user.settings().absolute()
     tasks = [
-        Task.of(EXAMINE, (os.path.abspath(path), settings), for_file(size_of(path)))
+        Task.of(READ_HEADERS, (os.path.abspath(path), settings), for_file(size_of(path)))
         for path in paths
     ]
-    found: list[Examined] = [Ignored(path, "not examined") for path in paths]
+    found: list[FileHeaders] = [Ignored(path, "not examined") for path in paths]
     with closing((worker or shared_worker()).run(tasks, progress)) as run:
         for done, (number, outcome) in enumerate(run, 1):
-            found[number] = _examined(paths[number], outcome)
+            found[number] = _headers_or_reason(paths[number], outcome)
             progress.report(done / len(paths), f"{done} of {len(paths)} files")
     return found
 
 
-def _examined(path: Path, outcome: Any) -> Examined:
+def _headers_or_reason(path: Path, outcome: Any) -> FileHeaders:
     """Headers or why not, with the program's own name of the file, whatever came back."""
     if isinstance(outcome, Exception):
         return Ignored(path, str(outcome))
