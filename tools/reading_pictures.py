@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from app.imaging.structures.edit import brushed
-from app.imaging.structures.structure import Kind, Structure
+from app.imaging.structures.structure import Structure, StructureKind
 from app.imaging.window import WindowLevel
 from app.planning.measurements import Angle, Distance, Probe, Region
 from app.views.plan.feature import PlanFeature
@@ -46,12 +46,12 @@ def structures(studio: Studio) -> None:
     desk.brush.set(low=250.0, high=3000.0)
     desk.threshold()
     wait(lambda: len(desk.book.structures) == 1)
-    desk.book.change(desk.book.structures.structures[0].name, name="Bones", kind=Kind.BONE,
+    desk.book.change(desk.book.structures.structures[0].name, name="Bones", kind=StructureKind.BONE,
                      warn_mm=2.0)  # fmt: skip
-    _paint(studio, "Lesion", [target], 9.0, Kind.TARGET, 0.0)
+    _paint(studio, "Lesion", [target], 9.0, StructureKind.TARGET, 0.0)
     along = np.linspace(-30.0, 30.0, 31)[:, None] * np.array([0.55, 0.35, 0.75])
     _paint(studio, "Hepatic vein", 0.4 * entry + 0.6 * target + [13.0, 4.0, 0.0] + along, 4.0,
-           Kind.VESSEL, 10.0)  # fmt: skip
+           StructureKind.VESSEL, 10.0)  # fmt: skip
     wait(lambda: desk.is_settled)
     window.workspace.side.setCurrentIndex(window.workspace.side.count() - 1)
     window.workspace.show_layout("1+3")
@@ -60,7 +60,12 @@ def structures(studio: Studio) -> None:
 
 
 def _paint(
-    studio: Studio, name: str, dabs: Sequence[np.ndarray], radius: float, kind: Kind, warn: float
+    studio: Studio,
+    name: str,
+    dabs: Sequence[np.ndarray],
+    radius: float,
+    kind: StructureKind,
+    warn: float,
 ) -> None:
     book = studio.window.editors.structures
     painted: Structure | None = None

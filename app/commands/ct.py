@@ -11,8 +11,8 @@ from app.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
     from app.core.progress import Progress
-    from app.imaging.library import Entry, Imported
-    from app.imaging.privacy.burned_in import Box
+    from app.imaging.library import Imported, LibraryEntry
+    from app.imaging.privacy.burned_in import MaskBox
     from app.imaging.series import Listing, Remedy, Series
     from app.imaging.volume import Volume
 
@@ -209,7 +209,7 @@ def _imported_lines(imported: "Imported") -> list[str]:
     return [head, *(f"  {line}" for line in imported.report.lines()), f"  {entry.folder}"]
 
 
-def _entry(entry: "Entry") -> dict[str, Any]:
+def _entry(entry: "LibraryEntry") -> dict[str, Any]:
     return {
         "name": entry.name,
         "label": entry.label,
@@ -233,7 +233,7 @@ def remedy_of(text: str | None) -> "Remedy":
     return Remedy.NONE if text is None else Remedy(text)
 
 
-def boxes_of(masks: list[str] | None) -> list["Box"]:
+def boxes_of(masks: list[str] | None) -> list["MaskBox"]:
     """Read the boxes of `--mask`.
 
     Raises:
@@ -242,8 +242,8 @@ def boxes_of(masks: list[str] | None) -> list["Box"]:
     return [_box(text) for text in masks or ()]
 
 
-def _box(text: str) -> "Box":
-    from app.imaging.privacy.burned_in import Box
+def _box(text: str) -> "MaskBox":
+    from app.imaging.privacy.burned_in import MaskBox
 
     try:
         numbers = [int(part) for part in text.split(",")]
@@ -254,7 +254,7 @@ def _box(text: str) -> "Box":
             f"--mask {text!r} is not COL,ROW,WIDTH,HEIGHT or COL,ROW,WIDTH,HEIGHT,PICTURE: four or "
             "five whole numbers, no blanks"
         )
-    return Box(*numbers)
+    return MaskBox(*numbers)
 
 
 def _voxel(

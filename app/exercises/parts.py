@@ -19,7 +19,7 @@ NotNegative = Annotated[float, Field(ge=0.0)]
 KILOPASCAL = 1e3
 
 
-class View(StrEnum):
+class ViewName(StrEnum):
     """What an exercise shows beside the CT."""
 
     LIVE_OVERLAY = "live_overlay"
@@ -38,11 +38,11 @@ class View(StrEnum):
 
 TELLING = frozenset(
     {
-        View.LIVE_OVERLAY,
-        View.BULLSEYE,
-        View.CAMERAS,
-        View.FORCE_GAUGE,
-        View.TARGET_MOTION,
+        ViewName.LIVE_OVERLAY,
+        ViewName.BULLSEYE,
+        ViewName.CAMERAS,
+        ViewName.FORCE_GAUGE,
+        ViewName.TARGET_MOTION,
     }
 )
 """Views that tell where the needle or its target is now: none of them where control scans guide."""

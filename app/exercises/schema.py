@@ -23,7 +23,7 @@ from app.exercises.parts import (
     PlanChoice,
     PlanPoints,
     StructurePart,
-    View,
+    ViewName,
 )
 from app.exercises.reading import ReadingPart
 from app.planning.placement import Placement
@@ -93,7 +93,7 @@ class Exercise(Strict):
     purpose: Purpose = Purpose.PRACTICE
     guidance: GuidancePart = GuidancePart()
     reading: ReadingPart = ReadingPart()
-    views: tuple[View, ...] = (View.LIVE_OVERLAY, View.BULLSEYE, View.THREE_D)
+    views: tuple[ViewName, ...] = (ViewName.LIVE_OVERLAY, ViewName.BULLSEYE, ViewName.THREE_D)
     locks: tuple[Lock, ...] | None = None
     hand: HandName | None = None
     seed: Annotated[int, Field(ge=0)] = 1
@@ -162,7 +162,7 @@ class Exercise(Strict):
         return GuidanceMode.CONTROL_CT if self.purpose is Purpose.ASSESSMENT else GuidanceMode.LIVE
 
     @property
-    def shown_views(self) -> tuple[View, ...]:
+    def shown_views(self) -> tuple[ViewName, ...]:
         """Views that show something: with control scans alone, none that tells of the needle."""
         if self.guidance_mode is GuidanceMode.LIVE:
             return self.views
@@ -175,9 +175,9 @@ class Exercise(Strict):
             return EVERY_LOCK
         return frozenset(self.locks or ())
 
-    def showing(self, views: Collection[View]) -> Exercise:
+    def showing(self, views: Collection[ViewName]) -> Exercise:
         """Return the exercise with other views."""
-        return self.model_copy(update={"views": tuple(view for view in View if view in views)})
+        return self.model_copy(update={"views": tuple(view for view in ViewName if view in views)})
 
     def placed_as(self, placement: Placement) -> Exercise:
         """Return the exercise with the patient placed otherwise."""

@@ -56,7 +56,7 @@ def find_bead(volume: Volume, near_mm: ArrayLike, diameter_mm: float) -> Bead:
         raise OutsideImageError(f"the point {_text(click)} lies outside the CT: click a slice")
     search = 1.5 * diameter_mm + float(volume.spacing_mm.max())
     reach = 0.5 * diameter_mm + 1.5 * float(volume.spacing_mm.max())
-    box = _Box.around(volume, click, search + reach + 0.5 * diameter_mm)
+    box = _Crop.around(volume, click, search + reach + 0.5 * diameter_mm)
     distance = np.linalg.norm(box.points - click, axis=-1)
     background = float(np.median(box.hu))
     near = np.where(distance <= search, box.hu, -np.inf)
@@ -76,7 +76,7 @@ def find_bead(volume: Volume, near_mm: ArrayLike, diameter_mm: float) -> Bead:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Box:
+class _Crop:
     """Part of a volume: values (k, j, i), patient points (k, j, i, 3) [mm], volume of a voxel."""
 
     hu: FloatArray
@@ -85,7 +85,7 @@ class _Box:
     clipped: bool
 
     @classmethod
-    def around(cls, volume: Volume, centre_mm: FloatArray, radius_mm: float) -> "_Box":
+    def around(cls, volume: Volume, centre_mm: FloatArray, radius_mm: float) -> "_Crop":
         middle, half = volume.voxel(centre_mm), radius_mm * volume.voxels_per_mm
         wanted = np.floor(middle - half), np.ceil(middle + half) + 1
         low = np.maximum(wanted[0], 0).astype(int)
@@ -98,7 +98,7 @@ class _Box:
         return cls(hu.astype(np.float64), volume.lps_mm(grid), size, clipped)
 
 
-def _diameter(box: _Box, seed: tuple[Any, ...], level: float) -> float:
+def _diameter(box: _Crop, seed: tuple[Any, ...], level: float) -> float:
     """Diameter [mm] of a ball as large as the part above `level` that holds the seed."""
     from scipy.ndimage import label
 
@@ -116,7 +116,7 @@ def _require_size(found: float, wanted: float, voxel: float, at: FloatArray) -> 
         )
 
 
-def _centroid(box: _Box, start: FloatArray, background: float, reach: float) -> FloatArray:
+def _centroid(box: _Crop, start: FloatArray, background: float, reach: float) -> FloatArray:
     centre = start
     for _ in range(_STEPS):
         weight = np.where(np.linalg.norm(box.points - centre, axis=-1) <= reach, box.hu, background)

@@ -13,7 +13,7 @@ from app.imaging.series import Series
 if TYPE_CHECKING:
     from app.imaging.library import Imported
     from app.imaging.pacs.taking import Fetched
-    from app.imaging.privacy.burned_in import Box
+    from app.imaging.privacy.burned_in import MaskBox
     from app.imaging.privacy.pictures import Pictures
 
 
@@ -30,7 +30,7 @@ class Candidate:
     """
 
     series: Series
-    take: Callable[[Sequence[Box], Progress], Imported]
+    take: Callable[[Sequence[MaskBox], Progress], Imported]
     give_up: Callable[[], object]
     keeper: object = None
     pictures: Pictures | None = None
@@ -39,7 +39,7 @@ class Candidate:
 def of_folder(series: Series, keeper: object) -> Candidate:
     """Candidate of a series that was found on this computer."""
 
-    def take(boxes: Sequence[Box], progress: Progress) -> Any:
+    def take(boxes: Sequence[MaskBox], progress: Progress) -> Any:
         with ONE_AT_A_TIME:
             from app.imaging.library import CtLibrary
         return CtLibrary().import_series(series, boxes, progress, series.remedy)
@@ -50,7 +50,7 @@ def of_folder(series: Series, keeper: object) -> Candidate:
 def of_pacs(fetched: Fetched) -> Candidate:
     """Candidate of a series that was retrieved."""
 
-    def take(boxes: Sequence[Box], progress: Progress) -> Any:
+    def take(boxes: Sequence[MaskBox], progress: Progress) -> Any:
         with ONE_AT_A_TIME:
             from app.imaging.library import CtLibrary
             from app.imaging.pacs.taking import keep

@@ -15,7 +15,7 @@ from pydicom.dataset import Dataset
 
 from app.imaging.elements import check_orientation
 from app.imaging.errors import FileDamagedError, brief
-from app.imaging.header import MULTI_FRAME, Plane, Rescale, SliceHeader
+from app.imaging.header import MULTI_FRAME, ImagePlane, Rescale, SliceHeader
 
 _SHARED, _EACH, _REAL_WORLD = 0x52009229, 0x52009230, 0x00409096
 _MOST_FRAMES = 1 << 16
@@ -101,7 +101,7 @@ def _frame(file: SliceHeader, number: int, group: _Group) -> SliceHeader:
     )
 
 
-def _plane(group: _Group) -> Plane | None:
+def _plane(group: _Group) -> ImagePlane | None:
     position = group.numbers("PlanePositionSequence", "ImagePositionPatient", 3)
     orientation = group.numbers("PlaneOrientationSequence", "ImageOrientationPatient", 6)
     spacing = group.numbers("PixelMeasuresSequence", "PixelSpacing", 2)
@@ -110,7 +110,7 @@ def _plane(group: _Group) -> Plane | None:
     if min(spacing) <= 0.0:
         raise FileDamagedError(f"PixelSpacing is {spacing}; both must be above zero")
     check_orientation(orientation)
-    return Plane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
+    return ImagePlane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
 
 
 def _rescale(file: SliceHeader, group: _Group) -> tuple[Rescale | None, str]:

@@ -35,7 +35,7 @@ class Identity:
 
 
 @dataclass(frozen=True, slots=True)
-class Plane:
+class ImagePlane:
     """Where the pixels of one file lie in the patient (DICOM PS3.3 C.7.6.2).
 
     Attributes:
@@ -75,7 +75,7 @@ class SliceHeader:
     path: Path
     identity: Identity
     format: PixelFormat
-    plane: Plane | None
+    plane: ImagePlane | None
     rescale: Rescale | None
     windows: tuple[tuple[float, float], ...]
     pixels: PixelData

@@ -13,7 +13,7 @@ from app.imaging import elements
 from app.imaging.element_reading import PREAMBLE, NotStandardError, read_elements
 from app.imaging.elements import TAG_LIST, TAGS, Elements
 from app.imaging.errors import FileDamagedError
-from app.imaging.header import MULTI_FRAME, Identity, Plane, Rescale, SliceHeader
+from app.imaging.header import MULTI_FRAME, Identity, ImagePlane, Rescale, SliceHeader
 from app.imaging.pixel_data import PixelFormat
 from app.imaging.pixel_finding import find_pixels
 from app.imaging.privacy.known_words import body_parts, is_kernel
@@ -243,7 +243,7 @@ def _range(a: int, b: int) -> tuple[int, int]:
     return min(a, b), max(a, b)
 
 
-def _plane(header: Elements) -> Plane | None:
+def _plane(header: Elements) -> ImagePlane | None:
     def get(name: str, count: int) -> tuple[float, ...]:
         return elements.numbers(header, TAGS[name], name, count)
 
@@ -255,7 +255,7 @@ def _plane(header: Elements) -> Plane | None:
     if min(spacing) <= 0.0:
         raise FileDamagedError(f"PixelSpacing is {spacing}; both must be above zero")
     elements.check_orientation(orientation)
-    return Plane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
+    return ImagePlane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
 
 
 def _rescale(header: Elements) -> Rescale | None:

@@ -27,9 +27,9 @@ from app.imaging.errors import (
     SeriesRefusedError,
     SeriesUnknownError,
 )
-from app.imaging.privacy.burned_in import Box
+from app.imaging.privacy.burned_in import MaskBox
 from app.imaging.privacy.deidentified import LOCK, Deidentified
-from app.imaging.privacy.report import Report
+from app.imaging.privacy.report import RemovalReport
 from app.imaging.reading import offer
 from app.imaging.scanning import scan_folder
 from app.imaging.series import Remedy, Series
@@ -145,7 +145,7 @@ _COPIES = 6
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class LibraryEntry:
     """One CT of the library.
 
     Attributes:
@@ -153,7 +153,7 @@ class Entry:
         folder: to be opened like any other.
         label: series number, body part, kernel.
         files: how many.
-        report: what was removed, as `Report.document` gives it.
+        report: what was removed, as `RemovalReport.document` gives it.
         remedy: what must be asked for to open it; NONE for one that opens as it is.
     """
 
@@ -177,8 +177,8 @@ class Imported:
         given: images of this series that were given.
     """
 
-    entry: Entry
-    report: Report
+    entry: LibraryEntry
+    report: RemovalReport
     again: bool
     before: int = 0
     given: int = 0
@@ -211,7 +211,7 @@ class CtLibrary:
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = folder or paths.data() / "ct"
 
-    def entries(self) -> tuple[Entry, ...]:
+    def entries(self) -> tuple[LibraryEntry, ...]:
         """List every CT, by name."""
         self.sweep()
         if not self.folder.is_dir():
@@ -219,7 +219,7 @@ class CtLibrary:
         found = (_entry(path) for path in sorted(self.folder.iterdir()) if path.is_dir())
         return tuple(entry for entry in found if entry is not None)
 
-    def find(self, name: str) -> Entry:
+    def find(self, name: str) -> LibraryEntry:
         """Entry of a name.
 
         Raises:
@@ -247,7 +247,7 @@ class CtLibrary:
     def import_series(
         self,
         series: Series,
-        boxes: Sequence[Box] = (),
+        boxes: Sequence[MaskBox] = (),
         progress: Progress | None = None,
         remedy: Remedy = Remedy.NONE,
     ) -> Imported:
@@ -328,7 +328,7 @@ def _found_in(folder: Path) -> tuple[Images, str]:
 
 
 def _fill(
-    folder: Path, series: Series, boxes: Sequence[Box], remedy: Remedy, progress: Progress
+    folder: Path, series: Series, boxes: Sequence[MaskBox], remedy: Remedy, progress: Progress
 ) -> tuple[Deidentified, Images]:
     """Have every file written and verified by the worker process, and say what it is about."""
     headers = {header.path: header for header in series.slices}.values()
@@ -354,11 +354,13 @@ def _fill(
     return made, images
 
 
-def _entry(folder: Path) -> Entry | None:
+def _entry(folder: Path) -> LibraryEntry | None:
     try:
         about = json.loads((folder / _ABOUT).read_text(encoding="utf-8"))
         count = sum(1 for _ in folder.glob("*.dcm"))
         remedy = Remedy(about.get("remedy", Remedy.NONE.value))
-        return Entry(folder.name, folder, str(about["label"]), count, dict(about["report"]), remedy)
+        return LibraryEntry(
+            folder.name, folder, str(about["label"]), count, dict(about["report"]), remedy
+        )
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return None

@@ -8,11 +8,11 @@ import numpy as np
 from app.core.progress import Progress
 from app.imaging import stack
 from app.imaging.acquisitions import Group, split
-from app.imaging.header import Plane, Point, SliceHeader
+from app.imaging.header import ImagePlane, Point, SliceHeader
 from app.imaging.nifti import find_nifti
 from app.imaging.series import Ignored, Listing, Remedy, Series
 from app.imaging.sources import is_nifti, open_source
-from app.imaging.suitability import Verdict, is_mr, judge
+from app.imaging.suitability import Suitability, is_mr, judge
 from app.imaging.worker.pool import shared_worker
 from app.imaging.worker.service import read_headers
 
@@ -69,7 +69,9 @@ def _series(group: Group, root: Path) -> Series:
     return _described(headers, grid, group, verdict)
 
 
-def _described(headers: list[SliceHeader], grid: "_Grid", group: Group, verdict: Verdict) -> Series:
+def _described(
+    headers: list[SliceHeader], grid: "_Grid", group: Group, verdict: Suitability
+) -> Series:
     first = headers[0]
     part = group.part.replace("-", " ")
     return Series(
@@ -125,7 +127,7 @@ class _Grid:
     direction: tuple[float, ...] | None = None
 
 
-def _grid(plane: Plane, slices: stack.Stack) -> _Grid:
+def _grid(plane: ImagePlane, slices: stack.Stack) -> _Grid:
     between = float(np.linalg.norm(slices.affine_mm[:3, 2]))
     spacing = (plane.pixel_spacing_mm[1], plane.pixel_spacing_mm[0], between)
     at_one_place = slices.gaps_mm.sum() < stack.TOLERANCE_MM

@@ -210,7 +210,7 @@ _NIFTI_ENDINGS = (".nii", ".nii.gz")
 
 
 @dataclass(slots=True)
-class Source:
+class SeriesSource:
     """Files to look at.
 
     Attributes:
@@ -228,7 +228,7 @@ class Source:
     keeper: Any = None
 
 
-def open_source(path: Path, progress: Progress) -> Source:
+def open_source(path: Path, progress: Progress) -> SeriesSource:
     """Find the files that a path stands for.
 
     Args:
@@ -253,7 +253,7 @@ def open_source(path: Path, progress: Progress) -> Source:
     if _DIRECTORY_CLASS in head:
         return _directory(path, progress)
     if head[128:132] == b"DICM" or is_nifti(path):
-        return Source(path, path.parent, [path])
+        return SeriesSource(path, path.parent, [path])
     raise FolderError(
         f"{path} is a file, and no DICOM, DICOMDIR, NIfTI or zip file; name the folder it is in"
     )
@@ -274,7 +274,7 @@ def _head(path: Path) -> bytes:
         return stream.read(_HEAD)
 
 
-def _folder(root: Path, progress: Progress) -> Source:
+def _folder(root: Path, progress: Progress) -> SeriesSource:
     try:
         os.scandir(root).close()
     except FileNotFoundError:
@@ -283,7 +283,7 @@ def _folder(root: Path, progress: Progress) -> Source:
         raise FolderError(f"{root} is no folder; name one with DICOM files") from None
     except (OSError, ValueError) as error:
         raise FolderError(f"{root} cannot be read: {why(error)}") from error
-    source = Source(root, root)
+    source = SeriesSource(root, root)
     source.files.extend(_walk(root, source.ignored, progress))
     return source
 
@@ -300,8 +300,8 @@ def _walk(root: Path, ignored: list[Ignored], progress: Progress) -> Iterator[Pa
         yield from (Path(folder, name) for name in sorted(names))
 
 
-def _unpacked(path: Path, archive: Any, progress: Progress) -> Source:
-    source = Source(path, archive.root, ignored=list(archive.ignored), keeper=archive)
+def _unpacked(path: Path, archive: Any, progress: Progress) -> SeriesSource:
+    source = SeriesSource(path, archive.root, ignored=list(archive.ignored), keeper=archive)
     source.files.extend(_walk(archive.root, source.ignored, progress.part(0.5, 0.5)))
     return source
 
@@ -309,10 +309,10 @@ def _unpacked(path: Path, archive: Any, progress: Progress) -> Source:
 # --- DICOMDIR
 
 
-def _directory(path: Path, progress: Progress) -> Source:
+def _directory(path: Path, progress: Progress) -> SeriesSource:
     """Files that a DICOMDIR, and those it names in turn, name; what is not there is said."""
     root = path.parent
-    source = Source(path, root)
+    source = SeriesSource(path, root)
     waiting, seen = [path], {path}
     while waiting:
         directory = waiting.pop(0)

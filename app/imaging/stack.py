@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen
-from app.imaging.header import Plane
+from app.imaging.header import ImagePlane
 
 TOLERANCE_MM: Final = 0.01
 """How far a voxel of a grid may lie from where its own file puts it, anywhere in the picture."""
@@ -65,7 +65,7 @@ class Stack:
         return angle if angle > TILT_DEG and drift > 2.0 * TOLERANCE_MM else 0.0
 
 
-def plane_affine(plane: Plane, step: FloatArray) -> FloatArray:
+def plane_affine(plane: ImagePlane, step: FloatArray) -> FloatArray:
     """Affine (i, j, k) -> LPS [mm] of a plane and the vector from one slice to the next, (4, 4).
 
     Column index times PixelSpacing[1] runs along IOP[0:3], row index times PixelSpacing[0] along
@@ -79,12 +79,12 @@ def plane_affine(plane: Plane, step: FloatArray) -> FloatArray:
     return frozen(affine, (4, 4), "affine")
 
 
-def normal(plane: Plane) -> FloatArray:
+def normal(plane: ImagePlane) -> FloatArray:
     """Slice normal: cross product of the row and column directions, unit vector, shape (3,)."""
     return _unit(np.cross(plane.orientation[:3], plane.orientation[3:]))
 
 
-def stack(planes: Sequence[Plane], size: tuple[int, int] = (1, 1)) -> Stack:
+def stack(planes: Sequence[ImagePlane], size: tuple[int, int] = (1, 1)) -> Stack:
     """Sort planes along the normal of the first, and fit one grid to them.
 
     Args:
@@ -106,7 +106,7 @@ def stack(planes: Sequence[Plane], size: tuple[int, int] = (1, 1)) -> Stack:
     return Stack(tuple(int(i) for i in order), positions[order], best, off, turned_mm)
 
 
-def _end_to_end(ordered: Sequence[Plane]) -> FloatArray:
+def _end_to_end(ordered: Sequence[ImagePlane]) -> FloatArray:
     """Grid from the first slice with the mean step: exact for a stack that is even."""
     first, last = ordered[0], ordered[-1]
     step = normal(first)
@@ -116,7 +116,7 @@ def _end_to_end(ordered: Sequence[Plane]) -> FloatArray:
     return plane_affine(first, step)
 
 
-def _fitted(ordered: Sequence[Plane]) -> FloatArray:
+def _fitted(ordered: Sequence[ImagePlane]) -> FloatArray:
     """Grid that spreads the rounding of many slices: least squares, then centred."""
     each = _affines(ordered)
     number = np.arange(len(ordered), dtype=np.float64)
@@ -134,13 +134,13 @@ def _pixels(size: tuple[int, int]) -> FloatArray:
     return np.array([(i, j, 0.0, 1.0) for i in (0, columns) for j in (0, rows)], np.float64)
 
 
-def _corners(ordered: Sequence[Plane], size: tuple[int, int]) -> FloatArray:
+def _corners(ordered: Sequence[ImagePlane], size: tuple[int, int]) -> FloatArray:
     """Where the files put the corners of their pictures, shape (K, 4, 3)."""
     corners: FloatArray = np.einsum("kab,cb->kca", _affines(ordered), _pixels(size))
     return corners
 
 
-def _affines(ordered: Sequence[Plane]) -> FloatArray:
+def _affines(ordered: Sequence[ImagePlane]) -> FloatArray:
     """Affine of each plane but for the step to the next, shape (K, 3, 4)."""
     axes = np.array([plane.orientation for plane in ordered]).reshape(-1, 2, 3)
     down_across = np.array([plane.pixel_spacing_mm for plane in ordered])
@@ -158,7 +158,7 @@ def _off(affine: FloatArray, corners: FloatArray, size: tuple[int, int]) -> Floa
     return distance
 
 
-def same_plane(a: Plane, b: Plane) -> bool:
+def same_plane(a: ImagePlane, b: ImagePlane) -> bool:
     """Whether two planes may belong to one stack: the same direction and pixel spacing."""
     if a.orientation == b.orientation and a.pixel_spacing_mm == b.pixel_spacing_mm:
         return True
@@ -167,7 +167,7 @@ def same_plane(a: Plane, b: Plane) -> bool:
     return bool(max(turn, scale) <= SAME_DIRECTION)
 
 
-def mixed(planes: Sequence[Plane]) -> str:
+def mixed(planes: Sequence[ImagePlane]) -> str:
     """Why planes cannot share one stack: another orientation or pixel spacing; "" if they can."""
     first = planes[0]
     for plane in planes:

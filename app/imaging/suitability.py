@@ -25,7 +25,7 @@ Headers = Sequence[SliceHeader]
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class Suitability:
     """What came of looking at a group.
 
     Attributes:
@@ -41,7 +41,7 @@ class Verdict:
     tilt_deg: float = 0.0
 
 
-def judge(group: Group, root: Path) -> Verdict:
+def judge(group: Group, root: Path) -> Suitability:
     """Whether these images make a volume.
 
     Args:
@@ -51,18 +51,18 @@ def judge(group: Group, root: Path) -> Verdict:
     headers = group.headers
     for wrong in _JUDGES:
         if reason := wrong(headers, root):
-            return Verdict(reason, notes=group.notes)
+            return Suitability(reason, notes=group.notes)
     slices = _stack(headers)
     tilt = slices.tilt_deg
     names = _Names(headers, slices.order, root)
     if reason := stack.doubled(slices, names) or stack.turned(slices, names):
-        return Verdict(reason, notes=group.notes, tilt_deg=tilt)
+        return Suitability(reason, notes=group.notes, tilt_deg=tilt)
     notes = (*group.notes, *_notes(headers, tilt), *_gap_notes(headers, slices))
     if reason := stack.irregular(slices, names):
-        return Verdict(reason, Remedy.RESAMPLE, notes, tilt)
+        return Suitability(reason, Remedy.RESAMPLE, notes, tilt)
     if reason := memory.need(headers).reason:
-        return Verdict(reason, Remedy.HALVE, notes, tilt)
-    return Verdict("", Remedy.STRAIGHTEN if tilt else Remedy.NONE, notes, tilt)
+        return Suitability(reason, Remedy.HALVE, notes, tilt)
+    return Suitability("", Remedy.STRAIGHTEN if tilt else Remedy.NONE, notes, tilt)
 
 
 class _Names(Sequence[str]):

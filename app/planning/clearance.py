@@ -26,7 +26,7 @@ class Nearness(StrEnum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Clearance:
+class PathClearance:
     """Distance of a line from one structure.
 
     Attributes:
@@ -66,7 +66,7 @@ def clearances(
     end_mm: ArrayLike,
     fields: Iterable[Field],
     beyond_mm: float | None = None,
-) -> tuple[Clearance, ...]:
+) -> tuple[PathClearance, ...]:
     """Distances of a line from all structures, in their order.
 
     Args:
@@ -81,11 +81,11 @@ def clearances(
         within = np.inf if beyond_mm is None else structure.warn_mm + beyond_mm
         nearest = field.along(start_mm, end_mm, within)
         where = (nearest.distance_mm, nearest.at_mm, nearest.depth_mm, nearest.through_mm)
-        found.append(Clearance(structure, *where, field.boundary.accuracy_mm))
+        found.append(PathClearance(structure, *where, field.boundary.accuracy_mm))
     return tuple(found)
 
 
-def worst(found: Iterable[Clearance]) -> Clearance | None:
+def worst(found: Iterable[PathClearance]) -> PathClearance | None:
     """Return the one to warn of: the deepest hit, else the nearest; None where all is free."""
     warned = [one for one in found if one.nearness is not Nearness.FREE]
     return min(warned, key=lambda one: one.distance_mm, default=None)

@@ -12,7 +12,7 @@ DEPTH = 200
 
 
 @dataclass(frozen=True, slots=True)
-class History(Generic[V]):
+class UndoHistory(Generic[V]):
     """The present value between those that can be undone and redone.
 
     Attributes:
@@ -25,13 +25,13 @@ class History(Generic[V]):
     past: tuple[V, ...] = ()
     future: tuple[V, ...] = ()
 
-    def do(self, value: V) -> History[V]:
+    def do(self, value: V) -> UndoHistory[V]:
         """Make `value` the present; what could be redone is forgotten. Equal values add no step."""
         if value == self.present:
             return self
-        return History(value, (*self.past, self.present)[-DEPTH:])
+        return UndoHistory(value, (*self.past, self.present)[-DEPTH:])
 
-    def amend(self, value: V) -> History[V]:
+    def amend(self, value: V) -> UndoHistory[V]:
         """Replace the present without a new step: the moves of one drag are one step."""
         return replace(self, present=value, future=())
 
@@ -45,14 +45,14 @@ class History(Generic[V]):
         """Whether there is something to go forward to."""
         return bool(self.future)
 
-    def undo(self) -> History[V]:
+    def undo(self) -> UndoHistory[V]:
         """Go one step back; at the beginning, the same history."""
         if not self.past:
             return self
-        return History(self.past[-1], self.past[:-1], (self.present, *self.future))
+        return UndoHistory(self.past[-1], self.past[:-1], (self.present, *self.future))
 
-    def redo(self) -> History[V]:
+    def redo(self) -> UndoHistory[V]:
         """Go one step forward; at the end, the same history."""
         if not self.future:
             return self
-        return History(self.future[0], (*self.past, self.present), self.future[1:])
+        return UndoHistory(self.future[0], (*self.past, self.present), self.future[1:])

@@ -35,7 +35,7 @@ CHUNK = 256
 """Paths are scored so many at a time; between two chunks one may cancel."""
 
 
-class Block(StrEnum):
+class PathObstacle(StrEnum):
     """Why a path must not be."""
 
     NONE = "free"
@@ -76,7 +76,7 @@ class PathScores:
         target_mm: shape (3,).
         entries_mm: shape (n, 3).
         score: 0 to 100, the higher the better; NaN where blocked.
-        block: one of `Block` for each, as its number in `tuple(Block)`.
+        block: one of `PathObstacle` for each, as its number in `tuple(Block)`.
         length_mm: of the paths.
         angle_deg: between path and the skin's normal, 0 is straight in.
         bone_mm: length through bone.
@@ -106,9 +106,9 @@ class PathScores:
         result: NDArray[np.bool_] = self.block == 0
         return result
 
-    def why(self, number: int) -> Block:
+    def why(self, number: int) -> PathObstacle:
         """Why a path is blocked."""
-        return tuple(Block)[int(self.block[number])]
+        return tuple(PathObstacle)[int(self.block[number])]
 
 
 def score_paths(
@@ -172,9 +172,9 @@ def _chunk(
     angle = np.arccos(cosine) / DEGREE
     block = np.zeros(count, np.intp)
     longest = min(weights.longest_mm, limits.depth_limit / MILLIMETRE)
-    _mark(block, (length > longest) | (length < 1.0), Block.LONG)
-    _mark(block, angle > weights.flattest_deg, Block.FLAT)
-    _mark(block, ~_reached(way, block == 0, placement, limits), Block.REACH)
+    _mark(block, (length > longest) | (length < 1.0), PathObstacle.LONG)
+    _mark(block, angle > weights.flattest_deg, PathObstacle.FLAT)
+    _mark(block, ~_reached(way, block == 0, placement, limits), PathObstacle.REACH)
     bone, air = np.zeros(count), np.zeros(count)
     nearest, which = np.full(count, np.inf), np.full(count, -1, np.intp)
     worst = np.zeros(count)
@@ -196,9 +196,9 @@ def _chunk(
             which[left[closer]] = number
             room = structure.warn_mm + weights.free_mm
             worst[left] = np.maximum(worst[left], np.clip(1.0 - least / room, 0.0, 1.0))
-        _mark(block, air > 2.0, Block.AIR)
-        _mark(block, bone > weights.most_bone_mm, Block.BONE)
-        _mark(block, nearest <= 0.0, Block.STRUCTURE)
+        _mark(block, air > 2.0, PathObstacle.AIR)
+        _mark(block, bone > weights.most_bone_mm, PathObstacle.BONE)
+        _mark(block, nearest <= 0.0, PathObstacle.STRUCTURE)
     cost = (
         weights.length * np.clip(length / longest, 0.0, 1.0)
         + weights.angle * np.clip(angle / weights.flattest_deg, 0.0, 1.0)
@@ -209,9 +209,9 @@ def _chunk(
     return score, block, length, angle, bone, nearest, which
 
 
-def _mark(block: NDArray[np.intp], bad: NDArray[np.bool_], why: Block) -> None:
+def _mark(block: NDArray[np.intp], bad: NDArray[np.bool_], why: PathObstacle) -> None:
     """Block what is bad and not blocked already."""
-    block[bad & (block == 0)] = tuple(Block).index(why)
+    block[bad & (block == 0)] = tuple(PathObstacle).index(why)
 
 
 def _reached(

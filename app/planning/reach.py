@@ -73,7 +73,7 @@ _GRID = 2.0 * DEGREE
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Remedy:
+class PatientTurn:
     """A way to turn the patient that brings the path within reach, 2° inside the limits.
 
     Attributes:
@@ -95,14 +95,14 @@ class Remedy:
         return float(np.linalg.norm(self.rotation_vector))
 
 
-def find_remedy(placed: PlacedPlan, limits: ReachLimits) -> Remedy | None:
+def find_remedy(placed: PlacedPlan, limits: ReachLimits) -> PatientTurn | None:
     """Return the smallest rotation that makes the direction of the path reachable, or None."""
     direction = nearest_direction(placed.axis, limits)
     if direction is None:
         return None
     rotation_vector = smallest_turn(placed.axis, direction)
     orientation = _best_orientation(placed, limits)
-    return Remedy(
+    return PatientTurn(
         rotation_vector=read_only(rotation_vector),
         placement=placed.placement.turned(rotation_vector),
         orientation=orientation,
@@ -198,7 +198,7 @@ class Obstacle(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Reason:
+class ReachReason:
     """One reason why a path is out of reach.
 
     Attributes:
@@ -230,8 +230,8 @@ class Reach:
     reachable: bool
     tilt: float
     depth: float
-    reasons: tuple[Reason, ...]
-    remedy: Remedy | None
+    reasons: tuple[ReachReason, ...]
+    remedy: PatientTurn | None
     placed: PlacedPlan
 
     def message(self) -> str:
@@ -270,7 +270,7 @@ def reach_within(plan: Plan, placement: Placement, limits: ReachLimits) -> Reach
     )
 
 
-def _direction_reasons(axis: FloatArray, limits: ReachLimits) -> tuple[Reason, ...]:
+def _direction_reasons(axis: FloatArray, limits: ReachLimits) -> tuple[ReachReason, ...]:
     tilt, limit = tilt_of(axis) / DEGREE, limits.tilt_limit / DEGREE
     point = limits.tool_point(axis)
     if point is None:
@@ -278,21 +278,21 @@ def _direction_reasons(axis: FloatArray, limits: ReachLimits) -> tuple[Reason, .
         text = (
             f"the path runs {way}; the needle enters from above, at most {limit:g}° from vertical"
         )
-        return (Reason(Obstacle.UPWARD, text),)
+        return (ReachReason(Obstacle.UPWARD, text),)
     if tilt_of(axis) > limits.tilt_limit + 1e-9:
-        return (Reason(Obstacle.TILT, f"tilt {tilt:.1f}° exceeds {limit:g}°"),)
+        return (ReachReason(Obstacle.TILT, f"tilt {tilt:.1f}° exceeds {limit:g}°"),)
     if not limits.in_workspace(*point):
         x, y = (value / MILLIMETRE for value in point)
         text = f"tool point ({x:.1f}, {y:.1f}) mm lies outside the robot's workspace"
-        return (Reason(Obstacle.WORKSPACE, text),)
+        return (ReachReason(Obstacle.WORKSPACE, text),)
     return ()
 
 
-def _depth_reasons(depth: float, limits: ReachLimits) -> tuple[Reason, ...]:
+def _depth_reasons(depth: float, limits: ReachLimits) -> tuple[ReachReason, ...]:
     if depth <= limits.depth_limit + 1e-9:
         return ()
     text = (
         f"depth {depth / MILLIMETRE:.1f} mm exceeds {limits.depth_limit / MILLIMETRE:g} mm; "
         "no rotation shortens a path: choose an entry closer to the target"
     )
-    return (Reason(Obstacle.DEPTH, text),)
+    return (ReachReason(Obstacle.DEPTH, text),)

@@ -18,7 +18,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray, read_only
 from app.device.state import DeviceState
 from app.exercises.guidance import GuidanceMode
-from app.exercises.parts import TELLING, View
+from app.exercises.parts import TELLING, ViewName
 from app.exercises.schema import Exercise
 from app.planning.off_path import NOWHERE
 from app.planning.placement import PlacedPlan
@@ -66,7 +66,7 @@ class Shown:
     """
 
     live: bool = True
-    views: frozenset[View] = frozenset(View)
+    views: frozenset[ViewName] = frozenset(ViewName)
 
     @classmethod
     def of_exercise(cls, exercise: Exercise) -> Shown:
@@ -74,7 +74,7 @@ class Shown:
         live = exercise.guidance_mode is GuidanceMode.LIVE
         return cls(live, frozenset(exercise.shown_views))
 
-    def shows(self, view: View) -> bool:
+    def shows(self, view: ViewName) -> bool:
         """Whether this view is on."""
         return view in self.views and (self.live or view not in TELLING)
 
@@ -84,7 +84,7 @@ class Shown:
         """
         if not self.live:
             return without_needle(snapshot)
-        if self.shows(View.TARGET_MOTION) or not (snapshot.p_target != placed.p_target).any():
+        if self.shows(ViewName.TARGET_MOTION) or not (snapshot.p_target != placed.p_target).any():
             return snapshot
         still = offset(snapshot.pose, placed.p_target, placed)
         return replace(snapshot, p_target=placed.p_target, offset=still)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from app.exercises.guidance import GuidancePart
-from app.exercises.parts import EffectPart, LawPart, LayerPart, PlacementPart, View
+from app.exercises.parts import EffectPart, LawPart, LayerPart, PlacementPart, ViewName
 from app.exercises.reading import ReadingPart
 from app.exercises.schema import Exercise
 from app.scoring.defaults import DEFAULT_TOLERANCES
@@ -41,7 +41,7 @@ def test_the_fields_of_layers_and_effects_are_named(model: type) -> None:
 
 
 def test_every_view_and_effect_is_named() -> None:
-    assert all(f"`{view.value}`" in PAGE for view in View)
+    assert all(f"`{view.value}`" in PAGE for view in ViewName)
     assert first_cells("### Effects") <= set(effect_names())
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from app.core.errors import ConfigurationError
 from app.exercises.library import read_exercise
-from app.exercises.parts import View
+from app.exercises.parts import ViewName
 from app.exercises.schema import Exercise
 from app.imaging.series import Remedy
 from app.planning.placement import PatientOrientation
@@ -97,7 +97,7 @@ seed: 9
     assert exercise.effects["lateral_tissue"].parameters == {}
     assert exercise.layers[0].thickness == pytest.approx(0.002)
     assert exercise.layers[0].side_stiffness == pytest.approx(50e3)
-    assert exercise.views == (View.FORCE_GAUGE,)
+    assert exercise.views == (ViewName.FORCE_GAUGE,)
     assert exercise.tolerances["angle_error"].knots == (1.0, 2.0, 3.0, 9.0)
 
 

@@ -8,7 +8,7 @@ import pytest
 from app.exercises.errors import ExerciseError
 from app.exercises.guidance import GuidanceMode, Purpose
 from app.exercises.library import load_exercise
-from app.exercises.parts import TELLING, View
+from app.exercises.parts import TELLING, ViewName
 from app.exercises.scene import device_of, draft_of, plan_of
 from app.exercises.schema import Exercise
 from app.imaging.phantom import anatomy
@@ -103,8 +103,8 @@ def test_assessments_guide_by_control_scans_and_show_nothing_live() -> None:
     practice = load_exercise("first-insertion")
     asked = practice.model_copy(update={"purpose": Purpose.ASSESSMENT})
     assert asked.guidance_mode is GuidanceMode.CONTROL_CT
-    assert View.LIVE_OVERLAY in practice.shown_views
-    assert View.LIVE_OVERLAY not in asked.shown_views
+    assert ViewName.LIVE_OVERLAY in practice.shown_views
+    assert ViewName.LIVE_OVERLAY not in asked.shown_views
 
 
 def test_an_entry_can_be_found_for_the_exercise_without_one() -> None:

@@ -26,8 +26,8 @@ from app.imaging.pacs.settings import PacsSettings
 from app.imaging.reading import choose, load_ct, read_series
 from app.imaging.scanning import scan_folder
 from app.imaging.structures.files import read_structures, write_structures
-from app.imaging.structures.structure import Kind as Meaning
 from app.imaging.structures.structure import Structure, StructureSet
+from app.imaging.structures.structure import StructureKind as Meaning
 from app.imaging.volume import Volume
 from tests.fuzz.documents import documents
 from tests.fuzz.seeds import MIDDLE, OFFSETS, SHAPE, Seed, seeds

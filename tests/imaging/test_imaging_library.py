@@ -15,7 +15,7 @@ from app.imaging.library import CtLibrary, ImportFailedError
 from app.imaging.pacs.client import Pacs
 from app.imaging.pacs.incoming import Incoming
 from app.imaging.pacs.taking import RemedyWantedError, take
-from app.imaging.privacy.burned_in import Box
+from app.imaging.privacy.burned_in import MaskBox
 from app.imaging.reading import load_ct
 from app.imaging.scanning import scan_folder
 from app.imaging.series import Remedy
@@ -82,9 +82,9 @@ def test_other_images_of_a_series_are_refused_with_what_lies_there(whole):
 def test_a_masked_part_does_not_replace_the_whole(whole):
     full = taken(whole)
     with pytest.raises(ImportFailedError, match="2 of those there are not given"):
-        taken(part(whole, "part", (0, 1, 2)), boxes=[Box(2, 3, 4, 5)])
+        taken(part(whole, "part", (0, 1, 2)), boxes=[MaskBox(2, 3, 4, 5)])
     assert CtLibrary().entries() == (full.entry,)
-    assert not taken(whole, boxes=[Box(2, 3, 4, 5)]).again
+    assert not taken(whole, boxes=[MaskBox(2, 3, 4, 5)]).again
 
 
 def test_an_entry_that_does_not_list_its_images_is_looked_at(whole):

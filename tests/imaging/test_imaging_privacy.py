@@ -23,7 +23,7 @@ from app.imaging import library as library_module
 from app.imaging.errors import FileDamagedError, SeriesUnknownError
 from app.imaging.library import CtLibrary, ImportFailedError
 from app.imaging.privacy import dates, verify
-from app.imaging.privacy.burned_in import Box
+from app.imaging.privacy.burned_in import MaskBox
 from app.imaging.privacy.deidentifying import deidentify_series
 from app.imaging.privacy.errors import BurnedInError, KeyDamagedError, NotCleanError
 from app.imaging.privacy.forms import fits
@@ -258,7 +258,7 @@ def test_writing_in_the_picture_is_refused_and_blackened_only_where_drawn(tmp_pa
     with pytest.raises(BurnedInError, match="--mask"):
         CtLibrary().import_series(series)
     assert CtLibrary().entries() == ()
-    imported = CtLibrary().import_series(series, [Box(2, 3, 4, 5)])
+    imported = CtLibrary().import_series(series, [MaskBox(2, 3, 4, 5)])
     before, after = read_series(series).hu, load_ct(imported.entry.folder).hu
     inside = np.zeros(before.shape, bool)
     inside[:, 3:8, 2:6] = True
@@ -267,33 +267,33 @@ def test_writing_in_the_picture_is_refused_and_blackened_only_where_drawn(tmp_pa
         assert (after[k][inside[k]] == before[k].min()).all()
     assert imported.report.masked == 5
     with pytest.raises(BurnedInError, match="outside the picture"):
-        CtLibrary().import_series(series, [Box(100, 3, 4, 5)])
+        CtLibrary().import_series(series, [MaskBox(100, 3, 4, 5)])
 
 
 def test_a_box_of_one_picture_leaves_the_others_alone(tmp_path):
     series = series_of(tmp_path / "in")
     before = read_series(series).hu
-    imported = CtLibrary().import_series(series, [Box(2, 3, 4, 5, picture=2)])
+    imported = CtLibrary().import_series(series, [MaskBox(2, 3, 4, 5, picture=2)])
     after = load_ct(imported.entry.folder).hu
     assert imported.report.masked == 1
     changed = (before != after).any(axis=(1, 2))
     assert changed.tolist() == [False, True, False, False, False]
     assert (after[1, 3:8, 2:6] == before[1].min()).all()
     with pytest.raises(BurnedInError, match="no picture 6: the series has 5"):
-        CtLibrary().import_series(series, [Box(2, 3, 4, 5, picture=6)])
+        CtLibrary().import_series(series, [MaskBox(2, 3, 4, 5, picture=6)])
 
 
 def test_pictures_that_say_they_carry_writing_need_boxes_each(tmp_path):
     series = series_of(tmp_path / "in", BurnedInAnnotation="YES")
     with pytest.raises(BurnedInError, match="file 1 of 5"):
-        CtLibrary().import_series(series, [Box(2, 3, 4, 5, picture=2)])
+        CtLibrary().import_series(series, [MaskBox(2, 3, 4, 5, picture=2)])
     assert CtLibrary().entries() == ()
 
 
 def test_a_copy_without_boxes_is_replaced_by_one_with_boxes_and_not_the_other_way(tmp_path):
     series = series_of(tmp_path / "in")
     plain = CtLibrary().import_series(series)
-    masked = CtLibrary().import_series(series, [Box(2, 3, 4, 5)])
+    masked = CtLibrary().import_series(series, [MaskBox(2, 3, 4, 5)])
     assert not masked.again
     assert masked.entry.name == plain.entry.name
     again = CtLibrary().import_series(series)
@@ -359,7 +359,7 @@ def test_a_head_is_warned_for_where_only_the_files_texts_tell_and_they_are_not_q
 )
 def test_makers_pictures_of_screens_and_reports_are_refused_boxes_or_not(tmp_path, tags):
     series = series_of(tmp_path / "in", **tags)
-    for boxes in ((), (Box(0, 0, 2, 2),)):
+    for boxes in ((), (MaskBox(0, 0, 2, 2),)):
         with pytest.raises(BurnedInError) as refused:
             CtLibrary().import_series(series, boxes)
         assert "4" not in str(refused.value).removeprefix("file 1 of 5")

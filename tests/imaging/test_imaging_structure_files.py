@@ -24,7 +24,7 @@ from app.imaging.structures.errors import (
 )
 from app.imaging.structures.files import read_structures, write_structures
 from app.imaging.structures.seg_nrrd import read_nrrd
-from app.imaging.structures.structure import Kind, Structure, StructureSet
+from app.imaging.structures.structure import Structure, StructureKind, StructureSet
 from app.imaging.volume import Volume
 from tests.imaging.dicom_factory import Slices, oblique
 
@@ -47,8 +47,8 @@ def two(volume: Volume) -> StructureSet:
     first[3:5, 9:12, 10:20] = False
     second[5:9, 10:25, 20:36] = True  # overlaps the first
     return StructureSet((
-        Structure.of("aorta", first, volume, Kind.VESSEL, (255, 10, 20), 4.5),
-        Structure.of("lesion", second, volume, Kind.TARGET, (20, 200, 90)),
+        Structure.of("aorta", first, volume, StructureKind.VESSEL, (255, 10, 20), 4.5),
+        Structure.of("lesion", second, volume, StructureKind.TARGET, (20, 200, 90)),
     ))  # fmt: skip
 
 

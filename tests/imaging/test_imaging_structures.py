@@ -10,7 +10,7 @@ from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.errors import FrameOfReferenceError, StructureError
 from app.imaging.structures.placing import Found, Labelled, guessed_kind, place
 from app.imaging.structures.rtstruct import even_odd
-from app.imaging.structures.structure import Kind, Structure, StructureSet, cropped
+from app.imaging.structures.structure import Structure, StructureKind, StructureSet, cropped
 from app.imaging.volume import Volume
 
 FRAME = "2.25.77"
@@ -50,7 +50,7 @@ def middle(volume):
 def test_a_structure_keeps_its_box_and_gives_its_mask_back():
     volume = made()
     mask = ball(volume, middle(volume), 9.0)
-    one = Structure.of("ball", mask, volume, Kind.RISK)
+    one = Structure.of("ball", mask, volume, StructureKind.RISK)
     assert one.mask.size < mask.size / 5
     assert np.array_equal(one.full(volume.hu.shape), mask)
     assert one.millilitres == pytest.approx(4 / 3 * np.pi * 0.9**3, rel=0.05)
@@ -251,7 +251,7 @@ def test_a_grid_that_differs_only_in_the_order_of_its_axes_is_taken_voxel_for_vo
     placed = placed_on([Labelled("lesion", other, swapped)], FRAME, volume)
     one = placed.find("lesion")
     assert np.array_equal(one.full(volume.hu.shape), mask)
-    assert one.kind is Kind.TARGET
+    assert one.kind is StructureKind.TARGET
     assert placed.notes == ()
 
 
@@ -294,9 +294,9 @@ def test_a_vessel_thinner_than_the_voxels_is_not_lost():
 
 
 def test_kinds_are_guessed_from_names():
-    assert guessed_kind("Aorta abdominalis") is Kind.VESSEL
-    assert guessed_kind("left_rib 7") is Kind.BONE
-    assert guessed_kind("GTV") is Kind.TARGET
-    assert guessed_kind("Right lung") is Kind.RISK
-    assert guessed_kind("thing") is Kind.OTHER
-    assert guessed_kind("spinal cord") is Kind.RISK
+    assert guessed_kind("Aorta abdominalis") is StructureKind.VESSEL
+    assert guessed_kind("left_rib 7") is StructureKind.BONE
+    assert guessed_kind("GTV") is StructureKind.TARGET
+    assert guessed_kind("Right lung") is StructureKind.RISK
+    assert guessed_kind("thing") is StructureKind.OTHER
+    assert guessed_kind("spinal cord") is StructureKind.RISK

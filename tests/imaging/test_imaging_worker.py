@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from app.core.progress import Cancelled, Progress
 from app.imaging.errors import FileDamagedError, WorkerError, WorkerLostError
 from app.imaging.filling import filled
-from app.imaging.header import Plane, SliceHeader
+from app.imaging.header import ImagePlane, SliceHeader
 from app.imaging.header_reading import file_headers
 from app.imaging.worker import limits, service
 from app.imaging.worker.answers import lost as lost_error
-from app.imaging.worker.luggage import Luggage, LuggageError, opened
+from app.imaging.worker.attachments import Attachments, AttachmentsError, opened
 from app.imaging.worker.pool import ImagingWorker
 from app.imaging.worker.service import read_headers
 from app.imaging.worker.values import ForeignValueError, plain, reader
@@ -246,19 +246,20 @@ def test_headers_come_through_the_process_as_they_are(tmp_path):
 @pytest.mark.parametrize("spoilt", [[], "text", None, [1, 2], [[1.0, 2.0, "3"], [0.0] * 6, [1, 1]]])
 def test_a_value_of_the_wrong_type_is_refused(spoilt):
     with pytest.raises(ForeignValueError):
-        reader(Plane)(spoilt)
+        reader(ImagePlane)(spoilt)
 
 
 def test_values_keep_their_types():
-    plane = Plane((1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0), (0.5, 0.5))
-    assert reader(Plane | None)(plain(plane)) == plane
-    assert reader(Plane | None)(None) is None
+    plane = ImagePlane((1.0, 2.0, 3.0), (1.0, 0.0, 0.0, 0.0, 1.0, 0.0), (0.5, 0.5))
+    assert reader(ImagePlane | None)(plain(plane)) == plane
+    assert reader(ImagePlane | None)(None) is None
 
 
 def test_arrays_travel_beside_the_message_and_cannot_be_changed_on_the_way():
-    luggage, values = Luggage(), (np.arange(7, dtype=np.int16), np.eye(3), np.zeros((0, 4), bool))
-    message = plain(values, luggage)
-    descriptor = luggage.descriptor()
+    attachments = Attachments()
+    values = (np.arange(7, dtype=np.int16), np.eye(3), np.zeros((0, 4), bool))
+    message = plain(values, attachments)
+    descriptor = attachments.descriptor()
     kept = os.dup(descriptor)
     found = reader(tuple[NDArray[np.int16], NDArray[np.float64], NDArray[np.bool_]])(
         opened(message, descriptor)
@@ -277,16 +278,16 @@ def test_arrays_travel_beside_the_message_and_cannot_be_changed_on_the_way():
     [["<i2", [8], 0], ["<i2", [7], 2], ["<i2", [-1], 0], ["O", [1], 0], [7], None, ["<i2", 3, 0]],
 )
 def test_an_array_that_does_not_lie_in_its_memory_is_refused(where):
-    luggage = Luggage()
-    luggage.add(np.arange(7, dtype=np.int16))
-    with pytest.raises(LuggageError):
-        opened([{"array": where}], luggage.descriptor())
+    attachments = Attachments()
+    attachments.add(np.arange(7, dtype=np.int16))
+    with pytest.raises(AttachmentsError):
+        opened([{"array": where}], attachments.descriptor())
 
 
 def test_memory_that_its_maker_could_still_shrink_is_refused(tmp_path):
     file = os.open(tmp_path / "plain", os.O_RDWR | os.O_CREAT)
     os.ftruncate(file, 100)
-    with pytest.raises(LuggageError):
+    with pytest.raises(AttachmentsError):
         opened([{"array": ["<i2", [7], 0]}], file)
 
 

@@ -10,11 +10,11 @@ from app.imaging.errors import InvalidEntryError
 from app.imaging.series import Series
 from app.imaging.skin import skin_points
 from app.imaging.structures.distance import SignedDistance
-from app.imaging.structures.structure import Kind, Structure
+from app.imaging.structures.structure import Structure, StructureKind
 from app.imaging.volume import Volume
 from app.planning.clearance import Nearness, clearances, worst
 from app.planning.limits import ReachLimits
-from app.planning.paths import Block, best, score_paths
+from app.planning.paths import PathObstacle, best, score_paths
 from app.planning.placement import PatientOrientation, Placement
 
 RADIUS = 60.0
@@ -83,7 +83,7 @@ def test_paths_out_of_reach_or_too_long_are_blocked_with_their_reason(body, skin
     limits = ReachLimits(np.zeros(3), 30.0 * DEGREE, 0.08, lambda x, y: True)
     scores = score_paths(TARGET, skin, body, [], Placement(), limits)
     far = int(np.argmax(scores.length_mm))
-    assert scores.why(far) is Block.LONG
+    assert scores.why(far) is PathObstacle.LONG
     for number in np.flatnonzero(scores.length_mm < 80.0):
         way = TARGET - scores.entries_mm[number]
         tilt = np.arccos(way[1] / np.linalg.norm(way))  # straight down is posterior
@@ -101,18 +101,18 @@ def test_bone_blocks_and_a_structure_keeps_paths_away(skin):
     body = find_body(Volume(hu, volume.affine_mm, volume.series))
     scores = score_paths(TARGET, skin, body, [], Placement(), LIMITS)
     ahead = np.linalg.norm(skin.points_mm - [0.0, -RADIUS, 0.0], axis=1) < 6.0
-    assert {scores.why(n) for n in np.flatnonzero(ahead)} == {Block.BONE}
+    assert {scores.why(n) for n in np.flatnonzero(ahead)} == {PathObstacle.BONE}
     assert (scores.bone_mm[ahead] > 3.0).all()
 
     mask = np.zeros(volume.hu.shape, bool)
     mask[26:34, 22:26, 38:42] = True
-    vessel = Structure.of("vessel", mask, volume, Kind.VESSEL)
+    vessel = Structure.of("vessel", mask, volume, StructureKind.VESSEL)
     field = (vessel, SignedDistance.of(vessel))
     plain = find_body(volume)
     without = score_paths(TARGET, skin, plain, [], Placement(), LIMITS)
     scores = score_paths(TARGET, skin, plain, [field], Placement(), LIMITS)
     assert scores.names == ("vessel",)
-    assert {scores.why(n) for n in np.flatnonzero(ahead)} == {Block.STRUCTURE}
+    assert {scores.why(n) for n in np.flatnonzero(ahead)} == {PathObstacle.STRUCTURE}
     both = scores.free & without.free
     assert (scores.score[both] <= 100.0).all()
     for number in np.flatnonzero(scores.free)[::17]:
@@ -124,7 +124,7 @@ def test_a_structure_that_may_be_met_changes_nothing(body, skin):
     volume = body.volume
     mask = np.zeros(volume.hu.shape, bool)
     mask[26:34, 22:26, 38:42] = True
-    lesion = Structure.of("lesion", mask, volume, Kind.TARGET)
+    lesion = Structure.of("lesion", mask, volume, StructureKind.TARGET)
     field = (lesion, SignedDistance.of(lesion))
     with_it = score_paths(TARGET, skin, body, [field], Placement(), LIMITS)
     without = score_paths(TARGET, skin, body, [], Placement(), LIMITS)

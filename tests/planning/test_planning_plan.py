@@ -3,7 +3,7 @@ import pytest
 
 from app.planning.draft import DraftPlan
 from app.planning.errors import PlanError
-from app.planning.history import DEPTH, History
+from app.planning.history import DEPTH, UndoHistory
 from app.planning.plan import Plan
 
 ENTRY, TARGET = (10.0, -90.0, 300.0), (4.0, -31.5, 296.0)
@@ -97,7 +97,7 @@ def test_a_draft_refuses_a_point_that_is_not_finite() -> None:
 
 def test_undo_and_redo_walk_the_same_values() -> None:
     drafts = [DraftPlan(), DraftPlan(ENTRY), DraftPlan(ENTRY, TARGET)]
-    history = History(drafts[0]).do(drafts[1]).do(drafts[2])
+    history = UndoHistory(drafts[0]).do(drafts[1]).do(drafts[2])
     assert history.undo().present == drafts[1]
     assert history.undo().undo().present == drafts[0]
     assert history.undo().undo().redo().redo() == history
@@ -107,13 +107,13 @@ def test_undo_and_redo_walk_the_same_values() -> None:
 
 
 def test_a_new_step_forgets_what_could_be_redone() -> None:
-    history = History(1).do(2).undo().do(3)
+    history = UndoHistory(1).do(2).undo().do(3)
     assert history.present == 3
     assert not history.can_redo
 
 
 def test_the_moves_of_a_drag_are_one_step() -> None:
-    history = History(1).do(2)
+    history = UndoHistory(1).do(2)
     for value in (3, 4, 5):
         history = history.amend(value)
     assert history.present == 5
@@ -121,8 +121,8 @@ def test_the_moves_of_a_drag_are_one_step() -> None:
 
 
 def test_an_equal_value_adds_no_step_and_old_steps_are_forgotten() -> None:
-    assert not History(1).do(1).can_undo
-    history = History(0)
+    assert not UndoHistory(1).do(1).can_undo
+    history = UndoHistory(0)
     for value in range(1, DEPTH + 50):
         history = history.do(value)
     assert len(history.past) == DEPTH

@@ -23,7 +23,7 @@ from app.imaging.library import CtLibrary
 from app.imaging.pacs.client import Pacs
 from app.imaging.pacs.query import Query
 from app.imaging.pacs.settings import keep
-from app.imaging.privacy.burned_in import Box
+from app.imaging.privacy.burned_in import MaskBox
 from app.imaging.reading import load_ct
 from app.imaging.scanning import scan_folder
 from app.views.series.library_import import LibraryImport
@@ -117,12 +117,12 @@ def test_boxes_drawn_with_the_mouse_do_what_the_command_line_does(desk, tmp_path
         return QPoint(round(frame.left() + scale[0] * column), round(frame.top() + scale[1] * row))
 
     drag(dialog.canvas, at(10.4, 5.4), at(19.6, 9.6))
-    assert dialog.boxes == (Box(10, 5, 10, 5),)
+    assert dialog.boxes == (MaskBox(10, 5, 10, 5),)
     dialog.slider.setValue(2)
     dialog.scope.setCurrentIndex(1)
     drag(dialog.canvas, at(30.4, 20.4), at(30.4, 20.4))  # a click, no box
     drag(dialog.canvas, at(30.4, 20.4), at(500.0, 25.6))  # beyond the edge
-    assert dialog.boxes == (Box(10, 5, 10, 5), Box(30, 20, 30, 6, picture=2))
+    assert dialog.boxes == (MaskBox(10, 5, 10, 5), MaskBox(30, 20, 30, 6, picture=2))
     drag(dialog.canvas, at(1.0, 1.0), at(9.0, 9.0))
     dialog.undo()
     dialog.clear()

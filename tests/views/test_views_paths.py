@@ -8,7 +8,7 @@ import pytest
 import app.imaging.skin as skin
 from app.core.arrays import frozen
 from app.planning.draft import DraftPlan
-from app.planning.paths import Block, PathScores, best
+from app.planning.paths import PathObstacle, PathScores, best
 from app.planning.patient import Patient
 from app.views.plan.paths import PathsFeature, PathsPanel
 
@@ -20,7 +20,7 @@ def scores(values, blocked=()):
     """Paths of these scores from entries 20 mm apart."""
     count = len(values)
     block = np.zeros(count, np.intp)
-    block[list(blocked)] = tuple(Block).index(Block.BONE)
+    block[list(blocked)] = tuple(PathObstacle).index(PathObstacle.BONE)
     score = np.array(values, float)
     score[list(blocked)] = np.nan
     entries = np.array([(20.0 * n, -18.0, 140.0) for n in range(count)]).reshape(count, 3)

@@ -13,7 +13,7 @@ from app.compose.declared_views import declared_views
 from app.exercises.guidance import GuidanceMode, GuidancePart
 from app.exercises.library import load_exercise
 from app.exercises.locks import Lock
-from app.exercises.parts import TELLING, View
+from app.exercises.parts import TELLING, ViewName
 from app.exercises.scene import CONTROL_SCAN, compile_exercise, device_of
 from app.exercises.schema import Exercise
 from app.session.curves import offset
@@ -62,17 +62,17 @@ def shows(window, patient, settle):
 
 def both(view):
     """Views with and without this one."""
-    return frozenset(View), frozenset(View) - {view}
+    return frozenset(ViewName), frozenset(ViewName) - {view}
 
 
 def test_the_needle_is_on_the_slices_by_live_overlay(shows):
-    on, off = both(View.LIVE_OVERLAY)
+    on, off = both(ViewName.LIVE_OVERLAY)
     assert shows(on).workspace.viewing.needle is not None
     assert shows(off).workspace.viewing.needle is None
 
 
 def test_the_bullseye_is_empty_without_its_view_and_says_no_offset(shows):
-    on, off = both(View.BULLSEYE)
+    on, off = both(ViewName.BULLSEYE)
     window = shows(on)
     panel, pad = window.workspace.exercise_panel, window.workspace.bullseye
     assert pad.depth_bar.isVisible()
@@ -88,15 +88,15 @@ def test_the_bullseye_is_empty_without_its_view_and_says_no_offset(shows):
 
 
 def test_the_bullseyes_cell_is_gone_where_nothing_would_be_in_it(shows):
-    window = shows(frozenset({View.THREE_D}), interactive=False)
+    window = shows(frozenset({ViewName.THREE_D}), interactive=False)
     assert not window.workspace.has_bullseye
     window.view_menu.bullseye.trigger()
     assert not window.workspace.has_bullseye
-    assert shows(frozenset({View.FORCE_GAUGE}), interactive=False).workspace.has_bullseye
+    assert shows(frozenset({ViewName.FORCE_GAUGE}), interactive=False).workspace.has_bullseye
 
 
 def test_the_3d_pane_says_that_it_is_off_and_draws_nothing(shows, settle):
-    on, off = both(View.THREE_D)
+    on, off = both(ViewName.THREE_D)
     scene = shows(on).workspace.scene
     assert scene.off == ""
     window = shows(off)
@@ -111,7 +111,7 @@ def test_the_3d_pane_says_that_it_is_off_and_draws_nothing(shows, settle):
 
 
 def test_camera_pictures_are_not_even_asked_for_without_their_view(shows):
-    on, off = both(View.CAMERAS)
+    on, off = both(ViewName.CAMERAS)
     assert shows(on).asked
     window = shows(off)
     assert not window.asked
@@ -120,7 +120,7 @@ def test_camera_pictures_are_not_even_asked_for_without_their_view(shows):
 
 
 def test_the_force_along_the_needle_is_read_at_arms_length(shows):
-    on, off = both(View.FORCE_GAUGE)
+    on, off = both(ViewName.FORCE_GAUGE)
     window = shows(on)
     gauge = window.workspace.needle_cell.gauge
     assert gauge.isVisible()
@@ -132,7 +132,7 @@ def test_the_force_along_the_needle_is_read_at_arms_length(shows):
 
 
 def test_the_target_moves_on_slices_and_in_every_number_only_where_its_motion_is_shown(shows):
-    on, off = both(View.TARGET_MOTION)
+    on, off = both(ViewName.TARGET_MOTION)
     window = shows(on)
     viewing, run = window.workspace.viewing, window.conductor.controller.run
     moved = np.asarray(viewing.shown_draft.target_mm) - viewing.draft.target_mm
@@ -151,10 +151,10 @@ def test_the_target_moves_on_slices_and_in_every_number_only_where_its_motion_is
 
 
 def test_where_scans_guide_nothing_that_tells_is_on_whatever_the_exercise_lists():
-    exercise = load_exercise("scans-only").showing(frozenset(View))
+    exercise = load_exercise("scans-only").showing(frozenset(ViewName))
     shown = Shown.of_exercise(exercise)
     assert not any(shown.shows(view) for view in TELLING)
-    assert shown.shows(View.THREE_D)
+    assert shown.shows(ViewName.THREE_D)
 
 
 # --- switched by the student ------------------------------------------------------------------
@@ -165,13 +165,13 @@ def test_a_student_switches_views_in_practice_and_the_run_is_built_anew_with_the
     window.show_patient(patient)
     plan(window)
     assert settle(lambda: window.runs.run is not None)
-    action = window.view_menu.shown[View.FORCE_GAUGE]
+    action = window.view_menu.shown[ViewName.FORCE_GAUGE]
     assert action.isEnabled()
     assert not action.isChecked()
     before = len(services.opened)
     action.trigger()
     assert settle(lambda: len(services.opened) > before and window.runs.run is not None)
-    assert View.FORCE_GAUGE in services.opened[-1].setup.exercise.views
+    assert ViewName.FORCE_GAUGE in services.opened[-1].setup.exercise.views
     assert action.isChecked()
     assert window.workspace.needle_cell.gauge.isVisibleTo(window.workspace.needle_cell)
 
@@ -188,13 +188,13 @@ def test_locked_views_stay_and_say_why(window, patient, settle):
         action.trigger()
         window.conductor.show_view(view, view not in locked.views)
     assert window.conductor.exercise.views == locked.views
-    assert len(said) == len(View)
+    assert len(said) == len(ViewName)
 
 
 # --- declared, and compiled -------------------------------------------------------------------
 def test_every_view_and_the_control_scans_declare_what_they_read():
-    assert set(declared_views()) == {view.value for view in View} | {CONTROL_SCAN}
-    assert all(view_title(view) for view in View)
+    assert set(declared_views()) == {view.value for view in ViewName} | {CONTROL_SCAN}
+    assert all(view_title(view) for view in ViewName)
 
 
 def fate(exercise: Exercise, simulated: bool = False) -> dict[str, str]:
@@ -206,7 +206,7 @@ def fate(exercise: Exercise, simulated: bool = False) -> dict[str, str]:
 REST = {"planned_target_error": load_exercise("thick-tissue").tolerances["planned_target_error"]}
 
 
-@pytest.mark.parametrize("view", View)
+@pytest.mark.parametrize("view", ViewName)
 def test_with_a_view_off_an_effect_that_only_it_consumes_is_dropped(view):
     effects = {"breathing": {}, "shaft_friction": {}}
     everything = Exercise.model_validate(
@@ -214,8 +214,8 @@ def test_with_a_view_off_an_effect_that_only_it_consumes_is_dropped(view):
     )
     on, off = (fate(everything.showing(views)) for views in both(view))
     for effect, consumer in (
-        ("shaft_friction", View.FORCE_GAUGE),
-        ("breathing", View.TARGET_MOTION),
+        ("shaft_friction", ViewName.FORCE_GAUGE),
+        ("breathing", ViewName.TARGET_MOTION),
     ):
         assert on[effect].startswith("simulated")
         assert off[effect].startswith("dropped" if view is consumer else "simulated")
@@ -256,10 +256,10 @@ def test_a_declaration_that_is_not_one_is_refused_by_file(tmp_path):
 
 
 def test_a_snapshot_without_the_targets_motion_has_all_distances_to_the_target_at_rest(shows):
-    window = shows(frozenset(View))
+    window = shows(frozenset(ViewName))
     run = window.conductor.controller.run
     snapshot = replace(run.trainer.snapshot(), p_target=run.placed.p_target + SHIFT)
-    still = Shown(True, frozenset(View) - {View.TARGET_MOTION}).of(snapshot, run.placed)
+    still = Shown(True, frozenset(ViewName) - {ViewName.TARGET_MOTION}).of(snapshot, run.placed)
     np.testing.assert_array_equal(still.p_target, run.placed.p_target)
     np.testing.assert_allclose(still.offset.path, run.placed.axis, atol=1e-12)
     assert Shown().of(snapshot, run.placed) is snapshot

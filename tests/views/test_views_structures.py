@@ -8,7 +8,7 @@ from window_rig import plan
 
 from app.exercises.parts import StructurePart
 from app.imaging.structures.distance import SignedDistance
-from app.imaging.structures.structure import Kind, Structure, StructureSet
+from app.imaging.structures.structure import Structure, StructureKind, StructureSet
 from app.imaging.volume import Volume
 from app.planning.clearance import Nearness
 from app.planning.draft import DraftPlan
@@ -38,7 +38,7 @@ def book(application, volume):
     book.set_volume(volume)
     centre = volume.lps_mm((np.array(volume.size) - 1) / 2)
     book.put("vessel", *ball(volume, centre, 8.0))
-    book.change("vessel", kind=Kind.VESSEL, warn_mm=3.0)
+    book.change("vessel", kind=StructureKind.VESSEL, warn_mm=3.0)
     return book
 
 
@@ -57,7 +57,7 @@ def test_every_change_can_be_undone_and_visibility_is_no_step(book):
     book.change("vessel", name="aorta")
     assert not book.is_visible("aorta")
     book.undo()
-    assert book.structures.find("vessel").kind is Kind.VESSEL
+    assert book.structures.find("vessel").kind is StructureKind.VESSEL
     book.remove("vessel")
     assert len(book.structures) == 0
     book.undo()
@@ -88,7 +88,7 @@ def test_a_bad_name_is_refused_and_a_taken_one_gets_a_number(book):
 
 def test_distances_outlive_a_new_name_but_not_other_voxels(book, volume):
     measured(book)
-    book.change("vessel", name="aorta", kind=Kind.RISK)
+    book.change("vessel", name="aorta", kind=StructureKind.RISK)
     assert book.unmeasured == ()
     book.put("aorta", *ball(volume, centre_of(book), 5.0))
     assert len(book.unmeasured) == 1
@@ -208,7 +208,7 @@ def test_the_panel_shows_the_path_and_changes_the_book(book, volume):
     box = panel.table.cellWidget(0, 1)
     box.setCurrentIndex(box.findData("target"))
     box.activated.emit(box.currentIndex())
-    assert book.structures.find("aorta").kind is Kind.TARGET
+    assert book.structures.find("aorta").kind is StructureKind.TARGET
     assert panel.table.cellWidget(0, 2).value() == 0.0
     panel.show_needle(None, "")
     assert panel.live.text() == "✔  " or panel.live.text() == ""
@@ -285,8 +285,8 @@ def test_structures_of_an_exercise_come_with_its_ct(
     book = window.editors.structures
     assert settle(lambda: len(book.structures) == 2)
     vessel, liver = book.structures.find("vessel"), book.structures.find("liver")
-    assert (vessel.kind, vessel.warn_mm) == (Kind.RISK, 4.0)
-    assert liver.kind is not Kind.RISK
+    assert (vessel.kind, vessel.warn_mm) == (StructureKind.RISK, 4.0)
+    assert liver.kind is not StructureKind.RISK
     assert not window.undo.can_undo
     plan(window)
     assert settle(lambda: "vessel" in window.feature(StructuresFeature).watch.path)

@@ -9,7 +9,7 @@ from app.imaging.library import CtLibrary, Imported, ImportFailedError
 from app.imaging.pacs.client import Pacs
 from app.imaging.pacs.errors import PacsDataError
 from app.imaging.pacs.incoming import Incoming
-from app.imaging.privacy.burned_in import Box
+from app.imaging.privacy.burned_in import MaskBox
 from app.imaging.privacy.errors import AnnotatedError, PrivacyError
 from app.imaging.reading import offer
 from app.imaging.scanning import scan_folder
@@ -104,7 +104,7 @@ def keep(
     fetched: Fetched,
     library: CtLibrary,
     progress: Progress,
-    boxes: Sequence[Box] = (),
+    boxes: Sequence[MaskBox] = (),
     remedy: Remedy = Remedy.NONE,
 ) -> Imported:
     """De-identify what was fetched into the library and delete the originals.
@@ -134,7 +134,7 @@ def keep(
 
 def take(
     pacs: Pacs, study_uid: str, series_uid: str, library: CtLibrary, progress: Progress,
-    boxes: Sequence[Box] = (), remedy: Remedy = Remedy.NONE,
+    boxes: Sequence[MaskBox] = (), remedy: Remedy = Remedy.NONE,
 ) -> Imported:  # fmt: skip
     """Retrieve a series into the library, de-identified; see `fetch` and `keep` for the errors."""
     fetched = fetch(pacs, study_uid, series_uid, progress.part(0.0, 0.65), remedy)

@@ -13,7 +13,7 @@ from pydicom.tag import BaseTag
 from app.imaging.privacy import dates
 from app.imaging.privacy.errors import PrivacyError
 from app.imaging.privacy.forms import fits, values
-from app.imaging.privacy.profile import Kept, Profile
+from app.imaging.privacy.profile import KeptAttribute, Profile
 from app.imaging.privacy.report import Tally
 from app.imaging.privacy.uids import UidMap
 
@@ -140,7 +140,7 @@ def _items(dataset: Dataset, tag: BaseTag) -> list[Dataset]:
 
 
 def _keep(
-    result: Dataset, dataset: Dataset, tag: BaseTag, kept: Kept, rules: Rules, tally: Tally
+    result: Dataset, dataset: Dataset, tag: BaseTag, kept: KeptAttribute, rules: Rules, tally: Tally
 ) -> None:
     """Copy one attribute in the form in which it may be kept, or leave it out."""
     try:
@@ -155,15 +155,15 @@ def _keep(
     result.add_new(tag, element.VR, value)
 
 
-def _kind(kept: Kept, tag: BaseTag, rules: Rules) -> str:
+def _kind(kept: KeptAttribute, tag: BaseTag, rules: Rules) -> str:
     return "remapped" if rules.profile.actions.get(int(tag)) == "U" else kept.kind
 
 
-def _checked(value: Any, kept: Kept, rules: Rules, tally: Tally) -> Any:
+def _checked(value: Any, kept: KeptAttribute, rules: Rules, tally: Tally) -> Any:
     return value if fits(kept, value) else None
 
 
-def _first(value: Any, kept: Kept, rules: Rules, tally: Tally) -> Any:
+def _first(value: Any, kept: KeptAttribute, rules: Rules, tally: Tally) -> Any:
     """Words stand in an order that counts (ImageType): keep them up to the first unknown one."""
     known: list[str] = []
     for word in (str(item).strip() for item in values(value)):
@@ -175,24 +175,24 @@ def _first(value: Any, kept: Kept, rules: Rules, tally: Tally) -> Any:
     return known or None
 
 
-def _remapped(value: Any, kept: Kept, rules: Rules, tally: Tally) -> Any:
+def _remapped(value: Any, kept: KeptAttribute, rules: Rules, tally: Tally) -> Any:
     tally.replaced[kept.keyword] += 1
     new = [rules.uids.new(str(uid)) for uid in values(value)]
     return new[0] if len(new) == 1 else new or None
 
 
-def _shifted(value: Any, kept: Kept, rules: Rules, tally: Tally) -> Any:
+def _shifted(value: Any, kept: KeptAttribute, rules: Rules, tally: Tally) -> Any:
     moved = dates.shifted(str(value or ""), rules.shift)
     if moved:
         tally.shifted[kept.keyword] += 1
     return moved or (None if value else "")
 
 
-def _aged(value: Any, kept: Kept, rules: Rules, tally: Tally) -> Any:
+def _aged(value: Any, kept: KeptAttribute, rules: Rules, tally: Tally) -> Any:
     return dates.capped_age(str(value or "")) or None
 
 
-Treatment = Callable[[Any, Kept, Rules, Tally], Any]
+Treatment = Callable[[Any, KeptAttribute, Rules, Tally], Any]
 _TREATMENTS: dict[str, Treatment] = {
     "remapped": _remapped,
     "date": _shifted,

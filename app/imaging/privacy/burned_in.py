@@ -29,7 +29,7 @@ _DESCRIBED = re.compile(
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class MaskBox:
     """A rectangle of pixels to blacken, in every picture of the series or in one.
 
     Attributes:
@@ -56,12 +56,12 @@ class Box:
             )
 
 
-def of_picture(boxes: Sequence[Box], number: int) -> tuple[Box, ...]:
+def of_picture(boxes: Sequence[MaskBox], number: int) -> tuple[MaskBox, ...]:
     """Boxes of one picture, counted from 1 in the order of the series."""
     return tuple(box for box in boxes if box.picture in (None, number))
 
 
-def check_numbers(boxes: Sequence[Box], count: int) -> None:
+def check_numbers(boxes: Sequence[MaskBox], count: int) -> None:
     """Refuse a box on a picture that the series has not got.
 
     Raises:
@@ -72,7 +72,7 @@ def check_numbers(boxes: Sequence[Box], count: int) -> None:
             raise BurnedInError(f"there is no picture {box.picture}: the series has {count}")
 
 
-def check(dataset: Dataset, boxes: Sequence[Box]) -> None:
+def check(dataset: Dataset, boxes: Sequence[MaskBox]) -> None:
     """Refuse a picture that carries writing, unless somebody has drawn over it.
 
     Raises:
@@ -98,7 +98,7 @@ def check(dataset: Dataset, boxes: Sequence[Box]) -> None:
 
 
 def blackened(
-    stored: NDArray[Any], boxes: Sequence[Box], slope: float, inverted: bool
+    stored: NDArray[Any], boxes: Sequence[MaskBox], slope: float, inverted: bool
 ) -> NDArray[Any]:
     """Picture with the boxes set to its own lowest value (of HU), a copy.
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from app.imaging.privacy.report import Report
+from app.imaging.privacy.report import RemovalReport
 
 LOCK = ".lock"
 """File in a folder that is being written; whoever writes there holds it."""
@@ -18,7 +18,7 @@ class Deidentified:
         series_uid: its new SeriesInstanceUID.
     """
 
-    report: Report
+    report: RemovalReport
     study: str
     series_uid: str
 

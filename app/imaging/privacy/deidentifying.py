@@ -24,7 +24,7 @@ from app.imaging.errors import FileDamagedError
 from app.imaging.header import SliceHeader
 from app.imaging.privacy import burned_in, dates
 from app.imaging.privacy.actions import Rules, deidentified
-from app.imaging.privacy.burned_in import Box, check_numbers, of_picture
+from app.imaging.privacy.burned_in import MaskBox, check_numbers, of_picture
 from app.imaging.privacy.deidentified import LOCK, Deidentified, file_name
 from app.imaging.privacy.errors import BurnedInError, PrivacyError
 from app.imaging.privacy.key import installation_key
@@ -90,7 +90,7 @@ def read_original(header: SliceHeader) -> Dataset:
 
 
 def convert(
-    header: SliceHeader, to: Path, rules: Rules, boxes: Sequence[Box], secrets: Secrets,
+    header: SliceHeader, to: Path, rules: Rules, boxes: Sequence[MaskBox], secrets: Secrets,
     tally: Tally,
 ) -> str:  # fmt: skip
     """De-identify one file into another.
@@ -135,7 +135,9 @@ def _drawn_over(original: Dataset) -> bool:
     )
 
 
-def _redraw(header: SliceHeader, original: Dataset, result: Dataset, boxes: Sequence[Box]) -> None:
+def _redraw(
+    header: SliceHeader, original: Dataset, result: Dataset, boxes: Sequence[MaskBox]
+) -> None:
     """Write the pixels anew: what was drawn in unused bits is gone, boxes are black."""
     form = header.format
     if form.frames != 1:
@@ -191,7 +193,7 @@ def deidentify_series(
     headers: tuple[SliceHeader, ...],
     key: str,
     staging: Path,
-    boxes: tuple[Box, ...],
+    boxes: tuple[MaskBox, ...],
     settings: Path,
     progress: Progress,
 ) -> Deidentified:
@@ -229,7 +231,7 @@ def _deidentified(
     headers: Sequence[SliceHeader],
     key: str,
     staging: Path,
-    boxes: Sequence[Box],
+    boxes: Sequence[MaskBox],
     progress: Progress,
 ) -> Deidentified:
     count = len(headers)
@@ -250,7 +252,7 @@ def _deidentified(
 
 
 def _writer(
-    header: SliceHeader, to: Path, rules: Rules, boxes: Sequence[Box], secrets: Secrets,
+    header: SliceHeader, to: Path, rules: Rules, boxes: Sequence[MaskBox], secrets: Secrets,
     tally: Tally,
 ) -> Callable[[], str]:  # fmt: skip
     return lambda: convert(header, to, rules, boxes, secrets, tally)

@@ -7,7 +7,7 @@ from typing import Any
 from pydicom.multival import MultiValue
 
 from app.imaging.privacy.known_words import is_kernel
-from app.imaging.privacy.profile import Kept
+from app.imaging.privacy.profile import KeptAttribute
 
 _STANDARD_UID = re.compile(r"1\.2\.840\.10008\.[0-9.]{1,50}")
 _LONGEST_NUMBER = 16
@@ -20,7 +20,7 @@ def values(value: Any) -> list[Any]:
     return [] if value is None or value == "" or value == b"" else [value]
 
 
-def fits(kept: Kept, value: Any) -> bool:
+def fits(kept: KeptAttribute, value: Any) -> bool:
     """Whether a value has the form in which its attribute may be kept; dates and ages aside."""
     found = values(value)
     if kept.kind == "number":

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.progress import Progress
-from app.imaging.privacy.burned_in import Box, blackened, of_picture
+from app.imaging.privacy.burned_in import MaskBox, blackened, of_picture
 from app.imaging.reading import read_pixels
 from app.imaging.series import Series
 from app.imaging.window import WindowLevel
@@ -49,12 +49,12 @@ class Pictures:
         low, high = float(self.values.min()), float(self.values.max())
         return WindowLevel(min(max(high - low, 1.0), 1e6), (low + high) / 2.0)
 
-    def seen(self, number: int, boxes: Sequence[Box]) -> NDArray[Any]:
+    def seen(self, number: int, boxes: Sequence[MaskBox]) -> NDArray[Any]:
         """One picture, counted from 1, as an import with these boxes writes it."""
         drawn = of_picture(boxes, number)
         return blackened(self.values[number - 1], drawn, 1.0, self.inverted)
 
-    def all_seen(self, boxes: Sequence[Box]) -> NDArray[Any]:
+    def all_seen(self, boxes: Sequence[MaskBox]) -> NDArray[Any]:
         """Return the brightest of all pictures, blackened where a box lies on every picture."""
         drawn = [box for box in boxes if box.picture is None]
         return blackened(self.brightest, drawn, 1.0, self.inverted)

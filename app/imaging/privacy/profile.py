@@ -20,7 +20,7 @@ ACTIONS = ("X", "Z", "D", "U", "X/Z", "X/D", "Z/D", "X/Z/D", "X/Z/U*")
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class KeptAttribute:
     """One attribute that is kept.
 
     Attributes:
@@ -44,7 +44,7 @@ class Profile:
     """
 
     actions: Mapping[int, str]
-    kept: Mapping[int, Kept]
+    kept: Mapping[int, KeptAttribute]
 
     @cached_property
     def vocabulary(self) -> frozenset[str]:
@@ -72,7 +72,7 @@ def _actions() -> dict[int, str]:
     return {int(row["tag"], 16): row["action"] for row in rows}
 
 
-def _kept() -> dict[int, Kept]:
+def _kept() -> dict[int, KeptAttribute]:
     path = paths.resources() / "dicom" / "kept.yaml"
     found = {}
     for keyword, form in read_yaml(path).items():
@@ -80,9 +80,9 @@ def _kept() -> dict[int, Kept]:
         if tag is None or not (isinstance(form, list) or form in (*KINDS, BODY_PART)):
             raise ConfigurationError(f"{path}: {keyword}: {form}: no such keyword or form")
         if isinstance(form, list):
-            found[tag] = Kept(keyword, "words", frozenset(map(str, form)))
+            found[tag] = KeptAttribute(keyword, "words", frozenset(map(str, form)))
         elif form == BODY_PART:
-            found[tag] = Kept(keyword, "words", body_parts())
+            found[tag] = KeptAttribute(keyword, "words", body_parts())
         else:
-            found[tag] = Kept(keyword, form)
+            found[tag] = KeptAttribute(keyword, form)
     return found

@@ -24,13 +24,13 @@ class Tally:
         """Note a warning once, in the order in which they came."""
         self.warnings[text] = None
 
-    def report(self) -> "Report":
+    def report(self) -> "RemovalReport":
         """Freeze the counts: what was written anew, or empty, does not count as removed too."""
         for keyword in (*self.replaced, *self.emptied):
             self.removed.pop(keyword, None)
         for keyword in self.emptied:
             self.unfit.pop(keyword, None)
-        return Report(
+        return RemovalReport(
             removed=dict(sorted(self.removed.items())),
             emptied=dict(sorted(self.emptied.items())),
             replaced=dict(sorted(self.replaced.items())),
@@ -44,7 +44,7 @@ class Tally:
 
 
 @dataclass(frozen=True, slots=True)
-class Report:
+class RemovalReport:
     """What was done to the files of a series.
 
     Attributes:

@@ -22,14 +22,17 @@ from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
 from app.imaging.structures.placed import PlacedStructure
 from app.imaging.structures.placing import Found, Labelled, guessed_kind
-from app.imaging.structures.structure import Colour, Kind
+from app.imaging.structures.structure import Colour, StructureKind
 
 CODES = {
-    Kind.RISK: (("123037004", "Anatomical structure"), ("113343008", "Organ")),
-    Kind.VESSEL: (("123037004", "Anatomical structure"), ("59820001", "Blood vessel")),
-    Kind.BONE: (("123037004", "Anatomical structure"), ("272673000", "Bone")),
-    Kind.TARGET: (("49755003", "Morphologically abnormal structure"), ("52988006", "Lesion")),
-    Kind.OTHER: (("85756007", "Tissue"), ("85756007", "Tissue")),
+    StructureKind.RISK: (("123037004", "Anatomical structure"), ("113343008", "Organ")),
+    StructureKind.VESSEL: (("123037004", "Anatomical structure"), ("59820001", "Blood vessel")),
+    StructureKind.BONE: (("123037004", "Anatomical structure"), ("272673000", "Bone")),
+    StructureKind.TARGET: (
+        ("49755003", "Morphologically abnormal structure"),
+        ("52988006", "Lesion"),
+    ),
+    StructureKind.OTHER: (("85756007", "Tissue"), ("85756007", "Tissue")),
 }
 """Category and type of a segment by kind."""
 
@@ -164,7 +167,7 @@ def _uid(*parts: object) -> str:
 SHARE = 0.5
 """A voxel of a fractional segment belongs to it from this value."""
 
-_KINDS = {codes[1][0]: kind for kind, codes in CODES.items() if kind is not Kind.OTHER}
+_KINDS = {codes[1][0]: kind for kind, codes in CODES.items() if kind is not StructureKind.OTHER}
 
 
 def read_seg(dataset: Any, path: Path) -> Found:

@@ -16,7 +16,7 @@ from app.imaging.header_reading import starts_like_dicom
 from app.imaging.series import Series
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
-from app.imaging.structures.placed import Placed, PlacedStructure
+from app.imaging.structures.placed import PlacedStructure, PlacedStructures
 from app.imaging.structures.placing import Found, Labelled, place
 from app.imaging.volume import Volume
 
@@ -93,7 +93,7 @@ def parse_structures(
     affine_mm: tuple[float, ...],
     frame_of_reference: str,
     progress: Progress,
-) -> Placed:
+) -> PlacedStructures:
     """Job of the worker: read a file of structures onto the grid of a CT.
 
     Args:
@@ -109,7 +109,7 @@ def parse_structures(
     """
     volume = _grid(size, affine_mm, frame_of_reference)
     found = place(_read(path, volume), volume, progress)
-    return Placed(
+    return PlacedStructures(
         tuple(
             PlacedStructure(
                 one.name, one.kind, one.colour, one.mask, one.corner, float(one.warn_mm)

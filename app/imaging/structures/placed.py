@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.imaging.structures.structure import Colour, Index, Kind
+from app.imaging.structures.structure import Colour, Index, StructureKind
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -18,7 +18,7 @@ class PlacedStructure:
     """
 
     name: str
-    kind: Kind
+    kind: StructureKind
     colour: Colour
     mask: NDArray[np.bool_]
     corner: Index
@@ -26,7 +26,7 @@ class PlacedStructure:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Placed:
+class PlacedStructures:
     """Structures of a file, and what was done or left out on the way."""
 
     structures: tuple[PlacedStructure, ...]

@@ -15,9 +15,9 @@ from app.imaging.structures.errors import FrameOfReferenceError, StructureError
 from app.imaging.structures.structure import (
     COLOURS,
     Colour,
-    Kind,
     Mask,
     Structure,
+    StructureKind,
     StructureSet,
     cropped,
     free_name,
@@ -41,7 +41,7 @@ class Labelled:
     name: str
     mask: Mask
     affine_mm: FloatArray
-    kind: Kind | None = None
+    kind: StructureKind | None = None
     colour: Colour | None = None
     warn_mm: float | None = None
 
@@ -188,22 +188,73 @@ def _resampled(box: Mask, to_volume: FloatArray, volume: Volume) -> Mask | None:
 
 
 _WORDS = {
-    Kind.TARGET: ("lesion", "tumor", "tumour", "target", "gtv", "ctv", "ptv", "nodule", "metasta",
-                  "cyst", "mass"),
-    Kind.VESSEL: ("vessel", "aort", "vena", "arter", "vein", "portal", "caval", "cava"),
-    Kind.BONE: ("rib", "bone", "vertebra", "spine", "sternum", "pelvis", "sacrum", "femur",
-                "scapula", "clavic", "humer", "costa"),
-    Kind.RISK: ("lung", "heart", "bowel", "gut", "colon", "duodenum", "stomach", "kidney", "nerve",
-                "spleen", "pancreas", "gall", "oesoph", "esoph", "trachea", "bronch", "spinal",
-                "cord", "bladder", "ureter", "pleura", "diaphragm", "avoid", "risk"),
-}  # fmt: skip
+    StructureKind.TARGET: (
+        "lesion",
+        "tumor",
+        "tumour",
+        "target",
+        "gtv",
+        "ctv",
+        "ptv",
+        "nodule",
+        "metasta",
+        "cyst",
+        "mass",
+    ),
+    StructureKind.VESSEL: ("vessel", "aort", "vena", "arter", "vein", "portal", "caval", "cava"),
+    StructureKind.BONE: (
+        "rib",
+        "bone",
+        "vertebra",
+        "spine",
+        "sternum",
+        "pelvis",
+        "sacrum",
+        "femur",
+        "scapula",
+        "clavic",
+        "humer",
+        "costa",
+    ),
+    StructureKind.RISK: (
+        "lung",
+        "heart",
+        "bowel",
+        "gut",
+        "colon",
+        "duodenum",
+        "stomach",
+        "kidney",
+        "nerve",
+        "spleen",
+        "pancreas",
+        "gall",
+        "oesoph",
+        "esoph",
+        "trachea",
+        "bronch",
+        "spinal",
+        "cord",
+        "bladder",
+        "ureter",
+        "pleura",
+        "diaphragm",
+        "avoid",
+        "risk",
+    ),
+}
 
 
-def guessed_kind(name: str) -> Kind:
+def guessed_kind(name: str) -> StructureKind:
     """Kind that a name speaks for; `other` where it says nothing. The user can change it."""
     lower = name.lower()
-    for kind in (Kind.TARGET, Kind.RISK, Kind.VESSEL, Kind.BONE):
+    for kind in (
+        StructureKind.TARGET,
+        StructureKind.RISK,
+        StructureKind.VESSEL,
+        StructureKind.BONE,
+    ):
         words = _WORDS[kind]
         if any(lower.startswith(word) or f" {word}" in lower.replace("_", " ") for word in words):
             return kind
-    return Kind.OTHER
+    return StructureKind.OTHER

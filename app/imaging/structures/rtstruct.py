@@ -16,7 +16,7 @@ from app.core.arrays import FloatArray
 from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.placing import Found, Labelled
-from app.imaging.structures.structure import Colour, Kind
+from app.imaging.structures.structure import Colour, StructureKind
 from app.imaging.volume import Volume
 
 
@@ -62,7 +62,12 @@ LARGEST = 2**29
 
 _ONE_PLANE_MM = 0.1
 _PARALLEL = 1e-3
-_KINDS = {"GTV": Kind.TARGET, "CTV": Kind.TARGET, "PTV": Kind.TARGET, "AVOIDANCE": Kind.RISK}
+_KINDS = {
+    "GTV": StructureKind.TARGET,
+    "CTV": StructureKind.TARGET,
+    "PTV": StructureKind.TARGET,
+    "AVOIDANCE": StructureKind.RISK,
+}
 
 
 def read_rtstruct(dataset: Any, path: Path, volume: Volume) -> Found:

@@ -19,7 +19,7 @@ from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
 from app.imaging.structures.placing import Found, Labelled
-from app.imaging.structures.structure import Colour, Kind, StructureSet
+from app.imaging.structures.structure import Colour, StructureKind, StructureSet
 from app.imaging.volume import Volume
 
 LARGEST = 2_000_000_000
@@ -137,7 +137,7 @@ def _colour(text: str) -> Colour | None:
     return r, g, b
 
 
-def _tags(text: str) -> tuple[Kind | None, float | None]:
+def _tags(text: str) -> tuple[StructureKind | None, float | None]:
     tags = dict(tag.split(":", 1) for tag in text.split("|") if ":" in tag)
     kind = tags.get("Acus.Kind", "")
     try:
@@ -145,7 +145,7 @@ def _tags(text: str) -> tuple[Kind | None, float | None]:
     except (KeyError, ValueError):
         warn = -1.0
     return (
-        Kind(kind) if kind in {k.value for k in Kind} else None,
+        StructureKind(kind) if kind in {k.value for k in StructureKind} else None,
         warn if 0.0 <= warn <= 50.0 else None,
     )
 

@@ -23,7 +23,7 @@ LONGEST_NAME = 64
 """Characters of a name: what a DICOM segment label holds."""
 
 
-class Kind(StrEnum):
+class StructureKind(StrEnum):
     """What a structure means for a needle."""
 
     RISK = "risk"
@@ -35,7 +35,9 @@ class Kind(StrEnum):
     @property
     def warn_mm(self) -> float:
         """Usual distance [mm] from which a needle is warned; 0 for what may be met."""
-        return {Kind.RISK: 5.0, Kind.VESSEL: 3.0, Kind.BONE: 2.0}.get(self, 0.0)
+        return {StructureKind.RISK: 5.0, StructureKind.VESSEL: 3.0, StructureKind.BONE: 2.0}.get(
+            self, 0.0
+        )
 
     @property
     def is_avoided(self) -> bool:
@@ -68,7 +70,7 @@ class Structure:
     """
 
     name: str
-    kind: Kind
+    kind: StructureKind
     colour: Colour
     mask: Mask
     corner: Index
@@ -86,7 +88,7 @@ class Structure:
         if self.mask.ndim != 3 or not self.mask.any():
             raise StructureError(f"structure {name} holds no voxel of this CT")
         object.__setattr__(self, "name", name)
-        object.__setattr__(self, "kind", Kind(self.kind))
+        object.__setattr__(self, "kind", StructureKind(self.kind))
         object.__setattr__(self, "affine_mm", frozen(self.affine_mm, (4, 4), "affine_mm"))
         self.mask.setflags(write=False)
 
@@ -96,7 +98,7 @@ class Structure:
         name: str,
         mask: Mask,
         volume: Volume,
-        kind: Kind = Kind.OTHER,
+        kind: StructureKind = StructureKind.OTHER,
         colour: Colour = COLOURS[0],
         warn_mm: float | None = None,
     ) -> Structure:

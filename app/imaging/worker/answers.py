@@ -7,7 +7,7 @@ from app.imaging import errors as imaging
 from app.imaging.errors import FileDamagedError, WorkerLostError, brief
 from app.imaging.privacy import errors as privacy
 from app.imaging.structures import errors as structures
-from app.imaging.worker.luggage import Luggage, LuggageError, opened
+from app.imaging.worker.attachments import Attachments, AttachmentsError, opened
 from app.imaging.worker.values import ForeignValueError, plain, reader
 
 DONE, FAILED, SYSTEM, PROGRESS = "done", "failed", "system", "progress"
@@ -24,10 +24,10 @@ _LONGEST = 600
 Answer = list[Any]
 
 
-def done(result: Any, luggage: Luggage) -> Answer:
-    """Answer a result; what it holds of arrays goes into the luggage."""
-    there = plain(result, luggage)
-    return [DONE, there, bool(luggage)]
+def done(result: Any, attachments: Attachments) -> Answer:
+    """Answer a result; its arrays become attachments."""
+    there = plain(result, attachments)
+    return [DONE, there, bool(attachments)]
 
 
 def failed(error: BaseException, allowed: int) -> Answer:
@@ -65,7 +65,7 @@ def outcome(kind: Any, answer: Answer, descriptor: int | None) -> Any:
             return reader(kind)(values[0])
         name, text = values
         return _error(word, name, text)
-    except (ForeignValueError, LuggageError, IndexError, TypeError, ValueError):
+    except (ForeignValueError, AttachmentsError, IndexError, TypeError, ValueError):
         return lost("talked nonsense")
 
 

@@ -20,7 +20,7 @@ class ChannelError(ValueError):
     """What came is no message."""
 
 
-class Channel:
+class WorkerChannel:
     """One end of a socket pair.
 
     Args:

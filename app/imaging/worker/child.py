@@ -14,9 +14,9 @@ from typing import Any, get_type_hints
 
 from app.core.progress import Progress
 from app.imaging.worker.answers import PROGRESS, Answer, done, failed
-from app.imaging.worker.channel import VOLUME, Channel
+from app.imaging.worker.attachments import Attachments, opened
+from app.imaging.worker.channel import VOLUME, WorkerChannel
 from app.imaging.worker.limits import MemoryLimit, limit_time
-from app.imaging.worker.luggage import Luggage, opened
 from app.imaging.worker.values import Convert, reader
 
 READY = "ready"
@@ -31,7 +31,7 @@ def main(descriptor: int) -> None:
     Args:
         descriptor: this end of the socket pair.
     """
-    channel = Channel(socket.socket(fileno=descriptor))
+    channel = WorkerChannel(socket.socket(fileno=descriptor))
     warnings.simplefilter("ignore")  # what packages say of a file quotes its header
     logging.disable(logging.CRITICAL)
     for place in _AT_START:
@@ -55,32 +55,32 @@ def _take_volume(descriptor: int) -> None:
     rescaling.take_volume(descriptor)
 
 
-def _do(channel: Channel, memory: MemoryLimit, message: list[Any]) -> None:
+def _do(channel: WorkerChannel, memory: MemoryLimit, message: list[Any]) -> None:
     place, allowed, arguments, has_arrays = message
     if has_arrays:
         arguments = opened(arguments, channel.take_descriptor())
     memory.set(allowed)
-    luggage = Luggage()
-    answer = _answer(place, arguments, _progress(channel), luggage, allowed)
+    attachments = Attachments()
+    answer = _answer(place, arguments, _progress(channel), attachments, allowed)
     try:
-        descriptor = luggage.descriptor() if luggage else None
+        descriptor = attachments.descriptor() if attachments else None
     except (OSError, MemoryError):
         answer, descriptor = failed(MemoryError(), allowed), None
     channel.send(answer, descriptor)
 
 
 def _answer(
-    place: str, arguments: Sequence[Any], progress: Progress, luggage: Luggage, allowed: int
+    place: str, arguments: Sequence[Any], progress: Progress, attachments: Attachments, allowed: int
 ) -> Answer:
     """Do one task: its result, or why there is none."""
     try:
         work, converts = _job(place)
         given = [convert(value) for convert, value in zip(converts, arguments, strict=True)]
-        return done(work(*given, progress), luggage)
+        return done(work(*given, progress), attachments)
     except (KeyboardInterrupt, SystemExit):
         raise
     except BaseException as error:  # parsers raise nearly anything; Rust's panics are no Exception
-        luggage.clear()
+        attachments.clear()
         return failed(error, allowed)
 
 
@@ -94,7 +94,7 @@ def _job(place: str) -> tuple[Callable[..., Any], tuple[Convert, ...]]:
     return work, tuple(reader(kind) for kind in kinds)
 
 
-def _progress(channel: Channel) -> Progress:
+def _progress(channel: WorkerChannel) -> Progress:
     """Progress that the program hears of."""
 
     def tell(fraction: float, text: str) -> None:

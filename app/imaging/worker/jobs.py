@@ -13,9 +13,9 @@ from app.imaging.header import SliceHeader
 from app.imaging.nifti_file import NiftiHeader, NiftiValues
 from app.imaging.privacy.deidentified import Deidentified
 from app.imaging.series import Ignored
-from app.imaging.structures.placed import Placed
+from app.imaging.structures.placed import PlacedStructures
+from app.imaging.worker.attachments import Attachments
 from app.imaging.worker.limits import Allowance
-from app.imaging.worker.luggage import Luggage
 from app.imaging.worker.values import plain
 
 Result = TypeVar("Result")
@@ -44,7 +44,9 @@ NIFTI_VALUES: Job[NiftiValues] = Job("app.imaging.nifti_file:nifti_values", Nift
 DIRECTORY: Job[tuple[tuple[str, ...], ...]] = Job(
     "app.imaging.sources:named_files", tuple[tuple[str, ...], ...]
 )
-STRUCTURES: Job[Placed] = Job("app.imaging.structures.parsing:parse_structures", Placed)
+STRUCTURES: Job[PlacedStructures] = Job(
+    "app.imaging.structures.parsing:parse_structures", PlacedStructures
+)
 DEIDENTIFY: Job[Deidentified] = Job(
     "app.imaging.privacy.deidentifying:deidentify_series", Deidentified
 )
@@ -63,18 +65,18 @@ class Task:
     Attributes:
         job: which.
         message: what the child is told.
-        luggage: arrays that go with it.
+        attachments: arrays that go with it.
         allowed: what it may take.
     """
 
     job: Job[Any]
     message: Sequence[Any]
-    luggage: Luggage
+    attachments: Attachments
     allowed: Allowance
 
     @classmethod
     def of(cls, job: Job[Any], arguments: Sequence[Any], allowed: Allowance) -> "Task":
         """Task of a job with plain arguments, dataclasses, tuples and arrays of them."""
-        luggage = Luggage()
-        there = [plain(argument, luggage) for argument in arguments]
-        return cls(job, [job.place, allowed.bytes, there, bool(luggage)], luggage, allowed)
+        attachments = Attachments()
+        there = [plain(argument, attachments) for argument in arguments]
+        return cls(job, [job.place, allowed.bytes, there, bool(attachments)], attachments, allowed)

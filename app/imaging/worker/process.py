@@ -15,7 +15,7 @@ from typing import Any
 
 from app.imaging.errors import WorkerError
 from app.imaging.worker.answers import DONE, PROGRESS, outcome
-from app.imaging.worker.channel import VOLUME, Channel, ChannelError
+from app.imaging.worker.channel import VOLUME, ChannelError, WorkerChannel
 from app.imaging.worker.jobs import Task
 from app.imaging.worker.limits import processor_seconds
 
@@ -69,7 +69,7 @@ class Child:
         self._tasks: deque[Task] = deque()
         ours, theirs = socket.socketpair()
         ours.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, _PATIENCE)
-        self._channel = Channel(ours)
+        self._channel = WorkerChannel(ours)
         with theirs:
             self._process = _started(module, theirs.fileno(), self._channel)
         self.ready, self.progress = False, (0.0, "")
@@ -92,7 +92,7 @@ class Child:
             Lost: if it is gone.
             OSError: if there is no memory for the arrays of the task.
         """
-        descriptor = task.luggage.descriptor() if task.luggage else None
+        descriptor = task.attachments.descriptor() if task.attachments else None
         if not self.open:
             self._mark()
         self.open.append(number)
@@ -222,7 +222,7 @@ def _is_answer(message: Any) -> bool:
     return isinstance(message, list) and bool(message) and isinstance(message[0], str)
 
 
-def _started(module: str, descriptor: int, channel: Channel) -> "subprocess.Popen[bytes]":
+def _started(module: str, descriptor: int, channel: WorkerChannel) -> "subprocess.Popen[bytes]":
     environment = os.environ | {
         "PYTHONPATH": os.pathsep.join(filter(None, [str(_ROOT), os.environ.get("PYTHONPATH")])),
         "OPENBLAS_NUM_THREADS": "1",  # each thread would take its share of the memory allowed

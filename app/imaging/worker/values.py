@@ -11,7 +11,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from app.imaging.worker.luggage import Luggage, is_array
+from app.imaging.worker.attachments import Attachments, is_array
 
 Convert = Callable[[Any], Any]
 _AS_THEY_ARE = frozenset((str, int, float, bool, type(None)))
@@ -21,22 +21,22 @@ class ForeignValueError(ValueError):
     """A value is not of the type that it must have."""
 
 
-def plain(value: Any, luggage: Luggage | None = None) -> Any:
+def plain(value: Any, attachments: Attachments | None = None) -> Any:
     """Turn a value into what JSON holds: a dataclass becomes the list of its fields.
 
     Args:
         value: the value.
-        luggage: takes up its arrays, which are not for JSON.
+        attachments: takes up its arrays, which are not for JSON.
     """
     if type(value) in _AS_THEY_ARE:
         return value
     if is_dataclass(value):
         cls: Any = type(value)
-        return [plain(getattr(value, name), luggage) for name in _names(cls)]
+        return [plain(getattr(value, name), attachments) for name in _names(cls)]
     if isinstance(value, tuple):
-        return [plain(item, luggage) for item in value]
-    if luggage is not None and is_array(value):
-        return luggage.add(value)
+        return [plain(item, attachments) for item in value]
+    if attachments is not None and is_array(value):
+        return attachments.add(value)
     return str(value) if isinstance(value, Path) else value
 
 

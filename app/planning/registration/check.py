@@ -163,7 +163,7 @@ def check_points(plate: FiducialPlate, reference: FloatArray, found: NamedPoints
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Agreement:
+class RegistrationAgreement:
     """How far what the screen shows may be from where the needle is, at one point.
 
     Attributes:
@@ -249,7 +249,7 @@ class RegistrationCheck:
         p_world: ArrayLike,
         tip_covariance: ArrayLike | None = None,
         T_world_patient: RigidTransform | None = None,
-    ) -> Agreement:
+    ) -> RegistrationAgreement:
         """How well screen and needle agree at a point.
 
         Args:
@@ -280,4 +280,6 @@ class RegistrationCheck:
             measured, used = self.world.fit.T_measured_reference, self.plate.place.transform
             own = (self.plate.place_sd_mm * MILLIMETRE) ** 2
         offset = measured @ (used.inverse() @ point) - point
-        return Agreement(frozen(offset), frozen(self.spread(point) + tip + own * np.eye(3)))
+        return RegistrationAgreement(
+            frozen(offset), frozen(self.spread(point) + tip + own * np.eye(3))
+        )

@@ -20,7 +20,7 @@ from app.planning.registration.rigid import FEWEST
 
 @dataclass(frozen=True, slots=True)
 class CheckDraft:
-    """Points so far; a value, so that `History` undoes single touches.
+    """Points so far; a value, so that `UndoHistory` undoes single touches.
 
     Attributes:
         touched: in world, in the order of touching.

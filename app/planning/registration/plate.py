@@ -33,7 +33,7 @@ class Fiducial(Strict):
     bead_mm: Triple | None = None
 
 
-class Place(Strict):
+class PlatePlacement(Strict):
     """Where a plate stands in world: translation, then the rotation vector of its frame."""
 
     translation_mm: Triple
@@ -64,7 +64,7 @@ class FiducialPlate(Strict):
     description: str = ""
     fiducials: tuple[Fiducial, ...]
     bead_diameter_mm: float = Field(default=3.0, gt=0.0, le=20.0)
-    place: Place | None = None
+    place: PlatePlacement | None = None
     place_sd_mm: float = Field(default=0.0, ge=0.0, le=10.0)
     localisation_mm: float = Field(default=0.5, gt=0.0, le=10.0)
     tolerance_mm: float = Field(default=2.0, gt=0.0, le=50.0)

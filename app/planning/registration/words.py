@@ -5,7 +5,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.confidence import covariance_radius
 from app.core.units import MILLIMETRE
-from app.planning.registration.check import Agreement, PointCheck, RegistrationCheck
+from app.planning.registration.check import PointCheck, RegistrationAgreement, RegistrationCheck
 from app.planning.registration.errors import RegistrationError
 
 NOT_CHECKED = "screen and needle: not checked"
@@ -20,14 +20,16 @@ MEANING = (
 """What the technician's figures mean, one line each."""
 
 
-def student_line(agreement: Agreement | None) -> str:
+def student_line(agreement: RegistrationAgreement | None) -> str:
     """Return the sentence for students; without a check it names no figure."""
     if agreement is None:
         return NOT_CHECKED
     return f"screen and needle agree within ± {_mm(agreement.radius, 1)} mm (95 %)"
 
 
-def agreement_or_reason(check: RegistrationCheck, p_world: FloatArray) -> Agreement | str:
+def agreement_or_reason(
+    check: RegistrationCheck, p_world: FloatArray
+) -> RegistrationAgreement | str:
     """Return the agreement at a point of the world [m], shape (3,), or why there is none."""
     try:
         return check.agreement(p_world)

@@ -14,7 +14,7 @@ from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
 from app.planning.draft import DraftPlan
 from app.planning.error_overlay import ErrorOverlay
-from app.planning.registration.check import Agreement
+from app.planning.registration.check import RegistrationAgreement
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status_items import StatusItem, Verdict
@@ -34,7 +34,7 @@ GOOD_MM = 2.0
 
 
 def agreement_item(
-    agreement: Agreement | None, reason: str = "", checked: str = "", known: bool = True
+    agreement: RegistrationAgreement | None, reason: str = "", checked: str = "", known: bool = True
 ) -> StatusItem:
     """Return the line of the status strip.
 

@@ -32,7 +32,7 @@ from app.core.errors import AcusError
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
-from app.planning.history import History
+from app.planning.history import UndoHistory
 from app.planning.registration import words
 from app.planning.registration.check import RegistrationCheck
 from app.planning.registration.draft import CheckDraft
@@ -227,7 +227,7 @@ class RegistrationDialog(QDialog):
         self.setWindowTitle(tr("Registration check"))
         self.resize(theme.px(780), 640)  # no higher: 768 must do
         self._around = around
-        self._history = History(CheckDraft())
+        self._history = UndoHistory(CheckDraft())
         self._touching = ""
         self.toucher = Toucher(around.run, self)
         self.plates, self.table = QComboBox(self), FiducialTable(self)
@@ -289,7 +289,7 @@ class RegistrationDialog(QDialog):
     def choose_plate(self, name: str) -> None:
         """Take another plate; points of the one before are forgotten."""
         self.plate = load_plate(name)
-        self._history = History(CheckDraft())
+        self._history = UndoHistory(CheckDraft())
         self._fill()
 
     def save(self) -> None:

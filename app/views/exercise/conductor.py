@@ -13,7 +13,7 @@ from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.exercises.errors import ExerciseError
 from app.exercises.locks import HandName, Lock
-from app.exercises.parts import TELLING, OwnPlan, View
+from app.exercises.parts import TELLING, OwnPlan, ViewName
 from app.exercises.scene import device_of, draft_of
 from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
@@ -83,11 +83,11 @@ class LiveNeedle:
             p_end, pose.axis, length, transform, pose.measured, spread, bent
         )
         viewing = self._workspace.viewing
-        if run.shown.shows(View.LIVE_OVERLAY):
+        if run.shown.shows(ViewName.LIVE_OVERLAY):
             viewing.follow_needle(needle)
         else:
             viewing.set_needle(None)
-        if not run.shown.shows(View.THREE_D):
+        if not run.shown.shows(ViewName.THREE_D):
             return
         ends = needle.points_mm
         if self._drawn is None or _apart(self._drawn, ends):
@@ -269,7 +269,7 @@ class Conductor(QObject):
             return run.shown
         return Shown() if exercise is None else Shown.of_exercise(exercise)
 
-    def why_view_stays(self, view: View) -> str:
+    def why_view_stays(self, view: ViewName) -> str:
         """Say why the student cannot switch a view now; empty where he can."""
         if self.exercise is None:
             return tr("Choose an exercise first.")
@@ -279,7 +279,7 @@ class Conductor(QObject):
             return tr("Views can be switched between attempts.")
         return why_locked(self.exercise, Lock.VIEWS)
 
-    def show_view(self, view: View, on: bool) -> None:
+    def show_view(self, view: ViewName, on: bool) -> None:
         """Switch a view, where the exercise lets the student; a run is built anew with it."""
         why, exercise = self.why_view_stays(view), self.exercise
         if why or exercise is None:

@@ -13,7 +13,7 @@ from app.core.clock import Clock, SystemClock
 from app.core.errors import AcusError
 from app.core.events import Event
 from app.core.rate_meter import RateMeter
-from app.exercises.parts import View
+from app.exercises.parts import ViewName
 from app.session.machine import RUNNING, State
 from app.session.pad.hand import HandPose
 from app.session.result import AttemptResult
@@ -73,11 +73,11 @@ class ExerciseDisplay:
     def show_run(self, run: ExerciseRun) -> None:
         """Draw what stays the same during an attempt; nothing of the needle where scans guide."""
         live, shows = run.shown.live, run.shown.shows
-        self._views.bullseye.hide_needle(not shows(View.BULLSEYE), beside_scan=not live)
+        self._views.bullseye.hide_needle(not shows(ViewName.BULLSEYE), beside_scan=not live)
         self._views.bullseye.set_scene(run.scene(), run.interactive, run.is_real)
         self._views.panel.set_forceful(run.forceful)
         self._views.panel.set_guidance(None if live else run.guidance, run.placed.plan)
-        self._views.panel.set_offsets(shows(View.BULLSEYE))
+        self._views.panel.set_offsets(shows(ViewName.BULLSEYE))
 
     def take_hand(self, snapshot: Snapshot) -> None:
         """Let the simulated hand go on from where the loop has it; draws nothing.
@@ -127,14 +127,14 @@ class ExerciseDisplay:
         view = pad_view(snapshot, run.profile.geometry.needle_length, limit)
         if view is not None:
             bullseye.show_view(view)
-        if run.shown.shows(View.FORCE_GAUGE):
+        if run.shown.shows(ViewName.FORCE_GAUGE):
             self._views.gauge.show_force(axial_force(snapshot))
 
     def _show_tracker(self, run: ExerciseRun, snapshot: Snapshot, now: float) -> None:
         tracker = self._views.tracker
         if tracker.due(now):
             wanted = tracker.overlays
-            may = run.inspect is not None and run.shown.shows(View.CAMERAS)
+            may = run.inspect is not None and run.shown.shows(ViewName.CAMERAS)
             seen = run.inspect(wanted.mask, wanted.epipolar) if may and run.inspect else None
             tracker.show_tracker(seen, tracker_figures(snapshot), now)
 

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 
 from app.core.errors import AcusError
 from app.imaging.volume import Volume
-from app.planning.history import History
+from app.planning.history import UndoHistory
 from app.planning.measurements import Measurement, checked
 from app.planning.measuring import Measured, measured
 
@@ -41,7 +41,7 @@ class MeasureEditor(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._history: History[Items] = History(())
+        self._history: UndoHistory[Items] = UndoHistory(())
         self._measured: dict[Measurement, Measured] = {}
         self._fresh = True
         self.volume: Volume | None = None
@@ -83,7 +83,7 @@ class MeasureEditor(QObject):
     def set_volume(self, volume: Volume | None) -> None:
         """Begin anew with another CT: what was measured in the last one is gone."""
         self.volume, self.draft = volume, None
-        self._history, self._measured = History(()), {}
+        self._history, self._measured = UndoHistory(()), {}
         self.changed.emit()
 
     def set_tool(self, tool: MeasureTool) -> None:

@@ -17,7 +17,7 @@ from app.core.errors import AcusError
 from app.exchange.markups import read_plan, write_plan
 from app.mechanisms.profile import DeviceProfile
 from app.planning.draft import DraftPlan
-from app.planning.history import History
+from app.planning.history import UndoHistory
 from app.planning.judge import Edit, Judge, PlanVerdict
 from app.planning.placement import Placement
 from app.planning.plan import Plan
@@ -155,7 +155,7 @@ class PlanEditor(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._history = History(Edit())
+        self._history = UndoHistory(Edit())
         self._saved = Edit()
         self._judge = Judge()
         self.path: Path | None = None
@@ -218,7 +218,7 @@ class PlanEditor(QObject):
         if self._moves_target(draft):
             draft = DraftPlan(None, self.edit.draft.target_mm, self.edit.draft.name)
         edit = Edit(draft, placement or self.edit.placement)
-        self._history, self._saved, self.path = History(edit), edit, None
+        self._history, self._saved, self.path = UndoHistory(edit), edit, None
         self._announce()
 
     def opened(self, path: Path, plan: Plan) -> None:
@@ -300,7 +300,7 @@ class PlanEditor(QObject):
         if self._history is not before:
             self.stepped.emit(self)
 
-    def _step(self, move: Callable[[], History[Edit]]) -> None:
+    def _step(self, move: Callable[[], UndoHistory[Edit]]) -> None:
         if not self.refuse_locked():
             self._history = move()
             self._announce()

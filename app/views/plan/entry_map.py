@@ -53,9 +53,9 @@ class EntryMap:
     @classmethod
     def of(cls, scores: PathScores) -> EntryMap:
         """Take over all entries but those too far away."""
-        from app.planning.paths import Block  # scipy: loaded since there are scores
+        from app.planning.paths import PathObstacle  # scipy: loaded since there are scores
 
-        names = np.array([block.value for block in Block])[scores.block]
+        names = np.array([block.value for block in PathObstacle])[scores.block]
         classes = np.where(scores.free, class_of(np.nan_to_num(scores.score)), -1)
         shown = scores.free | np.isin(names, SHOWN_BLOCKED)
         return cls(scores.entries_mm[shown], classes[shown])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from app.exercises.guidance import Purpose
 from app.exercises.locks import Lock
-from app.exercises.parts import View
+from app.exercises.parts import ViewName
 from app.exercises.schema import Exercise
 from app.views.kit.text import tr
 
@@ -24,15 +24,15 @@ def why_locked(exercise: Exercise | None, lock: Lock) -> str:
     return tr("The exercise “{title}” sets {what}.", title=exercise.title, what=what)
 
 
-def view_title(view: View) -> str:
+def view_title(view: ViewName) -> str:
     """Name of a view for people."""
     return {
-        View.LIVE_OVERLAY: tr("Needle on the slices"),
-        View.BULLSEYE: tr("Bull's-eye"),
-        View.THREE_D: tr("3D view"),
-        View.CAMERAS: tr("Camera pictures"),
-        View.FORCE_GAUGE: tr("Force along the needle"),
-        View.TARGET_MOTION: tr("Motion of the target"),
+        ViewName.LIVE_OVERLAY: tr("Needle on the slices"),
+        ViewName.BULLSEYE: tr("Bull's-eye"),
+        ViewName.THREE_D: tr("3D view"),
+        ViewName.CAMERAS: tr("Camera pictures"),
+        ViewName.FORCE_GAUGE: tr("Force along the needle"),
+        ViewName.TARGET_MOTION: tr("Motion of the target"),
     }[view]
 
 

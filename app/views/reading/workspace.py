@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.units import MILLIMETRE
-from app.exercises.parts import View
+from app.exercises.parts import ViewName
 from app.planning.draft import DraftPlan
 from app.session.pad.view import rings
 from app.session.shown_views import Shown
@@ -314,12 +314,12 @@ class WorkspacePage(QWidget):
             why_fixed: why the student cannot change it; empty where he can.
         """
         shows, scanning = shown.shows, not shown.live
-        pad, gauge = shows(View.BULLSEYE), shows(View.FORCE_GAUGE)
+        pad, gauge = shows(ViewName.BULLSEYE), shows(ViewName.FORCE_GAUGE)
         self.needle_cell.set_shown(scanning, has_hand, pad, gauge)
         self._has_cell = scanning or has_hand or pad or gauge
         self.is_cell_fixed = bool(why_fixed)
-        self.scene.set_off("" if shows(View.THREE_D) else off_words(why_fixed))
-        self.tracker_panel.set_off("" if shows(View.CAMERAS) else off_words(why_fixed))
+        self.scene.set_off("" if shows(ViewName.THREE_D) else off_words(why_fixed))
+        self.tracker_panel.set_off("" if shows(ViewName.CAMERAS) else off_words(why_fixed))
         if self.has_bullseye and not self._has_cell:
             self.show_bullseye(False)
         self.arranged.emit()

@@ -35,13 +35,13 @@ from PySide6.QtWidgets import (
 )
 
 from app.imaging.window import PRESETS, to_grey
-from app.planning.history import History
+from app.planning.history import UndoHistory
 from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.slices.presets import preset_name
 
 if TYPE_CHECKING:
-    from app.imaging.privacy.burned_in import Box
+    from app.imaging.privacy.burned_in import MaskBox
     from app.imaging.privacy.pictures import Pictures
 
 
@@ -67,7 +67,7 @@ class MaskCanvas(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(tr("Picture; drag to draw a box over writing"))
         self._image, self._aspect = QImage(), 1.0
-        self._boxes: tuple[tuple[int, Box], ...] = ()
+        self._boxes: tuple[tuple[int, MaskBox], ...] = ()
         self._chosen = -1
         self._from: QPointF | None = None
         self._to = QPointF()
@@ -82,7 +82,7 @@ class MaskCanvas(QWidget):
         self._image, self._aspect = picture.copy(), aspect
         self.update()
 
-    def show_boxes(self, boxes: Sequence[tuple[int, Box]], chosen: int) -> None:
+    def show_boxes(self, boxes: Sequence[tuple[int, MaskBox]], chosen: int) -> None:
         """Outline boxes, each with its number; the one of the number `chosen` thicker."""
         self._boxes, self._chosen = tuple(boxes), chosen
         self.update()
@@ -97,7 +97,7 @@ class MaskCanvas(QWidget):
         wide, high = scale * columns, scale * rows
         return QRectF((self.width() - wide) / 2.0, (self.height() - high) / 2.0, wide, high)
 
-    def _rectangle(self, box: Box) -> QRectF:
+    def _rectangle(self, box: MaskBox) -> QRectF:
         frame = self.frame()
         x, y = frame.width() / self._image.width(), frame.height() / self._image.height()
         return QRectF(
@@ -133,7 +133,7 @@ class MaskCanvas(QWidget):
             painter.setPen(QPen(QColor(theme.on_image(theme.WARNING)), 2.0, Qt.PenStyle.DotLine))
             painter.drawRect(QRectF(self._from, self._to).normalized().intersected(self.frame()))
 
-    def _outline(self, painter: QPainter, number: int, box: Box) -> None:
+    def _outline(self, painter: QPainter, number: int, box: MaskBox) -> None:
         style = _ALL if box.picture is None else _ONE
         width = 3.0 if number == self._chosen else 1.5
         colour = theme.on_image(theme.WARNING if number == self._chosen else theme.ACCENT)
@@ -193,13 +193,13 @@ def explanation(can_draw: bool) -> str:
     )
 
 
-def box_words(number: int, box: Box) -> str:
+def box_words(number: int, box: MaskBox) -> str:
     """Line of a box in the list."""
     on = tr("all pictures") if box.picture is None else tr("picture {number}", number=box.picture)
     return f"{number}  {on}: {box.columns} × {box.rows} px, ({box.column}, {box.row})"
 
 
-Boxes = tuple["Box", ...]
+Boxes = tuple["MaskBox", ...]
 _SHOWN = ("Soft tissue", "Lung", "Bone", "Brain")
 
 
@@ -219,7 +219,7 @@ class MaskDialog(QDialog):
         self.setWindowTitle(tr("Look at the pictures before they are taken in"))
         self.resize(1080, 760)
         self.pictures = pictures
-        self._history: History[Boxes] = History(boxes)
+        self._history: UndoHistory[Boxes] = UndoHistory(boxes)
         self.canvas, self.slider = MaskCanvas(self), QSlider(Qt.Orientation.Horizontal, self)
         self.where, self.windows = QLabel(self), QComboBox(self)
         self.brightest = QCheckBox(tr("Brightest of all pictures"), self)
@@ -254,10 +254,10 @@ class MaskDialog(QDialog):
 
     def draw(self, column: int, row: int, columns: int, rows: int) -> None:
         """Add a box, on every picture or on this one as chosen."""
-        from app.imaging.privacy.burned_in import Box  # pydicom: not before the window
+        from app.imaging.privacy.burned_in import MaskBox  # pydicom: not before the window
 
         one = self.scope.currentIndex() == 1 and not self.brightest.isChecked()
-        self._do((*self.boxes, Box(column, row, columns, rows, self.number if one else None)))
+        self._do((*self.boxes, MaskBox(column, row, columns, rows, self.number if one else None)))
         self.list.setCurrentRow(len(self.boxes) - 1)
 
     def undo(self) -> None:

@@ -9,7 +9,7 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu
 
 from app.exercises.locks import Lock
-from app.exercises.parts import View
+from app.exercises.parts import ViewName
 from app.views.exercise.conductor import Conductor
 from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor
@@ -141,10 +141,10 @@ class ViewMenu:
         self._left_handed.toggled.connect(workspace.set_left_handed)
         return actions
 
-    def _shown_menu(self, menu: QMenu) -> dict[View, QAction]:
+    def _shown_menu(self, menu: QMenu) -> dict[ViewName, QAction]:
         conductor, actions = self._conductor, {}
         menu.setToolTipsVisible(True)
-        for view in View:
+        for view in ViewName:
             action = menu.addAction(view_title(view))
             action.setCheckable(True)
             action.triggered.connect(lambda on, view=view: conductor.show_view(view, on))

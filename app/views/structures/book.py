@@ -10,14 +10,14 @@ from app.core.errors import AcusError
 from app.imaging.structures.structure import (
     COLOURS,
     Index,
-    Kind,
     Mask,
     Structure,
+    StructureKind,
     StructureSet,
     free_name,
 )
 from app.imaging.volume import Volume
-from app.planning.history import History
+from app.planning.history import UndoHistory
 
 if TYPE_CHECKING:
     from app.imaging.structures.distance import SignedDistance
@@ -42,7 +42,7 @@ class StructureBook(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.volume: Volume | None = None
-        self._history = History(StructureSet())
+        self._history = UndoHistory(StructureSet())
         self._hidden: set[str] = set()
         self._fields: dict[int, tuple[Mask, SignedDistance]] = {}
         self.chosen = ""
@@ -102,13 +102,13 @@ class StructureBook(QObject):
     def set_volume(self, volume: Volume | None) -> None:
         """Begin anew with another CT, or with none."""
         self.volume = volume
-        self._history, self._hidden, self._fields = History(StructureSet()), set(), {}
+        self._history, self._hidden, self._fields = UndoHistory(StructureSet()), set(), {}
         self.chosen = ""
         self.changed.emit()
 
     def begin(self, structures: StructureSet) -> None:
         """Begin anew with these structures on the same CT; nothing to undo."""
-        self._history, self._hidden, self.chosen = History(structures), set(), ""
+        self._history, self._hidden, self.chosen = UndoHistory(structures), set(), ""
         self.changed.emit()
 
     def add(self, more: StructureSet) -> None:
@@ -125,8 +125,8 @@ class StructureBook(QObject):
         old = next((one for one in self.structures if one.name == name), None)
         if old is None:
             colour = COLOURS[len(self.structures) % len(COLOURS)]
-            new = Structure(name, Kind.RISK, colour, mask, corner, self.volume.affine_mm,
-                            Kind.RISK.warn_mm)  # fmt: skip
+            new = Structure(name, StructureKind.RISK, colour, mask, corner, self.volume.affine_mm,
+                            StructureKind.RISK.warn_mm)  # fmt: skip
         else:
             new = old.changed(mask=mask, corner=corner)
         self.chosen = name

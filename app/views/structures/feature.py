@@ -14,9 +14,16 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.exercises.parts import StructurePart
-from app.imaging.structures.structure import Index, Kind, Mask, Structure, StructureSet, free_name
+from app.imaging.structures.structure import (
+    Index,
+    Mask,
+    Structure,
+    StructureKind,
+    StructureSet,
+    free_name,
+)
 from app.imaging.volume import Volume
-from app.planning.clearance import Clearance
+from app.planning.clearance import PathClearance
 from app.planning.draft import DraftPlan
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
 from app.views.kit.text import tr
@@ -136,7 +143,7 @@ def read_parts(parts: Sequence[StructurePart], volume: Volume, progress: Progres
         step = progress.part(number / len(parts), (number + 1) / len(parts))
         found = read_structures(part.file, volume, step)
         for name, limit in part.risks.items():
-            risk = found.find(name).changed(kind=Kind.RISK, warn_mm=limit)
+            risk = found.find(name).changed(kind=StructureKind.RISK, warn_mm=limit)
             found = found.with_one(risk)
         result = result.united(found)
     return result
@@ -247,7 +254,7 @@ class StructuresFeature(Feature):
         legend = tuple((one.colour, named(one)) for one, mesh in meshes if mesh is not None)
         self._views.scene.set_structures(shown, legend)
 
-    def _warn(self, clearance: Clearance | None) -> None:
+    def _warn(self, clearance: PathClearance | None) -> None:
         self.panel.show_needle(clearance, "" if clearance is None else words(clearance))
 
     def _refused(self, why: object) -> None:

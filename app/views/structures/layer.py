@@ -23,7 +23,7 @@ from PySide6.QtGui import (
 
 from app.core.arrays import FloatArray
 from app.imaging.structures.contours import contours
-from app.imaging.structures.structure import Kind, Mask, Structure
+from app.imaging.structures.structure import Mask, Structure, StructureKind
 from app.planning.clearance import Nearness
 from app.views.kit import theme
 from app.views.kit.text import tr
@@ -35,14 +35,23 @@ from app.views.slices.resting import RestingLayer
 from app.views.structures.book import StructureBook
 
 HATCHES = {
-    Kind.RISK: Qt.BrushStyle.DiagCrossPattern,
-    Kind.VESSEL: Qt.BrushStyle.BDiagPattern,
-    Kind.BONE: Qt.BrushStyle.Dense6Pattern,
-    Kind.TARGET: Qt.BrushStyle.NoBrush,
-    Kind.OTHER: Qt.BrushStyle.NoBrush,
+    StructureKind.RISK: Qt.BrushStyle.DiagCrossPattern,
+    StructureKind.VESSEL: Qt.BrushStyle.BDiagPattern,
+    StructureKind.BONE: Qt.BrushStyle.Dense6Pattern,
+    StructureKind.TARGET: Qt.BrushStyle.NoBrush,
+    StructureKind.OTHER: Qt.BrushStyle.NoBrush,
 }
-DASHES: dict[Kind, tuple[float, ...]] = {Kind.OTHER: (2.0, 2.0), Kind.TARGET: (6.0, 3.0)}
-SIGNS = {Kind.RISK: "▩", Kind.VESSEL: "▨", Kind.BONE: "▒", Kind.TARGET: "◎", Kind.OTHER: "□"}
+DASHES: dict[StructureKind, tuple[float, ...]] = {
+    StructureKind.OTHER: (2.0, 2.0),
+    StructureKind.TARGET: (6.0, 3.0),
+}
+SIGNS = {
+    StructureKind.RISK: "▩",
+    StructureKind.VESSEL: "▨",
+    StructureKind.BONE: "▒",
+    StructureKind.TARGET: "◎",
+    StructureKind.OTHER: "□",
+}
 
 LOOKS = {
     Nearness.FREE: (theme.TEXT, "✔"),
@@ -52,12 +61,15 @@ LOOKS = {
 """Colour and sign of a distance."""
 
 
-def kind_names() -> dict[Kind, str]:
+def kind_names() -> dict[StructureKind, str]:
     """Names of the kinds for people."""
     return {
-        Kind.RISK: tr("risk"), Kind.VESSEL: tr("vessel"), Kind.BONE: tr("bone"),
-        Kind.TARGET: tr("target"), Kind.OTHER: tr("other"),
-    }  # fmt: skip
+        StructureKind.RISK: tr("risk"),
+        StructureKind.VESSEL: tr("vessel"),
+        StructureKind.BONE: tr("bone"),
+        StructureKind.TARGET: tr("target"),
+        StructureKind.OTHER: tr("other"),
+    }
 
 
 def colour(structure: Structure, alpha: float = 1.0) -> QColor:

@@ -20,8 +20,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.imaging.structures.structure import Kind, Structure
-from app.planning.clearance import Clearance, Nearness
+from app.imaging.structures.structure import Structure, StructureKind
+from app.planning.clearance import Nearness, PathClearance
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
@@ -84,7 +84,7 @@ class StructureTable(QTableWidget):
         box = QComboBox()
         for kind, name in kind_names().items():
             box.addItem(f"{SIGNS[kind]} {name}", kind.value)
-        box.activated.connect(lambda _: self._set_kind(row, Kind(box.currentData())))
+        box.activated.connect(lambda _: self._set_kind(row, StructureKind(box.currentData())))
         spin = spin_box(0.0, 50.0, 0.0, "", 0.5)
         spin.setToolTip(tr("Warn within so many mm; 0 never"))
         spin.valueChanged.connect(lambda value: self._set_warn(row, value))
@@ -92,7 +92,7 @@ class StructureTable(QTableWidget):
         self.setCellWidget(row, WARN, spin)
         return box, spin
 
-    def _show_path(self, row: int, clearance: Clearance | None) -> None:
+    def _show_path(self, row: int, clearance: PathClearance | None) -> None:
         item = QTableWidgetItem("–")
         if clearance is not None:
             look, sign = LOOKS[clearance.nearness]
@@ -104,7 +104,7 @@ class StructureTable(QTableWidget):
         with QSignalBlocker(self):
             self.setItem(row, PATH, item)
 
-    def _set_kind(self, row: int, kind: Kind) -> None:
+    def _set_kind(self, row: int, kind: StructureKind) -> None:
         name = self._book.structures.structures[row].name
         self._book.change(name, kind=kind, warn_mm=kind.warn_mm)
 
@@ -127,7 +127,9 @@ class StructureTable(QTableWidget):
             self._book.choose(self._book.structures.structures[row].name)
 
     def _style(self) -> None:
-        self.setHorizontalHeaderLabels([tr("Name"), tr("Kind"), tr("Warn\n[mm]"), tr("Path\n[mm]")])
+        self.setHorizontalHeaderLabels(
+            [tr("Name"), tr("Kind"), tr("Warn\n[mm]"), tr("Path\n[mm]")]
+        )
         self.verticalHeader().setVisible(False)
         self.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT + 2)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -219,7 +221,7 @@ class StructurePanel(QWidget):
         """Say what happened to what was read or written last."""
         self.note.setText(NAMES.without_names(text))
 
-    def show_needle(self, clearance: Clearance | None, text: str) -> None:
+    def show_needle(self, clearance: PathClearance | None, text: str) -> None:
         """Show what the live needle is too near to."""
         look, sign = LOOKS[clearance.nearness if clearance is not None else Nearness.FREE]
         self.live.setText(f"{sign}  {text}" if text else "")

@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from app.core.events import Event
-from app.planning.clearance import Clearance, Nearness, clearances, worst
+from app.planning.clearance import Nearness, PathClearance, clearances, worst
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.session.snapshot import Snapshot
@@ -28,7 +28,7 @@ class StructureWatch(QObject):
 
     Signals:
         path_changed(): distances of the planned path are others.
-        needle_changed(object): what the needle is too near to now, a `Clearance`, or None.
+        needle_changed(object): what the needle is too near to now, a `PathClearance`, or None.
         breached(Event): the needle came too near, or into a structure: once each time.
     """
 
@@ -40,8 +40,8 @@ class StructureWatch(QObject):
         super().__init__(parent)
         self._book = book
         self._draft = DraftPlan()
-        self.path: dict[str, Clearance] = {}
-        self.needle: Clearance | None = None
+        self.path: dict[str, PathClearance] = {}
+        self.needle: PathClearance | None = None
         self._measured_at = -PERIOD_S
         self._told: dict[str, Nearness] = {}
         self._judges = False
@@ -77,12 +77,12 @@ class StructureWatch(QObject):
         self._tell(found, now)
         self._show(worst(found))
 
-    def _show(self, clearance: Clearance | None) -> None:
+    def _show(self, clearance: PathClearance | None) -> None:
         if clearance is not None or self.needle is not None:
             self.needle = clearance
             self.needle_changed.emit(clearance)
 
-    def _tell(self, found: tuple[Clearance, ...], now: float) -> None:
+    def _tell(self, found: tuple[PathClearance, ...], now: float) -> None:
         for one in found:
             name, before = one.structure.name, self._told.get(one.structure.name, Nearness.FREE)
             if one.nearness is Nearness.FREE:
@@ -108,7 +108,7 @@ class StructureWatch(QObject):
         return (StatusItem(verdict, tr("Structures"), words(self.needle), help_text),)
 
 
-def words(clearance: Clearance) -> str:
+def words(clearance: PathClearance) -> str:
     """Say how near something is."""
     name = clearance.structure.name
     if clearance.nearness is Nearness.HIT:

@@ -20,7 +20,7 @@ _SEALED = SEAL_SEAL | SEAL_SHRINK | SEAL_GROW | SEAL_WRITE
 _KEY = "array"
 
 
-class LuggageError(ValueError):
+class AttachmentsError(ValueError):
     """What came beside a message is not what the message says."""
 
 
@@ -30,7 +30,7 @@ def is_array(value: Any) -> bool:
     return numpy is not None and isinstance(value, numpy.ndarray)
 
 
-class Luggage:
+class Attachments:
     """Arrays on their way out."""
 
     def __init__(self) -> None:
@@ -88,14 +88,14 @@ def opened(message: Any, descriptor: int) -> Any:
         descriptor: of the memory; closed here.
 
     Raises:
-        LuggageError: if it is no such memory, or an array does not lie in it.
+        AttachmentsError: if it is no such memory, or an array does not lie in it.
     """
     try:
         seal(descriptor, _SEALED)  # nobody shrinks it under a reader's feet
         size = os.fstat(descriptor).st_size
         memory = mmap.mmap(descriptor, size, flags=mmap.MAP_PRIVATE) if size else b""
     except (OSError, ValueError, OverflowError) as error:
-        raise LuggageError("the memory beside a message is of no use") from error
+        raise AttachmentsError("the memory beside a message is of no use") from error
     finally:
         os.close(descriptor)
     return _placed(message, memory, size)
@@ -117,11 +117,11 @@ def _array(where: Any, memory: Any, size: int) -> "NDArray[Any]":
         dtype, count = np.dtype(kind), math.prod(shape)
         fits = all(type(n) is int and n >= 0 for n in (*shape, start))
         if dtype.kind not in _KINDS or not fits or start + count * dtype.itemsize > size:
-            raise LuggageError("an array beside a message lies outside its memory")
+            raise AttachmentsError("an array beside a message lies outside its memory")
         array = np.frombuffer(memory, dtype, count, start).reshape(shape)
-    except LuggageError:
+    except AttachmentsError:
         raise
     except (TypeError, ValueError, OverflowError) as error:
-        raise LuggageError("an array beside a message is none") from error
+        raise AttachmentsError("an array beside a message is none") from error
     array.setflags(write=False)
     return array
