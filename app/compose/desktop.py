@@ -95,6 +95,7 @@ class Desktop:
 
         with contextlib.suppress(WorkerError, WorkerLostError):
             load_decoders(Progress())  # a moment, of which nobody need be told
+            shared_worker().warm(2)  # a folder is read by both
         from app.device.control import laws
 
         return tuple(laws.refused().values())

@@ -166,11 +166,18 @@ class Walk:
         """
         found: dict[int, Raw] = {}
         before = first - 1
-        element = self._implicit if implicit else self._explicit
-        for _ in range(_MOST_ELEMENTS):
+        for _ in range(_MOST_ELEMENTS):  # what nearly every element is stands here, not in calls
             if self._at + 12 > len(self._data):
                 self._have(12)
-            tag, name, length, head = element(stop)
+            if implicit:
+                group, number, length = _IMPLICIT(self._data, self._at)
+                tag, name, head = group << 16 | number, b"", 8
+            else:
+                group, number, name, length = _EXPLICIT(self._data, self._at)
+                if name in _SHORT:
+                    tag, head = group << 16 | number, 8
+                else:
+                    tag, name, length, head = self._explicit(stop)
             if tag <= before:  # they ascend (PS3.5 7.1)
                 raise NotStandardError
             if tag >= stop:

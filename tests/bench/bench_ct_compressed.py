@@ -27,7 +27,7 @@ def main() -> None:
     for name, syntax in SYNTAXES.items():
         folder = paths.cache() / "bench" / name.lower().replace(" ", "-")
         _encode(source, folder, syntax)
-        compare(f"{name}, {SLICES} slices", folder, limit=1.0, rounds=ROUNDS)
+        compare(f"{name}, {SLICES} slices", folder, limits=(1.0, 1.0), rounds=ROUNDS)
 
 
 def _encode(source: Path, folder: Path, syntax: pydicom.uid.UID) -> None:

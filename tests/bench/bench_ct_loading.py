@@ -2,11 +2,11 @@
 
 Each load runs in a fresh process of its own, sides in turn, so that time and peak memory are those
 of one load; this process stays small, because a child's peak starts at its parent's. SimpleITK
-reads on one thread; Acus reads headers in its worker process and copies pixels on two threads, so
-it needs two free cores to be what it is. "Warm" is
-Acus as the window has it, whose worker process was started behind it; "cold" counts the start of
-the worker into the load, as a command does.
-Figures to reach: time ≤ 0.5 × SimpleITK's; rise of the peak ≤ 1.5 × the volume.
+reads on one thread; Acus reads headers in its worker processes and copies pixels on two threads, so
+it needs two free cores to be what it is. "Warm" is Acus as the window has it, whose worker
+processes were started behind it; "cold" counts the start of the worker into the load, as a command
+does. Figures to reach: time ≤ 0.3 × SimpleITK's warm and ≤ 0.4 cold; rise of the peak ≤ 1.5 × the
+volume.
 """
 
 import json
@@ -18,7 +18,8 @@ from pathlib import Path
 import numpy as np
 
 ROUNDS = 7
-TIME_RATIO, MEMORY_RATIO = 0.5, 1.5
+LIMITS, MEMORY_RATIO = (0.3, 0.4), 1.5
+"""Time warm and cold over SimpleITK's, and rise of the peak over the volume."""
 
 COLD = """
 import json, resource, sys, time
@@ -38,9 +39,11 @@ WARM = COLD.replace(
     "before, start",
     """
 from app.core.progress import Progress
+from app.imaging.worker.pool import shared_worker
 from app.imaging.worker.service import read_headers, load_decoders
 from pathlib import Path
 load_decoders(Progress())
+shared_worker().warm(2)
 read_headers([Path(sys.argv[1])], Progress())  # the child is up, and has nothing in its cache
 before, start""",
     1,
@@ -71,7 +74,9 @@ def main() -> None:
         compare(name, folder)
 
 
-def compare(name: str, folder: Path, limit: float = TIME_RATIO, rounds: int = ROUNDS) -> None:
+def compare(
+    name: str, folder: Path, limits: tuple[float, float] = LIMITS, rounds: int = ROUNDS
+) -> None:
     """Load a folder by turns and print medians and ratios."""
     programs = {"Acus, warm": WARM, "Acus, cold": COLD, "SimpleITK": PEER}
     sides: dict[str, list[dict[str, float]]] = {side: [] for side in programs}
@@ -89,7 +94,9 @@ def compare(name: str, folder: Path, limit: float = TIME_RATIO, rounds: int = RO
             f"SimpleITK, p99 {np.percentile(seconds, 99):.3f} s, peak rises by {rise:.2f} × the "
             f"volume" + (f", worker's peak {child:.0f} MB" if child else "")
         )
-    print(f"  to reach: {limit} × the time, {MEMORY_RATIO} × the volume")
+    print(
+        f"  to reach: {limits[0]} × the time warm, {limits[1]} × cold, {MEMORY_RATIO} × the volume"
+    )
 
 
 def _run(program: str, folder: Path) -> dict[str, float]:

@@ -2,6 +2,7 @@
 
 import hashlib
 import re
+from functools import lru_cache
 
 from app.imaging.privacy.key import derived, installation_key
 
@@ -21,7 +22,13 @@ def pseudonym(patient_id: str, study_uid: str, study_id: str = "") -> str:
     """
     if _OWN.fullmatch(study_id):
         return study_id
-    digest = derived(installation_key(), "pseudonym", patient_id, study_uid)
+    return _pseudonym(installation_key(), patient_id, study_uid)
+
+
+@lru_cache(maxsize=1)
+def _pseudonym(key: bytes, patient_id: str, study_uid: str) -> str:
+    """Return the name under this key; the next header is mostly of the same study."""
+    digest = derived(key, "pseudonym", patient_id, study_uid)
     return f"CT-{digest.hex()[:8].upper()}"
 
 
@@ -31,6 +38,7 @@ def patient_pseudonym(key: bytes, patient_id: str, study_uid: str) -> str:
     return f"P-{digest.hex()[:8].upper()}"
 
 
+@lru_cache(maxsize=1)
 def former_pseudonym(patient_id: str, study_uid: str) -> str:
     """Name that earlier versions wrote, without a key: only to recognise it in old records."""
     digest = hashlib.sha256(f"acus pseudonym\0{patient_id}\0{study_uid}".encode())

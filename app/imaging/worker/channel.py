@@ -14,6 +14,7 @@ VOLUME = "volume"
 """First word of the message beside which the memory of a volume comes."""
 
 _LENGTH = struct.Struct("<L")
+_ENCODER = json.JSONEncoder(separators=(",", ":"))
 
 
 class ChannelError(ValueError):
@@ -48,7 +49,7 @@ class WorkerChannel:
         Raises:
             OSError: if the other side is gone.
         """
-        body = json.dumps(message, separators=(",", ":")).encode()
+        body = _ENCODER.encode(message).encode()
         data = _LENGTH.pack(len(body)) + body
         if descriptor is None:
             self._end.sendall(data)

@@ -206,14 +206,17 @@ class ImagingWorker:
         self._leased = 0
         self._free = threading.Condition()
 
-    def warm(self) -> None:
-        """Start a child now, so that the first folder need not wait for it; at once back.
+    def warm(self, count: int = 1) -> None:
+        """Start children now, so that the first folder need not wait for them; at once back.
+
+        Args:
+            count: how many shall be up, at most as many as may work at once.
 
         Raises:
             WorkerError: if it cannot be started.
         """
         with self._free:
-            if not self._idle and not self._leased:
+            while len(self._idle) + self._leased < min(count, self._most):
                 self._idle.append(Child(self._module))
 
     def close(self) -> None:

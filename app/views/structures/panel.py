@@ -127,9 +127,7 @@ class StructureTable(QTableWidget):
             self._book.choose(self._book.structures.structures[row].name)
 
     def _style(self) -> None:
-        self.setHorizontalHeaderLabels(
-            [tr("Name"), tr("Kind"), tr("Warn\n[mm]"), tr("Path\n[mm]")]
-        )
+        self.setHorizontalHeaderLabels([tr("Name"), tr("Kind"), tr("Warn\n[mm]"), tr("Path\n[mm]")])
         self.verticalHeader().setVisible(False)
         self.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT + 2)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
