@@ -12,7 +12,7 @@ from app.compose import Desktop
 from app.views.checks.feature import ChecksFeature
 from app.views.shell.application import start
 from app.views.shell.window import MainWindow
-from app.views.slices.camera import Camera
+from app.views.slices.camera import SliceCamera
 from tools.robot_pictures import keep, pause, wait
 
 
@@ -92,7 +92,7 @@ def registration(window: MainWindow, folder: Path) -> None:
         canvas = pane.canvas
         if canvas.plane is not None:
             at = canvas.plane.point(window.workspace.viewing.cursor_mm, canvas.index)
-            canvas.set_camera(Camera(at.x, at.y, 24.0))
+            canvas.set_camera(SliceCamera(at.x, at.y, 24.0))
     window.workspace.show_exercise()
     seen(window)
     keep(window, folder / "eyes-agreement.png")

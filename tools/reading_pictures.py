@@ -23,8 +23,7 @@ from app.planning.measurements import Angle, Distance, Probe, Region
 from app.views.plan.feature import PlanFeature
 from app.views.plan.paths import PathsFeature
 from app.views.shell.application import start
-from app.views.slices.looks import Look, Slab
-from app.views.slices.operator_side import OperatorSide
+from app.views.slices.looks import Look, OperatorSide, Slab
 from app.views.slices.panes import PaneId
 from app.views.slices.turning import StartingPlanes, straighten, turn_planes
 from app.views.structures.feature import StructuresFeature

@@ -15,7 +15,7 @@ from app.exercises.schema import Exercise
 from app.imaging.privacy.key import BYTES, key_path
 from app.views.exercise.feature import ExerciseFeature
 from app.views.shell.window import MainWindow
-from app.views.slices.camera import Camera
+from app.views.slices.camera import SliceCamera
 from tools.palette import small_png
 from tools.robot_pictures import pause, wait
 from tools.still_run import StillDesktop, StillTrainer
@@ -100,7 +100,7 @@ class Studio:
             plane = pane.canvas.plane
             if plane is not None:
                 at = plane.point(viewing.cursor_mm, pane.canvas.index)
-                pane.canvas.set_camera(Camera(at.x, at.y, scale))
+                pane.canvas.set_camera(SliceCamera(at.x, at.y, scale))
 
     def keep(self, name: str, widget: QWidget | None = None) -> None:
         """Write a picture of the panes, or of another widget."""

@@ -28,7 +28,10 @@ from tests.bench.window_load import Session, pump
 
 PARTS = {
     "planes": ("app.views.slices.planes:Planes.lay",),
-    "placing": ("app.views.slices.layer_stack:LayerStack.place",),
+    "placing": (
+        "app.views.slices.layer_stack:LayerStack.place",
+        "app.views.slices.layers:LayerStack.place",
+    ),
     "words": ("app.views.slices.canvas:SliceCanvas._write",),
     "painting": (
         "pyqtgraph:GraphicsView.paintEvent",

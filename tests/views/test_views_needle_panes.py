@@ -7,8 +7,7 @@ from numpy.testing import assert_allclose
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices.layers import FADED, FAINTEST, fading
-from app.views.slices.needle_menu import fill_needle_menu
-from app.views.slices.needle_source import Along, NeedlePlanes
+from app.views.slices.needle_source import Along, NeedlePlanes, fill_needle_menu
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import NEEDLE_PANES, PaneId
 from app.views.slices.presets import default_window

@@ -5,8 +5,7 @@ import pytest
 
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
-from app.views.slices.needle_menu import fill_needle_menu
-from app.views.slices.needle_source import Along, NeedlePlanes
+from app.views.slices.needle_source import Along, NeedlePlanes, fill_needle_menu
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, NEEDLE_PANES, PaneId
 from app.views.slices.presets import default_window

@@ -9,14 +9,13 @@ from PySide6.QtGui import QMouseEvent
 from app.imaging.orthogonal import View
 from app.imaging.reformat import Frame
 from app.views.plan.editor import PlanEditor
-from app.views.slices.cross_line import CrossLine
-from app.views.slices.lines import LineGrip
+from app.views.slices.crosshair import CrossLine
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, PaneId, others
 from app.views.slices.plane import own_plane, reformat_plane
 from app.views.slices.presets import default_window
 from app.views.slices.slab import chord, crossing
-from app.views.slices.turning import StartingPlanes, is_turned, straighten, turn_planes
+from app.views.slices.turning import LineGrip, StartingPlanes, is_turned, straighten, turn_planes
 from app.views.slices.viewing import Tool, Viewing
 
 TILT = np.radians(20.0)

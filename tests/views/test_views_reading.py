@@ -14,9 +14,17 @@ from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.reformat import Frame
 from app.imaging.window import PRESETS, WindowLevel
 from app.views.shell.shortcuts import ShortcutSheet, groups
-from app.views.slices.binding_words import action_words, key_rows
-from app.views.slices.bindings import OHIF, RESERVED, SCHEMES, SLICER, Action, key_name
-from app.views.slices.camera import Camera
+from app.views.slices.bindings import (
+    OHIF,
+    RESERVED,
+    SCHEMES,
+    SLICER,
+    Action,
+    action_words,
+    key_name,
+    key_rows,
+)
+from app.views.slices.camera import SliceCamera
 from app.views.slices.looks import KINDS, Look, Slab, Turn
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, PaneId
@@ -382,8 +390,8 @@ def test_the_words_in_the_corners_stay_where_they_are_while_the_view_is_panned(
     settle(timeout=0.1)
     before = [overlay.pos() for overlay in words]
     for right, down in ((30.0, -20.0), (-55.0, 40.0), (3.0, 0.0)):
-        pane.canvas.set_camera(Camera(camera.x - right, camera.y - down, 1.3 * camera.scale))
+        pane.canvas.set_camera(SliceCamera(camera.x - right, camera.y - down, 1.3 * camera.scale))
         settle(timeout=0.1)
-        pane.canvas.set_camera(Camera(camera.x + right, camera.y + down, camera.scale))
+        pane.canvas.set_camera(SliceCamera(camera.x + right, camera.y + down, camera.scale))
         settle(timeout=0.1)
         assert [overlay.pos() for overlay in words] == before

@@ -3,7 +3,7 @@
 import pytest
 from PySide6.QtCore import QObject
 
-from app.views.slices.resting import REST_MS, RestingLayer
+from app.views.slices.pace import REST_MS, RestingLayer
 
 FIRST, SECOND = object(), object()
 """Two planes."""

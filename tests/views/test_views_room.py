@@ -25,8 +25,7 @@ from app.views.plan.paths import PathsFeature
 from app.views.robot.feature import RobotFeature
 from app.views.robot.health_panel import _Line
 from app.views.shell.window import MainWindow
-from app.views.slices.looks import Look, Slab, Turn
-from app.views.slices.operator_side import OperatorSide, side_name, turns
+from app.views.slices.looks import Look, OperatorSide, Slab, Turn, side_name, turns
 from app.views.slices.panes import PANE_MARKS, PaneId
 from app.views.slices.plane import looked_at, own_plane
 

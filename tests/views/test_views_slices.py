@@ -15,7 +15,7 @@ from app.imaging.window import PRESETS, WindowLevel
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices.bindings import OHIF, SLICER
-from app.views.slices.camera import Camera, ruler
+from app.views.slices.camera import SliceCamera, ruler
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
@@ -82,7 +82,7 @@ def press(pane, key):
 @given(finite, finite, st.floats(0.1, 50.0), st.floats(0.2, 5.0), finite, finite)
 @settings(derandomize=True, deadline=None, max_examples=60)
 def test_zooming_keeps_the_point_under_the_mouse(x, y, scale, factor, px, py):
-    camera = Camera(x, y, scale)
+    camera = SliceCamera(x, y, scale)
     zoomed = camera.zoomed(factor, px, py)
     before = ((px - camera.x) * camera.scale, (py - camera.y) * camera.scale)
     after = ((px - zoomed.x) * zoomed.scale, (py - zoomed.y) * zoomed.scale)
@@ -91,7 +91,7 @@ def test_zooming_keeps_the_point_under_the_mouse(x, y, scale, factor, px, py):
 
 def test_a_camera_refuses_what_is_not_finite():
     with pytest.raises(NumericalError, match="camera"):
-        Camera(float("nan"), 0.0, 1.0)
+        SliceCamera(float("nan"), 0.0, 1.0)
 
 
 @given(st.floats(0.05, 200.0))

@@ -5,18 +5,18 @@ import pytest
 from PySide6.QtCore import QObject
 
 from app.planning.needle_overlay import NeedleOverlay
-from app.views.slices import unhurried
+from app.views.slices import pace
+from app.views.slices.pace import Unhurried
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import PaneId
 from app.views.slices.presets import default_window
-from app.views.slices.unhurried import Unhurried
 from app.views.slices.viewing import Viewing
 
 
 @pytest.fixture
 def clock(monkeypatch):
     now = [10.0]
-    monkeypatch.setattr(unhurried, "monotonic", lambda: now[0])
+    monkeypatch.setattr(pace, "monotonic", lambda: now[0])
     return now
 
 

@@ -40,12 +40,11 @@ from app.views.reading.patient_views import PatientViews
 from app.views.scene.renderer import SceneRenderer
 from app.views.scene.view import SceneView
 from app.views.shell.shortcuts import disclaimer_label
-from app.views.slices.lines import LineGrip, fill_turn_menu
-from app.views.slices.needle_menu import fill_needle_menu
-from app.views.slices.needle_source import Along, NeedlePlanes
+from app.views.slices.needle_source import Along, NeedlePlanes, fill_needle_menu
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, NEEDLE_PANES
 from app.views.slices.presets import default_window
+from app.views.slices.turning import LineGrip, fill_turn_menu
 from app.views.slices.two_points import TwoPoints
 from app.views.slices.viewing import Tool, Viewing
 

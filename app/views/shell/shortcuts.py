@@ -17,8 +17,7 @@ from PySide6.QtWidgets import (
 
 from app.views.kit import theme
 from app.views.kit.text import disclaimer, tr
-from app.views.slices.binding_words import key_rows, mouse_rows
-from app.views.slices.bindings import Scheme
+from app.views.slices.bindings import Scheme, key_rows, mouse_rows
 
 _AROUND_PX = 40
 

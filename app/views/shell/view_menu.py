@@ -18,8 +18,8 @@ from app.views.reading.lock_words import view_title, why_locked
 from app.views.reading.workspace import WorkspacePage
 from app.views.shell.projector import Projector
 from app.views.slices.bindings import SCHEMES
-from app.views.slices.needle_menu import fill_needle_menu
-from app.views.slices.operator_side import OperatorSide, side_name, turns
+from app.views.slices.looks import OperatorSide, side_name, turns
+from app.views.slices.needle_source import fill_needle_menu
 from app.views.slices.pane import SlicePane, fill_windows
 from app.views.slices.turning import straighten
 

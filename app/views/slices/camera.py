@@ -12,7 +12,7 @@ SMALLEST, LARGEST = 0.05, 200.0
 
 
 @dataclass(frozen=True, slots=True)
-class Camera:
+class SliceCamera:
     """The plane point [mm] in the middle of the pane and the zoom [px/mm], same in x and y.
 
     Raises:
@@ -28,22 +28,24 @@ class Camera:
             raise NumericalError(f"camera ({self.x}, {self.y}) at {self.scale} px/mm is not usable")
 
     @classmethod
-    def fit(cls, bounds_mm: tuple[float, float, float, float], pane_px: tuple[int, int]) -> Camera:
+    def fit(
+        cls, bounds_mm: tuple[float, float, float, float], pane_px: tuple[int, int]
+    ) -> SliceCamera:
         """Show a whole rectangle (left, top, width, height) [mm], centred in the pane."""
         left, top, across, down = bounds_mm
         width, height = (max(1.0, float(size)) for size in pane_px)
         scale = min(width / max(across, 1e-3), height / max(down, 1e-3))
         return cls(left + across / 2, top + down / 2, min(max(scale, SMALLEST), LARGEST))
 
-    def panned(self, right_px: float, down_px: float) -> Camera:
+    def panned(self, right_px: float, down_px: float) -> SliceCamera:
         """Move the image by so many pixels."""
         return replace(self, x=self.x - right_px / self.scale, y=self.y - down_px / self.scale)
 
-    def zoomed(self, factor: float, x: float, y: float) -> Camera:
+    def zoomed(self, factor: float, x: float, y: float) -> SliceCamera:
         """Zoom by `factor` (within the limits); the plane point (x, y) [mm] stays where it is."""
         scale = min(max(self.scale * factor, SMALLEST), LARGEST)
         kept = self.scale / scale
-        return Camera(x + (self.x - x) * kept, y + (self.y - y) * kept, scale)
+        return SliceCamera(x + (self.x - x) * kept, y + (self.y - y) * kept, scale)
 
     def visible(self, pane_px: tuple[int, int]) -> tuple[float, float, float, float]:
         """Left, top, width and height [mm] of what a pane of this size shows."""

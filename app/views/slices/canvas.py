@@ -13,13 +13,13 @@ from PySide6.QtWidgets import QWidget
 from app.views.kit import theme
 from app.views.slices.drawing import Drawing
 from app.views.slices.items import MarkItem
-from app.views.slices.layer_stack import ALL_LAYERS, WAITED_FOR, Due, Layer, LayerStack
+from app.views.slices.layers import ALL_LAYERS, WAITED_FOR, Due, Layer, LayerStack
 from app.views.slices.looks import Turn
+from app.views.slices.pace import Unhurried
 from app.views.slices.panes import PaneId
 from app.views.slices.pictures import Picture, PictureFeed, Screen
 from app.views.slices.plane import Rect, SlicePlane
 from app.views.slices.plane_view import PlaneView
-from app.views.slices.unhurried import Unhurried
 from app.views.slices.viewing import Viewing
 from app.views.slices.words import Written
 

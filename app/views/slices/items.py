@@ -12,7 +12,7 @@ from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPixmap
 from app.views.kit import theme
 from app.views.kit.theme import Mark, Symbol
 from app.views.slices.drawing import Ink, Shape, Strokes, stroke
-from app.views.slices.labels import Placed, Wanted
+from app.views.slices.labels import PlacedLabel, Wanted
 from app.views.slices.words import rimmed
 
 
@@ -98,7 +98,7 @@ class MarkItem(Shape):
         width, height = self._size.width(), self._size.height()
         return Wanted(at.x(), at.y(), width, height, self.RADIUS, self._last, self._optional)
 
-    def place_label(self, at: QPointF, placed: Placed | None) -> None:
+    def place_label(self, at: QPointF, placed: PlacedLabel | None) -> None:
         """Put the label where it was arranged, the mark standing at this pixel; None hides it."""
         rect = None
         if placed is not None:

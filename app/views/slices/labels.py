@@ -44,7 +44,7 @@ class Wanted:
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class PlacedLabel:
     """A label's rectangle in the pane [px], and which of the candidates it is."""
 
     rect: Rect
@@ -55,7 +55,7 @@ def arrange(
     wanted: Sequence[Wanted],
     pane: tuple[float, float],
     lines: ArrayLike = (),
-) -> list[Placed | None]:
+) -> list[PlacedLabel | None]:
     """Give each label its best place, the first ones first.
 
     Args:
@@ -71,7 +71,7 @@ def arrange(
     labels = np.array([(w.x, w.y, w.width, w.height, w.radius) for w in wanted]).T
     rects = _candidates(labels)
     costs = _costs(wanted, labels, rects, pane, np.asarray(lines, np.float64).reshape(-1, 2))
-    placed: list[Placed | None] = []
+    placed: list[PlacedLabel | None] = []
     for number, label in enumerate(wanted):
         if not (0.0 <= label.x <= pane[0] and 0.0 <= label.y <= pane[1]):
             placed.append(None)
@@ -83,7 +83,7 @@ def arrange(
         best = int(np.argmin(own))
         x, y, w, h = choices[:, best].tolist()
         rect = max(0.0, min(x, pane[0] - w)), max(0.0, min(y, pane[1] - h)), w, h
-        placed.append(None if label.optional and own[best] >= BAD else Placed(rect, best))
+        placed.append(None if label.optional and own[best] >= BAD else PlacedLabel(rect, best))
     return placed
 
 

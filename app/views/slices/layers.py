@@ -1,27 +1,31 @@
-"""Layers over the image: crosshair, plan and needle, placed anew when what they show changes."""
+"""The layers over one slice: plan, needle and what others add, and when each is placed anew."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from collections.abc import Set as AbstractSet
+from enum import IntEnum, auto
 from functools import partial
 from itertools import pairwise
+from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QPointF
 
-from app.imaging.reformat import Frame, trace
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.kit.theme import Mark
-from app.views.slices.cross_line import CrossLine
+from app.views.slices.crosshair import CrosshairLayer, NeedleTraces
 from app.views.slices.drawing import Drawing, Ink
+from app.views.slices.ellipses import ErrorLayer, TargetDisc
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.labels import arrange
-from app.views.slices.panes import PANE_MARKS, PaneId, crossing_panes
+from app.views.slices.panes import NEEDLE_PANES, PaneId
 from app.views.slices.plane import SlicePlane
-from app.views.slices.slab import PlanePoint, crossing, pieces
+from app.views.slices.slab import PlanePoint, pieces
+from app.views.slices.ticks import TickLayer
 from app.views.slices.viewing import Viewing
 
 FADED, FAINTEST = 0.75, 0.25
@@ -30,50 +34,6 @@ FAINTEST_MM = 50.0
 
 _SHARES = np.linspace(0.0, 1.0, 24)[:, None]
 """Points on a line, near enough to each other that no label slips between them."""
-
-
-class CrosshairLayer:
-    """The traces of the two other panes of the family, in their colours.
-
-    Attributes:
-        ends_only: draw their ends alone, so that they cover nothing of the picture.
-    """
-
-    def __init__(self, drawing: Drawing, viewing: Viewing, pane: PaneId) -> None:
-        self._viewing = viewing
-        self.ends_only = False
-        self._lines = {other: CrossLine(PANE_MARKS[other]) for other in crossing_panes(pane)}
-        for line in self._lines.values():
-            line.setVisible(False)
-            drawing.add(line)
-
-    @property
-    def traced(self) -> frozenset[PaneId]:
-        """Panes whose traces it shows."""
-        return frozenset(self._lines)
-
-    def place(self, plane: SlicePlane, index: float, scale: float) -> None:
-        """Cross where the three planes meet."""
-        this = plane.frame(index)
-        traces = {other: self._trace(this, other) for other in self._lines}
-        cuts = [cut for cut in traces.values() if cut is not None]
-        meeting = crossing(cuts[0], cuts[1]) if len(cuts) == 2 else None
-        for other, line in self._lines.items():
-            cut = traces[other]
-            if cut is None:
-                line.setVisible(False)
-                continue
-            at = meeting or cut[:2]
-            line.place(at, cut[2:], plane.bounds_mm, scale, self.ends_only)
-
-    def hide(self) -> None:
-        """Show nothing."""
-        for line in self._lines.values():
-            line.setVisible(False)
-
-    def _trace(self, this: Frame, other: PaneId) -> tuple[float, float, float, float] | None:
-        frame = self._viewing.frame(other)
-        return None if frame is None else trace(this, frame)
 
 
 def fading(distance_mm: float, half_mm: float) -> float:
@@ -254,3 +214,151 @@ def _words(name: str, distance: float, near: bool, plane: SlicePlane) -> str:
         return name
     side = plane.towards(distance)
     return f"{name} {tr('{distance:.0f} mm {side}', distance=abs(distance), side=side)}".strip()
+
+
+class Due(IntEnum):
+    """What of a slice is to be drawn anew; whole numbers are looked up faster than names."""
+
+    CAMERA = auto()
+    GREYS = auto()
+    WORDS = auto()
+    CROSSHAIR = auto()
+    PLAN = auto()
+    NEEDLE = auto()
+    ADDED = auto()
+
+
+ALL_LAYERS = frozenset({Due.CROSSHAIR, Due.PLAN, Due.NEEDLE, Due.ADDED})
+"""What is to be placed where slice, plane or zoom are others."""
+
+WAITED_FOR = frozenset({Due.CAMERA, Due.GREYS, Due.PLAN, Due.ADDED})
+"""What somebody does and looks at: its words are written at once."""
+
+
+UNSEEN_PX = 0.1
+"""What moves by less is not placed and painted anew."""
+
+
+class Layer(Protocol):
+    """Something drawn over a slice: owns shapes of the pane's `drawing`."""
+
+    def place(self, plane: SlicePlane, index: float, scale: float) -> None:
+        """Put its shapes where they belong.
+
+        Args:
+            plane: of the pane.
+            index: of the slice.
+            scale: zoom [px/mm].
+        """
+
+    def hide(self) -> None:
+        """Show nothing: the pane has no plane."""
+
+
+class LayerStack:
+    """Owns the layers of one canvas, and what others add.
+
+    Attributes:
+        crosshair, plan, needle, errors, disc: its own layers.
+        ticks: the line ahead of the tip; None in panes that are not the needle's.
+        traces: the needle's planes; None in the needle's own panes.
+        traced: panes whose traces are shown.
+    """
+
+    def __init__(self, drawing: Drawing, viewing: Viewing, pane: PaneId) -> None:
+        self._viewing, self._pane = viewing, pane
+        self.crosshair = CrosshairLayer(drawing, viewing, pane)
+        self.plan, self.needle = PlanLayer(drawing), NeedleLayer(drawing)
+        self.errors = ErrorLayer(drawing)
+        self.disc = TargetDisc(drawing, viewing)
+        self.ticks = TickLayer(drawing, viewing) if pane.is_needle else None
+        self.traces = None if pane.is_needle else NeedleTraces(drawing, viewing)
+        self._labels = Labels((self.plan.target, self.plan.entry, self.needle.tip))
+        self._added: list[Layer] = []
+        own = self.crosshair.traced
+        self.traced = own if self.traces is None else own.union(NEEDLE_PANES)
+
+    def add(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
+        """Take another layer; names of its `marks` are arranged after those already there."""
+        self._added.append(layer)
+        self._labels.add(marks)
+
+    def hide(self) -> None:
+        """Show nothing."""
+        self.crosshair.hide()
+        self.plan.hide()
+        self.needle.hide()
+        self.errors.hide()
+        self.disc.hide()
+        for more in (self.ticks, self.traces):
+            if more is not None:
+                more.hide()
+        for layer in self._added:
+            layer.hide()
+
+    def place(self, due: AbstractSet[Due], plane: SlicePlane, index: float, scale: float) -> None:
+        """Put what has changed where it belongs.
+
+        Args:
+            due: what has changed.
+            plane: of the pane.
+            index: of the slice.
+            scale: zoom [px/mm].
+        """
+        if Due.CROSSHAIR in due:
+            self.crosshair.place(plane, index, scale)
+            if self.traces is not None:
+                self.traces.place(plane, index, scale)
+        if Due.PLAN in due:
+            self._place_plan(plane, index, scale)
+        if Due.NEEDLE in due and due == {Due.NEEDLE} and self._stands(scale):
+            due = frozenset()
+        if Due.NEEDLE in due:
+            self._place_needle(plane, index)
+        if self.ticks is not None and (Due.PLAN in due or Due.NEEDLE in due):
+            self.ticks.place(plane, index, scale)
+        if Due.ADDED in due:
+            for layer in self._added:
+                layer.place(plane, index, scale)
+
+    def _place_plan(self, plane: SlicePlane, index: float, scale: float) -> None:
+        viewing = self._viewing
+        error = viewing.target_error if viewing.shows_errors else None
+        self.plan.place(viewing.shown_draft, plane, index, error is not None)
+        self.errors.place_target(error, plane, index)
+        self.disc.place(plane, index, scale)
+
+    def _place_needle(self, plane: SlicePlane, index: float) -> None:
+        needle = self._viewing.needle
+        self.needle.place(needle, plane, index)
+        error = needle.error if needle is not None and self._viewing.shows_errors else None
+        self.errors.place_tip(error, plane, index)
+
+    def _stands(self, scale: float) -> bool:
+        """Whether the needle has moved less than can be seen since it was placed last."""
+        before, now = self.needle.shown, self._viewing.needle
+        if before is None or now is None or before is now or before.valid is not now.valid:
+            return False
+        old, new = before.points_mm, now.points_mm
+        if old.shape != new.shape or np.abs(new - old).max() * scale > UNSEEN_PX:
+            return False
+        if before.error is None or now.error is None:
+            return before.error is now.error
+        change = np.abs(now.error.covariance_mm2 - before.error.covariance_mm2).max()
+        return bool(np.sqrt(change) * scale <= UNSEEN_PX)
+
+    def arrange_labels(
+        self,
+        plane: SlicePlane,
+        index: float,
+        size_px: tuple[float, float],
+        pixel_at: Callable[[float, float], QPointF],
+    ) -> None:
+        """Put the names of the marks where they cover nothing and nothing cuts them."""
+        draft, needle = self._viewing.shown_draft, self._viewing.needle
+        lines = [] if needle is None else list(pairwise(needle.points_mm))
+        if draft.entry_mm is not None and draft.target_mm is not None:
+            lines.append((np.asarray(draft.entry_mm), np.asarray(draft.target_mm)))
+        places = [[plane.point(point, index) for point in line] for line in lines]
+        ends = [(pixel_at(a.x, a.y), pixel_at(b.x, b.y)) for a, b in places]
+        self._labels.arrange(size_px, pixel_at, ends)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import StrEnum
 
 import numpy as np
 from numpy.typing import ArrayLike
 from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QMenu
 
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
@@ -21,7 +23,7 @@ from app.planning.needle_planes import (
 )
 from app.views.kit.text import tr
 from app.views.slices.panes import NEEDLE_PANES, PaneId
-from app.views.slices.viewing import Viewing
+from app.views.slices.viewing import Tool, Viewing
 
 _VIEWS = {PaneId.IN_PLANE: in_plane, PaneId.IN_PLANE_90: in_plane_90, PaneId.PROBE: probe}
 
@@ -171,3 +173,26 @@ class NeedlePlanes(QObject):
 def _alike(one: NeedleFrame, other: NeedleFrame) -> bool:
     pairs = ((one.tip_mm, other.tip_mm), (one.axis, other.axis), (one.y, other.y))
     return all(np.abs(a - b).max() < 1e-9 for a, b in pairs)
+
+
+def fill_needle_menu(menu: QMenu, planes: NeedlePlanes, viewing: Viewing) -> None:
+    """Add the choices, the present one checked."""
+    entries: tuple[tuple[str, Along, Callable[[], object], bool], ...] = (
+        (tr("Follow the needle"), Along.NEEDLE, planes.follow_needle, True),
+        (tr("Hold here"), Along.HELD, planes.hold, planes.frame is not None),
+        (tr("Along the planned path"), Along.PATH, planes.show_path, planes.path_mm is not None),
+        (tr("Through two points…"), Along.POINTS, lambda: viewing.set_tool(Tool.PLANE),
+         viewing.volume is not None),
+    )  # fmt: skip
+    menu.addSeparator()
+    for text, along, command, enabled in entries:
+        action = menu.addAction(text)
+        action.setCheckable(True)
+        action.setChecked(planes.along is along)
+        action.setEnabled(enabled)
+        action.triggered.connect(lambda _=False, command=command: command())
+    menu.addSeparator()
+    traces = menu.addAction(tr("Lines in the patient views"))
+    traces.setCheckable(True)
+    traces.setChecked(viewing.shows_traces)
+    traces.triggered.connect(viewing.set_shows_traces)

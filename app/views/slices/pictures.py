@@ -76,7 +76,7 @@ class Screen:
 
 
 @dataclass(frozen=True, slots=True)
-class Region:
+class PixelGrid:
     """Pixels of an interpolated picture: left and top edge [mm], size of a pixel, and counts."""
 
     left: float
@@ -100,12 +100,12 @@ class Values:
 
     plane: SlicePlane
     index: float
-    region: Region | None
+    region: PixelGrid | None
     hu: NDArray[Any]
     bounds_mm: Rect
 
     @classmethod
-    def of(cls, plane: SlicePlane, index: float, region: Region | None) -> Values:
+    def of(cls, plane: SlicePlane, index: float, region: PixelGrid | None) -> Values:
         """Take them from the volume."""
         if region is None:  # contiguous: the next window then needs no second gather
             hu = np.ascontiguousarray(plane.image(index))
@@ -115,7 +115,7 @@ class Values:
         bounds = (*corner, region.columns * size, region.rows * size)
         return cls(plane, index, region, hu, bounds)
 
-    def are(self, plane: SlicePlane, index: float, region: Region | None) -> bool:
+    def are(self, plane: SlicePlane, index: float, region: PixelGrid | None) -> bool:
         """Whether they are those of this slice."""
         return self.plane is plane and (self.index, self.region) == (index, region)
 
@@ -134,7 +134,7 @@ class Wish:
 
     plane: SlicePlane
     index: float
-    region: Region | None
+    region: PixelGrid | None
     window: WindowLevel
     inverted: bool
     screen: Screen
@@ -454,7 +454,7 @@ class PictureFeed:
             self._wait()
 
 
-def _region(plane: SlicePlane, screen: Screen) -> Region | None:
+def _region(plane: SlicePlane, screen: Screen) -> PixelGrid | None:
     """Return the part of the volume that is seen, on the pane's pixels; None if there is none."""
     pixel = max(1.0 / screen.scale, plane.finest_mm / FINEST)
     first, last = [], []
@@ -471,4 +471,4 @@ def _region(plane: SlicePlane, screen: Screen) -> Region | None:
     if columns < 1 or rows < 1:
         return None
     left, top = screen.left + first[0] * pixel, screen.top + first[1] * pixel
-    return Region(left, top, pixel, columns, rows)
+    return PixelGrid(left, top, pixel, columns, rows)

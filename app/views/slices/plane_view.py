@@ -9,7 +9,7 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent, QTransform, QWhe
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core.arrays import FloatArray
-from app.views.slices.camera import Camera
+from app.views.slices.camera import SliceCamera
 from app.views.slices.panes import PaneId
 from app.views.slices.plane import Rect, SlicePlane
 from app.views.slices.viewing import Viewing
@@ -57,7 +57,7 @@ class PlaneView(QWidget):
         super().__init__(parent)
         self.viewing, self.pane = viewing, PaneId(pane)
         self.plane: SlicePlane | None = None
-        self.camera = Camera(0.0, 0.0, 1.0)
+        self.camera = SliceCamera(0.0, 0.0, 1.0)
         self.gestures: Gestures | None = None
         self._fitted = True
         self._size = (1, 1)
@@ -87,10 +87,10 @@ class PlaneView(QWidget):
     def fit(self) -> None:
         """Show the whole image, and keep doing so when the pane is resized."""
         if self.plane is not None:
-            self.set_camera(Camera.fit(self.plane.home_mm, (self.width(), self.height())))
+            self.set_camera(SliceCamera.fit(self.plane.home_mm, (self.width(), self.height())))
             self._fitted = True
 
-    def set_camera(self, camera: Camera) -> None:
+    def set_camera(self, camera: SliceCamera) -> None:
         """Pan and zoom to `camera`."""
         self.camera, self._fitted = camera, False
         self._look()
@@ -110,7 +110,7 @@ class PlaneView(QWidget):
         right, down = new.x - old.x, new.y - old.y
         if max(abs(right), abs(down)) > 1e-6:
             camera, fitted = self.camera, self._fitted
-            self.set_camera(Camera(camera.x + right, camera.y + down, camera.scale))
+            self.set_camera(SliceCamera(camera.x + right, camera.y + down, camera.scale))
             self._fitted = fitted
 
     def _look(self) -> None:

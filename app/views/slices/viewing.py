@@ -19,12 +19,12 @@ from app.planning.draft import DraftPlan
 from app.planning.error_overlay import ErrorOverlay
 from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices.bindings import OHIF, Scheme
-from app.views.slices.greys import Greys
 from app.views.slices.looks import Look
 from app.views.slices.panes import PaneId
 from app.views.slices.pictures import PictureMaker
 from app.views.slices.plane import SlicePlane
 from app.views.slices.planes import Planes
+from app.views.slices.presets import Greys
 
 FOLLOW_DEAD_BAND_MM = 0.3
 """Slices that follow the tip stay while it moves less than this, so that they do not tremble."""

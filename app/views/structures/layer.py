@@ -30,8 +30,8 @@ from app.views.kit.text import tr
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.drawing import Drawing, Shape
 from app.views.slices.items import label_font
+from app.views.slices.pace import RestingLayer
 from app.views.slices.plane import SlicePlane
-from app.views.slices.resting import RestingLayer
 from app.views.structures.book import StructureBook
 
 HATCHES = {

@@ -1,4 +1,4 @@
-"""The layer of error ellipses: round the target by the registration check, round the tip."""
+"""Ellipses of true size over a slice: errors of target and tip, and the tolerance of the target."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ from app.planning.error_overlay import ErrorOverlay
 from app.views.kit import theme
 from app.views.kit.theme import Mark
 from app.views.slices.drawing import Drawing, Ink, Strokes, ellipse
+from app.views.slices.items import MarkItem
 from app.views.slices.plane import SlicePlane
+from app.views.slices.viewing import Viewing
 
 TARGET_ERROR = Mark(theme.TARGET.colour, dash=(3.0, 2.0), width=1.5)
 TIP_ERROR = Mark(theme.NEEDLE_TIP.colour, width=1.5)
@@ -75,3 +77,39 @@ def _place(item: EllipseItem, error: ErrorOverlay | None, plane: SlicePlane, ind
     near = abs(at.distance) <= plane.half_slab_mm
     *axes, angle = error.ellipse_mm(plane.first.right, plane.first.down)
     item.place(at.x, at.y, (axes[0], axes[1]), near, angle)
+
+
+INNER = Mark(theme.TARGET.colour, width=2.0)
+OUTER = Mark(theme.TARGET.colour, dash=(5.0, 3.0), width=1.5)
+SMALLEST_PX = MarkItem.RADIUS + 2.0
+"""Rings that would lie under the target's own mark are not drawn."""
+
+
+class TargetDisc:
+    """Rings of the viewing's tolerances: the inner one solid, the outer one dashed."""
+
+    def __init__(self, drawing: Drawing, viewing: Viewing) -> None:
+        self._viewing = viewing
+        self.rings = (EllipseItem(INNER, 3.4), EllipseItem(OUTER, 3.3))
+        for ring in self.rings:
+            drawing.add(ring)
+
+    def place(self, plane: SlicePlane, index: float, scale: float) -> None:
+        """Show the rings; faded where the target is not in the slice."""
+        target = self._viewing.shown_draft.target_mm
+        if target is None:
+            self.hide()
+            return
+        at = plane.point(target, index)
+        near = abs(at.distance) <= plane.half_slab_mm
+        radii = (*self._viewing.tolerances_mm, 0.0, 0.0)
+        for ring, radius in zip(self.rings, radii, strict=False):
+            if radius * scale >= SMALLEST_PX:
+                ring.place(at.x, at.y, (radius, radius), near)
+            else:
+                ring.setVisible(False)
+
+    def hide(self) -> None:
+        """Show nothing."""
+        for ring in self.rings:
+            ring.setVisible(False)
