@@ -63,10 +63,7 @@ def test_prose_is_wrapped():
         str(file.relative_to(ROOT)): number
         for file in SOURCES
         for number, line in enumerate(prose(file).splitlines(), 1)
-        if file.name != "tracking.md"  # still to be wrapped
-        and len(line) > 150
-        and not line.startswith("|")
-        and " " in line.strip()[:150].strip("- ")
+        if len(line) > 150 and not line.startswith("|") and " " in line.strip()[:150].strip("- ")
     }
     assert long == {}
 
