@@ -27,6 +27,18 @@ LONG_FILES = (
     "test_compose_hand.py",
     "test_privacy_leaks.py",
     "test_without_posix.py",
+    "tracking/test_tracking_calibration_stereo.py",
+    "imaging/test_imaging_pacs.py",
+    "imaging/test_imaging_worker.py",
+    "imaging/test_imaging_orthanc.py",
+    "views/test_views_pen.py",
+    "views/test_views_control_scan.py",
+    "views/test_views_room.py",
+    "views/test_views_cameras.py",
+    "views/test_views_scaling.py",
+    "device/test_device_foreign_laws.py",
+    "test_compose.py",
+    "test_compose_withdrawal.py",
 )
 """They begin first, so that no process is left with one of them at the end."""
 

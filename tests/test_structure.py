@@ -30,13 +30,25 @@ WITHOUT_QT = {
 
 
 @cache
-def trees() -> dict[str, ast.Module]:
-    """Syntax tree of every module of `app`, by its dotted name."""
+def sources() -> dict[str, str]:
+    """Text of every module of `app`, by its dotted name."""
     found = {}
     for path in sorted((ROOT / "app").rglob("*.py")):
         name = ".".join(path.relative_to(ROOT).with_suffix("").parts)
-        found[name.removesuffix(".__init__")] = ast.parse(path.read_text())
+        found[name.removesuffix(".__init__")] = path.read_text(encoding="utf-8")
     return found
+
+
+@cache
+def trees() -> dict[str, ast.Module]:
+    """Syntax tree of every module of `app`, by its dotted name."""
+    return {name: ast.parse(text) for name, text in sources().items()}
+
+
+@cache
+def imports() -> dict[str, tuple[tuple[str, str], ...]]:
+    """What every module of `app` imports, by its dotted name."""
+    return {name: tuple(imported(tree)) for name, tree in trees().items()}
 
 
 def imported(tree: ast.Module) -> Iterator[tuple[str, str]]:
@@ -52,9 +64,9 @@ def imported(tree: ast.Module) -> Iterator[tuple[str, str]]:
 def graph() -> dict[str, frozenset[str]]:
     """Which modules of `app` a module imports."""
     known, edges = trees(), {}
-    for name, tree in known.items():
+    for name in known:
         found = set()
-        for module, part in imported(tree):
+        for module, part in imports()[name]:
             whole = f"{module}.{part}"
             found.add(whole if whole in known else module)
         edges[name] = frozenset((found & set(known)) - {name})
@@ -95,13 +107,16 @@ def test_no_modules_import_each_other_in_a_circle_not_even_late_or_for_types():
 def test_only_the_shell_names_the_windows_class():
     naming = [
         name
-        for name, tree in trees().items()
-        if any(isinstance(node, ast.Name) and node.id == WINDOW for node in ast.walk(tree))
-        or any(part == WINDOW for _, part in imported(tree))
-        or any(
-            (isinstance(node, ast.Constant) and node.value == WINDOW)
-            or (isinstance(node, ast.Attribute) and node.attr == WINDOW)
-            for node in ast.walk(tree)
+        for name, text in sources().items()
+        if WINDOW in text
+        and (
+            any(part == WINDOW for _, part in imports()[name])
+            or any(
+                (isinstance(node, ast.Name) and node.id == WINDOW)
+                or (isinstance(node, ast.Constant) and node.value == WINDOW)
+                or (isinstance(node, ast.Attribute) and node.attr == WINDOW)
+                for node in ast.walk(trees()[name])
+            )
         )
     ]
     assert naming, "the window has another name now"
@@ -147,8 +162,8 @@ def test_what_stands_in_views_draws_or_speaks():
     known, edges = trees(), graph()
     direct = {
         name
-        for name, tree in known.items()
-        if any(module.split(".")[0] in TOOLKITS for module, _ in imported(tree))
+        for name in known
+        if any(module.split(".")[0] in TOOLKITS for module, _ in imports()[name])
     }
     with_qt = {name for name in direct if name.startswith("app.views")}
     while True:

@@ -1,4 +1,4 @@
-"""Start of the program on a machine already set up: window, then an exercise that runs.
+"""Start of the program on a machine already set up: the window, then an exercise that runs in it.
 
 Each start is a process of its own; kernels and the phantom are cached by a first one that does not
 count. The clock starts before the interpreter does.
@@ -10,7 +10,7 @@ import subprocess
 import sys
 import time
 
-WINDOW_S, EXERCISE_S = 3.0, 8.0
+WINDOW_S, EXERCISE_S = 3.0, 5.0
 RUNS = 5
 
 
@@ -22,7 +22,7 @@ def child() -> None:
     session = Session()
     window = time.monotonic() - began
     session.open_exercise()
-    print(f"RESULT {window} {time.monotonic() - began}", flush=True)
+    print(f"RESULT {window} {time.monotonic() - began - window}", flush=True)
     session.close()
 
 

@@ -116,7 +116,7 @@ def test_open_place_insert_end_debrief_by_hand(user: User, sessions: Path) -> No
     user.wait(lambda seen: seen["page"] == "StartPage", "start page", 60)
     user.click(user.see()["begin"])
     user.wait(lambda seen: seen["page"] == "WorkspacePage", "patient", 120)
-    user.wait(lambda seen: seen["start"], "robot and cameras", 180)
+    user.wait(lambda seen: seen["start"], "robot and cameras", 400)
 
     before = user.see()
     user.key("e")

@@ -47,7 +47,7 @@ def headers_in(path: Path, settings: Path, progress: Progress):
     if path.name == "panic":
         raise PanicException("DOE^JANE")
     if path.name == "slow":
-        busy(0.4, progress)
+        busy(0.2, progress)  # two seconds: longer than a file may take in silence
     if path.name == "wrong":
         return (Ignored(path, "no header"),)
     return Ignored(path, f"read {path.name}")
