@@ -17,7 +17,7 @@ from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.imaging.body import find_body
 from app.imaging.reading import load_ct
-from app.planning.proposal import demonstration_plan
+from app.planning.paths import demonstration_plan
 from app.session.ct_facts import CtFacts
 from app.session.review import review_of_result
 from app.session.trainer import Trainer

@@ -13,7 +13,7 @@ from pathlib import Path
 from PySide6.QtWidgets import QApplication, QDialog
 
 from app.compose.desktop import Desktop
-from app.planning.proposal import demonstration_plan
+from app.planning.paths import demonstration_plan
 from app.views.series.feature import SeriesFeature
 from app.views.shell.application import start
 from app.views.shell.window import MainWindow

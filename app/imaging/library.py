@@ -28,8 +28,7 @@ from app.imaging.errors import (
     SeriesUnknownError,
 )
 from app.imaging.privacy.burned_in import MaskBox
-from app.imaging.privacy.deidentified import LOCK, Deidentified
-from app.imaging.privacy.report import RemovalReport
+from app.imaging.privacy.report import LOCK, Deidentified, RemovalReport
 from app.imaging.reading import offer
 from app.imaging.scanning import scan_folder
 from app.imaging.series import Remedy, Series

@@ -19,11 +19,9 @@ from app.core.arrays import FloatArray, read_only
 from app.core.progress import Progress
 from app.imaging import memory, stack
 from app.imaging.errors import SeriesRefusedError, TooLargeError
-from app.imaging.reading import grid_of, read_pixels, read_series
-from app.imaging.recipe import Recipe
-from app.imaging.reduction import reduced_affine
+from app.imaging.reading import grid_of, read_pixels, read_series, reduced_affine
 from app.imaging.rescaling import fresh_array
-from app.imaging.series import Remedy, Series
+from app.imaging.series import Recipe, Remedy, Series
 from app.imaging.volume import Volume
 
 EMPTY_HU = -1024.0

@@ -1,4 +1,7 @@
-"""What a folder holds: series, usable or not, and the files that belong to none."""
+"""What a folder holds: series, usable or not, and the files that belong to none.
+
+A recipe says what was asked for on the way from files to a volume: the same can be asked again.
+"""
 
 import hashlib
 from dataclasses import dataclass, field
@@ -126,3 +129,22 @@ class Listing:
             return str(path.relative_to(self.root or self.path))
         except ValueError:
             return str(path)
+
+
+@dataclass(frozen=True, slots=True)
+class Recipe:
+    """How a series was read; `resampling.read_again` follows it.
+
+    Attributes:
+        remedy: what was asked for.
+        factors: voxels along i, j and k that were averaged to one.
+        spacing_mm: of the slices that were made; None where none were.
+    """
+
+    remedy: Remedy = Remedy.NONE
+    factors: tuple[int, int, int] = (1, 1, 1)
+    spacing_mm: float | None = None
+
+
+AS_IT_IS = Recipe()
+"""Read without asking for anything."""

@@ -12,8 +12,7 @@ from app.core.arrays import FloatArray, frozen
 from app.core.errors import NumericalError
 from app.core.units import MILLIMETRE
 from app.imaging.interpolation import Interpolation, interpolate
-from app.imaging.recipe import AS_IT_IS, Recipe
-from app.imaging.series import Series
+from app.imaging.series import AS_IT_IS, Recipe, Series
 
 
 @dataclass(frozen=True, slots=True)

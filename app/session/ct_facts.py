@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from app.imaging.recipe import Recipe
-from app.imaging.series import Remedy
+from app.imaging.series import Recipe, Remedy
 from app.imaging.volume import Volume
 
 

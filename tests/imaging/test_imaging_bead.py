@@ -5,10 +5,10 @@ import pytest
 
 from app.core.arrays import FloatArray
 from app.core.rotation import rotation_exp
-from app.imaging.bead import find_bead
 from app.imaging.errors import BeadError, OutsideImageError
 from app.imaging.series import Series
 from app.imaging.volume import Volume
+from app.planning.registration.points import find_bead
 
 SPACING = np.array([0.7, 0.7, 1.0])
 SIZE = (40, 34, 30)

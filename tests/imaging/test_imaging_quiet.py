@@ -28,7 +28,7 @@ from app.imaging.reading import load_ct
 from app.imaging.scanning import scan_folder
 from app.imaging.structures.files import read_structures, write_structures
 warnings.simplefilter("always")
-from app.imaging.quiet import silence
+from app.imaging import silence
 silence()
 here = Path(sys.argv[1])
 for folder in sorted(here.iterdir()):

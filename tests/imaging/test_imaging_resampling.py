@@ -11,10 +11,9 @@ from app.imaging.body import find_body
 from app.imaging.errors import SeriesRefusedError, TooLargeError
 from app.imaging.orthogonal import OrthogonalSlicer, View
 from app.imaging.reading import choose, load_ct
-from app.imaging.recipe import AS_IT_IS
 from app.imaging.resampling import read_again, read_with
 from app.imaging.scanning import scan_folder
-from app.imaging.series import Remedy
+from app.imaging.series import AS_IT_IS, Remedy
 from tests.imaging import dicom_factory as factory
 from tests.imaging.dicom_factory import Slices
 

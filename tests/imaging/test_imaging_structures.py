@@ -5,12 +5,18 @@ import pytest
 
 from app.core.progress import Cancelled, Progress
 from app.imaging.series import Series
-from app.imaging.structures.contours import contours, outlines
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.errors import FrameOfReferenceError, StructureError
 from app.imaging.structures.placing import Found, Labelled, guessed_kind, place
 from app.imaging.structures.rtstruct import even_odd
-from app.imaging.structures.structure import Structure, StructureKind, StructureSet, cropped
+from app.imaging.structures.structure import (
+    Structure,
+    StructureKind,
+    StructureSet,
+    contours,
+    cropped,
+    outlines,
+)
 from app.imaging.volume import Volume
 
 FRAME = "2.25.77"

@@ -2,8 +2,7 @@
 
 import pytest
 
-from app.imaging.recipe import AS_IT_IS, Recipe
-from app.imaging.series import Remedy
+from app.imaging.series import AS_IT_IS, Recipe, Remedy
 from app.session.ct_facts import CtFacts
 
 MENDED = CtFacts(

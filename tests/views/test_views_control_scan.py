@@ -15,9 +15,8 @@ from window_rig import plan
 
 from app.core.events import Event
 from app.exercises.guidance import GuidanceMode, GuidancePart
-from app.imaging.recipe import Recipe
 from app.imaging.scan_order import ScanNeedle, ScanOrder
-from app.imaging.series import Remedy
+from app.imaging.series import Recipe, Remedy
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.edit import brushed
 from app.planning.patient import Patient

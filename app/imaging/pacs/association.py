@@ -1,22 +1,128 @@
 """Connections to a PACS: opened for one request, watched for a cancel, always closed.
 
-The other end of C-MOVE is here too: a storage service that stands only while a retrieval lasts.
+Encrypted ones (DICOM PS3.15 annex B: TLS) are checked before they are used. The other end of C-MOVE
+is here too: a storage service that stands only while a retrieval lasts.
 """
 
 import logging
 import socket
+import ssl
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 from app.core.errors import ConfigurationError
 from app.core.progress import Cancelled, Progress
 from app.imaging.pacs.errors import PacsError, PacsRefusedError, PacsUnreachableError
 from app.imaging.pacs.incoming import COMPRESSED, PLAIN, STORAGE_CLASSES, Incoming, handler
-from app.imaging.pacs.settings import PacsSettings
+from app.imaging.pacs.settings import PacsSettings, TlsSettings
 from app.imaging.pacs.statuses import rejected, words
-from app.imaging.pacs.tls import client_context, server_context, shake_hands
+
+
+def client_context(settings: PacsSettings) -> ssl.SSLContext | None:
+    """Context of the connections that we open; None where they are not encrypted.
+
+    Raises:
+        ConfigurationError: naming the file that cannot be used.
+    """
+    tls = settings.tls
+    if tls is None:
+        return None
+    context = ssl.create_default_context(ssl.Purpose.SERVER_AUTH)
+    context.minimum_version = ssl.TLSVersion.TLSv1_2
+    context.check_hostname = tls.check_name
+    _trust(context, tls)
+    if tls.certificate:
+        _own(context, tls)
+    return context
+
+
+def server_context(settings: PacsSettings) -> ssl.SSLContext | None:
+    """Context of the connections that C-MOVE makes the PACS open to us.
+
+    Who connects must show a certificate that the same authority has signed.
+
+    Raises:
+        ConfigurationError: if we have no certificate of our own; or naming the file.
+    """
+    tls = settings.tls
+    if tls is None:
+        return None
+    if not tls.certificate:
+        raise ConfigurationError(
+            f"{settings.name}: C-MOVE with TLS needs a certificate of our own "
+            "(tls: certificate, key); or retrieve with C-GET"
+        )
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    context.minimum_version = ssl.TLSVersion.TLSv1_2
+    context.verify_mode = ssl.CERT_REQUIRED
+    _trust(context, tls)
+    _own(context, tls)
+    return context
+
+
+def shake_hands(connection: socket.socket, settings: PacsSettings) -> str:
+    """Try the encryption on an open connection; return why it fails, empty where it does not.
+
+    The network library would only say that there is no association.
+    """
+    context = client_context(settings)
+    if context is None:
+        return ""
+    try:
+        with context.wrap_socket(connection, server_hostname=settings.host):
+            return ""
+    except ssl.SSLCertVerificationError as error:
+        return f"its certificate is not trusted: {error.verify_message}"
+    except ssl.SSLError as error:
+        why = (error.reason or "").replace("_", " ").lower()
+        return f"no encrypted connection comes about ({why or 'TLS error'}); is that its TLS port?"
+    except TimeoutError:
+        return "it does not answer to TLS; is that its TLS port?"
+    except OSError:
+        return "it closes the connection when TLS begins; is that its TLS port?"
+
+
+def _trust(context: ssl.SSLContext, tls: TlsSettings) -> None:
+    if not tls.authority:
+        context.load_default_certs()
+        return
+    _readable(tls.authority, "authority")
+    try:
+        context.load_verify_locations(cafile=tls.authority)
+    except (ssl.SSLError, OSError):
+        raise _unusable(tls.authority, "authority", "it holds no certificate in PEM") from None
+
+
+def _own(context: ssl.SSLContext, tls: TlsSettings) -> None:
+    _readable(tls.certificate, "certificate")
+    if tls.key:
+        _readable(tls.key, "key")
+    try:
+        # An empty password: OpenSSL would ask for one on the terminal and wait.
+        context.load_cert_chain(tls.certificate, tls.key or None, password="")
+    except ssl.SSLError as error:
+        file, name = (tls.key, "key") if tls.key else (tls.certificate, "certificate")
+        if error.reason == "KEY_VALUES_MISMATCH":
+            why = f"it does not belong to the certificate {tls.certificate}"
+        else:
+            why = "certificate and key must be PEM, the key without a password"
+        raise _unusable(file, name, why) from None
+
+
+def _readable(file: str, name: str) -> None:
+    try:
+        with Path(file).open("rb"):
+            pass
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or "no such file"
+        raise _unusable(file, name, f"it cannot be read: {why}") from None
+
+
+def _unusable(file: str, name: str, why: str) -> ConfigurationError:
+    return ConfigurationError(f"tls {name} {file}: {why}")
 
 
 @contextmanager

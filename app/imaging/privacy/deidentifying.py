@@ -25,12 +25,11 @@ from app.imaging.header import SliceHeader
 from app.imaging.privacy import burned_in, dates
 from app.imaging.privacy.actions import Rules, deidentified
 from app.imaging.privacy.burned_in import MaskBox, check_numbers, of_picture
-from app.imaging.privacy.deidentified import LOCK, Deidentified, file_name
 from app.imaging.privacy.errors import BurnedInError, PrivacyError
 from app.imaging.privacy.key import installation_key
 from app.imaging.privacy.profile import profile
 from app.imaging.privacy.pseudonyms import patient_pseudonym, pseudonym
-from app.imaging.privacy.report import Tally
+from app.imaging.privacy.report import LOCK, Deidentified, Tally, file_name
 from app.imaging.privacy.uids import UidMap
 from app.imaging.privacy.verify import Secrets, pixel_digest, verify
 

@@ -1,9 +1,15 @@
-"""What de-identification did, in counts: never a value of a header."""
+"""What de-identification did, in counts: never a value of a header.
+
+And what a de-identified series is, as the worker process hands it over.
+"""
 
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
+
+LOCK = ".lock"
+"""File in a folder that is being written; whoever writes there holds it."""
 
 
 @dataclass(slots=True)
@@ -97,3 +103,28 @@ class RemovalReport:
             "masked": self.masked,
             "warnings": list(self.warnings),
         }
+
+
+@dataclass(frozen=True, slots=True)
+class Deidentified:
+    """A series that was written anew.
+
+    Attributes:
+        report: what was removed.
+        study: pseudonym of the study.
+        series_uid: its new SeriesInstanceUID.
+    """
+
+    report: RemovalReport
+    study: str
+    series_uid: str
+
+    @property
+    def name(self) -> str:
+        """Name of its folder: the pseudonym and a part of the new UID."""
+        return f"{self.study}-{int(self.series_uid.split('.')[-1]) % 16**6:06X}"
+
+
+def file_name(number: int) -> str:
+    """Name of a written file, by its number in the series."""
+    return f"{number:06d}.dcm"

@@ -20,9 +20,8 @@ from app.core.progress import Progress
 from app.imaging.errors import brief
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
-from app.imaging.structures.placed import PlacedStructure
 from app.imaging.structures.placing import Found, Labelled, guessed_kind
-from app.imaging.structures.structure import Colour, StructureKind
+from app.imaging.structures.structure import Colour, PlacedStructure, StructureKind
 
 CODES = {
     StructureKind.RISK: (("123037004", "Anatomical structure"), ("113343008", "Organ")),

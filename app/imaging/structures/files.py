@@ -11,8 +11,7 @@ from app.core.files import sync
 from app.core.progress import Progress
 from app.imaging.errors import FileDamagedError
 from app.imaging.structures.errors import StructureFileError
-from app.imaging.structures.placed import PlacedStructure
-from app.imaging.structures.structure import LONGEST_NAME, Structure, StructureSet
+from app.imaging.structures.structure import LONGEST_NAME, PlacedStructure, Structure, StructureSet
 from app.imaging.volume import Volume
 from app.imaging.worker.jobs import STRUCTURES, WRITE_SEG
 from app.imaging.worker.limits import MEMORY_BYTES, MOST_SECONDS, Allowance

@@ -16,8 +16,8 @@ from app.imaging.header_reading import starts_like_dicom
 from app.imaging.series import Series
 from app.imaging.structures.errors import StructureFileError
 from app.imaging.structures.extras import extra
-from app.imaging.structures.placed import PlacedStructure, PlacedStructures
 from app.imaging.structures.placing import Found, Labelled, place
+from app.imaging.structures.structure import PlacedStructure, PlacedStructures
 from app.imaging.volume import Volume
 
 LARGEST = 2_000_000_000

@@ -11,9 +11,9 @@ from typing import Any, Generic, TypeVar
 
 from app.imaging.header import SliceHeader
 from app.imaging.nifti_file import NiftiHeader, NiftiValues
-from app.imaging.privacy.deidentified import Deidentified
+from app.imaging.privacy.report import Deidentified
 from app.imaging.series import Ignored
-from app.imaging.structures.placed import PlacedStructures
+from app.imaging.structures.structure import PlacedStructures
 from app.imaging.worker.attachments import Attachments
 from app.imaging.worker.limits import Allowance
 from app.imaging.worker.values import plain

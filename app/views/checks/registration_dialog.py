@@ -259,7 +259,7 @@ class RegistrationDialog(QDialog):
 
     def pick(self) -> None:
         """Take the bead at the crosshair as the chosen fiducial."""
-        from app.imaging.bead import find_bead  # scipy: only with a CT
+        from app.planning.registration.points import find_bead  # scipy: only with a CT
 
         volume = self._around.volume()
         if volume is None:

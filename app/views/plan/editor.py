@@ -16,9 +16,8 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 from app.core.errors import AcusError
 from app.exchange.markups import read_plan, write_plan
 from app.mechanisms.profile import DeviceProfile
-from app.planning.draft import DraftPlan
+from app.planning.draft import DraftPlan, Edit, Judge, PlanVerdict
 from app.planning.history import UndoHistory
-from app.planning.judge import Edit, Judge, PlanVerdict
 from app.planning.placement import Placement
 from app.planning.plan import Plan
 from app.views.kit.names import NAMES

@@ -18,9 +18,9 @@ from PySide6.QtWidgets import QWidget
 
 from app.core import state_vector as sv
 from app.core.errors import AcusError
+from app.planning.paths import demonstration_plan
 from app.planning.patient import Patient
 from app.planning.placement import Placement
-from app.planning.proposal import demonstration_plan
 from app.session.machine import State
 from app.session.needle import DepthSource
 from app.session.result import AttemptResult

@@ -22,8 +22,7 @@ from PySide6.QtGui import (
 )
 
 from app.core.arrays import FloatArray
-from app.imaging.structures.contours import contours
-from app.imaging.structures.structure import Mask, Structure, StructureKind
+from app.imaging.structures.structure import Mask, Structure, StructureKind, contours
 from app.planning.clearance import Nearness
 from app.views.kit import theme
 from app.views.kit.text import tr
