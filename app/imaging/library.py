@@ -340,7 +340,7 @@ def _fill(
         made = shared_worker().call(DEIDENTIFY, arguments, allowed, part)
     except FileDamagedError as error:
         raise ImportFailedError(f"{error}; nothing was kept") from None
-    progress.report(0.98, "looking at what was written")
+    progress.report(0.98, "checking what was written")
     images, label = _found_in(folder)  # of the new files: the old ones may say more
     about = {
         "label": label,

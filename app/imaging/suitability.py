@@ -26,7 +26,7 @@ Headers = Sequence[SliceHeader]
 
 @dataclass(frozen=True, slots=True)
 class Suitability:
-    """What came of looking at a group.
+    """Whether a group of images makes a volume, and what else is known of it.
 
     Attributes:
         reason: first reason against reading it as a volume, in plain words; empty if none.

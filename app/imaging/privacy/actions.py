@@ -77,7 +77,7 @@ def deidentified(dataset: Dataset, rules: Rules, tally: Tally) -> Dataset:
     result.StudyID = rules.study
     tally.replaced.update(("PatientName", "PatientID", "StudyID"))
     _declare(result)
-    for keyword in _DECLARING:  # written anew at once: no news that the old one is gone
+    for keyword in _DECLARING:  # written anew at once: not counted as gone
         tally.removed.pop(keyword, None)
     return result
 

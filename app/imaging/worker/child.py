@@ -1,6 +1,6 @@
 """The child's side: takes a task, does it, answers; ends when the program is gone.
 
-It is started while somebody waits for a folder, so it loads what reads sound headers and no more:
+It is started while somebody waits for a folder, so it loads what reads standard headers, no more:
 numpy, pydicom and the decoders come with the first file that needs them.
 """
 
