@@ -81,7 +81,13 @@ def available() -> dict[str, Metric]:
         MetricError: if a file that is not the user's is no metric, or two files have one name;
             names the file and what it lacks.
     """
-    return {name: _readable(KIND.file(name)) for name in KIND.names()}
+    found: dict[str, list[Path]] = {}
+    for path in KIND.files():  # the folders are looked through once, not once for each metric
+        found.setdefault(path.stem, []).append(path)
+    return {
+        name: _readable(files[0] if len(files) == 1 else KIND.file(name))
+        for name, files in sorted(found.items())
+    }
 
 
 def find(name: str) -> Metric:
