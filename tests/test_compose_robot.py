@@ -15,10 +15,9 @@ from app.compose.trainer import TrainerSetup, build_rig, device_of
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.device.commissioning.bench import Bench
-from app.device.commissioning.errors import RecordError
 from app.device.commissioning.records import records_folder
-from app.device.commissioning.results import Step
-from app.device.errors import LinkError
+from app.device.commissioning.results import RoutineName
+from app.device.errors import LinkError, RecordError
 from app.device.links import host_end as host
 from app.device.links.link import LinkStatus
 from app.device.links.memory_link import MemoryLink
@@ -64,7 +63,7 @@ def commission(emulator):
                 time.sleep(0.7)
             return 0.0
 
-        for step in (Step.HOMING, Step.SIGNS):
+        for step in (RoutineName.HOMING, RoutineName.SIGNS):
             for _ in range(10):  # a busy computer may lose the wire for a moment
                 report = bench.run(bench.routine(step, by_hand=False), answer)
                 if "does not answer" not in report.failure:
@@ -142,13 +141,13 @@ def test_an_attempt_on_a_board_in_memory_stays_below_the_cap(tmp_path, monkeypat
     clock = VirtualClock(10.0)
     with Bench(link, PROFILE, clock, initial=start) as bench:
         bench.advance(0.1)
-        for step in (Step.OFFSETS, Step.SIGNS):
+        for step in (RoutineName.OFFSETS, RoutineName.SIGNS):
             report = bench.run(bench.routine(step, by_hand=False), lambda _: 0.0)
             assert report.failure == ""
             bench.keep(report.result)
         assert "directions" in bench.clearance().reason
-        stops = bench.record.newest(Step.OFFSETS).result
-        bench.keep(stops.model_copy(update={"step": Step.HOMING, "reference": "stops"}))
+        stops = bench.record.newest(RoutineName.OFFSETS).result
+        bench.keep(stops.model_copy(update={"step": RoutineName.HOMING, "reference": "stops"}))
         assert bench.clearance().force_cap == 1.0
     link._end[host.STATUS] = LinkStatus.FINE  # as after greeting it again
     robot = Robot.connect(link, PROFILE)

@@ -9,7 +9,7 @@ from app.compose import trainer as composed
 from app.compose.trainer import TrainerSetup, build_loop, device_of
 from app.core import state_vector as sv
 from app.core.compiled import stage
-from app.device.control.fences import fence
+from app.device.control.kernel import fence
 from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
 from app.planning.plan import Plan

@@ -58,8 +58,8 @@ def test_a_force_law_acts(save):
 
 
 def test_an_effect_is_simulated(save):
-    from app.simulation.compiler import compile
     from app.simulation.consumers import DevicePort
+    from app.simulation.plan import compile
     from app.simulation.scene import EffectRequest, Scene
 
     save("How to add an effect", "effects")

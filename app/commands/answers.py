@@ -14,7 +14,7 @@ import typer
 from app.core.errors import AcusError
 
 if TYPE_CHECKING:
-    from app.device.commissioning.report import Report
+    from app.device.commissioning.results import RoutineReport
     from app.device.commissioning.routine import Routine
 
 
@@ -52,7 +52,7 @@ class Answers:
         self._lines: SimpleQueue[str] = SimpleQueue()
         self._asked = False
 
-    def to(self, routine: Routine, report: Report, to_stderr: bool = False) -> float | None:
+    def to(self, routine: Routine, report: RoutineReport, to_stderr: bool = False) -> float | None:
         """Answer to what a report needs, or None for not yet.
 
         Raises:
@@ -71,7 +71,7 @@ class Answers:
             threading.Thread(target=self._read, name="acus answers", daemon=True).start()
         return self._understood(report, to_stderr)
 
-    def _understood(self, report: Report, to_stderr: bool) -> float | None:
+    def _understood(self, report: RoutineReport, to_stderr: bool) -> float | None:
         try:
             line = self._lines.get_nowait()
         except Empty:

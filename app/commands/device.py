@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     from app.commands.answers import Answers
     from app.compose.emulator import Emulator
     from app.device.commissioning.bench import Bench
-    from app.device.commissioning.report import Report
-    from app.device.commissioning.results import AnyResult, Step
+    from app.device.commissioning.results import AnyResult, RoutineName, RoutineReport
 
 Port = Annotated[str, typer.Argument(help="Serial port, e.g. /dev/ttyACM0.")]
 Profile = Annotated[
@@ -140,16 +139,16 @@ def calibrate(
     """
     from app.commands.answers import Answers, numbers
     from app.device.commissioning.bench import Bench
-    from app.device.commissioning.results import Step
+    from app.device.commissioning.results import RoutineName
     from app.device.links.serial_link import SerialLink
     from app.mechanisms.profile import load_profile
 
     chosen = load_profile(profile)
-    steps = [Step(name.value) for name in step or ()] or [
-        Step.HOMING,
-        Step.SIGNS,
-        Step.LATENCY,
-        Step.FORCE,
+    steps = [RoutineName(name.value) for name in step or ()] or [
+        RoutineName.HOMING,
+        RoutineName.SIGNS,
+        RoutineName.LATENCY,
+        RoutineName.FORCE,
     ]
     answers = Answers(yes, numbers(readings, "--readings", 3) if readings else ())
     with Bench(SerialLink(port, chosen), chosen) as bench:
@@ -160,16 +159,16 @@ def calibrate(
         return _answer(bench, results)
 
 
-def _commission(bench: Bench, step: Step, answers: Answers, yes: bool) -> AnyResult:
+def _commission(bench: Bench, step: RoutineName, answers: Answers, yes: bool) -> AnyResult:
     """Run one routine to its end and keep what it found; a check that fails takes back its own."""
-    from app.device.commissioning.errors import CommissioningError
-    from app.device.commissioning.settle import settle
+    from app.device.commissioning.records import settle
+    from app.device.errors import CommissioningError
 
     routine = bench.routine(step, by_hand=not yes)
     said: list[str] = []
     aside = wants_json()  # what is said on the way is not the answer
 
-    def tell(report: Report) -> None:
+    def tell(report: RoutineReport) -> None:
         if report.message not in said[-1:] and not report.needs:
             said.append(report.message)
             typer.echo(f"  {report.message}", err=aside)
@@ -185,7 +184,7 @@ def _commission(bench: Bench, step: Step, answers: Answers, yes: bool) -> AnyRes
 def _wait_for_the_robot(bench: Bench) -> None:
     """Wait for the first angles: compiled code is loaded on the first start."""
     from app.core import state_vector as sv
-    from app.device.commissioning.errors import CommissioningError
+    from app.device.errors import CommissioningError
 
     end = bench.clock.now() + 120.0
     while bench.loop.latest().row[sv.Q_TIME] == 0.0:

@@ -30,9 +30,11 @@ def explain(
 ) -> Answer:
     """Print what an exercise simulates, why, and at what cost.
 
-    Its force laws, its effects, and what it leaves out, each with the reason.
+    Its force laws, its effects, and what it leaves out, each with the reason; and files of your own
+    that cannot be used.
     """
     from app.compose.declared_views import declared_views
+    from app.compose.plugins import refused_files
     from app.exercises.library import load_exercise
     from app.exercises.scene import compile_exercise, device_of, law_requests
 
@@ -44,6 +46,10 @@ def explain(
     document = _document(chosen.id, chosen.device, not real, plan)
     document["assistance"] = chosen.assistance
     document["laws"] = _laws(law_requests(chosen), profile)
+    document["refused"] = [
+        {"kind": file.kind, "file": str(file.path), "reason": file.refused}
+        for file in refused_files()
+    ]
     return Answer(document, _lines(document))
 
 
@@ -169,6 +175,8 @@ def _lines(document: dict[str, Any]) -> list[str]:
     lines += [f"\n  {dropped['effect']}\n    {dropped['why']}" for dropped in document["dropped"]]
     if not document["simulated"] and not document["dropped"]:
         lines.append("  no effects")
+    for file in document["refused"]:
+        lines.append(f"\n  refused {file['kind']}: {file['reason']}")
     return lines
 
 

@@ -81,13 +81,14 @@ class Desktop:
     def prepare(self, progress: Progress) -> tuple[str, ...]:
         """Load what an exercise needs; called beside the window as soon as it is painted.
 
-        Returns why force laws of the user's own cannot be used, one line each.
+        Returns why files of the user's own (laws, effects, metrics, …) cannot be used, one line
+        each.
         """
-        from app.core.passing import sweep_passing
+        from app.core.temporary import sweep_temporary
         from app.imaging.errors import WorkerError, WorkerLostError
         from app.imaging.worker.pool import shared_worker
 
-        sweep_passing()
+        sweep_temporary()
         with contextlib.suppress(WorkerError):  # said by the first folder that is opened
             shared_worker().warm()
         load_modules(HEAVY_MODULES, progress)
@@ -96,9 +97,9 @@ class Desktop:
         with contextlib.suppress(WorkerError, WorkerLostError):
             load_decoders(Progress())  # a moment, of which nobody need be told
             shared_worker().warm(2)  # a folder is read by both
-        from app.device.control import laws
+        from app.compose.plugins import refused_files
 
-        return tuple(laws.refused().values())
+        return tuple(file.refused for file in refused_files())
 
     def robots(self) -> tuple[RobotPort, ...]:
         """Ports at which a robot may be plugged in now."""

@@ -21,12 +21,13 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import SystemClock
 from app.core.compiled import njit, stage
+from app.core.parameters import Stage
 from app.device.control import Loop
 from app.device.errors import LinkError
+from app.device.links import board, line, wire
 from app.device.links import board_layout as at
-from app.device.links import fault_box, line, wire
+from app.device.links.board import FAULTS, Faults
 from app.device.links.board_layout import new_board
-from app.device.links.fault_box import FAULTS, Faults
 from app.device.links.transport import fd_await, fd_send
 from app.mechanisms.profile import DeviceProfile
 from app.simulation.plant import initial_plant, plant_stage
@@ -40,7 +41,7 @@ _LISTENS: Final = 0.6
 """Share of a round in which the board waits for bytes, to answer them at once."""
 
 _BOX: Final = wire.END
-_PARKED: Final = _BOX + fault_box.SIZE  # 1: the arms go to the home angles, 0: back
+_PARKED: Final = _BOX + board.SIZE  # 1: the arms go to the home angles, 0: back
 _SHARE: Final = _PARKED + 1  # of the way there
 _START: Final = _PARKED + 2  # joint angles under the upright needle [rad]: left, right
 _PARK: Final = _PARKED + 4  # home angles [rad]: left, right
@@ -76,7 +77,7 @@ def board_stage(state: FloatArray, p: FloatArray) -> None:
     box[at.GAUGE_READING] = np.sqrt(
         state[sv.PULL_X] ** 2 + state[sv.PULL_Y] ** 2 + state[sv.PULL_Z] ** 2
     )
-    end[wire.OUT_COUNT] = fault_box.exchange(
+    end[wire.OUT_COUNT] = board.exchange(
         box, now, wire.incoming(end), int(end[wire.IN_COUNT]), wire.outgoing(end), 0
     )
     end[wire.IN_COUNT] = 0.0
@@ -133,8 +134,8 @@ class Emulator:
         self._end, box = self._array[:_BOX], self._array[_BOX:_PARKED]
         box[: at.SIZE] = new_board(profile, setup.serial, boot=int(SystemClock().now()))
         box[at.GAUGE] = setup.gauge
-        box[fault_box.DOWN : fault_box.UP] = line.line(setup.seed)
-        box[fault_box.UP :] = line.line(setup.seed + 1)
+        box[board.DOWN : board.UP] = line.line(setup.seed)
+        box[board.UP :] = line.line(setup.seed + 1)
         self._array[_PARK : _PARK + 2] = profile.encoder.home_offsets
         self._array[_PARKED] = self._array[_SHARE] = setup.parked
         self._faults = Faults(box)
@@ -147,9 +148,9 @@ class Emulator:
         if setup.parked:
             start["plant_q_left"], start["plant_q_right"] = profile.encoder.home_offsets
         stages = [
-            ("receive", fd_await, self._end),
-            ("board", board_stage, self._array),
-            ("send", fd_send, self._end),
+            Stage("receive", fd_await, self._end),
+            Stage("board", board_stage, self._array),
+            Stage("send", fd_send, self._end),
             plant_stage(profile, UPRIGHT, DEPTH),
         ]
         self._loop = Loop(stages, RATE_HZ, initial=start)

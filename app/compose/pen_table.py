@@ -7,11 +7,11 @@ from typing import Final
 from app.compose.declared_views import declared_views
 from app.compose.needle import UPRIGHT
 from app.core.arrays import FloatArray
+from app.core.parameters import Stage
 from app.device.control import Table
 from app.device.control.depth_interval import DepthInterval
 from app.device.control.kinematics import Kinematics
 from app.device.control.velocity import velocity_stage
-from app.device.links.link import Triple
 from app.exercises.scene import compile_exercise
 from app.exercises.schema import Exercise
 from app.mechanisms.errors import MechanismError
@@ -48,7 +48,7 @@ def pen_table(
     exercise: Exercise,
     placed: PlacedPlan,
     profile: DeviceProfile,
-    read: list[Triple],
+    read: list[Stage],
     skill: str | None,
     seed: int,
     simulated: bool,

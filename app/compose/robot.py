@@ -8,7 +8,7 @@ from app.device.commissioning.records import load_record
 from app.device.control.corrections import Corrections
 from app.device.links.link import DeviceLink, Link
 from app.device.links.serial_link import SerialLink
-from app.device.readiness import Clearance, Readiness
+from app.device.readiness import ForceClearance, Readiness
 from app.mechanisms.profile import DeviceProfile
 
 
@@ -50,7 +50,7 @@ class Robot:
         link = self.link.stages()
         return Link.of([*link.read, self.corrections.stage()], link.write)
 
-    def clearance(self) -> Clearance:
+    def clearance(self) -> ForceClearance:
         """How much force the robot is cleared for now; another power cycle takes it away."""
         return self.readiness.clearance(self.link.info(), self.profile)
 

@@ -11,6 +11,9 @@ from app.core.errors import NumericalError
 FloatArray = NDArray[np.float64]
 """Double precision array; shapes stand in the docstrings."""
 
+IntArray = NDArray[np.int64]
+"""Array of 64-bit integers."""
+
 
 def frozen(
     values: ArrayLike, shape: tuple[int, ...] | None = None, name: str = "array"

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from app.core import paths
+from app.core.parameters import StageFunction
 
 _ROOMS = ("core", "mechanisms", "imaging", "simulation", "tracking", "device")
 _MARKS = (b"app.core.compiled", b": Final")
@@ -47,9 +48,9 @@ def _cache_folder() -> Path:
     if os.access(folder, os.W_OK):
         return folder
     # A read-only home: numba refuses a folder that it cannot write; this run gets its own.
-    passing = Path(tempfile.mkdtemp(prefix="acus-kernels-"))
-    atexit.register(shutil.rmtree, passing, ignore_errors=True)
-    return passing
+    temporary = Path(tempfile.mkdtemp(prefix="acus-kernels-"))
+    atexit.register(shutil.rmtree, temporary, ignore_errors=True)
+    return temporary
 
 
 os.environ.setdefault("NUMBA_CACHE_DIR", str(_cache_folder()))
@@ -76,6 +77,7 @@ def njit(*args: Any, **options: Any) -> Any:
     return numba.njit(*args, **options)
 
 
-def stage(function: Any) -> Any:
+def stage(function: StageFunction) -> StageFunction:
     """Compile a function of (state, parameters) as a stage of the tick, cached on disk."""
-    return njit(STAGE_SIGNATURE)(function)
+    compiled: StageFunction = njit(STAGE_SIGNATURE)(function)
+    return compiled

@@ -1,4 +1,4 @@
-"""Parameters of a stage by name: one record gives the places in its array and packs it.
+"""Stages of a tick, and their parameters by name: one record gives the places and packs them.
 
 The record is a `NamedTuple` of `int`; a field with a default is memory and begins at that value.
 
@@ -15,7 +15,7 @@ The record is a `NamedTuple` of `int`; a field with a default is memory and begi
 Places and packing follow from one list of names, so that neither order nor number means anything.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -23,6 +23,23 @@ import numpy as np
 from app.core.arrays import FloatArray
 
 Places = TypeVar("Places", bound=NamedTuple)
+
+StageFunction = Callable[[FloatArray, FloatArray], None]
+"""`void(state, parameters)`, compiled with `core.compiled.stage`."""
+
+
+class Stage(NamedTuple):
+    """One step of a tick.
+
+    Attributes:
+        name: what faults, costs and `acus explain` call it.
+        function: compiled with `core.compiled.stage`.
+        parameters: its constants and its memory, shape (n,); belongs to this stage of this loop.
+    """
+
+    name: str
+    function: StageFunction
+    parameters: FloatArray
 
 
 def numbered(kind: type[Places], first: int = 0) -> Places:

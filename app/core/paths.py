@@ -57,7 +57,7 @@ def settings() -> Path:
 def plugins(kind: str) -> Path:
     """Per-user folder of a laboratory's own files: `laws`, `effects`, `metrics` or `studies`.
 
-    `ACUS_LAWS`, `ACUS_EFFECTS`, `ACUS_METRICS` and `ACUS_STUDIES` override.
+    `ACUS_LAWS`, `ACUS_EFFECTS`, `ACUS_METRICS`, `ACUS_STUDIES` and `ACUS_EXTRACTORS` override.
     """
     return Path(os.environ.get(f"ACUS_{kind.upper()}") or data() / kind)
 

@@ -188,6 +188,25 @@ class PluginKind(Generic[D]):
             raise self.error(f"{self.word} file {path} cannot be read: {reason}") from reason
         return found
 
+    def refused(self, check: Callable[[D], object] | None = None) -> dict[Path, str]:
+        """Files of others that cannot be used, and why; they are left where they are.
+
+        Their text is read, and nothing is run.
+
+        Args:
+            check: looks further into a declared file; raises if it must not be used.
+        """
+        found = {}
+        for path in self.files():
+            try:
+                if not self.is_own(path):
+                    declared = self.find(path.stem)
+                    if check is not None:
+                        check(declared)
+            except AcusError as error:
+                found[path] = str(error)
+        return found
+
     def is_own(self, path: Path) -> bool:
         """Whether a file is one of the program's own."""
         package = importlib.import_module(self.package)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import overload
 
 import numpy as np
@@ -145,3 +146,19 @@ def _left_jacobian(omega: FloatArray) -> FloatArray:
     b = 2.0 * np.sin(0.5 * angle) ** 2 / angle**2
     c = (angle - np.sin(angle)) / angle**3
     return np.eye(3) + b * w + c * (w @ w)
+
+
+class FrameName(StrEnum):
+    """Names of the right-handed frames, all in metres.
+
+    `WORLD` is the robot base: origin midway between the two motor axes, x to the right motor, z up
+    towards the skin; the pantograph moves in z = 0. `PATIENT` is DICOM's LPS. `NEEDLE` has its
+    origin at the tip and +z out of the tip along the shaft. `VOXEL` counts columns, rows and
+    slices (dimensionless). `CAMERA` is OpenCV's: x right, y down, z into the scene.
+    """
+
+    WORLD = "world"
+    PATIENT = "patient"
+    NEEDLE = "needle"
+    VOXEL = "voxel"
+    CAMERA = "camera"

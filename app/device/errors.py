@@ -33,3 +33,11 @@ class UnknownInputError(DeviceError, KeyError):
 
 class RerunError(DeviceError):
     """A table does not fit the checkpoint that it shall continue from."""
+
+
+class CommissioningError(DeviceError):
+    """A routine found something wrong; the message says what, and what to do."""
+
+
+class RecordError(DeviceError):
+    """The record of a device cannot be read or written; the file stays as it is."""

@@ -10,7 +10,7 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.device.control import Loop, Table
 from app.device.errors import LinkError
-from app.device.links.board_error import describe_error
+from app.device.links.link import describe_error
 from app.device.links.serial_link import SerialLink
 from app.mechanisms.profile import DeviceProfile
 

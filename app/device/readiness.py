@@ -14,7 +14,7 @@ SCALE_TOLERANCE: Final = 0.10
 
 
 @dataclass(frozen=True, slots=True)
-class Clearance:
+class ForceClearance:
     """What goes into the loop's inputs of the same names.
 
     Attributes:
@@ -58,7 +58,7 @@ class Readiness:
     force_date: str = ""
     profile: str = ""
 
-    def clearance(self, info: BoardInfo, profile: DeviceProfile) -> Clearance:
+    def clearance(self, info: BoardInfo, profile: DeviceProfile) -> ForceClearance:
         """Clearance of the device behind `info` now, driven with `profile`.
 
         A board that does not number its power cycles (`boot` 0) is never taken as homed by its
@@ -66,15 +66,15 @@ class Readiness:
         """
         full = profile.limits.hand_force
         if info.simulated:
-            return Clearance(1.0, full)
+            return ForceClearance(1.0, full)
         for done, lacks, step in (
             (self.homed_boot, "homed", "homing"),
             (self.signs_boot, "checked for its signs", "signs"),
         ):
             if done is None or done != info.boot or info.boot == 0:
-                return Clearance(0.0, 0.0, _power_cycle(lacks, step, info.boot))
+                return ForceClearance(0.0, 0.0, _power_cycle(lacks, step, info.boot))
         if not self.directions_known:
-            return Clearance(
+            return ForceClearance(
                 0.0,
                 0.0,
                 "no force: the encoders' directions were not seen; home against the stops"
@@ -82,13 +82,13 @@ class Readiness:
             )
         if lack := self._scale_lacks(profile):
             cap = min(UNVERIFIED_FORCE, full)
-            return Clearance(
+            return ForceClearance(
                 1.0,
                 cap,
                 f"forces are held to {cap:g} N: {lack}; weigh it with a kitchen scale"
                 " (docs/hardware.md): `acus device calibrate PORT --step force`",
             )
-        return Clearance(1.0, full)
+        return ForceClearance(1.0, full)
 
     def _scale_lacks(self, profile: DeviceProfile) -> str:
         if self.force_factor is None:

@@ -13,7 +13,7 @@ from app.core.rate_meter import RateMeter
 WINDOW: Final = 10.0
 """Rates and percentiles are those of so many last seconds."""
 
-_LOOKS: Final = 400
+_MOST_TRIPS: Final = 400
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,11 +34,11 @@ class WireFigures:
 
 
 class WireWatch:
-    """Takes a row of the loop at every look."""
+    """Takes rows of the loop, as often as it likes."""
 
     def __init__(self) -> None:
         self._replies, self._errors, self._lost = (RateMeter(WINDOW) for _ in range(3))
-        self._trips: deque[float] = deque(maxlen=_LOOKS)
+        self._trips: deque[float] = deque(maxlen=_MOST_TRIPS)
         self._seen = 0.0
 
     def read(self, row: FloatArray, now: float) -> WireFigures:
@@ -53,6 +53,9 @@ class WireWatch:
         if self._trips:
             median, p99 = np.percentile(list(self._trips), (50.0, 99.0)).tolist()
         return WireFigures(
-            self._replies.read(now, replies), self._errors.read(now, errors),
-            self._lost.read(now, lost), median, p99,
-        )  # fmt: skip
+            self._replies.read(now, replies),
+            self._errors.read(now, errors),
+            self._lost.read(now, lost),
+            median,
+            p99,
+        )

@@ -17,10 +17,10 @@ from app.planning.draft import DraftPlan
 from app.planning.placement import PlacedPlan
 from app.planning.plan import Plan
 from app.scoring import metrics
-from app.simulation.compiler import compile as compile_scene
 from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.needles import OUTER_DIAMETER
 from app.simulation.plan import SimulationPlan
+from app.simulation.plan import compile as compile_scene
 from app.simulation.scene import DEFAULT_LAYERS, EffectRequest, Needle, Scene, TissueLayer
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from app.core.passing import passing_folder, sweep_passing
 from app.core.progress import Progress
+from app.core.temporary import sweep_temporary, temporary_folder
 from app.imaging.errors import FileDamagedError, FolderError
 from app.imaging.series import Ignored
 from app.imaging.worker.jobs import DIRECTORY, UNPACK
@@ -161,8 +161,8 @@ class Unpacked:
     """
 
     def __init__(self) -> None:
-        sweep_passing()
-        self.root = passing_folder("zip")
+        sweep_temporary()
+        self.root = temporary_folder("zip")
         self.ignored: list[Ignored] = []
         self._finalizer = weakref.finalize(self, shutil.rmtree, self.root, True)
 

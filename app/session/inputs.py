@@ -11,12 +11,12 @@ from numpy.typing import ArrayLike
 
 from app.core.arrays import FloatArray, frozen
 from app.core.errors import AcusError
-from app.device.readiness import Clearance
+from app.device.readiness import ForceClearance
 from app.planning.placement import PlacedPlan
 from app.session.errors import NotReadyError
 
 if TYPE_CHECKING:
-    from app.device.control.inbox import Inbox
+    from app.device.control.shared import Inbox
 
 
 class LoopInputs:
@@ -104,7 +104,7 @@ class LoopInputs:
         return now - self._beat
 
 
-ClearanceOf = Callable[[], Clearance]
+ClearanceOf = Callable[[], ForceClearance]
 """Asks the device what it is cleared for now; may change with a power cycle of its board."""
 
 
@@ -128,7 +128,7 @@ class Arming:
         self, inputs: LoopInputs, held: bool = False, clearance: ClearanceOf | None = None
     ) -> None:
         self.held = held
-        self.clearance: Clearance | None = None
+        self.clearance: ForceClearance | None = None
         self._inputs = inputs
         self._asked = clearance
         self._written: tuple[float, float] | None = None
@@ -176,7 +176,7 @@ class Arming:
         try:
             self.clearance = self._asked()
         except AcusError as error:
-            self.clearance = Clearance(0.0, 0.0, str(error))
+            self.clearance = ForceClearance(0.0, 0.0, str(error))
         now = (float(self.clearance.homed), float(self.clearance.force_cap))
         if now != self._written:
             self._inputs.clear(*now)

@@ -96,7 +96,7 @@ def _states(
     recording: Recording, table_of: TableOf, given: tuple[str, ...], rows: int
 ) -> Iterator[tuple[int, FloatArray]]:
     """Recompute the ticks in pieces: number of the first row, and states, shape (n, SLOTS)."""
-    from app.device.control.rerun import Rerun  # compiles or loads kernels
+    from app.device.control.checkpoints import Rerun  # compiles or loads kernels
 
     inputs = recording.inputs
     recorded = inputs.checkpoint

@@ -12,9 +12,8 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.events import Event
-from app.core.frames import Frame
 from app.core.json_values import compact
-from app.core.transform import RigidTransform, rotation_between
+from app.core.transform import FrameName, RigidTransform, rotation_between
 from app.device.state import DeviceState
 from app.session.machine import State
 from app.session.needle import DOWN, NeedlePose
@@ -94,7 +93,7 @@ def messages(sample: Sample, stamp: dict[str, int]) -> list[tuple[str, bytes]]:
 
 def patient_transform(T_world_patient: RigidTransform, stamp: dict[str, int]) -> bytes:
     """Return the registration as a FrameTransform world → patient."""
-    return encode(_transform(Frame.PATIENT, T_world_patient, stamp))
+    return encode(_transform(FrameName.PATIENT, T_world_patient, stamp))
 
 
 def log(event: Event, stamp: dict[str, int]) -> bytes:
@@ -152,11 +151,11 @@ def _vector(values: FloatArray) -> dict[str, float]:
 
 
 def _transform(
-    child: Frame, T_world_child: RigidTransform, stamp: dict[str, int]
+    child: FrameName, T_world_child: RigidTransform, stamp: dict[str, int]
 ) -> dict[str, Any]:
     return {
         "timestamp": stamp,
-        "parent_frame_id": Frame.WORLD.value,
+        "parent_frame_id": FrameName.WORLD.value,
         "child_frame_id": child.value,
         "translation": _vector(T_world_child.translation),
         "rotation": quaternion(T_world_child.rotation),
@@ -165,14 +164,14 @@ def _transform(
 
 def _needle_tf(pose: NeedlePose, stamp: dict[str, int]) -> dict[str, Any]:
     T_world_needle = RigidTransform(needle_rotation(pose.axis), pose.p_tip)
-    return _transform(Frame.NEEDLE, T_world_needle, stamp)
+    return _transform(FrameName.NEEDLE, T_world_needle, stamp)
 
 
 def _tip(pose: NeedlePose, stamp: dict[str, int]) -> dict[str, Any]:
     orientation = quaternion(needle_rotation(pose.axis))
     return {
         "timestamp": stamp,
-        "frame_id": Frame.WORLD.value,
+        "frame_id": FrameName.WORLD.value,
         "pose": {"position": _vector(pose.p_tip), "orientation": orientation},
     }
 

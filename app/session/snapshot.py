@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
-from app.device.readiness import Clearance
+from app.device.readiness import ForceClearance
 from app.device.state import DeviceState
 from app.planning.off_path import Offset
 from app.session.machine import State
@@ -70,7 +70,7 @@ class Snapshot:
     recording: RecordingStatus | None
     messages: tuple[str, ...]
     held_arming: bool = False
-    clearance: Clearance | None = None
+    clearance: ForceClearance | None = None
     measured_pose: NeedlePose | None = None
     withdrawal: str = ""
     may_confirm: bool = False

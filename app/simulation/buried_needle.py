@@ -29,27 +29,63 @@ Array: heads, layers (end, k), then per edge: S, G and a, which no history chang
 q of the bin below the edge.
 """
 
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.core.parameters import numbered, packed
 
 BIN: Final = 2.0**-10  # [m] depth resolution of the memory; a power of two, so that edges are exact
 
-# Heads: sizes, 1 / EI, depth, and of the bin at the tip q0, q1 (three each) and ∫ k u².
-LAYERS, BINS, LEVER, FLEXIBILITY, DEPTH, Q0 = range(6)
-Q1: Final = Q0 + 3
-SQUARE: Final = Q1 + 3
-HEAD: Final = SQUARE + 1
 
-# Per edge: S11, S12, S22, G0, G1, a; y0, y1, m (three each), c; q0, q1 (three each) of its bin.
-_S11, _S12, _S22, _G0, _G1, _A, _Y0, _Y1, _M, _C, _BQ0, _BQ1 = (
-    0, 1, 2, 3, 4, 5, 6, 9, 12, 15, 16, 19,
-)  # fmt: skip
-EDGE: Final = 22
-"""Numbers per edge."""
+class _BuriedPlaces(NamedTuple):
+    """Sizes, 1 / EI, depth, and of the bin at the tip q0, q1 (vectors) and ∫ k u²."""
+
+    layers: int
+    bins: int
+    lever: int
+    flexibility: int
+    depth: int = 0
+    q0: int = 0
+    q0_y: int = 0
+    q0_z: int = 0
+    q1: int = 0
+    q1_y: int = 0
+    q1_z: int = 0
+    square: int = 0
+
+
+class _EdgePlaces(NamedTuple):
+    """Of an edge: S, G, a; y0, y1, m (vectors), c; and q0, q1 (vectors) of the bin below it."""
+
+    s11: int
+    s12: int
+    s22: int
+    g0: int
+    g1: int
+    a: int
+    y0: int
+    y0_y: int
+    y0_z: int
+    y1: int
+    y1_y: int
+    y1_z: int
+    m: int
+    m_y: int
+    m_z: int
+    c: int
+    q0: int
+    q0_y: int
+    q0_z: int
+    q1: int
+    q1_y: int
+    q1_z: int
+
+
+AT: Final = numbered(_BuriedPlaces)
+_EDGE: Final = numbered(_EdgePlaces)
 
 
 def empty(ends: FloatArray, stiffness: FloatArray, flexibility: float, lever: float) -> FloatArray:
@@ -62,17 +98,16 @@ def empty(ends: FloatArray, stiffness: FloatArray, flexibility: float, lever: fl
         lever: shortest L_out [m].
     """
     bins = int(np.ceil(ends[-1] / BIN)) + 1
-    head = np.zeros(HEAD)
-    head[:DEPTH] = len(ends), bins, lever, flexibility
     pairs = np.column_stack([ends, stiffness]).ravel()
-    p = np.concatenate([head, pairs, np.zeros(EDGE * (bins + 1))])
+    edges = np.zeros(len(_EDGE) * (bins + 1))
+    p = packed(AT, pairs, edges, layers=len(ends), bins=bins, lever=lever, flexibility=flexibility)
     _tabulate(p)
     return p
 
 
 @njit
 def _edge(p: FloatArray, j: int) -> int:
-    return HEAD + 2 * int(p[LAYERS]) + EDGE * j
+    return len(AT) + 2 * int(p[AT.layers]) + len(_EDGE) * j
 
 
 @njit
@@ -81,21 +116,21 @@ def _tissue(p: FloatArray, j: int, begin: float, end: float) -> Any:
     f0 = f1 = f2 = 0.0
     upper = j * BIN
     start = 0.0
-    for i in range(int(p[LAYERS])):
-        low, high = max(start - upper, begin), min(p[HEAD + 2 * i] - upper, end)
+    for i in range(int(p[AT.layers])):
+        low, high = max(start - upper, begin), min(p[len(AT) + 2 * i] - upper, end)
         if high > low:
-            k = p[HEAD + 2 * i + 1]
+            k = p[len(AT) + 2 * i + 1]
             f0 += k * (high - low)
             f1 += k * (high * high - low * low) / 2.0
             f2 += k * (high * high * high - low * low * low) / 3.0
-        start = p[HEAD + 2 * i]
+        start = p[len(AT) + 2 * i]
     return f0, f1, f2
 
 
 @njit
 def _held(p: FloatArray, e: int, f0: float, f1: float, f2: float) -> Any:
     """(1 + S F)⁻¹ and the compliance after the tissue F has been added to the edge at `e`."""
-    s11, s12, s22 = p[e + _S11], p[e + _S12], p[e + _S22]
+    s11, s12, s22 = p[e + _EDGE.s11], p[e + _EDGE.s12], p[e + _EDGE.s22]
     n11, n12 = 1.0 + s11 * f0 + s12 * f1, s11 * f1 + s12 * f2
     n21, n22 = s12 * f0 + s22 * f1, 1.0 + s12 * f1 + s22 * f2
     # The determinant written so that every term is positive.
@@ -115,30 +150,30 @@ def _held(p: FloatArray, e: int, f0: float, f1: float, f2: float) -> Any:
 @njit
 def _unit_moment(p: FloatArray, e: int, f: Any, c: Any) -> float:
     """Return `a`, the moment per unit of n, with the tissue F below the edge at `e`."""
-    g0, g1 = p[e + _G0], p[e + _G1]
+    g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
     r0, r1 = f[0] * g0 + f[1] * g1, f[1] * g0 + f[2] * g1
     lost = c[0] * r0 * r0 + 2.0 * c[1] * r0 * r1 + c[2] * r1 * r1
-    return p[e + _A] + max(g0 * r0 + g1 * r1 - lost, 0.0)
+    return p[e + _EDGE.a] + max(g0 * r0 + g1 * r1 - lost, 0.0)
 
 
 @njit
 def _tabulate(p: FloatArray) -> None:
     """Fill what depends on layers and needle alone: S, G and a at every edge."""
-    p[_edge(p, 0) + _G1] = 1.0
-    for j in range(int(p[BINS])):
+    p[_edge(p, 0) + _EDGE.g1] = 1.0
+    for j in range(int(p[AT.bins])):
         e, below = _edge(p, j), _edge(p, j + 1)
         f0, f1, f2 = _tissue(p, j, 0.0, BIN)
         i11, i12, i21, i22, c11, c12, c22 = _held(p, e, f0, f1, f2)
-        p[below + _A] = _unit_moment(p, e, (f0, f1, f2), (c11, c12, c22))
-        g0, g1 = p[e + _G0], p[e + _G1]
+        p[below + _EDGE.a] = _unit_moment(p, e, (f0, f1, f2), (c11, c12, c22))
+        g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
         turn = i21 * g0 + i22 * g1
-        p[below + _G0], p[below + _G1] = i11 * g0 + i12 * g1 + BIN * turn, turn
-        flexibility = p[FLEXIBILITY]
-        p[below + _S11] = (
+        p[below + _EDGE.g0], p[below + _EDGE.g1] = i11 * g0 + i12 * g1 + BIN * turn, turn
+        flexibility = p[AT.flexibility]
+        p[below + _EDGE.s11] = (
             c11 + 2.0 * BIN * c12 + BIN * BIN * c22 + flexibility * BIN * BIN * BIN / 3.0
         )
-        p[below + _S12] = c12 + BIN * c22 + flexibility * BIN * BIN / 2.0
-        p[below + _S22] = c22 + flexibility * BIN
+        p[below + _EDGE.s12] = c12 + BIN * c22 + flexibility * BIN * BIN / 2.0
+        p[below + _EDGE.s22] = c22 + flexibility * BIN
 
 
 @njit
@@ -146,7 +181,7 @@ def rotational_stiffness(p: FloatArray, depth: float) -> float:
     """Moment about the fulcrum per angle for a needle inserted straight [N·m/rad]; 0 outside."""
     if depth <= 0.0:
         return 0.0
-    j = min(int(depth / BIN), int(p[BINS]) - 1)
+    j = min(int(depth / BIN), int(p[AT.bins]) - 1)
     e = _edge(p, j)
     f = _tissue(p, j, 0.0, depth - j * BIN)
     return _unit_moment(p, e, f, _held(p, e, f[0], f[1], f[2])[4:])
@@ -161,20 +196,20 @@ def at_tip(p: FloatArray, axis: int, n: float) -> Any:
         axis: which coordinate, 0 to 2.
         n: that coordinate of the needle's direction at the fulcrum.
     """
-    j = min(int(p[DEPTH] / BIN), int(p[BINS]) - 1)
-    e, length = _edge(p, j), p[DEPTH] - j * BIN
+    j = min(int(p[AT.depth] / BIN), int(p[AT.bins]) - 1)
+    e, length = _edge(p, j), p[AT.depth] - j * BIN
     f0, f1, f2 = _tissue(p, j, 0.0, length)
     i11, i12, i21, i22, c11, c12, c22 = _held(p, e, f0, f1, f2)
-    q0, q1 = p[Q0 + axis], p[Q1 + axis]
-    y0, y1 = p[e + _Y0 + axis], p[e + _Y1 + axis]
-    g0, g1 = p[e + _G0], p[e + _G1]
-    s11, s12, s22 = p[e + _S11], p[e + _S12], p[e + _S22]
+    q0, q1 = p[AT.q0 + axis], p[AT.q1 + axis]
+    y0, y1 = p[e + _EDGE.y0 + axis], p[e + _EDGE.y1 + axis]
+    g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
+    s11, s12, s22 = p[e + _EDGE.s11], p[e + _EDGE.s12], p[e + _EDGE.s22]
     b0 = g0 * n + y0 + s11 * q0 + s12 * q1
     b1 = g1 * n + y1 + s12 * q0 + s22 * q1
     place, slope = i11 * b0 + i12 * b1, i21 * b0 + i22 * b1
     r0, r1 = q0 - f0 * y0 - f1 * y1, q1 - f1 * y0 - f2 * y1
     v0, v1 = c11 * r0 + c12 * r1, c12 * r0 + c22 * r1
-    m = p[e + _M + axis] + g0 * (r0 - f0 * v0 - f1 * v1) + g1 * (r1 - f1 * v0 - f2 * v1)
+    m = p[e + _EDGE.m + axis] + g0 * (r0 - f0 * v0 - f1 * v1) + g1 * (r1 - f1 * v0 - f2 * v1)
     rest = 0.5 * (
         y0 * (f0 * y0 + f1 * y1) + y1 * (f1 * y0 + f2 * y1) - 2.0 * (y0 * q0 + y1 * q1)
         - r0 * v0 - r1 * v1
@@ -185,10 +220,12 @@ def at_tip(p: FloatArray, axis: int, n: float) -> Any:
 @njit
 def stored(p: FloatArray, x: float, y: float, z: float) -> float:
     """U [J] with the needle along (x, y, z), never below 0 for rounding."""
-    if p[DEPTH] <= 0.0:
+    if p[AT.depth] <= 0.0:
         return 0.0
-    j = min(int(p[DEPTH] / BIN), int(p[BINS]) - 1)
-    total = 0.5 * rotational_stiffness(p, p[DEPTH]) + p[_edge(p, j) + _C] + 0.5 * p[SQUARE]
+    j = min(int(p[AT.depth] / BIN), int(p[AT.bins]) - 1)
+    total = (
+        0.5 * rotational_stiffness(p, p[AT.depth]) + p[_edge(p, j) + _EDGE.c] + 0.5 * p[AT.square]
+    )
     total += at_tip(p, 0, x)[3] + at_tip(p, 1, y)[3] + at_tip(p, 2, z)[3]
     return max(total, 0.0)
 
@@ -199,16 +236,16 @@ def _finish_bin(p: FloatArray, j: int) -> None:
     e, below = _edge(p, j), _edge(p, j + 1)
     f0, f1, f2 = _tissue(p, j, 0.0, BIN)
     i11, i12, i21, i22, c11, c12, c22 = _held(p, e, f0, f1, f2)
-    s11, s12, s22 = p[e + _S11], p[e + _S12], p[e + _S22]
-    g0, g1 = p[e + _G0], p[e + _G1]
-    total = p[e + _C] + 0.5 * p[SQUARE]
+    s11, s12, s22 = p[e + _EDGE.s11], p[e + _EDGE.s12], p[e + _EDGE.s22]
+    g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
+    total = p[e + _EDGE.c] + 0.5 * p[AT.square]
     for axis in range(3):
-        q0, q1 = p[Q0 + axis], p[Q1 + axis]
-        y0, y1 = p[e + _Y0 + axis], p[e + _Y1 + axis]
+        q0, q1 = p[AT.q0 + axis], p[AT.q1 + axis]
+        y0, y1 = p[e + _EDGE.y0 + axis], p[e + _EDGE.y1 + axis]
         r0, r1 = q0 - f0 * y0 - f1 * y1, q1 - f1 * y0 - f2 * y1
         v0, v1 = c11 * r0 + c12 * r1, c12 * r0 + c22 * r1
-        p[below + _M + axis] = (
-            p[e + _M + axis] + g0 * (r0 - f0 * v0 - f1 * v1) + g1 * (r1 - f1 * v0 - f2 * v1)
+        p[below + _EDGE.m + axis] = (
+            p[e + _EDGE.m + axis] + g0 * (r0 - f0 * v0 - f1 * v1) + g1 * (r1 - f1 * v0 - f2 * v1)
         )
         total += 0.5 * (
             y0 * (f0 * y0 + f1 * y1) + y1 * (f1 * y0 + f2 * y1) - 2.0 * (y0 * q0 + y1 * q1)
@@ -216,29 +253,29 @@ def _finish_bin(p: FloatArray, j: int) -> None:
         )  # fmt: skip
         b0, b1 = y0 + s11 * q0 + s12 * q1, y1 + s12 * q0 + s22 * q1
         turn = i21 * b0 + i22 * b1
-        p[below + _Y0 + axis] = i11 * b0 + i12 * b1 + BIN * turn
-        p[below + _Y1 + axis] = turn
-        p[e + _BQ0 + axis], p[e + _BQ1 + axis] = q0, q1
-        p[Q0 + axis] = p[Q1 + axis] = 0.0
-    p[below + _C] = total
-    p[SQUARE] = 0.0
+        p[below + _EDGE.y0 + axis] = i11 * b0 + i12 * b1 + BIN * turn
+        p[below + _EDGE.y1 + axis] = turn
+        p[e + _EDGE.q0 + axis], p[e + _EDGE.q1 + axis] = q0, q1
+        p[AT.q0 + axis] = p[AT.q1 + axis] = 0.0
+    p[below + _EDGE.c] = total
+    p[AT.square] = 0.0
 
 
 @njit
 def _lay(p: FloatArray, j: int, begin: float, end: float, axis: int, at: float, on: float) -> None:
     """Lay one coordinate of the tissue of bin j down on the line at + on t."""
     f0, f1, f2 = _tissue(p, j, begin, end)
-    p[Q0 + axis] += at * f0 + on * f1
-    p[Q1 + axis] += at * f1 + on * f2
-    p[SQUARE] += at * at * f0 + 2.0 * at * on * f1 + on * on * f2
+    p[AT.q0 + axis] += at * f0 + on * f1
+    p[AT.q1 + axis] += at * f1 + on * f2
+    p[AT.square] += at * at * f0 + 2.0 * at * on * f1 + on * on * f2
 
 
 @njit
 def advance(p: FloatArray, depth: float, x: float, y: float, z: float) -> None:
     """Go on to `depth`, straight ahead from the tip of the needle along (x, y, z)."""
     tip = (at_tip(p, 0, x), at_tip(p, 1, y), at_tip(p, 2, z))
-    old = p[DEPTH]
-    for j in range(int(old / BIN), int(p[BINS])):
+    old = p[AT.depth]
+    for j in range(int(old / BIN), int(p[AT.bins])):
         upper = j * BIN
         begin, end = max(old - upper, 0.0), min(depth - upper, BIN)
         for axis in range(3):
@@ -247,25 +284,25 @@ def advance(p: FloatArray, depth: float, x: float, y: float, z: float) -> None:
         if upper + BIN > depth:
             break
         _finish_bin(p, j)
-    p[DEPTH] = depth
+    p[AT.depth] = depth
 
 
 @njit
 def retreat(p: FloatArray, depth: float) -> None:
     """Forget what lies deeper than `depth`; of its bin the nearest straight line stays."""
-    old, new = int(p[DEPTH] / BIN), int(depth / BIN)
-    whole = p[DEPTH] - old * BIN if new == old else BIN
+    old, new = int(p[AT.depth] / BIN), int(depth / BIN)
+    whole = p[AT.depth] - old * BIN if new == old else BIN
     e, left = _edge(p, new), depth - new * BIN
     f0, f1, f2 = _tissue(p, new, 0.0, whole)
     k0, k1, k2 = _tissue(p, new, 0.0, left)
     det = f0 * f2 - f1 * f1
-    p[SQUARE] = 0.0
+    p[AT.square] = 0.0
     for axis in range(3):
-        q0 = p[Q0 + axis] if new == old else p[e + _BQ0 + axis]
-        q1 = p[Q1 + axis] if new == old else p[e + _BQ1 + axis]
+        q0 = p[AT.q0 + axis] if new == old else p[e + _EDGE.q0 + axis]
+        q1 = p[AT.q1 + axis] if new == old else p[e + _EDGE.q1 + axis]
         at, on = (q0 / f0 if f0 > 0.0 else 0.0), 0.0
         if det > 1e-9 * f0 * f2:
             at, on = (f2 * q0 - f1 * q1) / det, (f0 * q1 - f1 * q0) / det
-        p[Q0 + axis], p[Q1 + axis] = at * k0 + on * k1, at * k1 + on * k2
-        p[SQUARE] += at * at * k0 + 2.0 * at * on * k1 + on * on * k2
-    p[DEPTH] = depth
+        p[AT.q0 + axis], p[AT.q1 + axis] = at * k0 + on * k1, at * k1 + on * k2
+        p[AT.square] += at * at * k0 + 2.0 * at * on * k1 + on * on * k2
+    p[AT.depth] = depth

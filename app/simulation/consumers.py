@@ -6,11 +6,13 @@ Views and metrics declare in their own files what they read; whoever compiles ha
 from dataclasses import dataclass
 from typing import Final
 
+from app.core.state_vector import slots_named
 from app.simulation.errors import SimulationError
 
-_FORCE: Final = ("force_x", "force_y", "force_z")
-
-DEVICE_AXES: Final[dict[str, tuple[str, ...]]] = {"lateral": _FORCE, "axial": ("axial_force",)}
+DEVICE_AXES: Final[dict[str, tuple[str, ...]]] = {
+    "lateral": slots_named("force"),
+    "axial": slots_named("axial_force"),
+}
 """What a device that can render along an axis reads."""
 
 

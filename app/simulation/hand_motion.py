@@ -21,8 +21,7 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.core.parameters import numbered, packed
-from app.simulation.plan import Stage
+from app.core.parameters import Stage, numbered, packed
 
 
 class HandPlaces(NamedTuple):
@@ -183,4 +182,4 @@ def hand_stage(lever: float) -> Stage:
         axial_speed=FASTEST_ALONG,
         axial_acceleration=STRONGEST,
     )
-    return "hand", step, parameters
+    return Stage("hand", step, parameters)

@@ -27,14 +27,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.core.arrays import unit
-from app.core.parameters import packed
+from app.core.parameters import Stage, packed
 from app.mechanisms.pantograph.kernels import inverse_kernel
 from app.mechanisms.profile import DeviceProfile
 from app.simulation import hand_motion
 from app.simulation.errors import SimulationError
-from app.simulation.plan import Stage
-from app.simulation.plant_kernels import step
-from app.simulation.plant_layout import AT
+from app.simulation.plant_kernels import AT, step
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,4 +164,4 @@ def plant_stage(
         axial_acceleration=hand.axial_acceleration,
     )
     parameters = np.concatenate([profile.dynamic_model.values, own, motion])
-    return "plant", step, parameters
+    return Stage("plant", step, parameters)

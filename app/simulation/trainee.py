@@ -5,29 +5,294 @@ rate; it begins afresh with every attempt, from where the hand is: what the scri
 off it is taken out along a minimum-jerk curve while the script hovers.
 """
 
-from typing import Final
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
-from app.core.arrays import FloatArray, unit
+from app.core.arrays import FloatArray, read_only, unit
 from app.core.compiled import njit, stage
+from app.core.parameters import Stage, numbered, packed
 from app.simulation.errors import SimulationError
 from app.simulation.hand_motion import grip_direction
-from app.simulation.plan import Stage
-from app.simulation.script import (
-    STEP,
-    TREMOR_ROWS,
-    TREMOR_STEP,
-    ScriptPhase,
-    TraineeScript,
-    write_script,
-)
-from app.simulation.skill import Skill, find_skill
 
-# Parameters array: heads, path axis, tangent basis, where the hand was, tremor tile, script rows.
-START, SPEED, ROWS, AXIS, FIRST, SECOND, FROM, HOVER, TREMOR = 0, 1, 2, 3, 6, 9, 12, 15, 16
-_SCRIPT: Final = TREMOR + 3 * TREMOR_ROWS
+
+@dataclass(frozen=True, slots=True)
+class Skill:
+    """Behaviour of a scripted trainee. Ranges are (least, most), drawn per seed.
+
+    Attributes:
+        name: for display.
+        hover: time above the skin before anything [s].
+        align: time to turn onto the path [s].
+        speed: mean speed of insertion [m/s].
+        start_error: needle against path at the start [rad], range.
+        aim_error: left after aligning [rad], range.
+        final_error: left after the last redirection [rad], range.
+        drift: slow wander of the direction while inserting [rad], amplitude.
+        tremor: 8-12 Hz [rad], standard deviation; its share along the needle is `tremor_depth` [m].
+        redirects: partial withdrawals with a new aim.
+        overshoot: past the target before the correction [m], range.
+        depth_error: left after the correction, either sign [m], range.
+        hold: time held at the end [s].
+    """
+
+    name: str
+    hover: float
+    align: float
+    speed: float
+    start_error: tuple[float, float]
+    aim_error: tuple[float, float]
+    final_error: tuple[float, float]
+    drift: float
+    tremor: float
+    tremor_depth: float
+    redirects: int
+    overshoot: tuple[float, float]
+    depth_error: tuple[float, float]
+    hold: float = 1.5
+
+
+def _degrees(low: float, high: float) -> tuple[float, float]:
+    return float(np.deg2rad(low)), float(np.deg2rad(high))
+
+
+EXPERT: Final = Skill(
+    name="expert",
+    hover=1.0,
+    align=2.8,
+    speed=0.020,
+    start_error=_degrees(5.0, 9.0),
+    aim_error=_degrees(0.2, 0.8),
+    final_error=_degrees(0.1, 0.4),
+    drift=float(np.deg2rad(0.08)),
+    tremor=float(np.deg2rad(0.02)),
+    tremor_depth=2e-5,
+    redirects=0,
+    overshoot=(0.2e-3, 0.8e-3),
+    depth_error=(0.0, 0.3e-3),
+)
+
+NOVICE: Final = Skill(
+    name="novice",
+    hover=2.0,
+    align=4.5,
+    speed=0.013,
+    start_error=_degrees(8.0, 14.0),
+    aim_error=_degrees(3.0, 4.0),
+    final_error=_degrees(1.2, 2.4),
+    drift=float(np.deg2rad(0.5)),
+    tremor=float(np.deg2rad(0.08)),
+    tremor_depth=8e-5,
+    redirects=1,
+    overshoot=(3e-3, 6e-3),
+    depth_error=(0.5e-3, 2e-3),
+)
+
+SKILLS: Final[dict[str, Skill]] = {skill.name: skill for skill in (NOVICE, EXPERT)}
+
+
+def find_skill(skill: str | Skill) -> Skill:
+    """Return a skill by name, or the one given.
+
+    Raises:
+        SimulationError: naming the skills that exist.
+    """
+    if isinstance(skill, Skill):
+        return skill
+    if skill not in SKILLS:
+        raise SimulationError(f"there is no skill {skill!r}; there are {', '.join(SKILLS)}")
+    return SKILLS[skill]
+
+
+STEP: Final = 0.005  # [s] between rows of the script
+TREMOR_STEP: Final = 0.004  # [s] between rows of the tremor tile
+TREMOR_ROWS: Final = 1000  # the tile lasts 4 s and repeats without a seam
+ABOVE_SKIN: Final = -0.015  # [m] depth at which the hand hovers
+
+
+class ScriptPhase(IntEnum):
+    """What the trainee is doing, as in the slot TRAINEE_PHASE."""
+
+    NONE = 0
+    HOVER = 1
+    ALIGN = 2
+    INSERT = 3
+    WITHDRAW = 4
+    REDIRECT = 5
+    CORRECT = 6
+    HOLD = 7
+    DONE = 9
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TraineeScript:
+    """An attempt at speed one.
+
+    Attributes:
+        rows: e1, e2 [rad], depth [m], phase every `STEP` seconds, shape (n, 4), read-only.
+        tremor: e1, e2 [rad], depth [m] every `TREMOR_STEP` seconds, shape (TREMOR_ROWS, 3).
+        basis: two world directions that span the tangent plane of the path, shape (2, 3).
+    """
+
+    rows: FloatArray
+    tremor: FloatArray
+    basis: FloatArray
+
+    @property
+    def duration(self) -> float:
+        """Until the phase `DONE` [s]."""
+        return (len(self.rows) - 1) * STEP
+
+
+@dataclass(frozen=True, slots=True)
+class _Move:
+    """Minimum-jerk movement to an error and depth within `duration`."""
+
+    phase: ScriptPhase
+    duration: float
+    error: tuple[float, float]
+    depth: float
+
+
+def write_script(axis: FloatArray, depth: float, skill: Skill, seed: int) -> TraineeScript:
+    """Script an attempt on a target `depth` [m] beyond the fulcrum along `axis`, shape (3,).
+
+    Raises:
+        SimulationError: if the depth is not a finite length above zero.
+    """
+    if not (np.isfinite(depth) and depth > 0.0):
+        raise SimulationError(f"the target lies at depth {depth} m; it must be above 0")
+    random = np.random.default_rng([seed, 1])
+    basis = tangent_basis(unit(axis, "axis"))
+    moves = _moves(unit(axis, "axis"), basis, depth, skill, random)
+    rows = _rows(moves)
+    rows[:, :2] += _drift(rows, skill, random)
+    return TraineeScript(read_only(rows), read_only(_tremor(skill, random)), read_only(basis))
+
+
+def tangent_basis(axis: FloatArray) -> FloatArray:
+    """Two unit vectors perpendicular to `axis` and each other, shape (2, 3)."""
+    first = unit(np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))]))
+    return np.stack([first, np.cross(axis, first)])
+
+
+def _moves(
+    axis: FloatArray, basis: FloatArray, depth: float, skill: Skill, random: np.random.Generator
+) -> list[_Move]:
+    start = _polar(random.uniform(*skill.start_error), _towards_vertical(axis, basis, random))
+    around = float(random.uniform(0.0, 2.0 * np.pi))
+    aim = _polar(random.uniform(*skill.aim_error), around)
+    moves = [
+        _Move(ScriptPhase.HOVER, skill.hover, start, ABOVE_SKIN),
+        _Move(ScriptPhase.ALIGN, skill.align, aim, ABOVE_SKIN),
+    ]
+    for _ in range(skill.redirects):
+        aim = _polar(random.uniform(*skill.final_error), around + random.normal(0.0, 0.5))
+        moves += _redirect(moves[-1], aim, depth, skill, random)
+    final = _polar(random.uniform(*skill.final_error), around)
+    past = depth + float(random.uniform(*skill.overshoot))
+    left = depth + float(random.choice([-1.0, 1.0]) * random.uniform(*skill.depth_error))
+    moves.append(_insert(moves[-1], final, past, skill))
+    moves.append(replace(moves[-1], phase=ScriptPhase.CORRECT, duration=0.6))
+    moves.append(_Move(ScriptPhase.CORRECT, 1.0, final, left))
+    moves.append(_Move(ScriptPhase.HOLD, skill.hold, final, left))
+    return moves
+
+
+def _redirect(
+    last: _Move, aim: tuple[float, float], depth: float, skill: Skill, random: np.random.Generator
+) -> list[_Move]:
+    """Insert part of the way, see the error, withdraw most of it, turn."""
+    partway = float(random.uniform(0.40, 0.55)) * depth
+    back = 0.3 * partway
+    return [
+        _insert(last, last.error, partway, skill),
+        _Move(ScriptPhase.INSERT, 0.8, last.error, partway),
+        _Move(ScriptPhase.WITHDRAW, (partway - back) / skill.speed, last.error, back),
+        _Move(ScriptPhase.REDIRECT, 2.0, aim, back),
+    ]
+
+
+def _insert(last: _Move, error: tuple[float, float], depth: float, skill: Skill) -> _Move:
+    return _Move(ScriptPhase.INSERT, max(0.2, (depth - last.depth) / skill.speed), error, depth)
+
+
+def _rows(moves: list[_Move]) -> FloatArray:
+    here = np.array([*moves[0].error, moves[0].depth])
+    parts = []
+    for move in moves:
+        s = np.arange(max(1, round(move.duration / STEP))) * STEP / move.duration
+        there = np.array([*move.error, move.depth])
+        ratio = s**3 * (10.0 - 15.0 * s + 6.0 * s**2)
+        path = here + ratio[:, None] * (there - here)
+        parts.append(np.column_stack([path, np.full(len(s), float(move.phase))]))
+        here = there
+    return np.vstack([*parts, [*here, float(ScriptPhase.DONE)]])
+
+
+def _drift(rows: FloatArray, skill: Skill, random: np.random.Generator) -> FloatArray:
+    """Slow wander of the direction that grows in as the needle enters, shape (n, 2)."""
+    time = np.arange(len(rows)) * STEP
+    frequencies = random.uniform(0.05, 0.3, (3, 2))
+    phases = random.uniform(0.0, 2.0 * np.pi, (3, 2))
+    waves = np.sin(2.0 * np.pi * frequencies * time[:, None, None] + phases).mean(axis=1)
+    inside = np.clip(rows[:, 2] / 0.03, 0.0, 1.0)
+    return skill.drift * (inside**2 * (3.0 - 2.0 * inside))[:, None] * waves
+
+
+def _tremor(skill: Skill, random: np.random.Generator) -> FloatArray:
+    """Band of 8-12 Hz with whole periods in the tile, unit variance before scaling."""
+    period = TREMOR_ROWS * TREMOR_STEP
+    cycles = np.arange(int(8.0 * period), int(12.0 * period) + 1)
+    time = np.arange(TREMOR_ROWS) / TREMOR_ROWS
+    angles = 2.0 * np.pi * cycles[:, None] * time
+    waves = [
+        np.sin(angles + random.uniform(0.0, 2.0 * np.pi, (len(cycles), 1))).sum(axis=0)
+        for _ in range(3)
+    ]
+    scale = np.array([skill.tremor, skill.tremor, skill.tremor_depth])
+    return np.stack(waves, axis=1) * np.sqrt(2.0 / len(cycles)) * scale
+
+
+def _towards_vertical(axis: FloatArray, basis: FloatArray, random: np.random.Generator) -> float:
+    """Angle in the tangent plane that leans the needle up rather than beyond the tilt limit."""
+    down = basis @ np.array([0.0, 0.0, -1.0])
+    if np.hypot(*down) < 0.05:  # nearly vertical: any way is inside the workspace
+        return float(random.uniform(0.0, 2.0 * np.pi))
+    return float(np.arctan2(down[1], down[0]) + random.uniform(-1.0, 1.0))
+
+
+def _polar(radius: float, angle: float) -> tuple[float, float]:
+    return float(radius * np.cos(angle)), float(radius * np.sin(angle))
+
+
+class _TraineePlaces(NamedTuple):
+    """Beginning, path axis, tangent basis, where the hand was; tremor tile and script follow."""
+
+    start: int
+    speed: int
+    rows: int
+    axis_x: int
+    axis_y: int
+    axis_z: int
+    first_x: int
+    first_y: int
+    first_z: int
+    second_x: int
+    second_y: int
+    second_z: int
+    from_1: int
+    from_2: int
+    from_depth: int
+    hover: int
+
+
+_AT: Final = numbered(_TraineePlaces)
+_TREMOR: Final = len(_AT)
+_SCRIPT: Final = _TREMOR + 3 * TREMOR_ROWS
 _TREMOR_PERIOD: Final = TREMOR_ROWS * TREMOR_STEP
 
 
@@ -49,16 +314,27 @@ def trainee_stage(
     if not 0.05 <= speed <= 20.0:
         raise SimulationError(f"speed factor is {speed}; give 0.05 to 20")
     script = write_script(axis, depth, find_skill(skill), seed)
-    return "trainee", step, _parameters(script, unit(axis, "axis"), speed)
+    return Stage("trainee", step, _parameters(script, unit(axis, "axis"), speed))
 
 
 def _parameters(script: TraineeScript, axis: FloatArray, speed: float) -> FloatArray:
-    head = np.array([np.nan, speed, len(script.rows)])
-    hover = np.array(
-        [0.0, 0.0, 0.0, np.count_nonzero(script.rows[:, 3] == ScriptPhase.HOVER) * STEP]
-    )
-    return np.concatenate(
-        [head, axis, script.basis.ravel(), hover, script.tremor.ravel(), script.rows.ravel()]
+    vectors = {"axis": axis, "first": script.basis[0], "second": script.basis[1]}
+    return packed(
+        _AT,
+        script.tremor.ravel(),
+        script.rows.ravel(),
+        start=np.nan,
+        speed=speed,
+        rows=len(script.rows),
+        from_1=0.0,
+        from_2=0.0,
+        from_depth=0.0,
+        hover=np.count_nonzero(script.rows[:, 3] == ScriptPhase.HOVER) * STEP,
+        **{
+            f"{name}_{letter}": float(value)
+            for name, vector in vectors.items()
+            for letter, value in zip("xyz", vector, strict=True)
+        },
     )
 
 
@@ -75,24 +351,26 @@ def _direction(p: FloatArray, e1: float, e2: float, i: int) -> float:
     """Component i of the path direction turned by the error (e1, e2) [rad]."""
     angle = np.sqrt(e1 * e1 + e2 * e2)
     sinc = np.sin(angle) / angle if angle > 1e-9 else 1.0
-    return np.cos(angle) * p[AXIS + i] + sinc * (e1 * p[FIRST + i] + e2 * p[SECOND + i])
+    return np.cos(angle) * p[_AT.axis_x + i] + sinc * (
+        e1 * p[_AT.first_x + i] + e2 * p[_AT.second_x + i]
+    )
 
 
 @njit
 def _begin_where_the_hand_is(state: FloatArray, p: FloatArray) -> None:
     """Note how far the hand is off the script's beginning: e1, e2 [rad], depth [m]."""
     gx, gy, gz = grip_direction(state)
-    along = gx * p[AXIS] + gy * p[AXIS + 1] + gz * p[AXIS + 2]
-    a = gx * p[FIRST] + gy * p[FIRST + 1] + gz * p[FIRST + 2]
-    b = gx * p[SECOND] + gy * p[SECOND + 1] + gz * p[SECOND + 2]
+    along = gx * p[_AT.axis_x] + gy * p[_AT.axis_y] + gz * p[_AT.axis_z]
+    a = gx * p[_AT.first_x] + gy * p[_AT.first_y] + gz * p[_AT.first_z]
+    b = gx * p[_AT.second_x] + gy * p[_AT.second_y] + gz * p[_AT.second_z]
     sine = np.sqrt(a * a + b * b)
     turned = np.arctan2(sine, along) / sine if sine > 1e-9 else 1.0
-    p[FROM] = turned * a - p[_SCRIPT]
-    p[FROM + 1] = turned * b - p[_SCRIPT + 1]
-    p[FROM + 2] = state[sv.GRIP_DEPTH] - p[_SCRIPT + 2]
+    p[_AT.from_1] = turned * a - p[_SCRIPT]
+    p[_AT.from_2] = turned * b - p[_SCRIPT + 1]
+    p[_AT.from_depth] = state[sv.GRIP_DEPTH] - p[_SCRIPT + 2]
     for i in range(3):
-        if not np.isfinite(p[FROM + i]):
-            p[FROM + i] = 0.0
+        if not np.isfinite(p[_AT.from_1 + i]):
+            p[_AT.from_1 + i] = 0.0
 
 
 @stage
@@ -102,14 +380,14 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     if not np.isfinite(time):
         return
     if not state[sv.ENABLED] > 0.0:  # between attempts the hand stays as it is told
-        parameters[START] = np.nan
+        parameters[_AT.start] = np.nan
         return
-    if np.isnan(parameters[START]):
-        parameters[START] = time
+    if np.isnan(parameters[_AT.start]):
+        parameters[_AT.start] = time
         _begin_where_the_hand_is(state, parameters)
-    elapsed = max(0.0, time - parameters[START])
-    last = int(parameters[ROWS]) - 1
-    at = min(elapsed * parameters[SPEED] / STEP, float(last))
+    elapsed = max(0.0, time - parameters[_AT.start])
+    last = int(parameters[_AT.rows]) - 1
+    at = min(elapsed * parameters[_AT.speed] / STEP, float(last))
     row = int(at)
     next_row = min(row + 1, last)
     shaking = (elapsed - _TREMOR_PERIOD * np.floor(elapsed / _TREMOR_PERIOD)) / TREMOR_STEP
@@ -118,16 +396,16 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     e1 = _interpolate(parameters, _SCRIPT, 4, row, next_row, at - row, 0)
     e2 = _interpolate(parameters, _SCRIPT, 4, row, next_row, at - row, 1)
     depth = _interpolate(parameters, _SCRIPT, 4, row, next_row, at - row, 2)
-    if parameters[HOVER] > 0.0:
-        s = min(elapsed * parameters[SPEED] / parameters[HOVER], 1.0)
+    if parameters[_AT.hover] > 0.0:
+        s = min(elapsed * parameters[_AT.speed] / parameters[_AT.hover], 1.0)
         left = 1.0 - s * s * s * (10.0 - 15.0 * s + 6.0 * s * s)
-        e1 += left * parameters[FROM]
-        e2 += left * parameters[FROM + 1]
-        depth += left * parameters[FROM + 2]
+        e1 += left * parameters[_AT.from_1]
+        e2 += left * parameters[_AT.from_2]
+        depth += left * parameters[_AT.from_depth]
     share = shaking - np.floor(shaking)
-    e1 += _interpolate(parameters, TREMOR, 3, shake, next_shake, share, 0)
-    e2 += _interpolate(parameters, TREMOR, 3, shake, next_shake, share, 1)
-    depth += _interpolate(parameters, TREMOR, 3, shake, next_shake, share, 2)
+    e1 += _interpolate(parameters, _TREMOR, 3, shake, next_shake, share, 0)
+    e2 += _interpolate(parameters, _TREMOR, 3, shake, next_shake, share, 1)
+    depth += _interpolate(parameters, _TREMOR, 3, shake, next_shake, share, 2)
     state[sv.HAND_X] = _direction(parameters, e1, e2, 0)
     state[sv.HAND_Y] = _direction(parameters, e1, e2, 1)
     state[sv.HAND_DEPTH] = depth

@@ -12,7 +12,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.studies.findings import Figure, Findings, Sheet
-from app.studies.printed.stereo import printed_stereo_error
+from app.studies.printed_formulas import printed_stereo_error
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 from app.tracking.confidence import covariance_radius
 from app.tracking.optics.rig import RigProfile, load_rig

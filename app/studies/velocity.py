@@ -4,14 +4,22 @@ Rest with tremor on the edge between two counts, a slow sine of 5 mm, a correcti
 let-go up to 0.25 m/s, read by the encoders of two devices at two rates.
 """
 
+from typing import Any
+
+from app.core import state_vector as sv
+from app.core.compiled import STAGE_TYPE
+from app.device.control.kernel import compiled
+
+from numba import types  # isort: skip  (after core.compiled)
 from collections.abc import Callable
+from dataclasses import dataclass
 from math import pi
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
-from app.core import state_vector as sv
-from app.core.arrays import FloatArray
+from app.core.arrays import FloatArray, frozen
+from app.core.parameters import Stage
 from app.core.units import MILLIMETRE
 from app.device.control.velocity import (
     AdaptiveWindow,
@@ -20,9 +28,8 @@ from app.device.control.velocity import (
     Kalman,
     VelocityFilter,
 )
-from app.mechanisms.profile import load_profile
-from app.studies.estimation.drive import drive
-from app.studies.estimation.motions import MOTIONS, HandMotion, motion
+from app.mechanisms.pantograph import inverse, jacobian
+from app.mechanisms.profile import DeviceProfile, load_profile
 from app.studies.findings import Cell, Figure, Findings, Sheet
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 
@@ -32,13 +39,137 @@ DECLARATION: Final[dict[str, Any]] = {
     "reference": "the motion's own speed, in closed form",
 }
 
+
+_ROW = types.float64[::1]
+_TABLE = types.Array(types.float64, 2, "C", readonly=True)
+
+
+@compiled(
+    types.void(
+        STAGE_TYPE,
+        _ROW,
+        _ROW,
+        types.Array(types.float64, 1, "C", readonly=True),
+        _TABLE,
+        types.float64[:, ::1],
+        types.int64,
+    )
+)
+def drive(
+    function: Any,
+    state: Any,
+    parameters: Any,
+    times: Any,
+    readings: Any,
+    rates: Any,
+    rounds: int,
+) -> None:
+    """Step a velocity estimator through readings (n, 2) taken at `times` (n,); fill `rates`.
+
+    Further `rounds` do the same again, to be timed: stamps that go back make it begin afresh.
+    """
+    for tick in range(rounds * len(times)):
+        k = tick % len(times)
+        state[sv.DT] = times[1] - times[0]
+        state[sv.TIME], state[sv.Q_TIME] = times[k], times[k]
+        state[sv.Q_LEFT], state[sv.Q_RIGHT] = readings[k, 0], readings[k, 1]
+        function(state, parameters)
+        rates[k, 0], rates[k, 1] = state[sv.QD_LEFT], state[sv.QD_RIGHT]
+
+
+_PHYSIOLOGICAL: Final = 2.0 * np.pi * 9.0  # [rad/s] tremor of a resting hand
+_TREMOR: Final = 5e-6  # [m]
+_LET_GO: Final = 0.25  # [m/s] the fastest that the governor allows
+_RISE: Final = 0.020  # [s]
+
+Path = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
+"""Times (n,) -> displacement [m] and speed [m/s] of the tool along its line, each (n,)."""
+
+
+def _rest(t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    return _TREMOR * np.sin(_PHYSIOLOGICAL * t), _TREMOR * _PHYSIOLOGICAL * np.cos(
+        _PHYSIOLOGICAL * t
+    )
+
+
+def _sine(t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    w = np.pi  # 0.5 Hz
+    return 5e-3 * np.sin(w * t), 5e-3 * w * np.cos(w * t)
+
+
+def _correction(t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    # Minimum jerk over 10 mm in 0.5 s, from 0.5 s on (Flash and Hogan 1985).
+    s = np.clip((t - 0.5) / 0.5, 0.0, 1.0)
+    return 10e-3 * s**3 * (10.0 - 15.0 * s + 6.0 * s**2), 10e-3 / 0.5 * 30.0 * (s * (1.0 - s)) ** 2
+
+
+def _let_go(t: FloatArray) -> tuple[FloatArray, FloatArray]:
+    # Up to 0.25 m/s within 20 ms, 60 ms on, and down again within 20 ms.
+    knots = np.array([0.5, 0.5 + _RISE, 0.58 + _RISE, 0.58 + 2.0 * _RISE])
+    speed = np.interp(t, knots, [0.0, _LET_GO, _LET_GO, 0.0])
+    place = np.zeros_like(t)
+    for start, slope in zip(knots, np.array([1.0, -1.0, -1.0, 1.0]) * _LET_GO / _RISE, strict=True):
+        place += 0.5 * slope * np.maximum(t - start, 0.0) ** 2
+    return place, speed
+
+
+MOTIONS: Final[dict[str, tuple[float, Path]]] = {
+    "rest on an edge": (1.0, _rest),
+    "slow sine": (2.0, _sine),
+    "correction": (1.5, _correction),
+    "let go": (0.8, _let_go),
+}
+"""Duration [s] and path of each motion."""
+
+
+@dataclass(frozen=True, slots=True)
+class HandMotion:
+    """A motion sampled at a loop's rate.
+
+    Attributes:
+        times: of the ticks [s], shape (n,).
+        readings: joint angles as encoders give them [rad], (n, 2).
+        rates: true joint velocities [rad/s], (n, 2).
+        speed: true speed of the tool along its line [m/s], (n,).
+        lever: dP3/dq along that line [m/rad], (n, 2).
+    """
+
+    times: FloatArray
+    readings: FloatArray
+    rates: FloatArray
+    speed: FloatArray
+    lever: FloatArray
+
+
+def motion(name: str, profile: DeviceProfile, rate_hz: float) -> HandMotion:
+    """Sample a motion of `MOTIONS` on a device: along x through a point where its joints change
+    counts, 10 mm off the middle of the workspace.
+    """
+    duration, path = MOTIONS[name]
+    times = np.arange(1, round(duration * rate_hz) + 1) / rate_hz
+    place, speed = path(times)
+    geometry, count = profile.pantograph, 2.0 * np.pi / profile.encoder.counts_per_turn
+    home = np.array(profile.encoder.home_offsets)
+    middle = geometry.fulcrum[:2] + np.array([0.0, 10.0 * MILLIMETRE])
+    p3 = middle + np.outer(place, [1.0, 0.0])
+    q = np.array([inverse(geometry, point) for point in p3])
+    maps = np.array([jacobian(geometry, row) for row in q])
+    rates = np.linalg.solve(maps, np.outer(speed, [1.0, 0.0])[:, :, None])[:, :, 0]
+    # Shift the encoders' zero so that the middle lies on the edge between two counts.
+    zero = home + count * (((inverse(geometry, middle) - home) / count - 0.5) % 1.0)
+    readings = zero + np.floor((q - zero) / count + 0.5) * count
+    return HandMotion(
+        frozen(times), frozen(readings), frozen(rates), frozen(speed), frozen(maps[:, 0])
+    )
+
+
 _DEVICES: Final = ("icube", "haply-2diy")
 _RATES: Final = (500.0, 1000.0)
 _FELT: Final = 10.0  # [mm/s]
 _SHARE: Final = 0.1  # of the top speed
 _TIMED: Final = 20_000  # ticks at least, so that the call itself does not count
 
-Maker = Callable[[float], tuple[str, Any, FloatArray]]
+Maker = Callable[[float], Stage]
 """One encoder count [rad] -> a fresh stage."""
 
 _MAKERS: Final[dict[str, tuple[str, Maker]]] = {

@@ -16,7 +16,7 @@ from app.core.arrays import unit
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.mechanisms.profile import load_profile
-from app.studies.webcam.setups import Setup
+from app.studies.pen import Setup
 from app.tracking.cameras.camera import Frame
 from app.tracking.optics.calibration import CameraCalibration
 from app.tracking.pen.board import MarkerBoard, aruco_dictionary

@@ -17,9 +17,8 @@ from app.core.compiled import njit
 from app.imaging.interpolation import Interpolation
 from app.imaging.oblique import oblique_image
 from app.mechanisms.profile import load_profile
-from app.simulation.compiler import compile
 from app.simulation.consumers import DevicePort
-from app.simulation.plan import Stage
+from app.simulation.plan import Stage, compile
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.scene import EffectRequest, Scene
 from app.simulation.trainee import trainee_stage

@@ -15,8 +15,8 @@ from app.device.control.velocity import VelocityMethod
 from app.device.links import Link
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import DeviceProfile
-from app.simulation.compiler import compile
 from app.simulation.consumers import DevicePort
+from app.simulation.plan import compile
 from app.simulation.scene import EffectRequest, Scene
 
 LIMIT_US = 3.0

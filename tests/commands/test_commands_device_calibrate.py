@@ -10,13 +10,11 @@ from typer.testing import CliRunner
 from app.commands import build
 from app.commands.answers import AnswerError, Answers, numbers
 from app.commands.device import _commission as _run
-from app.device.commissioning.errors import CommissioningError
-from app.device.commissioning.report import Report
-from app.device.commissioning.results import Step
-from app.device.errors import LinkError
+from app.device.commissioning.results import RoutineName, RoutineReport
+from app.device.errors import CommissioningError, LinkError
 
-CONFIRM = Report(0.0, "", needs="hold it")
-NUMBER = Report(0.0, "", needs="type the reading", unit="g")
+CONFIRM = RoutineReport(0.0, "", needs="hold it")
+NUMBER = RoutineReport(0.0, "", needs="type the reading", unit="g")
 
 
 class Routine:
@@ -85,5 +83,5 @@ def test_a_sign_check_that_fails_is_told_with_what_counts_no_more(tmp_path):
         commission(bench, person)
         link.motors[:4] = 0.0, 1, 1, 0
         with pytest.raises(CommissioningError, match=r"swapped.*the earlier sign check counts no"):
-            _run(bench, Step.SIGNS, Scripted(), yes=True)
+            _run(bench, RoutineName.SIGNS, Scripted(), yes=True)
         assert bench.clearance().homed == 0.0

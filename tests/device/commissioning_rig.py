@@ -9,7 +9,7 @@ from app.core.arrays import FloatArray
 from app.core.clock import VirtualClock
 from app.core.compiled import stage
 from app.device.commissioning.bench import Bench
-from app.device.commissioning.results import Step
+from app.device.commissioning.results import RoutineName
 from app.device.links import BoardInfo, DeviceLink, Link
 from app.device.links.simulated import SimulatedEncoders
 from app.mechanisms.pantograph import inverse
@@ -176,7 +176,7 @@ def assert_quiet(bench):
 
 def commission(bench, person):
     """Home and check the signs, and keep both."""
-    for step in (Step.HOMING, Step.SIGNS):
+    for step in (RoutineName.HOMING, RoutineName.SIGNS):
         report = run(bench, person, step)
         assert not report.failure, report.failure
         bench.keep(report.result)

@@ -89,8 +89,8 @@ def _ticks(sv):
     from app.device.control import laws, pantograph_stages
     from app.device.links.simulated import simulated_link
     from app.mechanisms.profile import load_profile
-    from app.simulation.compiler import compile as compile_scene
     from app.simulation.consumers import Consumer, DevicePort
+    from app.simulation.plan import compile as compile_scene
     from app.simulation.plant import initial_plant, plant_stage
     from app.simulation.scene import EffectRequest, Scene
     from app.simulation.trainee import trainee_stage

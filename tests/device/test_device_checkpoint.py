@@ -13,7 +13,7 @@ from app.core.clock import SystemClock, VirtualClock
 from app.core.compiled import stage
 from app.device.checkpoint import Checkpoint
 from app.device.control import Host, Loop, Table, VirtualFixture, pantograph_stages
-from app.device.control.rerun import Rerun
+from app.device.control.checkpoints import Rerun
 from app.device.errors import LoopError, RerunError
 from app.device.links import Link
 from app.device.links.simulated import SimulatedEncoders

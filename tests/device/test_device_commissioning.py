@@ -19,9 +19,9 @@ from device.commissioning_rig import (
 )
 
 from app.core import state_vector as sv
-from app.device.commissioning.errors import CommissioningError
-from app.device.commissioning.results import Step
-from app.device.commissioning.settle import settle
+from app.device.commissioning.records import settle
+from app.device.commissioning.results import RoutineName
+from app.device.errors import CommissioningError
 
 
 @pytest.fixture
@@ -34,7 +34,7 @@ def parts(tmp_path):
 def test_homing_finds_the_offsets_of_counters_that_began_anywhere(parts):
     link, bench, person = parts
     link.encoders[4:6] = 0.3, -0.2
-    report = run(bench, person, Step.HOMING)
+    report = run(bench, person, RoutineName.HOMING)
     assert report.failure == ""
     count = 2 * np.pi / bench.profile.encoder.counts_per_turn
     assert report.result.offsets == pytest.approx((-0.3, 0.2), abs=count)
@@ -47,9 +47,9 @@ def test_homing_finds_the_offsets_of_counters_that_began_anywhere(parts):
 def test_the_jig_finds_the_same_offsets_as_the_stops(parts):
     link, bench, person = parts
     link.encoders[4:6] = 0.3, -0.2
-    by_stops = run(bench, person, Step.HOMING).result
+    by_stops = run(bench, person, RoutineName.HOMING).result
     bench.keep(by_stops)
-    by_jig = run(bench, person, Step.OFFSETS).result
+    by_jig = run(bench, person, RoutineName.OFFSETS).result
     assert by_jig.offsets == pytest.approx(by_stops.offsets, abs=4e-4)
     assert by_jig.reference == "jig"
 
@@ -58,7 +58,7 @@ def test_the_jig_finds_the_same_offsets_as_the_stops(parts):
 def test_homing_sees_encoders_that_count_wrongly_and_keeps_the_old_offsets(parts, matrix):
     link, bench, person = parts
     link.encoders[:4] = matrix
-    report = run(bench, person, Step.HOMING)
+    report = run(bench, person, RoutineName.HOMING)
     assert "upright" in report.failure
     assert bench.corrections.offsets == (0.0, 0.0)
 
@@ -69,7 +69,7 @@ def test_homing_asks_to_hold_still(parts):
     def restless(report):
         return person(report)
 
-    routine = bench.routine(Step.HOMING)
+    routine = bench.routine(RoutineName.HOMING)
     while not routine.step(bench.clock.now()).needs:
         bench.advance(0.01)
     routine.answer()
@@ -85,9 +85,9 @@ def test_homing_asks_to_hold_still(parts):
 
 def test_a_right_robot_passes_the_sign_check_with_light_pulses_only(parts):
     _link, bench, person = parts
-    bench.keep(run(bench, person, Step.HOMING).result)
+    bench.keep(run(bench, person, RoutineName.HOMING).result)
     since = bench.loop.latest().tick
-    report = run(bench, person, Step.SIGNS)
+    report = run(bench, person, RoutineName.SIGNS)
     assert report.failure == ""
     rows = bench.loop.rows(since)
     assert np.abs(rows[:, [sv.TORQUE_LEFT, sv.TORQUE_RIGHT]]).max() <= 0.03
@@ -111,9 +111,9 @@ def test_a_right_robot_passes_the_sign_check_with_light_pulses_only(parts):
 )
 def test_the_sign_check_names_what_is_wrong_with_the_motors(parts, motors, words):
     link, bench, person = parts
-    bench.keep(run(bench, person, Step.HOMING).result)
+    bench.keep(run(bench, person, RoutineName.HOMING).result)
     link.motors[:4] = motors
-    report = run(bench, person, Step.SIGNS)
+    report = run(bench, person, RoutineName.SIGNS)
     assert words in report.failure
     assert report.result is None
 
@@ -121,10 +121,10 @@ def test_the_sign_check_names_what_is_wrong_with_the_motors(parts, motors, words
 @pytest.mark.parametrize("joint", [9, 10])
 def test_the_sign_check_names_a_blocked_joint(parts, joint):
     link, bench, person = parts
-    bench.keep(run(bench, person, Step.HOMING).result)
+    bench.keep(run(bench, person, RoutineName.HOMING).result)
     link.motors[joint] = 1.0
     link.motors[7:9] = UPRIGHT
-    report = bench.run(bench.routine(Step.SIGNS, by_hand=False), person)
+    report = bench.run(bench.routine(RoutineName.SIGNS, by_hand=False), person)
     assert "blocked" in report.failure
     assert_quiet(bench)
 
@@ -140,10 +140,10 @@ def test_the_sign_check_names_a_blocked_joint(parts, joint):
 )
 def test_turning_the_links_by_hand_tells_wrong_encoders_before_any_torque(parts, encoders, words):
     link, bench, person = parts
-    bench.keep(run(bench, person, Step.HOMING).result)
+    bench.keep(run(bench, person, RoutineName.HOMING).result)
     link.encoders[:4] = encoders
     since = bench.loop.latest().tick
-    report = run(bench, person, Step.SIGNS)
+    report = run(bench, person, RoutineName.SIGNS)
     assert words in report.failure
     assert not bench.loop.rows(since)[:, sv.TORQUE_LEFT].any()
 
@@ -151,7 +151,7 @@ def test_turning_the_links_by_hand_tells_wrong_encoders_before_any_torque(parts,
 def test_friction_comes_out_as_the_plant_has_it(parts):
     _link, bench, person = parts
     commission(bench, person)
-    report = run(bench, person, Step.FRICTION)
+    report = run(bench, person, RoutineName.FRICTION)
     truth = bench.profile.friction
     for side in (report.result.left, report.result.right):
         assert side.coulomb == pytest.approx(truth.coulomb, rel=0.05)
@@ -165,14 +165,14 @@ def test_friction_of_a_stuck_joint_is_refused(parts):
     commission(bench, person)
     link.motors[10] = 1.0
     link.motors[8] = UPRIGHT[1]
-    report = run(bench, person, Step.FRICTION)
+    report = run(bench, person, RoutineName.FRICTION)
     assert "right joint does not keep" in report.failure
 
 
 def test_latency_on_the_simulated_plant_is_within_two_ticks(parts):
     _link, bench, person = parts
     commission(bench, person)
-    result = run(bench, person, Step.LATENCY).result
+    result = run(bench, person, RoutineName.LATENCY).result
     assert 0.0 <= result.dead_time <= 2e-3
     assert result.round_trip == (0.0, 0.0, 0.0)
 
@@ -181,7 +181,7 @@ def test_a_right_force_scale_lifts_the_cap(parts):
     _link, bench, person = parts
     commission(bench, person)
     assert bench.clearance().force_cap == 1.0
-    report = run(bench, person, Step.FORCE)
+    report = run(bench, person, RoutineName.FORCE)
     assert report.result.factor == pytest.approx(1.0, abs=0.01)
     assert report.result.verified
     bench.keep(report.result)
@@ -194,7 +194,7 @@ def test_a_missing_gear_is_named_and_the_larger_forces_are_never_commanded(parts
     commission(bench, person)
     link.motors[:4] = 10.0, 0, 0, 10
     since = bench.loop.latest().tick
-    report = run(bench, person, Step.FORCE)
+    report = run(bench, person, RoutineName.FORCE)
     assert "gear ratio 10:1 seems to be missing" in report.failure
     felt = np.linalg.norm(bench.loop.rows(since)[:, sv.FELT], axis=1)
     assert felt.max() == pytest.approx(0.2, rel=1e-6)
@@ -204,7 +204,7 @@ def test_a_missing_gear_is_named_and_the_larger_forces_are_never_commanded(parts
 def test_the_scale_may_be_read_for_as_long_as_it_takes(parts):
     link, bench, person = parts
     commission(bench, person)
-    routine = bench.routine(Step.FORCE)
+    routine = bench.routine(RoutineName.FORCE)
     slow = Person(link, bench)
     pushes = 0
     while not (report := routine.step(bench.clock.now())).done:
@@ -221,7 +221,9 @@ def test_the_scale_may_be_read_for_as_long_as_it_takes(parts):
     assert report.failure == ""
 
 
-@pytest.mark.parametrize("step", [Step.SIGNS, Step.FRICTION, Step.LATENCY, Step.FORCE])
+@pytest.mark.parametrize(
+    "step", [RoutineName.SIGNS, RoutineName.FRICTION, RoutineName.LATENCY, RoutineName.FORCE]
+)
 def test_cancelling_in_mid_pulse_ends_at_zero_torque(parts, step):
     _link, bench, person = parts
     commission(bench, person)
@@ -247,14 +249,14 @@ def test_an_exception_of_whoever_runs_it_ends_at_zero_torque(parts):
             raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
-        bench.run(bench.routine(Step.FORCE), person, fail_while_pushing)
+        bench.run(bench.routine(RoutineName.FORCE), person, fail_while_pushing)
     assert_quiet(bench)
 
 
 def test_encoders_that_go_stale_in_mid_pulse_end_the_routine_with_the_reason(parts):
     link, bench, person = parts
     commission(bench, person)
-    routine = bench.routine(Step.FORCE)
+    routine = bench.routine(RoutineName.FORCE)
     while not (report := routine.step(bench.clock.now())).done:
         if report.needs and not report.unit:
             routine.answer(person(report))
@@ -268,7 +270,7 @@ def test_encoders_that_go_stale_in_mid_pulse_end_the_routine_with_the_reason(par
 def test_a_routine_that_is_not_stepped_for_a_second_gives_no_force(parts):
     _link, bench, person = parts
     commission(bench, person)
-    routine = bench.routine(Step.FORCE)
+    routine = bench.routine(RoutineName.FORCE)
     while not routine.report.unit:
         if routine.step(bench.clock.now()).needs and not routine.report.unit:
             routine.answer(person(routine.report))
@@ -282,7 +284,7 @@ def test_a_routine_that_is_not_stepped_for_a_second_gives_no_force(parts):
 def test_a_reading_that_is_no_number_is_refused_and_asked_again(parts, value):
     _link, bench, person = parts
     commission(bench, person)
-    routine = bench.routine(Step.FORCE)
+    routine = bench.routine(RoutineName.FORCE)
     while not routine.report.unit:
         if routine.step(bench.clock.now()).needs and not routine.report.unit:
             routine.answer(person(routine.report))
@@ -296,16 +298,18 @@ def test_a_reading_that_is_no_number_is_refused_and_asked_again(parts, value):
 
 def test_nothing_can_be_answered_while_nothing_is_asked(parts):
     with pytest.raises(CommissioningError, match="nothing is asked"):
-        parts[1].routine(Step.HOMING).answer()
+        parts[1].routine(RoutineName.HOMING).answer()
 
 
-@pytest.mark.parametrize("step", [Step.SIGNS, Step.FRICTION, Step.LATENCY, Step.FORCE])
+@pytest.mark.parametrize(
+    "step", [RoutineName.SIGNS, RoutineName.FRICTION, RoutineName.LATENCY, RoutineName.FORCE]
+)
 def test_nothing_pushes_before_homing_and_nothing_but_the_sign_check_before_it(parts, step):
     _link, bench, person = parts
     with pytest.raises(CommissioningError, match="homed"):
         bench.routine(step)
-    bench.keep(run(bench, person, Step.HOMING).result)
-    if step is not Step.SIGNS:
+    bench.keep(run(bench, person, RoutineName.HOMING).result)
+    if step is not RoutineName.SIGNS:
         with pytest.raises(CommissioningError, match="signs"):
             bench.routine(step)
 
@@ -317,7 +321,7 @@ def test_another_power_cycle_needs_homing_again(parts):
     link.who = type(INFO)("icube", "A-001", "1.0", "acus 1", boot=8)
     assert bench.clearance().homed == 0.0
     with pytest.raises(CommissioningError, match="homed"):
-        bench.routine(Step.SIGNS)
+        bench.routine(RoutineName.SIGNS)
 
 
 def test_closing_the_bench_lets_go_of_the_link_and_can_be_repeated(tmp_path):
@@ -343,7 +347,7 @@ def test_the_gauge_is_calibrated_by_weights(parts):
         return 0.0
 
     link.gauge[0] = 1.0
-    report = bench.run(bench.routine(Step.GAUGE), hang)
+    report = bench.run(bench.routine(RoutineName.GAUGE), hang)
     assert report.failure == ""
     assert report.result.zero == pytest.approx(0.2, abs=1e-9)
     assert report.result.scale == pytest.approx(0.8, abs=1e-9)
@@ -355,7 +359,7 @@ def test_the_gauge_is_calibrated_by_weights(parts):
 
 def test_a_board_without_a_gauge_says_so(parts):
     _link, bench, person = parts
-    assert "measures no force" in run(bench, person, Step.GAUGE).failure
+    assert "measures no force" in run(bench, person, RoutineName.GAUGE).failure
 
 
 def test_the_held_links_of_these_tests_really_stand(parts):
@@ -387,7 +391,7 @@ def test_a_homing_that_fails_after_it_has_moved_the_boards_zero_takes_clearance_
         return value
 
     assert bench.corrections.offsets != (0.0, 0.0)
-    assert "upright" in run(bench, careless, Step.HOMING).failure
+    assert "upright" in run(bench, careless, RoutineName.HOMING).failure
     assert bench.corrections.offsets == (0.0, 0.0)
     assert bench.clearance().homed == 0.0
     commission(bench, person)
@@ -395,7 +399,7 @@ def test_a_homing_that_fails_after_it_has_moved_the_boards_zero_takes_clearance_
     link.hold(UPRIGHT)
     bench.advance(0.1)
     assert bench.loop.latest().q == pytest.approx(UPRIGHT, abs=4e-4)
-    bench.undo(Step.HOMING)
+    bench.undo(RoutineName.HOMING)
     assert bench.clearance().homed == 0.0
 
 
@@ -409,7 +413,7 @@ def test_a_homing_whose_zero_cannot_be_set_does_not_bring_back_the_offsets_of_th
         raise CommissioningError("the board does not answer")
 
     link.home = home
-    assert "does not answer" in run(bench, person, Step.HOMING).failure
+    assert "does not answer" in run(bench, person, RoutineName.HOMING).failure
     assert bench.corrections.offsets == (0.0, 0.0)
     assert bench.clearance().homed == 0.0
 
@@ -417,32 +421,34 @@ def test_a_homing_whose_zero_cannot_be_set_does_not_bring_back_the_offsets_of_th
 def test_a_sign_check_that_fails_takes_the_clearance_of_the_one_before_away(parts):
     link, bench, person = parts
     commission(bench, person)
-    bench.keep(bench.record.newest(Step.SIGNS).result)  # passed twice: neither may be left
+    bench.keep(bench.record.newest(RoutineName.SIGNS).result)  # passed twice: neither may be left
     link.motors[:4] = -1.0, 0, 0, 1
-    said = settle(bench, Step.SIGNS, run(bench, person, Step.SIGNS))
+    said = settle(bench, RoutineName.SIGNS, run(bench, person, RoutineName.SIGNS))
     assert "turns backwards" in said
     assert "counts no more" in said
     assert bench.clearance().homed == 0.0
     link.motors[:4] = 1.0, 0, 0, 1
-    assert settle(bench, Step.SIGNS, run(bench, person, Step.SIGNS)) == ""
+    assert settle(bench, RoutineName.SIGNS, run(bench, person, RoutineName.SIGNS)) == ""
     assert bench.clearance().homed == 1.0
 
 
 def test_a_force_scale_that_fails_puts_the_cap_back_also_after_one_of_another_power_cycle(parts):
     link, bench, person = parts
     commission(bench, person)
-    assert settle(bench, Step.FORCE, run(bench, person, Step.FORCE)) == ""
+    assert settle(bench, RoutineName.FORCE, run(bench, person, RoutineName.FORCE)) == ""
     link.who = replace(link.who, boot=8)
     commission(bench, person)
     assert bench.clearance().full
     link.motors[:4] = 20.0, 0, 0, 20.0
-    failed = bench.routine(Step.FORCE)
+    failed = bench.routine(RoutineName.FORCE)
     report = bench.run(failed, Person(link, bench, [500.0]))
-    assert "counts no more" in settle(bench, Step.FORCE, report)
+    assert "counts no more" in settle(bench, RoutineName.FORCE, report)
     assert bench.clearance().force_cap == 1.0
 
 
 def test_a_homing_that_fails_says_nothing_of_checks(parts):
     link, bench, person = parts
     link.encoders[:4] = -1.0, 0, 0, 1
-    assert "counts no more" not in settle(bench, Step.HOMING, run(bench, person, Step.HOMING))
+    assert "counts no more" not in settle(
+        bench, RoutineName.HOMING, run(bench, person, RoutineName.HOMING)
+    )

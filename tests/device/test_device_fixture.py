@@ -22,8 +22,7 @@ from hypothesis import strategies as st
 
 from app.core import state_vector as sv
 from app.core.arrays import angle_between
-from app.device.control.fixture import VirtualFixture
-from app.device.control.laws.fixture import DEAD_ZONE, dial_gain
+from app.device.control.laws.fixture import DEAD_ZONE, VirtualFixture, dial_gain
 
 DOWN = (0.0, 0.0, -1.0)
 dials = st.floats(-1.0, 1.0)

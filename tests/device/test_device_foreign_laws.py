@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from app.core import state_vector as sv
 from app.core.compiled import stage
 from app.device.control import Loop, Table, laws
-from app.device.control.fences import fence
-from app.device.control.history import History
+from app.device.control.kernel import fence
+from app.device.control.shared import TickHistory
 from app.device.errors import LawError, LoopError
 
 NAME, CODE = example("How to add a force law")
@@ -252,7 +252,7 @@ def test_a_tick_that_does_not_return_is_named_and_closing_waits_for_nothing():
             loop.open()
         assert isinstance(loop.rows(), np.ndarray)
         assert loop.latest().tick > 5
-        assert isinstance(loop._history, History)
+        assert isinstance(loop._history, TickHistory)
     finally:
         p[1] = 1.0
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.device.control.limits import (
+from app.device.control.safety import (
     cap,
     fade,
     inwards,

@@ -13,8 +13,8 @@ from app.core import state_vector as sv
 from app.core.clock import SystemClock, VirtualClock
 from app.core.compiled import stage
 from app.device.control import INPUT_NAMES, Host, Loop, Priority, Table, stage_cost
-from app.device.control.history import History
 from app.device.control.kernel import HEAD, receive
+from app.device.control.shared import TickHistory
 from app.device.errors import DeviceError, LoopError, UnknownInputError
 
 HOSTS = [Host.THREAD] + ([Host.COMPILED] if sys.platform == "linux" else [])
@@ -186,7 +186,7 @@ def test_during_a_write_the_last_whole_copy_stays():
 
 
 def test_the_history_gives_only_ticks_that_are_still_there():
-    history = History(capacity=8)
+    history = TickHistory(capacity=8)
     for tick in range(1, 21):
         history.ring[(tick - 1) % 8, sv.TICK] = tick
         history.counters[HEAD] = tick

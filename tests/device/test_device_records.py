@@ -7,10 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.device.commissioning.errors import CommissioningError, RecordError
-from app.device.commissioning.force_scale import fit, refusal
-from app.device.commissioning.gauge import fit as fit_gauge
-from app.device.commissioning.latency import dead_time
+from app.device.commissioning.force_scale import fit, fit_gauge, refusal
+from app.device.commissioning.pulses import dead_time
 from app.device.commissioning.records import (
     DeviceRecord,
     device_key,
@@ -18,7 +16,8 @@ from app.device.commissioning.records import (
     records_folder,
     save_record,
 )
-from app.device.commissioning.results import ForceScale, Gauge, Homing, Signs, Step
+from app.device.commissioning.results import ForceScale, Gauge, Homing, RoutineName, Signs
+from app.device.errors import CommissioningError, RecordError
 from app.device.links.link import BoardInfo
 from app.device.readiness import Readiness
 from app.mechanisms.profile import load_profile
@@ -108,8 +107,8 @@ def test_undo_takes_the_last_result_back_and_keeps_it_in_the_history():
 
 
 def test_undo_can_be_limited_to_a_routine():
-    assert record(SCALE, HOMING).undo(Step.FORCE).newest(Step.HOMING) is not None
-    assert record(SCALE, HOMING).undo(Step.FORCE).newest(Step.FORCE) is None
+    assert record(SCALE, HOMING).undo(RoutineName.FORCE).newest(RoutineName.HOMING) is not None
+    assert record(SCALE, HOMING).undo(RoutineName.FORCE).newest(RoutineName.FORCE) is None
 
 
 def test_offsets_count_in_their_own_power_cycle_only():
@@ -138,7 +137,7 @@ def test_the_force_scale_outlives_the_power_cycle_and_homing_does_not():
 
 def test_a_sign_check_by_pulses_needs_homing_against_the_stops():
     pulses = SIGNS.model_copy(update={"by_hand": False})
-    jig = Homing(step=Step.OFFSETS, reference="jig", offsets=(0.0, 0.0), change=(0.0, 0.0))
+    jig = Homing(step=RoutineName.OFFSETS, reference="jig", offsets=(0.0, 0.0), change=(0.0, 0.0))
     assert clearance(HOMING, pulses).homed == 1.0
     assert clearance(jig, SIGNS).homed == 1.0
     assert clearance(jig, pulses).homed == 0.0

@@ -8,6 +8,9 @@ import pytest
 from app.core import state_vector as sv
 from app.device.control import pantograph_stages
 from app.device.control.velocity import (
+    _READINGS,
+    _RING,
+    _TIMES,
     DEFAULT_VELOCITY,
     AdaptiveWindow,
     AlphaBeta,
@@ -15,9 +18,9 @@ from app.device.control.velocity import (
     Kalman,
     VelocityFilter,
     VelocityMethod,
+    end_fit,
     velocity_stage,
 )
-from app.device.control.velocity.foaw import _READINGS, _RING, _TIMES, end_fit
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile
 

@@ -17,7 +17,7 @@ from app.exchange.markups import read_plan, write_plan
 from app.exchange.transforms import read_tfm, write_tfm
 from app.exchange.urdf import read_geometry, write_urdf
 from app.exercises.library import load_exercise
-from app.mechanisms.profile.files import load_profile
+from app.mechanisms.profile.device import load_profile
 from app.planning.plan import Plan
 from app.planning.registration.plate import load_plate
 from app.planning.registration.points import read_points

@@ -20,8 +20,8 @@ from app.mechanisms.pantograph.kernels import (
     jacobian_kernel,
 )
 from app.mechanisms.profile import DeviceProfile
-from app.simulation.compiler import compile
 from app.simulation.consumers import DevicePort
+from app.simulation.plan import compile
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.scene import EffectRequest, Scene
 

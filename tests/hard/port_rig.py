@@ -10,8 +10,8 @@ from app.device.control import Loop, Table, laws, pantograph_stages
 from app.device.links import Link
 from app.mechanisms.pantograph import inverse
 from app.mechanisms.profile import load_profile
-from app.simulation.compiler import compile
 from app.simulation.consumers import DevicePort
+from app.simulation.plan import compile
 from app.simulation.scene import EffectRequest, Scene
 
 PROFILE = load_profile("icube")

@@ -11,10 +11,10 @@ from simulation.effect_rig import memory_of
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
 from app.mechanisms.profile import load_profile
-from app.simulation.compiler import compile
 from app.simulation.consumers import DevicePort
 from app.simulation.effects import breathing, lateral_tissue, shaft_friction
 from app.simulation.errors import SimulationError
+from app.simulation.plan import compile
 from app.simulation.plant import SimulatedHand, initial_plant, plant_stage
 from app.simulation.scene import Binding, EffectRequest, Scene, TissueLayer
 from app.simulation.trainee import trainee_stage
@@ -111,7 +111,7 @@ def test_friction_at_rest_leaves_no_subnormals() -> None:
         rub(memory, 0.05 + 1e-5 * k)
     for _ in range(3000):
         rub(memory, 0.05099)
-    values = memory[shaft_friction.SPEED : shaft_friction.FORCE + 1]
+    values = memory[shaft_friction._AT.speed : shaft_friction._AT.force + 1]
     assert all(value == 0.0 or abs(value) > 1e-300 for value in values)
 
 

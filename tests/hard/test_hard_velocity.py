@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 
 from app.core import state_vector as sv
 from app.device.control import kernel
-from app.device.control.velocity import VelocityMethod, velocity_stage
-from app.device.control.velocity.readings import FASTEST
+from app.device.control.velocity import FASTEST, VelocityMethod, velocity_stage
 from app.mechanisms.profile import load_profile
 
 PROFILE = load_profile("icube")

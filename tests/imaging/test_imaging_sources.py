@@ -15,8 +15,8 @@ import pydicom
 import pytest
 from pydicom.fileset import FileSet
 
-from app.core.passing import sweep_passing
 from app.core.progress import Cancelled, Progress
+from app.core.temporary import sweep_temporary
 from app.imaging import sources
 from app.imaging.body import find_body, is_inside
 from app.imaging.errors import FolderError, SeriesRefusedError
@@ -136,10 +136,10 @@ def test_what_a_killed_program_unpacked_is_swept_away_and_nobody_elses(tmp_path,
     (temporary / "acus-zip-of-nobody").mkdir()
     with subprocess.Popen(command, stdout=subprocess.PIPE, cwd=root, env=environment) as other:
         theirs = other.stdout.readline().decode().strip()
-        assert sweep_passing() == 0
+        assert sweep_temporary() == 0
         assert (temporary / theirs / "study" / "s000").exists()
         other.kill()
-    assert sweep_passing() == 1
+    assert sweep_temporary() == 1
     assert os.listdir(temporary) == ["acus-zip-of-nobody"]
 
 

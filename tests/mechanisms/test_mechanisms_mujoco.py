@@ -20,8 +20,12 @@ from app.mechanisms.pantograph import (
 )
 from app.mechanisms.pantograph.dynamics import axial_load_kernel
 from app.mechanisms.profile import load_profile
-from app.studies.references.mjcf import MjcfSettings, write_mjcf
-from app.studies.references.mujoco_pantograph import MujocoPantograph, felt_in_mujoco
+from app.studies.references.mujoco_pantograph import (
+    MjcfSettings,
+    MujocoPantograph,
+    felt_in_mujoco,
+    write_mjcf,
+)
 
 PROFILE = load_profile("icube")
 GEOMETRY = PROFILE.pantograph

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.device.readiness import Clearance
+from app.device.readiness import ForceClearance
 from app.session.checks.facts import CameraFacts, MorningFacts, RobotFacts, TouchFacts
 from app.session.checks.record import DayCheck, newest_check, save_check
 from app.session.checks.steps import StepResult, Verdict, morning_check, overall
@@ -17,7 +17,7 @@ MM = 1e-3
 SHARP = PictureQuality(110.0, 0.02, 0.001, 2.4)
 LEFT = CameraFacts("left", "", 30.0, 30.0, SHARP, "")
 RIGHT = replace(LEFT, name="right")
-ROBOT = RobotFacts(False, True, True, True, Clearance(1.0, 5.0), "", 0.001)
+ROBOT = RobotFacts(False, True, True, True, ForceClearance(1.0, 5.0), "", 0.001)
 TOUCH = TouchFacts("F", np.zeros(3), np.array([0.4 * MM, 0.0, 0.3 * MM]), 0.3 * MM)
 GOOD = MorningFacts(ROBOT, (LEFT, RIGHT), 0.3, "", 0.4 * MM, TOUCH)
 
@@ -44,9 +44,9 @@ def test_everything_well_is_green_and_says_nothing_to_do() -> None:
         (replace(GOOD, robot=replace(ROBOT, fault="board error")), "force", Verdict.BAD, "board"),
         (replace(GOOD, robot=replace(ROBOT, encoder_age=0.2)), "force", Verdict.BAD, "late"),
         (replace(GOOD, robot=replace(ROBOT, encoder_age=np.nan)), "force", Verdict.BAD, "late"),
-        (replace(GOOD, robot=replace(ROBOT, clearance=Clearance(1.0, 1.0, "weigh it"))),
+        (replace(GOOD, robot=replace(ROBOT, clearance=ForceClearance(1.0, 1.0, "weigh it"))),
          "force", Verdict.WARNING, "at most 1 N"),
-        (replace(GOOD, robot=replace(ROBOT, clearance=Clearance(0.0, 0.0, "home it"))),
+        (replace(GOOD, robot=replace(ROBOT, clearance=ForceClearance(0.0, 0.0, "home it"))),
          "force", Verdict.BAD, "at most 0 N"),
         (replace(GOOD, cameras=()), "pictures", Verdict.BAD, "0 of 2 cameras"),
         (replace(GOOD, cameras=(LEFT,)), "pictures", Verdict.BAD, "1 of 2 cameras"),

@@ -8,10 +8,10 @@ from extending_page import example
 
 from app.core import state_vector as sv
 from app.simulation import effects
-from app.simulation.compiler import compile
 from app.simulation.consumers import DevicePort
 from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
+from app.simulation.plan import compile
 from app.simulation.scene import EffectRequest, Scene
 
 FORM_BEFORE = """'''Shaking of the needle's side force: a sine, for tests of steadiness.'''

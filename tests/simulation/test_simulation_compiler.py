@@ -5,10 +5,10 @@ import sys
 
 import pytest
 
-from app.simulation.compiler import compile
 from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.effects import declaration, effect_names
 from app.simulation.errors import SimulationError
+from app.simulation.plan import compile
 from app.simulation.scene import Binding, EffectRequest, Scene, TissueLayer
 
 ALL = tuple(EffectRequest(n) for n in ("breathing", "shaft_friction", "lateral_tissue"))
@@ -124,7 +124,7 @@ def test_what_is_declared_is_what_the_effect_has(name: str) -> None:
 
 DROPPED = """
 import sys
-from app.simulation.compiler import compile
+from app.simulation.plan import compile
 from app.simulation.consumers import DevicePort
 from app.simulation.scene import EffectRequest, Scene
 

@@ -6,7 +6,7 @@ import pytest
 
 from app.simulation.errors import SimulationError
 from app.simulation.needles import OUTER_DIAMETER, bending_stiffness
-from app.studies.references.foundation import (
+from app.studies.lateral_tissue import (
     beam_moment,
     difference_moment,
     hermite_moment,

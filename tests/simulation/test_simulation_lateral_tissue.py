@@ -9,7 +9,7 @@ from app.core.arrays import FloatArray, unit
 from app.simulation.effects import lateral_tissue as effect
 from app.simulation.needles import bending_stiffness
 from app.simulation.scene import Binding, Needle, Scene, TissueLayer
-from app.studies.references.foundation import beam_moment
+from app.studies.lateral_tissue import beam_moment
 
 LENGTH = 0.2
 LAYERS = (TissueLayer("a", 0.01, 30e3), TissueLayer("b", 0.0, 9e9), TissueLayer("c", 0.19, 20e3))
@@ -170,7 +170,7 @@ def test_a_depth_that_nobody_measured_moves_nothing(
     assert not tick(memory, leaning(0.3), 0.11, source=0.0).any()
     tick(memory, leaning(0.1), 0.05)
     held = tick(memory, leaning(0.2), 0.11, source=0.0)
-    assert memory[effect.DEPTH] == 0.05
+    assert memory[effect.AT.depth] == 0.05
     assert held.any()
 
 

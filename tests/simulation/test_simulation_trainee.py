@@ -6,9 +6,7 @@ import pytest
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
 from app.simulation.errors import SimulationError
-from app.simulation.script import STEP, ScriptPhase, write_script
-from app.simulation.skill import EXPERT, NOVICE
-from app.simulation.trainee import trainee_stage
+from app.simulation.trainee import EXPERT, NOVICE, STEP, ScriptPhase, trainee_stage, write_script
 
 AXIS = unit(np.array([0.3, 0.1, -0.9]))
 DEPTH = 0.08

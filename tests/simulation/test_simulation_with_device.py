@@ -5,17 +5,15 @@ import pytest
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
-from app.device.control.fixture import VirtualFixture
+from app.device.control.laws.fixture import VirtualFixture
 from app.device.control.table import pantograph_stages
 from app.device.links.simulated import simulated_link
 from app.mechanisms.profile import load_profile
-from app.simulation.compiler import compile
 from app.simulation.consumers import Consumer, DevicePort
-from app.simulation.plan import Stage
+from app.simulation.plan import Stage, compile
 from app.simulation.plant import initial_plant, plant_stage
 from app.simulation.scene import EffectRequest, Scene
-from app.simulation.script import ScriptPhase
-from app.simulation.trainee import trainee_stage
+from app.simulation.trainee import ScriptPhase, trainee_stage
 
 PROFILE = load_profile("icube")
 AXIS = unit(np.array([0.25, -0.15, -0.9]))

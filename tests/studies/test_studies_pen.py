@@ -4,8 +4,7 @@ import numpy as np
 
 from app.core.progress import Progress
 from app.studies import pen
-from app.studies.webcam.setups import Setup
-from app.studies.webcam.trials import Outcome, rendered, trials
+from app.studies.pen import Outcome, Setup, rendered, trials
 from app.tracking.confidence import chi_square_quantile
 
 

@@ -4,16 +4,18 @@ import numpy as np
 import pytest
 
 from app.mechanisms.profile import load_profile
-from app.studies.rendering.device import DEPTH, OFFSET, Device, dies_away
-from app.studies.rendering.reduction import (
+from app.studies.rendered_stiffness import (
+    DEPTH,
+    OFFSET,
+    Device,
     Reduction,
     colgate,
     delayed,
+    dies_away,
     reductions,
     spectral_radius,
 )
-from app.studies.rendering.sweep import highest, largest, linear_limit, without_dry_friction
-from app.studies.stability import STUDY
+from app.studies.stability import STUDY, highest, largest, linear_limit, without_dry_friction
 
 PROFILE = load_profile("icube")
 SMOOTH = without_dry_friction(PROFILE)

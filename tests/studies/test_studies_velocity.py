@@ -5,9 +5,8 @@ import pytest
 
 from app.mechanisms.pantograph import forward
 from app.mechanisms.profile import load_profile
-from app.studies.estimation.motions import MOTIONS, motion
 from app.studies.runner import run
-from app.studies.velocity import lag
+from app.studies.velocity import MOTIONS, lag, motion
 
 
 @pytest.mark.parametrize("name", MOTIONS)

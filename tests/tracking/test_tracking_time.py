@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.core.clock import VirtualClock
-from app.studies.estimation.depth_filters import Hold, OneEuro
+from app.studies.depth_motion import Hold, OneEuro
 from app.tracking.agreement import EpipolarGate
 from app.tracking.cameras.camera import Frame
 from app.tracking.fix import FixStatus

@@ -10,9 +10,8 @@ from views_exercise_fakes import run, snapshot
 
 from app.core import state_vector as sv
 from app.device.faults import Fault
-from app.device.links.board_error import BoardError
-from app.device.links.link import BoardInfo, LinkStatus
-from app.device.readiness import Clearance, Readiness
+from app.device.links.link import BoardError, BoardInfo, LinkStatus
+from app.device.readiness import ForceClearance, Readiness
 from app.device.wire_watch import WireWatch
 from app.mechanisms.profile import load_profile
 from app.views.exercise.energy_gauge import GaugeMode
@@ -77,7 +76,7 @@ def test_a_force_scale_from_another_power_cycle_still_counts_but_homing_does_not
 
 def test_the_clearance_of_this_moment_counts():
     now = snapshot(slots=WIRE, clearance=Readiness(7, 7, True).clearance(BOARD, run().profile))
-    free = Clearance(1.0, 5.0)
+    free = ForceClearance(1.0, 5.0)
     groups = health(run(board=BOARD, clearance=free), now, Rates(1000.0, 0.0, None))
     assert [i.text for g in groups for i in g.items if i.title == "Force limit"] == ["1 N"]
 

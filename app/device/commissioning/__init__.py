@@ -4,18 +4,17 @@ Light: results, reports and records. `commissioning.bench` brings the routines a
 compiled code.
 """
 
-from app.device.commissioning.errors import CommissioningError, RecordError
 from app.device.commissioning.records import DeviceRecord, load_record, save_record
-from app.device.commissioning.report import Report
-from app.device.commissioning.results import AnyResult, Step
+from app.device.commissioning.results import AnyResult, RoutineName, RoutineReport
+from app.device.errors import CommissioningError, RecordError
 
 __all__ = [
     "AnyResult",
     "CommissioningError",
     "DeviceRecord",
     "RecordError",
-    "Report",
-    "Step",
+    "RoutineName",
+    "RoutineReport",
     "load_record",
     "save_record",
 ]

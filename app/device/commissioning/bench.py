@@ -8,31 +8,29 @@ from pathlib import Path
 from typing import Final
 
 from app.core.clock import Clock, SystemClock, VirtualClock
-from app.device.commissioning.encoder_offsets import EncoderOffsets
-from app.device.commissioning.errors import CommissioningError
-from app.device.commissioning.force_scale import ForceScale
-from app.device.commissioning.friction import Friction
-from app.device.commissioning.gauge import GaugeCalibration
-from app.device.commissioning.homing import Homing
-from app.device.commissioning.latency import Latency
+from app.device.commissioning.force_scale import ForceScaleRoutine, GaugeRoutine
+from app.device.commissioning.friction import FrictionRoutine
+from app.device.commissioning.homing import HomingRoutine, JigHomingRoutine
+from app.device.commissioning.pulses import LatencyRoutine, SignRoutine
 from app.device.commissioning.records import DeviceRecord, load_record, save_record
-from app.device.commissioning.report import Report
-from app.device.commissioning.results import AnyResult, Step
+from app.device.commissioning.results import AnyResult, RoutineName, RoutineReport
 from app.device.commissioning.routine import Routine
-from app.device.commissioning.sign_check import SignCheck
-from app.device.commissioning.table import commissioning_table
+from app.device.commissioning.service import commissioning_table
 from app.device.control.corrections import Corrections
 from app.device.control.loop import Loop
+from app.device.errors import CommissioningError
 from app.device.lifetime import Lifetime
 from app.device.links.link import BoardInfo, DeviceLink
-from app.device.readiness import Clearance
+from app.device.readiness import ForceClearance
 from app.mechanisms.profile import DeviceProfile
 
 PERIOD: Final = 0.01
 """A routine is stepped this often [s]."""
 
-NEEDS_HOMING: Final = frozenset({Step.SIGNS, Step.FRICTION, Step.LATENCY, Step.FORCE})
-NEEDS_SIGNS: Final = frozenset({Step.FRICTION, Step.LATENCY, Step.FORCE})
+NEEDS_HOMING: Final = frozenset(
+    {RoutineName.SIGNS, RoutineName.FRICTION, RoutineName.LATENCY, RoutineName.FORCE}
+)
+NEEDS_SIGNS: Final = frozenset({RoutineName.FRICTION, RoutineName.LATENCY, RoutineName.FORCE})
 """What must be done in this power cycle before a routine may push."""
 
 
@@ -123,17 +121,17 @@ class Bench(Lifetime):
             raise CommissioningError("the bench was not opened; open it first")
         return self._record
 
-    def clearance(self) -> Clearance:
+    def clearance(self) -> ForceClearance:
         """How much force the device is cleared for now."""
         return self.record.readiness().clearance(self.info, self.profile)
 
-    def done(self, *steps: Step) -> bool:
+    def done(self, *steps: RoutineName) -> bool:
         """Whether any of some routines has succeeded in this power cycle."""
         entry = self.record.newest(*steps)
         return entry is not None and entry.boot == self.info.boot
 
     # --- routines ---------------------------------------------------------------------------------
-    def routine(self, step: Step, by_hand: bool = True) -> Routine:
+    def routine(self, step: RoutineName, by_hand: bool = True) -> Routine:
         """Make a routine on the running loop.
 
         Args:
@@ -143,35 +141,35 @@ class Bench(Lifetime):
         Raises:
             CommissioningError: if the routines that it builds on were not done in this power cycle.
         """
-        if step in NEEDS_HOMING and not self.done(Step.HOMING, Step.OFFSETS):
+        if step in NEEDS_HOMING and not self.done(RoutineName.HOMING, RoutineName.OFFSETS):
             raise CommissioningError(
                 f"{step.value} needs the device to be homed since it was switched on; run"
                 " `--step homing` first"
             )
-        if step in NEEDS_SIGNS and not self.done(Step.SIGNS):
+        if step in NEEDS_SIGNS and not self.done(RoutineName.SIGNS):
             raise CommissioningError(
                 f"{step.value} pushes, so the signs must be checked since the device was switched"
                 " on; run `--step signs` first"
             )
         return self._make(step, by_hand)
 
-    def _make(self, step: Step, by_hand: bool) -> Routine:
+    def _make(self, step: RoutineName, by_hand: bool) -> Routine:
         loop, profile = self.loop, self.profile
         match step:
-            case Step.HOMING:
-                return Homing(loop, profile, self.corrections, self._zero)
-            case Step.OFFSETS:
-                return EncoderOffsets(loop, profile, self.corrections, self._zero)
-            case Step.SIGNS:
-                return SignCheck(loop, profile, by_hand)
-            case Step.FRICTION:
-                return Friction(loop, profile)
-            case Step.LATENCY:
-                return Latency(loop, profile)
-            case Step.FORCE:
-                return ForceScale(loop, profile)
-            case Step.GAUGE:
-                return GaugeCalibration(loop, profile, self.corrections)
+            case RoutineName.HOMING:
+                return HomingRoutine(loop, profile, self.corrections, self._zero)
+            case RoutineName.OFFSETS:
+                return JigHomingRoutine(loop, profile, self.corrections, self._zero)
+            case RoutineName.SIGNS:
+                return SignRoutine(loop, profile, by_hand)
+            case RoutineName.FRICTION:
+                return FrictionRoutine(loop, profile)
+            case RoutineName.LATENCY:
+                return LatencyRoutine(loop, profile)
+            case RoutineName.FORCE:
+                return ForceScaleRoutine(loop, profile)
+            case RoutineName.GAUGE:
+                return GaugeRoutine(loop, profile, self.corrections)
 
     def keep(self, result: AnyResult) -> Path:
         """Put a result into the device's record and use it; returns the file.
@@ -181,7 +179,7 @@ class Bench(Lifetime):
         """
         return self._store(self.record.added(result, self.info.boot, self._today()))
 
-    def undo(self, *steps: Step) -> Path:
+    def undo(self, *steps: RoutineName) -> Path:
         """Take the newest result (of some routines, or of any) back; returns the file.
 
         Raises:
@@ -192,9 +190,9 @@ class Bench(Lifetime):
     def run(
         self,
         routine: Routine,
-        answer: Callable[[Report], float | None],
-        tell: Callable[[Report], None] = lambda _: None,
-    ) -> Report:
+        answer: Callable[[RoutineReport], float | None],
+        tell: Callable[[RoutineReport], None] = lambda _: None,
+    ) -> RoutineReport:
         """Step a routine to its end; cancelled if `answer` or anything else raises.
 
         Args:
@@ -240,6 +238,6 @@ class Bench(Lifetime):
         zero = getattr(self._link, "home", None)
         if zero is None:
             return
-        while self.done(Step.HOMING, Step.OFFSETS):
-            self.undo(Step.HOMING, Step.OFFSETS)
+        while self.done(RoutineName.HOMING, RoutineName.OFFSETS):
+            self.undo(RoutineName.HOMING, RoutineName.OFFSETS)
         zero()

@@ -1,19 +1,22 @@
-"""Force scale: is a commanded newton a newton on a kitchen scale?"""
+"""Forces by weights: is a commanded newton one on a kitchen scale; what does the gauge read?"""
 
-from typing import ClassVar, Final
+from typing import TYPE_CHECKING, ClassVar, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from app.core import state_vector as sv
 from app.core.arrays import FloatArray, unit
-from app.device.commissioning.errors import CommissioningError
-from app.device.commissioning.report import Report
-from app.device.commissioning.results import ForceScale as Found
-from app.device.commissioning.results import Step
+from app.device.commissioning.results import ForceScale, Gauge, RoutineName, RoutineReport
 from app.device.commissioning.routine import Routine, Script
 from app.device.control.loop import Loop
+from app.device.errors import CommissioningError
 from app.device.readiness import SCALE_TOLERANCE, UNVERIFIED_FORCE
 from app.mechanisms.profile import DeviceProfile
+
+if TYPE_CHECKING:
+    from app.device.control.corrections import Corrections
+
 
 FORCES: Final = (0.2, 0.5, 0.9)
 """Commanded forces at the hub [N], the smallest first: a missing gear makes it ten times more,
@@ -31,7 +34,7 @@ _RESIDUAL: Final = 0.06  # [N] root mean square from the line
 _NOTHING: Final = 0.05  # factor below which the scale did not feel the robot
 
 
-class ForceScale(Routine):
+class ForceScaleRoutine(Routine):
     """Push the hub with 0.2, 0.5 and 0.9 N and ask what the scale shows after each.
 
     No camera measures the depth here, so the person holds it by a ruler, and the loop is told so.
@@ -42,7 +45,7 @@ class ForceScale(Routine):
             can be rendered.
     """
 
-    NAME: ClassVar[Step] = Step.FORCE
+    NAME: ClassVar[RoutineName] = RoutineName.FORCE
     TITLE: ClassVar[str] = "Force scale"
 
     def __init__(
@@ -55,7 +58,7 @@ class ForceScale(Routine):
         self._direction = unit(direction, "direction")
         self._lever = profile.pantograph.needle_length - profile.pantograph.fulcrum[2]
 
-    def step(self, now: float) -> Report:
+    def step(self, now: float) -> RoutineReport:
         """Go on; the depth is the one that the person was asked to hold."""
         depth = self._profile.pantograph.needle_length - self._lever
         self._loop.inbox.write(tracked_depth=depth, tracked_time=now, tracked_variance=RULER**2)
@@ -88,7 +91,7 @@ class ForceScale(Routine):
         factor, residual = fit(FORCES[: len(readings)], readings)
         if reason := refusal(factor, residual, self._profile.inertia.gear):
             raise CommissioningError(f"{self.TITLE}: {reason}")
-        return Found(
+        return ForceScale(
             commanded=FORCES,
             readings_g=tuple(readings),
             factor=factor,
@@ -173,3 +176,88 @@ def refusal(factor: float, residual: float, gear: float) -> str:
 
 def _near(factor: float, wanted: float) -> bool:
     return abs(factor / wanted - 1.0) <= 0.3
+
+
+WEIGHTS_G: Final = (0.0, 50.0, 100.0, 200.0)
+"""Weights that are hung on the hub [g]."""
+
+_LISTEN: Final = 0.5
+_GAUGE_RESIDUAL: Final = 0.1  # [N]
+_SCALES: Final = (0.1, 10.0)
+
+
+class GaugeRoutine(Routine):
+    """Hang known weights on the hub, motors off, and fit_gauge zero and scale.
+
+    Args:
+        loop, profile: as in `Routine`.
+        corrections: in use; its gauge values are taken out of the readings.
+        weights_g: at least two different weights [g].
+    """
+
+    NAME: ClassVar[RoutineName] = RoutineName.GAUGE
+    TITLE: ClassVar[str] = "Gauge calibration"
+
+    def __init__(
+        self,
+        loop: Loop,
+        profile: DeviceProfile,
+        corrections: "Corrections",
+        weights_g: tuple[float, ...] = WEIGHTS_G,
+    ) -> None:
+        super().__init__(loop, profile)
+        self._corrections, self._weights_g = corrections, weights_g
+
+    def _script(self) -> Script:
+        self._disarm()
+        state = yield from self._say("looking for the gauge")
+        if state.row[sv.GAUGE] != 1.0:
+            raise CommissioningError(
+                f"{self.TITLE}: the board measures no force; connect the gauge's amplifier, or"
+                " leave this step out: forces are then shown as estimated"
+            )
+        readings = []
+        for weight in self._weights_g:
+            yield from self._ask(f"hang {weight:g} g on the hub, across the needle, and confirm")
+            since = self._loop.latest().tick
+            yield from self._wait(_LISTEN, f"reading the gauge under {weight:g} g")
+            shown = float(np.mean(self._loop.rows(since)[:, sv.GAUGE_FORCE]))
+            zero, scale = self._corrections.gauge
+            readings.append(shown / scale + zero)
+            self._progress += 1.0 / (len(self._weights_g) + 1)
+        return fit_gauge(self._weights_g, readings)
+
+
+def fit_gauge(weights_g: ArrayLike, readings: ArrayLike) -> Gauge:
+    """Fit reading = zero + force / scale by least squares.
+
+    Args:
+        weights_g: shape (n,) [g], at least two different ones.
+        readings: shape (n,), uncorrected [N].
+
+    Raises:
+        CommissioningError: if the readings do not determine a scale or are no line.
+    """
+    weights = np.atleast_1d(np.asarray(weights_g, dtype=np.float64))
+    shown = np.atleast_1d(np.asarray(readings, dtype=np.float64))
+    if len(weights) != len(shown) or not len(weights) or np.ptp(weights) <= 0.0:
+        raise CommissioningError(
+            "Gauge calibration: give one reading for each of at least two different weights"
+        )
+    if not (np.isfinite(weights).all() and np.isfinite(shown).all()):
+        raise CommissioningError("Gauge calibration: a reading is not a number; read again")
+    force = weights * 1e-3 * GRAVITY
+    slope, zero = (float(value) for value in np.polyfit(force, shown, 1))
+    if not _SCALES[0] <= slope <= _SCALES[1]:
+        raise CommissioningError(
+            f"Gauge calibration: the reading changes by {slope:.3f} N per newton (valid"
+            f" {_SCALES[0]:g} to {_SCALES[1]:g}): check the amplifier's gain and polarity, and"
+            " which way the weights pull"
+        )
+    residual = float(np.sqrt(np.mean(((shown - zero) / slope - force) ** 2)))
+    if residual > _GAUGE_RESIDUAL:
+        raise CommissioningError(
+            f"Gauge calibration: the readings lie {residual:.2f} N off a line (at most"
+            f" {_GAUGE_RESIDUAL:g} N): let the weights hang still and free"
+        )
+    return Gauge(zero=zero, scale=1.0 / slope, residual=residual, weights_g=tuple(weights.tolist()))

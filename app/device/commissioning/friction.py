@@ -7,7 +7,6 @@ import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
-from app.device.commissioning.errors import CommissioningError
 from app.device.commissioning.pulses import (
     LARGEST,
     LET_GO_AND_CONFIRM,
@@ -16,9 +15,9 @@ from app.device.commissioning.pulses import (
     index,
     torque_slot,
 )
-from app.device.commissioning.results import Friction as Found
-from app.device.commissioning.results import JointFriction, Side, Step
+from app.device.commissioning.results import Friction, JointFriction, RoutineName, Side
 from app.device.commissioning.routine import Part, Script
+from app.device.errors import CommissioningError
 
 _RAMPS: Final = 3
 _RAMP_RATE: Final = 0.005  # [N·m/s], slow against the loop
@@ -32,14 +31,14 @@ _PATIENCE: Final = 4.0  # [s] for one sweep
 _STEPS: Final = 28
 
 
-class Friction(PulseRoutine):
+class FrictionRoutine(PulseRoutine):
     """Sweeps at constant speed, forth and back, then slow ramps until the joint moves.
 
     The sweeps hold the speed by a slow proportional-integral control of the test torque; what the
     change of speed takes is fitted and taken out.
     """
 
-    NAME: ClassVar[Step] = Step.FRICTION
+    NAME: ClassVar[RoutineName] = RoutineName.FRICTION
     TITLE: ClassVar[str] = "Friction"
 
     def _script(self) -> Script:
@@ -53,7 +52,7 @@ class Friction(PulseRoutine):
             moving = fit((yield from self._sweeps(side, pose)), inertia)
             ramps = yield from self._ramps(side, pose, inertia)
             found.append(joint_friction(moving, ramps))
-        return Found(left=found[0], right=found[1])
+        return Friction(left=found[0], right=found[1])
 
     def _ramps(self, side: Side, pose: FloatArray, inertia: float) -> Part:
         """Torques at breakaway [N·m], both directions, signless."""

@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 import numpy as np
 
 from app.core.arrays import FloatArray
-from app.device.commissioning.errors import CommissioningError
-from app.device.commissioning.results import Homing as Found
-from app.device.commissioning.results import Step
+from app.device.commissioning.results import Homing, RoutineName
 from app.device.commissioning.routine import Part, Routine, Script
 from app.device.control.loop import Loop
+from app.device.errors import CommissioningError
 from app.mechanisms.errors import MechanismError
-from app.mechanisms.pantograph import forward
+from app.mechanisms.pantograph import forward, inverse
 from app.mechanisms.profile import DeviceProfile
 
 if TYPE_CHECKING:
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 _UPRIGHT_DEG = 15.0
 
 
-class Homing(Routine):
+class HomingRoutine(Routine):
     """Bring both links to the profile's home pose; the encoders' offsets follow from it.
 
     The new offsets are used at once, so that the check afterwards sees them; if the routine ends
@@ -33,7 +32,7 @@ class Homing(Routine):
         zero: makes the present pose the zero of the board's counters, where the board can.
     """
 
-    NAME: ClassVar[Step] = Step.HOMING
+    NAME: ClassVar[RoutineName] = RoutineName.HOMING
     TITLE: ClassVar[str] = "Homing"
     REFERENCE: ClassVar[Literal["stops", "jig"]] = "stops"
 
@@ -85,8 +84,8 @@ class Homing(Routine):
         self._corrections.set_offsets(*offsets)
         self._progress = 0.6
         yield from self._check()
-        return Found(
-            step=Step.OFFSETS if self.REFERENCE == "jig" else Step.HOMING,
+        return Homing(
+            step=RoutineName.OFFSETS if self.REFERENCE == "jig" else RoutineName.HOMING,
             reference=self.REFERENCE,
             offsets=offsets,
             change=(float(change[0]), float(change[1])),
@@ -117,3 +116,32 @@ class Homing(Routine):
                 f" links can take: {error}; check home_offsets and the link lengths"
             ) from error
         return float(np.degrees(np.arctan2(np.hypot(*beside), geometry.fulcrum[2])))
+
+
+class JigHomingRoutine(HomingRoutine):
+    """The needle stands vertical in a jig: P_3 is under the fulcrum, so both angles are known."""
+
+    NAME: ClassVar[RoutineName] = RoutineName.OFFSETS
+    TITLE: ClassVar[str] = "Encoder offsets"
+    REFERENCE: ClassVar[Literal["stops", "jig"]] = "jig"
+
+    def known(self) -> FloatArray:
+        """Joint angles that put P_3 under the fulcrum [rad], shape (2,)."""
+        geometry = self._profile.pantograph
+        return inverse(geometry, geometry.fulcrum[:2])
+
+    def instruction(self) -> str:
+        """Say what the user does to reach the reference pose."""
+        return "put the needle into the jig that holds it vertical and confirm"
+
+    def _check(self) -> Part:
+        """Lean the needle: both encoders must agree on a pose within the joint's cone."""
+        yield from self._ask("take the jig away, lean the needle to any side, hold and confirm")
+        angles = yield from self._at_rest("checking; keep it there")
+        tilt = self._require_pose(angles, "the pose with the needle leaning")
+        limit = self._profile.tilt_limit_deg
+        if tilt > limit + 3.0:
+            raise CommissioningError(
+                f"{self.TITLE}: the angles give a tilt of {tilt:.0f}°, the ball joint allows"
+                f" {limit:g}°; an encoder counts the wrong way, or the jig is not vertical"
+            )

@@ -1,14 +1,22 @@
-"""Small torque ramps that end as soon as something moves, for the routines that push joints."""
+"""Routines by small pulses of torque: the sign check and the latency; the friction builds on them.
 
-from typing import Final
+The sign check: does the torque of each motor turn its own joint, and the right way? The latency:
+the wire's round trip, and the time from a torque step to the onset of motion.
+"""
+
+from typing import ClassVar, Final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
-from app.device.commissioning.results import Side
-from app.device.commissioning.routine import Part, Routine
+from app.device.commissioning.results import RobotLatency, RoutineName, Side, Signs
+from app.device.commissioning.routine import Part, Routine, Script
+from app.device.control.loop import Loop
+from app.device.errors import CommissioningError
 from app.mechanisms.pantograph import mass_matrix
+from app.mechanisms.profile import DeviceProfile
 
 LARGEST: Final = 0.03
 """Where a ramp ends [N·m]."""
@@ -118,3 +126,218 @@ def torque_slot(side: Side) -> int:
 def index(side: Side) -> int:
     """Place of a joint in a pair."""
     return 0 if side is Side.LEFT else 1
+
+
+_RATE: Final = 0.04  # [N·m/s]
+_COUNTS: Final = 8.0
+_TURN: Final = 0.05  # [rad] that the user turns a link at least
+_OUTWARDS: Final = {Side.LEFT: 1.0, Side.RIGHT: -1.0}  # counter-clockwise from above is positive
+
+
+class SignRoutine(PulseRoutine):
+    """First the encoders by hand, then each motor by small pulses in both directions.
+
+    Args:
+        loop, profile: as in `Routine`.
+        by_hand: ask the user to turn each link. Without it a motor and its encoder that are
+            reversed together are not seen: for boards without hardware only.
+    """
+
+    NAME: ClassVar[RoutineName] = RoutineName.SIGNS
+    TITLE: ClassVar[str] = "Sign check"
+
+    def __init__(self, loop: Loop, profile: DeviceProfile, by_hand: bool = True) -> None:
+        super().__init__(loop, profile)
+        self._by_hand = by_hand
+
+    def _script(self) -> Script:
+        self._disarm()
+        if self._by_hand:
+            for side in SIDES:
+                yield from self._turned(side)
+        self._progress = 0.4
+        yield from self._ask(LET_GO_AND_CONFIRM)
+        yield from self._arm(HALF, HALF_FORCE)
+        response = np.zeros((2, 2))
+        for side in SIDES:
+            for sign in (1.0, -1.0):
+                message = f"pulse on the {side} motor, {'forwards' if sign > 0 else 'backwards'}"
+                enough = _COUNTS * self._count
+                moved, _ = yield from self._ramp(side, sign, _RATE, enough, message)
+                response[index(side)] += 0.5 * sign * moved
+                self._progress += 0.15
+        if problems := diagnose(response):
+            raise CommissioningError(f"{self.TITLE}: " + "; ".join(problems))
+        (ll, lr), (rl, rr) = response.tolist()
+        return Signs(response=((ll, lr), (rl, rr)), by_hand=self._by_hand)
+
+    def _turned(self, side: Side) -> Part:
+        """Have one link turned outwards by hand and look at the encoders."""
+        before = yield from self._at_rest("hold the needle still")
+        yield from self._ask(
+            f"turn the {side} motor's link outwards by hand, by about 10°, hold it there and"
+            " confirm; the other link stays as still as it can"
+        )
+        after = yield from self._at_rest("hold it there")
+        self._progress += 0.15
+        moved, own = after - before, index(side)
+        if problem := hand_problem(side, moved, own):
+            raise CommissioningError(f"{self.TITLE}: {problem}")
+
+
+def hand_problem(side: Side, moved: ArrayLike, own: int) -> str:
+    """Say what is wrong if the link of one side was turned outwards and the encoders moved so.
+
+    Args:
+        side: the link that the user turned.
+        moved: change of (left, right) joint angle [rad], shape (2,).
+        own: place of that side in `moved`.
+    """
+    turned = np.asarray(moved, dtype=np.float64)
+    if not np.abs(turned).max() >= _TURN:
+        return (
+            f"no encoder saw the {side} link move (at least {np.degrees(_TURN):.0f}° were asked"
+            " for): check the encoder's cable and supply"
+        )
+    if abs(turned[own]) < abs(turned[1 - own]):
+        return (
+            f"the other encoder moved more when the {side} link was turned: the encoders of left"
+            " and right are swapped (exchange their plugs), or the wrong link was turned"
+        )
+    if turned[own] * _OUTWARDS[side] < 0.0:
+        return (
+            f"the {side} encoder counts backwards: exchange its channels A and B, or reverse it in"
+            " the board's settings"
+        )
+    return ""
+
+
+def diagnose(response: ArrayLike) -> list[str]:
+    """Say what is wrong with the motors; empty if each turns its own joint the right way.
+
+    Args:
+        response: movement [rad] of (left, right) joint by a pulse on the left (row 0) and right
+            (row 1) motor, shape (2, 2); a row of zeros where nothing moved.
+    """
+    moved = np.asarray(response, dtype=np.float64)
+    strongest = [int(np.argmax(np.abs(row))) for row in moved]
+    idle = [side for side in SIDES if not np.abs(moved[index(side)]).max() > 0.0]
+    if len(idle) == 2:
+        return [
+            "no motor moves anything: check the switch of the motor supply, the amplifiers' enable"
+            " and the motor cables, and that nothing blocks the needle"
+        ]
+    if idle:
+        return [
+            f"the {idle[0]} motor moves nothing up to 0.03 N·m: its joint is blocked, or its"
+            " amplifier has no power or no enable"
+        ]
+    if strongest == [1, 0]:
+        return ["the motors are swapped: exchange the motor cables of left and right"]
+    if strongest[0] == strongest[1]:
+        other = SIDES[1 - strongest[0]]
+        return [
+            f"both motors move the same encoder: the {other} encoder does not count, its joint is"
+            " blocked, or both motors are wired to one amplifier"
+        ]
+    return [
+        f"the {side} motor turns backwards: exchange its two leads, or reverse it in the board's"
+        " settings"
+        for side in SIDES
+        if moved[index(side), index(side)] < 0.0
+    ]
+
+
+_LISTEN: Final = 2.0  # [s]
+_STEPS: Final = 6
+_TORQUE: Final = 0.02  # [N·m]
+_STEP_PATIENCE: Final = 0.4
+_STEP_COUNTS: Final = 40.0
+_FIT_FROM, _FIT_TO = 4.0, 40.0  # counts between which the motion is fitted
+
+
+class LatencyRoutine(PulseRoutine):
+    """Listen to the wire, then a few torque steps on the left motor, forth and back."""
+
+    NAME: ClassVar[RoutineName] = RoutineName.LATENCY
+    TITLE: ClassVar[str] = "Latency"
+
+    def _script(self) -> Script:
+        self._disarm()
+        yield from self._ask(LET_GO_AND_CONFIRM)
+        since = self._loop.latest().tick
+        yield from self._wait(_LISTEN, "listening to the wire")
+        trips, lost = round_trips(self._loop.rows(since))
+        self._progress = 0.4
+        yield from self._arm(1.0, 1.0)
+        pose, times = self._loop.latest().q.copy(), []
+        for k in range(_STEPS):
+            times.append((yield from self._jump(1.0 if k % 2 == 0 else -1.0)))
+            yield from self._go_back(pose, "going back")
+            self._progress += 0.1
+        return RobotLatency(
+            round_trip=trips,
+            lost=lost,
+            dead_time=float(np.median(times)),
+            dead_time_spread=float(np.std(times)),
+        )
+
+    def _jump(self, sign: float) -> Part:
+        """One torque step; returns its dead time [s]."""
+        state = self._loop.latest()
+        since, start, begin = state.tick, float(state.q[0]), self._now
+        self._push(Side.LEFT, sign * _TORQUE)
+        while abs(float(state.q[0]) - start) < _STEP_COUNTS * self._count:
+            state = yield from self._say("torque step on the left joint")
+            if self._now - begin > _STEP_PATIENCE:
+                raise CommissioningError(
+                    f"{self.TITLE}: the left joint does not follow a step of {_TORQUE:g} N·m; run"
+                    " the sign check, and take the needle out"
+                )
+        rows = self._loop.rows(since)
+        return dead_time(
+            rows[:, sv.TIME], rows[:, sv.TORQUE_LEFT], rows[:, sv.Q_LEFT] - start, self._count
+        )
+
+
+def round_trips(rows: FloatArray) -> tuple[tuple[float, float, float], float]:
+    """Median, 99 % and largest round trip [s], and the share of lost commands, (n, SLOTS).
+
+    Zeros where there is no wire, so no round trip.
+    """
+    trips = rows[:, sv.ROUND_TRIP]
+    trips = trips[np.isfinite(trips) & (trips > 0.0)]
+    if len(trips) == 0:
+        return (0.0, 0.0, 0.0), 0.0
+    median, high, largest = np.percentile(trips, (50, 99, 100)).tolist()
+    lost = float(rows[-1, sv.LINK_LOST] - rows[0, sv.LINK_LOST])
+    replies = float(rows[-1, sv.LINK_REPLIES] - rows[0, sv.LINK_REPLIES])
+    return (median, high, largest), lost / max(lost + replies, 1.0)
+
+
+def dead_time(time: FloatArray, torque: FloatArray, moved: FloatArray, count: float) -> float:
+    """Time [s] from the first torque to where the motion's parabola begins; not below zero.
+
+    A constant torque on a resting joint gives q = α (t - t₀)²/2: the root of the angle is a line
+    over time, whose zero is t₀. So neither the inertia nor the encoder's resolution counts.
+
+    Args:
+        time: [s], shape (n,).
+        torque: sent [N·m], shape (n,).
+        moved: angle from rest [rad], shape (n,).
+        count: one encoder count [rad].
+
+    Raises:
+        CommissioningError: if there is no motion to fit.
+    """
+    sent = np.flatnonzero(torque != 0.0)
+    way = np.abs(moved)
+    used = (way >= _FIT_FROM * count) & (way <= _FIT_TO * count)
+    if len(sent) == 0 or used.sum() < 3:
+        raise CommissioningError(
+            "Latency: too few readings between rest and motion; is the link slow or the step lost?"
+        )
+    slope, offset = np.polyfit(time[used] - time[sent[0]], np.sqrt(way[used]), 1)
+    if not slope > 0.0:
+        raise CommissioningError("Latency: the joint does not speed up under a constant torque")
+    return max(float(-offset / slope), 0.0)

@@ -3,7 +3,7 @@
 import re
 from datetime import datetime
 from pathlib import Path
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, Final, Literal, Protocol
 
 import yaml
 from pydantic import Field
@@ -12,22 +12,23 @@ from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
-from app.device.commissioning.errors import RecordError
 from app.device.commissioning.results import (
     AnyResult,
     ForceScale,
     Gauge,
     Homing,
+    RoutineName,
+    RoutineReport,
     Signs,
-    Step,
 )
+from app.device.errors import RecordError
 from app.device.links.link import BoardInfo
 from app.device.readiness import Readiness
 
 _SAFE: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,63}")
 
 
-class Entry(Strict):
+class RecordEntry(Strict):
     """One result of one routine.
 
     Attributes:
@@ -48,9 +49,9 @@ class DeviceRecord(Strict):
 
     version: Literal[1] = 1
     device: str
-    entries: tuple[Entry, ...] = ()
+    entries: tuple[RecordEntry, ...] = ()
 
-    def newest(self, *steps: Step) -> Entry | None:
+    def newest(self, *steps: RoutineName) -> RecordEntry | None:
         """Newest entry of any of some routines that was not undone."""
         for entry in reversed(self.entries):
             if entry.result.step in steps and not entry.undone:
@@ -59,16 +60,16 @@ class DeviceRecord(Strict):
 
     def added(self, result: AnyResult, boot: int, date: datetime) -> "DeviceRecord":
         """Return the record with one more result."""
-        entry = Entry(date=date.isoformat(timespec="seconds"), boot=boot, result=result)
+        entry = RecordEntry(date=date.isoformat(timespec="seconds"), boot=boot, result=result)
         return self.model_copy(update={"entries": (*self.entries, entry)})
 
-    def undo(self, *steps: Step) -> "DeviceRecord":
+    def undo(self, *steps: RoutineName) -> "DeviceRecord":
         """Return the record with the newest entry (of some routines, or of any) taken back.
 
         Raises:
             RecordError: if there is none.
         """
-        entry = self.newest(*(steps or tuple(Step)))
+        entry = self.newest(*(steps or tuple(RoutineName)))
         if entry is None:
             raise RecordError(f"device {self.device} has no calibration that could be undone")
         undone = entry.model_copy(update={"undone": True})
@@ -77,22 +78,25 @@ class DeviceRecord(Strict):
 
     def offsets(self, boot: int) -> tuple[float, float]:
         """Return the encoder offsets of a power cycle (left, right) [rad]; zeros if not homed."""
-        entry = self.newest(Step.HOMING, Step.OFFSETS)
+        entry = self.newest(RoutineName.HOMING, RoutineName.OFFSETS)
         if entry is None or entry.boot != boot or not isinstance(entry.result, Homing):
             return 0.0, 0.0
         return entry.result.offsets
 
     def gauge(self) -> tuple[float, float]:
         """Zero [N] and scale of the gauge; (0, 1) if it was never calibrated."""
-        entry = self.newest(Step.GAUGE)
+        entry = self.newest(RoutineName.GAUGE)
         if entry is None or not isinstance(entry.result, Gauge):
             return 0.0, 1.0
         return entry.result.zero, entry.result.scale
 
     def readiness(self) -> Readiness:
         """Return what the clearance depends on."""
-        homed, signs = self.newest(Step.HOMING, Step.OFFSETS), self.newest(Step.SIGNS)
-        force = self.newest(Step.FORCE)
+        homed, signs = (
+            self.newest(RoutineName.HOMING, RoutineName.OFFSETS),
+            self.newest(RoutineName.SIGNS),
+        )
+        force = self.newest(RoutineName.FORCE)
         scale = force.result if force is not None else None
         return Readiness(
             homed_boot=homed.boot if homed is not None else None,
@@ -104,7 +108,7 @@ class DeviceRecord(Strict):
         )
 
 
-def _directions_known(homed: Entry | None, signs: Entry | None) -> bool:
+def _directions_known(homed: RecordEntry | None, signs: RecordEntry | None) -> bool:
     """Whether an encoder and a motor that are both reversed would have been seen.
 
     Either the links were turned by hand, or homing against the stops saw the needle upright.
@@ -176,3 +180,66 @@ def save_record(record: DeviceRecord, folder: Path | None = None) -> Path:
             " be written"
         ) from error
     return path
+
+
+CHECKS: Final = {
+    RoutineName.SIGNS: "the earlier sign check",
+    RoutineName.FORCE: "the earlier force scale",
+}
+"""Routines that confirm the device: one that fails leaves nothing confirmed."""
+
+
+class RecordedDevice(Protocol):
+    """A device with its record (`bench.Bench`)."""
+
+    @property
+    def info(self) -> BoardInfo:
+        """Who is at the other end."""
+        ...
+
+    @property
+    def record(self) -> DeviceRecord:
+        """What is known of the device."""
+        ...
+
+    def keep(self, result: AnyResult) -> Path:
+        """Put a result into the record."""
+        ...
+
+    def undo(self, *steps: RoutineName) -> Path:
+        """Take the newest result of some routines back."""
+        ...
+
+
+def settle(bench: RecordedDevice, step: RoutineName, report: RoutineReport) -> str:
+    """Keep what a routine found; where a check failed, take back what it confirmed before.
+
+    A check that was begun and did not succeed is newer than its earlier success, whatever made it
+    fail: it counts no more (the history keeps it), and the clearance falls with it. A routine that
+    was cancelled has found nothing; do not settle it.
+
+    Args:
+        bench: the device.
+        step: the routine.
+        report: its last one.
+
+    Returns:
+        Why it failed, and what counts no more; empty if it did not fail.
+
+    Raises:
+        RecordError: if the record cannot be written.
+    """
+    if report.result is not None:
+        bench.keep(report.result)
+        return ""
+    if step not in CHECKS or not _counts(bench, step):
+        return report.failure
+    while _counts(bench, step):
+        bench.undo(step)
+    return f"{report.failure} ({CHECKS[step]} counts no more: do this step again)"
+
+
+def _counts(bench: RecordedDevice, step: RoutineName) -> bool:
+    """Whether an earlier success still counts; that of a force scale outlives the power cycle."""
+    entry = bench.record.newest(step)
+    return entry is not None and (step is RoutineName.FORCE or entry.boot == bench.info.boot)

@@ -1,5 +1,6 @@
-"""What the routines find out; kept in the device's record. Frozen, strict, SI."""
+"""What a routine says after each step, and what it finds for the device's record. Strict, SI."""
 
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Annotated, Literal
 
@@ -9,7 +10,7 @@ from app.core.configuration import Strict
 from app.device.readiness import SCALE_TOLERANCE
 
 
-class Step(StrEnum):
+class RoutineName(StrEnum):
     """Routines of commissioning, in the order in which a new device takes them."""
 
     HOMING = "homing"
@@ -36,7 +37,7 @@ class Homing(Strict):
         change: by how much the routine changed the offsets [rad].
     """
 
-    step: Literal[Step.HOMING, Step.OFFSETS] = Step.HOMING
+    step: Literal[RoutineName.HOMING, RoutineName.OFFSETS] = RoutineName.HOMING
     reference: Literal["stops", "jig"] = "stops"
     offsets: tuple[float, float]
     change: tuple[float, float]
@@ -55,7 +56,7 @@ class Signs(Strict):
         by_hand: whether the encoders' directions were checked by hand too.
     """
 
-    step: Literal[Step.SIGNS] = Step.SIGNS
+    step: Literal[RoutineName.SIGNS] = RoutineName.SIGNS
     response: tuple[tuple[float, float], tuple[float, float]]
     by_hand: bool
 
@@ -86,7 +87,7 @@ class JointFriction(Strict):
 class Friction(Strict):
     """Friction of both joints."""
 
-    step: Literal[Step.FRICTION] = Step.FRICTION
+    step: Literal[RoutineName.FRICTION] = RoutineName.FRICTION
     left: JointFriction
     right: JointFriction
 
@@ -99,7 +100,7 @@ class Friction(Strict):
         )
 
 
-class Latency(Strict):
+class RobotLatency(Strict):
     """Delays [s].
 
     Attributes:
@@ -110,7 +111,7 @@ class Latency(Strict):
         dead_time_spread: standard deviation of the single steps.
     """
 
-    step: Literal[Step.LATENCY] = Step.LATENCY
+    step: Literal[RoutineName.LATENCY] = RoutineName.LATENCY
     round_trip: tuple[float, float, float]
     lost: float
     dead_time: float
@@ -137,7 +138,7 @@ class ForceScale(Strict):
         profile: name of the profile in use.
     """
 
-    step: Literal[Step.FORCE] = Step.FORCE
+    step: Literal[RoutineName.FORCE] = RoutineName.FORCE
     commanded: tuple[float, ...]
     readings_g: tuple[float, ...]
     factor: float
@@ -165,7 +166,7 @@ class Gauge(Strict):
         weights_g: the weights [g].
     """
 
-    step: Literal[Step.GAUGE] = Step.GAUGE
+    step: Literal[RoutineName.GAUGE] = RoutineName.GAUGE
     zero: float
     scale: float
     residual: Annotated[float, Field(ge=0.0)]
@@ -176,5 +177,29 @@ class Gauge(Strict):
         return f"gauge zero {self.zero:+.3f} N, scale {self.scale:.4f}, ± {self.residual:.3f} N"
 
 
-AnyResult = Homing | Signs | Friction | Latency | ForceScale | Gauge
+AnyResult = Homing | Signs | Friction | RobotLatency | ForceScale | Gauge
 """Any of them; `step` says which in a file."""
+
+
+@dataclass(frozen=True, slots=True)
+class RoutineReport:
+    """State of a routine, for the wizard and the command line.
+
+    Attributes:
+        progress: 0...1.
+        message: what goes on, for people.
+        needs: what the routine waits for, for people; empty while it works by itself. `answer`
+            lets it go on.
+        unit: of the number that it asks for; empty if a plain confirmation is enough.
+        done: whether it has ended.
+        result: what it found, once done.
+        failure: why it ended without a result, and what to do; empty otherwise.
+    """
+
+    progress: float
+    message: str
+    needs: str = ""
+    unit: str = ""
+    done: bool = False
+    result: AnyResult | None = None
+    failure: str = ""

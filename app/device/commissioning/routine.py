@@ -11,18 +11,17 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.errors import AcusError
-from app.device.commissioning.errors import CommissioningError
-from app.device.commissioning.report import Report
-from app.device.commissioning.results import AnyResult, Step
+from app.device.commissioning.results import AnyResult, RoutineName, RoutineReport
 from app.device.control.loop import Loop
+from app.device.errors import CommissioningError
 from app.device.faults import Fault
 from app.device.state import DeviceState
 from app.mechanisms.profile import DeviceProfile
 
-Script = Generator[Report, float, AnyResult]
+Script = Generator[RoutineReport, float, AnyResult]
 """A routine's course: yields what it says, is sent the time [s], returns its result."""
 
-Part = Generator[Report, float, Any]
+Part = Generator[RoutineReport, float, Any]
 """Part of a script."""
 
 QUIET: Final = {"test_x": 0.0, "test_y": 0.0, "test_z": 0.0, "test_left": 0.0, "test_right": 0.0}
@@ -47,13 +46,13 @@ class Routine(ABC):
         profile: of the device.
     """
 
-    NAME: ClassVar[Step]
+    NAME: ClassVar[RoutineName]
     TITLE: ClassVar[str]
 
     def __init__(self, loop: Loop, profile: DeviceProfile) -> None:
         self._loop, self._profile = loop, profile
         self._course: Script | None = None
-        self._report = Report(0.0, self.TITLE)
+        self._report = RoutineReport(0.0, self.TITLE)
         self._answers: list[float | None] = []
         self._powered = False
         self._progress = 0.0
@@ -61,11 +60,11 @@ class Routine(ABC):
 
     # --- for whoever runs it ----------------------------------------------------------------------
     @property
-    def report(self) -> Report:
+    def report(self) -> RoutineReport:
         """What the last step said."""
         return self._report
 
-    def step(self, now: float) -> Report:
+    def step(self, now: float) -> RoutineReport:
         """Go on; `now` is the loop's time [s]. After the end the last report is returned again."""
         if self._report.done:
             return self._report
@@ -73,10 +72,12 @@ class Routine(ABC):
             self._loop.inbox.write(heartbeat=now)
             self._report = self._advance(now)
         except StopIteration as end:
-            self._finish(Report(1.0, end.value.summary(), done=True, result=end.value))
+            self._finish(RoutineReport(1.0, end.value.summary(), done=True, result=end.value))
         except AcusError as error:
             self._finish(
-                Report(self._progress, f"{self.TITLE}: failed", done=True, failure=str(error))
+                RoutineReport(
+                    self._progress, f"{self.TITLE}: failed", done=True, failure=str(error)
+                )
             )
         except BaseException:
             self._quiet()
@@ -103,7 +104,9 @@ class Routine(ABC):
         """End at zero torque, from any state; idempotent."""
         if not self._report.done:
             self._finish(
-                Report(self._progress, f"{self.TITLE}: cancelled", done=True, failure="cancelled")
+                RoutineReport(
+                    self._progress, f"{self.TITLE}: cancelled", done=True, failure="cancelled"
+                )
             )
 
     # --- for the scripts --------------------------------------------------------------------------
@@ -113,7 +116,7 @@ class Routine(ABC):
 
     def _say(self, message: str) -> Part:
         """Let one step pass; returns the newest state, which is without a fault while powered."""
-        self._now = yield Report(self._progress, message)
+        self._now = yield RoutineReport(self._progress, message)
         return self._checked()
 
     def _wait(self, duration: float, message: str) -> Part:
@@ -127,7 +130,7 @@ class Routine(ABC):
     def _ask(self, needs: str, unit: str = "") -> Part:
         """Ask for a confirmation, or for a number in a unit; returns the number."""
         while not self._answers:
-            self._now = yield Report(self._progress, self.TITLE, needs, unit)
+            self._now = yield RoutineReport(self._progress, self.TITLE, needs, unit)
             self._checked()
         return self._answers.pop(0)
 
@@ -190,7 +193,7 @@ class Routine(ABC):
         return 2.0 * pi / self._profile.encoder.counts_per_turn
 
     # --- inside -----------------------------------------------------------------------------------
-    def _advance(self, now: float) -> Report:
+    def _advance(self, now: float) -> RoutineReport:
         if self._course is None:
             self._now = now
             self._course = self._script()
@@ -207,7 +210,7 @@ class Routine(ABC):
         self._powered = False
         self._loop.inbox.write(enabled=0.0, homed=0.0, force_cap=0.0, **QUIET)
 
-    def _finish(self, report: Report) -> None:
+    def _finish(self, report: RoutineReport) -> None:
         self._quiet()
         self._report = report
         if self._course is not None:

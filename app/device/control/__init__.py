@@ -7,17 +7,17 @@ first start, and who only wants a law's cost need not wait for them.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from app.core.parameters import Stage
 from app.device.faults import Fault
 from app.device.state import DeviceState
 
 if TYPE_CHECKING:
     from app.device.control import laws
     from app.device.control.cost import stage_cost
-    from app.device.control.fixture import VirtualFixture
-    from app.device.control.host import Host, Priority
-    from app.device.control.inbox import INPUT_NAMES, Inbox
-    from app.device.control.loop import Loop
-    from app.device.control.table import Stage, Table, pantograph_stages
+    from app.device.control.laws.fixture import VirtualFixture
+    from app.device.control.loop import Host, Loop, Priority
+    from app.device.control.shared import INPUT_NAMES, Inbox
+    from app.device.control.table import Table, pantograph_stages
     from app.device.control.timing import Timing
 
 __all__ = [
@@ -38,15 +38,15 @@ __all__ = [
 ]
 
 _MODULES = {
-    "INPUT_NAMES": "inbox",
-    "Host": "host",
-    "Inbox": "inbox",
+    "INPUT_NAMES": "shared",
+    "Host": "loop",
+    "Inbox": "shared",
     "Loop": "loop",
-    "Priority": "host",
+    "Priority": "loop",
     "Stage": "table",
     "Table": "table",
     "Timing": "timing",
-    "VirtualFixture": "fixture",
+    "VirtualFixture": "laws.fixture",
     "pantograph_stages": "table",
     "stage_cost": "cost",
 }

@@ -6,18 +6,18 @@ the robot, so that no record can turn a force round.
 """
 
 from math import isfinite
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
-from app.core.parameters import numbered, packed
+from app.core.parameters import Stage, numbered, packed
 from app.device.errors import DeviceError
 
 
-class _Places(NamedTuple):
+class _CorrectionsPlaces(NamedTuple):
     """Offsets [rad], zero [N] and factor of the gauge, and what was written last."""
 
     left: int
@@ -30,15 +30,15 @@ class _Places(NamedTuple):
     out_gauge: int = 0
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_CorrectionsPlaces)
 
 
 @stage
 def corrections_stage(state: FloatArray, p: FloatArray) -> None:
     """Add the offsets to Q_*; correct GAUGE_FORCE.
 
-    A link without news leaves the slots as they are: what this stage wrote is not corrected a
-    second time. (Joint angles are whole counts, so an equal one may be new: Q_TIME tells.)
+    Without a new reading a link leaves the slots as they are: what this stage wrote is not
+    corrected a second time. (Joint angles are whole counts, so an equal one may be new: Q_TIME tells.)
     """
     old = state[sv.Q_TIME] == p[_AT.time]
     joints = state[sv.Q_LEFT] == p[_AT.out_left] and state[sv.Q_RIGHT] == p[_AT.out_right]
@@ -101,9 +101,9 @@ class Corrections:
             "zero and factor of the gauge", zero, scale
         )
 
-    def stage(self) -> tuple[str, Any, FloatArray]:
+    def stage(self) -> Stage:
         """Return the stage for a loop's table; it belongs right after the link's read stages."""
-        return "corrections", corrections_stage, self._parameters
+        return Stage("corrections", corrections_stage, self._parameters)
 
 
 def _finite(what: str, first: float, second: float) -> tuple[float, float]:

@@ -1,18 +1,19 @@
 """What a stage costs per tick."""
 
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.parameters import StageFunction
 from app.device.control import kernel
+from app.device.control.kernel import ArrayList, StageList
 
 _REPEATS = 5
 _TARGET = 2e-3
 
 
-def stage_cost(function: Any, parameters: FloatArray, state: FloatArray) -> float:
+def stage_cost(function: StageFunction, parameters: FloatArray, state: FloatArray) -> float:
     """Time [s] that one call of a stage takes, the shortest of a few runs of about 2 ms.
 
     Works on copies: neither the state, shape (SLOTS,), nor the stage's memory changes.
@@ -27,7 +28,7 @@ def stage_cost(function: Any, parameters: FloatArray, state: FloatArray) -> floa
     return shortest / calls
 
 
-def _timed(state: FloatArray, functions: Any, values: Any, calls: int) -> float:
+def _timed(state: FloatArray, functions: StageList, values: ArrayList, calls: int) -> float:
     start = perf_counter()
     kernel.repeat(state, functions, values, calls)
     return perf_counter() - start

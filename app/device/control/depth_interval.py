@@ -20,7 +20,7 @@ says, a band that has slipped): the force is then wrong by error / L_out, and no
 
 from dataclasses import dataclass
 from math import isfinite, sqrt
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -28,7 +28,7 @@ from app.core import staleness
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.core.parameters import numbered, packed
+from app.core.parameters import Stage, numbered, packed
 from app.mechanisms.profile import DeviceProfile
 
 SIGMAS: Final = 4.0
@@ -38,7 +38,7 @@ SHORTEST: Final = 0.005
 """Smallest L_out [m] that anything is computed with."""
 
 
-class _Places(NamedTuple):
+class _DepthIntervalPlaces(NamedTuple):
     """Range of the profile [m], the fields of `DepthInterval`, and memory."""
 
     low: int
@@ -51,7 +51,7 @@ class _Places(NamedTuple):
     most: int = 0
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_DepthIntervalPlaces)
 
 
 @njit
@@ -143,10 +143,10 @@ class DepthInterval:
         """Interval of a device profile."""
         return cls(profile.depth_range, profile.hand.depth_speed)
 
-    def stage(self) -> tuple[str, Any, FloatArray]:
+    def stage(self) -> Stage:
         """Return the stage for a loop's table, with memory of its own."""
         low, high = self.depth_range
         parameters = packed(
             _AT, low=low, high=high, speed=self.speed, hold=self.hold, blend=self.blend
         )
-        return "depth", depth_stage, parameters
+        return Stage("depth", depth_stage, parameters)

@@ -39,14 +39,14 @@ could have caused it, means that nobody holds the needle: LET_GO. See docs/decis
 
 from dataclasses import dataclass
 from math import isfinite, pi, sqrt
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.core.parameters import numbered, packed
+from app.core.parameters import Stage, numbered, packed
 from app.device.control.depth_interval import longest_lever, shortest_lever
 from app.device.control.kinematics import MODEL
 from app.device.control.speed_bounds import (
@@ -76,7 +76,7 @@ _PEAK_LASTS = 0.1  # [s] over which the largest push of late is forgotten
 _WINDOW = 24
 
 
-class _Places(NamedTuple):
+class _GovernorPlaces(NamedTuple):
     """What the governor is told, see `SpeedGovernor`, and what it remembers."""
 
     resolution: int
@@ -99,7 +99,7 @@ class _Places(NamedTuple):
     peak: int = 0
 
 
-_AT: Final = numbered(_Places, len(BODY))
+_AT: Final = numbered(_GovernorPlaces, len(BODY))
 _RING = len(BODY) + len(_AT)  # rows of (q_left, q_right, time, largest acceleration sent after it)
 _SLOWEST_HAND = 3.0  # the speed left for a hand is at most a third of the limit
 _SURELY_RUNS = 0.6  # of the limit: what the encoders must prove at most before LET_GO
@@ -294,7 +294,7 @@ class SpeedGovernor:
             joint_torque=profile.limits.joint_torque,
         )
 
-    def stage(self) -> tuple[str, Any, FloatArray]:
+    def stage(self) -> Stage:
         """Return the stage for a loop's table, with memory of its own."""
         a1, a2, base = self.links
         part = self.inertia
@@ -327,4 +327,4 @@ class SpeedGovernor:
             needle_centre=part.needle_centre,
             needle_length=self.needle_length,
         )
-        return "governor", governor_stage, parameters
+        return Stage("governor", governor_stage, parameters)

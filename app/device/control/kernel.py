@@ -7,17 +7,39 @@ the loop copies everything that the next tick depends on between two ticks, and 
 """
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, MutableSequence
 from math import isfinite
 from typing import Any, Final
 
 from app.core import state_vector as sv
+from app.core.arrays import FloatArray, IntArray
 from app.core.compiled import STAGE_TYPE, njit
-from app.device.control.fences import fence
+from app.core.parameters import StageFunction
 
-from numba import types  # isort: skip  (after core.compiled)
+from numba import types  # isort: skip  (after core.compiled, which sets the cache folder)
 from numba.core.errors import NumbaExperimentalFeatureWarning  # isort: skip
+from numba.extending import intrinsic  # isort: skip
 from numba.typed import List  # isort: skip
+
+
+@intrinsic
+def _fence(typing_context: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        builder.fence("seq_cst")
+        return context.get_dummy_value()
+
+    return types.void(), generate
+
+
+@njit
+def fence() -> None:
+    """Order all reads and writes before this line against all after it, on every processor."""
+    _fence()
+
+
+StageList = MutableSequence[StageFunction]
+ArrayList = MutableSequence[FloatArray]
+"""Numba's typed lists of stages and of their parameters, as the program's Python side sees them."""
 
 HEAD: Final = 0
 STOP: Final = 1
@@ -50,26 +72,28 @@ def compiled(signature: Any) -> Callable[[Any], Any]:
 
 
 @compiled(STAGES())
-def no_stages() -> Any:
+def no_stages() -> StageList:
     """Return an empty list of stages."""
     return List.empty_list(STAGE_TYPE)
 
 
 @compiled(PARAMETERS())
-def no_parameters() -> Any:
+def no_parameters() -> ArrayList:
     """Return an empty list of parameter arrays."""
     return List.empty_list(_FLOATS)
 
 
 @compiled(types.void(STAGES, PARAMETERS, STAGE_TYPE, _FLOATS))
-def append(stages: Any, parameters: Any, function: Any, values: Any) -> None:
+def append(
+    stages: StageList, parameters: ArrayList, function: StageFunction, values: FloatArray
+) -> None:
     """Add a stage with its parameters."""
     stages.append(function)
     parameters.append(values)
 
 
 @compiled(types.void(_FLOATS, _INTEGERS, types.int64[::1], _FLOATS))
-def post(inbox: Any, sequence: Any, slots: Any, values: Any) -> None:
+def post(inbox: FloatArray, sequence: IntArray, slots: IntArray, values: FloatArray) -> None:
     """Write some inputs as one change; the caller holds the writers' lock."""
     sequence[0] += 1
     fence()
@@ -80,7 +104,7 @@ def post(inbox: Any, sequence: Any, slots: Any, values: Any) -> None:
 
 
 @njit
-def receive(state: Any, inbox: Any, scratch: Any, sequence: Any) -> None:
+def receive(state: FloatArray, inbox: FloatArray, scratch: FloatArray, sequence: IntArray) -> None:
     """Copy the inputs into the state; during a write, the last whole copy stays.
 
     An input that is not finite keeps its last value, so that no stage's memory is spoilt by it,
@@ -103,7 +127,7 @@ def receive(state: Any, inbox: Any, scratch: Any, sequence: Any) -> None:
 
 
 @njit
-def publish(state: Any, ring: Any, counters: Any) -> None:
+def publish(state: FloatArray, ring: FloatArray, counters: IntArray) -> None:
     """Append the state to the history; readers see the row before they see the new head."""
     row = counters[HEAD] % ring.shape[0]
     for slot in range(sv.SLOTS):
@@ -113,7 +137,9 @@ def publish(state: Any, ring: Any, counters: Any) -> None:
 
 
 @njit
-def answer(state: Any, parameters: Any, counters: Any, checkpoint: Any) -> None:
+def answer(
+    state: FloatArray, parameters: ArrayList, counters: IntArray, checkpoint: FloatArray
+) -> None:
     """Take the checkpoint that was asked for, if one was: the state, then every stage's array."""
     asked = counters[ASKED]
     if asked == counters[ANSWERED]:
@@ -130,20 +156,24 @@ def answer(state: Any, parameters: Any, counters: Any, checkpoint: Any) -> None:
 
 
 @compiled(types.void(_FLOATS, PARAMETERS, _INTEGERS, _FLOATS))
-def answer_now(state: Any, parameters: Any, counters: Any, checkpoint: Any) -> None:
+def answer_now(
+    state: FloatArray, parameters: ArrayList, counters: IntArray, checkpoint: FloatArray
+) -> None:
     """Take a checkpoint of a loop that nobody runs at the moment."""
     answer(state, parameters, counters, checkpoint)
 
 
 @njit
-def run_stages(state: Any, stages: Any, parameters: Any) -> None:
+def run_stages(state: FloatArray, stages: StageList, parameters: ArrayList) -> None:
     """Call every stage of a table in order."""
     for function, values in zip(stages, parameters):  # noqa: B905  (numba's zip has no strict)
         function(state, values)
 
 
 @njit
-def run_tick(state: Any, stages: Any, parameters: Any, counters: Any) -> None:
+def run_tick(
+    state: FloatArray, stages: StageList, parameters: ArrayList, counters: IntArray
+) -> None:
     """Call every stage of a table in order, and say before each which one it is."""
     for function, values in zip(stages, parameters):  # noqa: B905  (numba's zip has no strict)
         counters[RUNNING] += 1
@@ -153,15 +183,15 @@ def run_tick(state: Any, stages: Any, parameters: Any, counters: Any) -> None:
 
 @compiled(types.void(*TICK_TYPES, types.float64, types.float64, types.int64))
 def step(
-    state: Any,
-    stages: Any,
-    parameters: Any,
-    inbox: Any,
-    scratch: Any,
-    sequence: Any,
-    ring: Any,
-    counters: Any,
-    checkpoint: Any,
+    state: FloatArray,
+    stages: StageList,
+    parameters: ArrayList,
+    inbox: FloatArray,
+    scratch: FloatArray,
+    sequence: IntArray,
+    ring: FloatArray,
+    counters: IntArray,
+    checkpoint: FloatArray,
     time: float,
     dt: float,
     ticks: int,
@@ -180,7 +210,12 @@ def step(
 
 @compiled(types.void(_FLOATS, STAGES, PARAMETERS, ROWS, _INTEGERS, types.float64))
 def release(
-    state: Any, stages: Any, parameters: Any, ring: Any, counters: Any, time: float
+    state: FloatArray,
+    stages: StageList,
+    parameters: ArrayList,
+    ring: FloatArray,
+    counters: IntArray,
+    time: float,
 ) -> None:
     """Send zero torque through the link's write stages, whatever happened before.
 
@@ -198,7 +233,7 @@ def release(
 
 
 @compiled(types.void(_FLOATS, STAGES, PARAMETERS, types.int64))
-def repeat(state: Any, stages: Any, parameters: Any, times: int) -> None:
+def repeat(state: FloatArray, stages: StageList, parameters: ArrayList, times: int) -> None:
     """Call a table many times: what a benchmark or a cost estimate measures."""
     for _ in range(times):
         run_stages(state, stages, parameters)

@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass
 from math import atan2, isfinite
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 from app.core import staleness
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.core.parameters import numbered, packed
+from app.core.parameters import Stage, numbered, packed
 from app.device.control.vectors import norm_kernel, unit_kernel
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.pantograph.kernels import (
@@ -21,7 +21,7 @@ from app.mechanisms.pantograph.status import OK
 from app.mechanisms.profile import DeviceProfile
 
 
-class _Places(NamedTuple):
+class _KinematicsPlaces(NamedTuple):
     """Lengths of the mechanism [m], the limits of `Kinematics`, and memory."""
 
     a1: int
@@ -40,7 +40,7 @@ class _Places(NamedTuple):
     held: int = 0
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_KinematicsPlaces)
 
 MODEL, TRACKED, HELD = 0, 1, 2
 """Values of the slot `DEPTH_SOURCE`."""
@@ -165,7 +165,7 @@ class Kinematics:
         """Kinematics of a device profile."""
         return cls(profile.pantograph)
 
-    def stage(self) -> tuple[str, Any, FloatArray]:
+    def stage(self) -> Stage:
         """Return the stage for a loop's table, with memory of its own."""
         a1, a2, base = self.geometry.links
         fx, fy, fz = self.geometry.fulcrum_xyz
@@ -183,4 +183,4 @@ class Kinematics:
             blend=self.blend,
             l_out_min=self.l_out_min,
         )
-        return "kinematics", kinematics_stage, parameters
+        return Stage("kinematics", kinematics_stage, parameters)

@@ -3,31 +3,61 @@
 from __future__ import annotations
 
 import atexit
+import sys
 import threading
 import time
 from collections.abc import Iterable, Mapping
+from enum import StrEnum
 from typing import Any
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock, VirtualClock
+from app.core.parameters import Stage
 from app.device.checkpoint import Checkpoint
 from app.device.control import kernel
-from app.device.control.desk import CheckpointDesk
-from app.device.control.history import History
-from app.device.control.host import THREAD_RATE_HZ, Host, Priority, default_host
-from app.device.control.inbox import Inbox
-from app.device.control.kernel import MISSED, STOP
-from app.device.control.stuck import TickWatch
+from app.device.control.checkpoints import CheckpointRequests
+from app.device.control.kernel import MISSED, STOP, ArrayList, StageList
+from app.device.control.shared import Inbox, TickHistory
 from app.device.control.table import Table
-from app.device.control.timing import Timing, measure
+from app.device.control.timing import TickWatch, Timing, measure
 from app.device.errors import LoopError
 from app.device.lifetime import Lifetime
 from app.device.links.link import DeviceLink
 from app.device.state import DeviceState
 
+THREAD_RATE_HZ = 250.0
+"""Highest rate that the plain thread promises, where the compiled loop does not exist."""
+
+
+class Host(StrEnum):
+    """What runs the ticks.
+
+    `COMPILED`: a compiled kernel with absolute deadlines, without the interpreter lock (Linux).
+    `THREAD`: a plain thread, at most `THREAD_RATE_HZ`. `STEPPED`: `Loop.step` on a virtual clock.
+    """
+
+    COMPILED = "compiled"
+    THREAD = "thread"
+    STEPPED = "stepped"
+
+
+class Priority(StrEnum):
+    """Priority of the compiled loop's thread. `REALTIME` is done without where it is refused."""
+
+    REALTIME = "realtime"
+    NORMAL = "normal"
+
+
+def default_host(clock: Clock) -> Host:
+    """Host for a clock on this platform."""
+    if isinstance(clock, VirtualClock):
+        return Host.STEPPED
+    return Host.COMPILED if sys.platform == "linux" else Host.THREAD
+
+
 _STOP_TIMEOUT = 5.0
-_LOOK = 0.02
+_POLL = 0.02
 
 
 class Loop(Lifetime):
@@ -49,7 +79,7 @@ class Loop(Lifetime):
 
     def __init__(
         self,
-        stages: Table | Iterable[tuple[str, Any, FloatArray]],
+        stages: Table | Iterable[Stage],
         rate_hz: float = 1000.0,
         clock: Clock | None = None,
         host: Host | None = None,
@@ -64,10 +94,10 @@ class Loop(Lifetime):
         self.priority = priority
         self.link = link
         self.inbox = Inbox()
-        self._history = History()
+        self._history = TickHistory()
         self._state = sv.empty_state()
         self._scratch = sv.empty_state()
-        self._desk = CheckpointDesk(self._history.counters, self.table)
+        self._requests = CheckpointRequests(self._history.counters, self.table)
         self._watch = TickWatch(self._history.counters, self.table)
         for name, value in (initial or {}).items():
             self._state[_slot(name)] = value
@@ -104,7 +134,7 @@ class Loop(Lifetime):
         self.inbox.write(enabled=0.0)
         self._packed = _pack(self.table)
         self._packed_write = _pack(self.table.write)
-        self._desk = CheckpointDesk(self._history.counters, self.table)
+        self._requests = CheckpointRequests(self._history.counters, self.table)
         self._watch = TickWatch(self._history.counters, self.table)
         self._is_open = True
         atexit.register(self.close)
@@ -132,9 +162,9 @@ class Loop(Lifetime):
             return
         end = time.monotonic() + _STOP_TIMEOUT
         while self._thread.is_alive() and time.monotonic() < end:
-            if self._watch.look(self._thread):
+            if self._watch.check(self._thread):
                 return
-            self._thread.join(_LOOK)
+            self._thread.join(_POLL)
         if self._thread.is_alive():
             raise LoopError(
                 f"the loop did not stop in {_STOP_TIMEOUT:g} s: a stage does not return"
@@ -169,7 +199,7 @@ class Loop(Lifetime):
         if not self._is_open:
             raise LoopError("the loop is closed; call open() before checkpoint()")
         idle = (self._state, self._packed[1]) if self._thread is None else None
-        return self._desk.checkpoint(idle)
+        return self._requests.checkpoint(idle)
 
     def timing(self, count: int = 10_000) -> Timing:
         """Lateness over the last `count` ticks."""
@@ -188,7 +218,7 @@ class Loop(Lifetime):
         self._tick(self.clock.now(), ticks)
         self.clock.sleep(ticks / self.rate_hz)
 
-    def swap(self, stages: Table | Iterable[tuple[str, Any, FloatArray]]) -> None:
+    def swap(self, stages: Table | Iterable[Stage]) -> None:
         """Replace the table of a closed loop; the state stays.
 
         Raises:
@@ -237,7 +267,7 @@ class Loop(Lifetime):
     def _arguments(self) -> tuple[Any, ...]:
         inbox, history = self.inbox, self._history
         shared = (inbox.values, self._scratch, inbox.sequence, history.ring, history.counters)
-        return (self._state, *self._packed, *shared, self._desk.buffer)
+        return (self._state, *self._packed, *shared, self._requests.buffer)
 
     def _release(self) -> None:
         history = self._history
@@ -250,13 +280,17 @@ class Loop(Lifetime):
                 self.link.close()
 
     def _raise_failure(self) -> None:
-        if self._is_open and self._thread is not None and (stuck := self._watch.look(self._thread)):
-            raise LoopError(stuck)
+        if (
+            self._is_open
+            and self._thread is not None
+            and (endless := self._watch.check(self._thread))
+        ):
+            raise LoopError(endless)
         if self._failure is not None:
             raise LoopError(f"the loop has ended: {self._failure}") from self._failure
 
 
-def _pack(stages: Iterable[tuple[str, Any, FloatArray]]) -> tuple[Any, Any]:
+def _pack(stages: Iterable[Stage]) -> tuple[StageList, ArrayList]:
     functions, parameters = kernel.no_stages(), kernel.no_parameters()
     for _, function, values in stages:
         kernel.append(functions, parameters, function, values)

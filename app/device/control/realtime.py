@@ -5,14 +5,17 @@ Import only on Linux: `clock_nanosleep` is resolved when the kernel is built.
 
 import ctypes
 import os
-from typing import Any, Final
+from typing import Final
 
 from app.core import state_vector as sv
+from app.core.arrays import FloatArray, IntArray
 from app.device.control.kernel import (
     HEAD,
     MISSED,
     STOP,
     TICK_TYPES,
+    ArrayList,
+    StageList,
     answer,
     compiled,
     publish,
@@ -38,13 +41,13 @@ _clock_nanosleep = types.ExternalFunction(
 
 
 @njit
-def _now(timespec: Any) -> int:
+def _now(timespec: IntArray) -> int:
     _clock_gettime(_MONOTONIC, timespec.ctypes)
     return timespec[0] * 1_000_000_000 + timespec[1]
 
 
 @njit
-def _sleep_until(deadline: int, timespec: Any) -> None:
+def _sleep_until(deadline: int, timespec: IntArray) -> None:
     timespec[0] = deadline // 1_000_000_000
     timespec[1] = deadline % 1_000_000_000
     while True:  # a signal ends the sleep early; the deadline stands
@@ -55,15 +58,15 @@ def _sleep_until(deadline: int, timespec: Any) -> None:
 
 @compiled(types.void(*TICK_TYPES, types.int64))
 def run(
-    state: Any,
-    stages: Any,
-    parameters: Any,
-    inbox: Any,
-    scratch: Any,
-    sequence: Any,
-    ring: Any,
-    counters: Any,
-    checkpoint: Any,
+    state: FloatArray,
+    stages: StageList,
+    parameters: ArrayList,
+    inbox: FloatArray,
+    scratch: FloatArray,
+    sequence: IntArray,
+    ring: FloatArray,
+    counters: IntArray,
+    checkpoint: FloatArray,
     period: int,
 ) -> None:
     """Tick every `period` [ns] until `counters[STOP]`.

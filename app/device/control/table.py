@@ -1,15 +1,27 @@
-"""The loop's table: which compiled functions run in a tick, in order, with their parameters."""
+"""The loop's table: which compiled functions run in a tick, in order, with their parameters.
+
+What force laws and effects cannot change, whatever they write, is all but what is theirs to write.
+They may come from anybody: before them the whole state is kept; after them everything but the sums
+that they add to and what effects say of the scene is taken from what was kept. Inputs (ENABLED,
+FORCE_CAP, HOMED, HEARTBEAT), time, kinematics and the slots of governor, guard and safety are
+therefore the loop's own when the stages behind them look. What laws may write goes through all the
+limits behind them; a value there that is not finite holds the force at zero.
+"""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Final
 
+import numpy as np
+
+from app.core import state_vector as sv
 from app.core.arrays import FloatArray
+from app.core.compiled import stage
+from app.core.parameters import Stage
 from app.device.control.depth_interval import DepthInterval
 from app.device.control.governor import SpeedGovernor
 from app.device.control.kinematics import Kinematics
 from app.device.control.passivity import PassivityGuard
-from app.device.control.protection import protected
 from app.device.control.safety import Safety
 from app.device.control.transmission import Transmission
 from app.device.control.velocity import VelocityMethod, velocity_stage
@@ -17,19 +29,38 @@ from app.device.links.link import Link
 from app.mechanisms.pantograph import ForceLaw
 from app.mechanisms.profile import DeviceProfile
 
+_THEIRS: Final = sv.SUMS + sv.SCENE
+_SIZE: Final = sv.SLOTS + len(_THEIRS)
 
-class Stage(NamedTuple):
-    """One step of a tick.
 
-    Attributes:
-        name: what faults, costs and `acus explain` call it.
-        function: compiled with `core.compiled.stage`.
-        parameters: its constants and its memory, shape (n,); belongs to this stage of this loop.
-    """
+@stage
+def keep_stage(state: FloatArray, p: FloatArray) -> None:
+    """Keep the state."""
+    for slot in range(sv.SLOTS):
+        p[slot] = state[slot]
 
-    name: str
-    function: Any
-    parameters: FloatArray
+
+@stage
+def give_back_stage(state: FloatArray, p: FloatArray) -> None:
+    """Take the state back, but for what laws and effects may write."""
+    place = sv.SLOTS
+    for slot in _THEIRS:
+        p[place] = state[slot]
+        place += 1
+    for slot in range(sv.SLOTS):
+        state[slot] = p[slot]
+    place = sv.SLOTS
+    for slot in _THEIRS:
+        state[slot] = p[place]
+        place += 1
+
+
+def protected(stages: Iterable[Stage]) -> list[Stage]:
+    """Return laws and effects between the two stages, which share one array; none stay none."""
+    inner = list(stages)
+    memory = np.zeros(_SIZE)
+    keep, back = Stage("keep", keep_stage, memory), Stage("give back", give_back_stage, memory)
+    return [keep, *inner, back] if inner else []
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,9 +76,7 @@ class Table:
     write: tuple[Stage, ...] = ()
 
     @classmethod
-    def of(
-        cls, compute: Iterable[tuple[str, Any, FloatArray]], write: Iterable[Any] = ()
-    ) -> "Table":
+    def of(cls, compute: Iterable[Stage], write: Iterable[Any] = ()) -> "Table":
         """Build a table from (name, function, parameters) triples."""
         return cls(tuple(Stage(*s) for s in compute), tuple(Stage(*s) for s in write))
 
@@ -62,8 +91,8 @@ class Table:
 
 def pantograph_stages(
     profile: DeviceProfile,
-    laws: Iterable[tuple[str, Any, FloatArray]],
-    effects: Iterable[tuple[str, Any, FloatArray]],
+    laws: Iterable[Stage],
+    effects: Iterable[Stage],
     link: Link,
     force_law: ForceLaw = ForceLaw.VIRTUAL_WORK,
     velocity: VelocityMethod | None = None,

@@ -1,14 +1,27 @@
-"""How punctual a loop is."""
+"""How late the loop's ticks are, and whether one does not return, and in which stage.
+
+Compiled code cannot be interrupted. The board's own watchdog ends the torque 20 ms after the last
+command; what is left for the host is to see it, to say which law it was, and to go on without the
+loop's thread. A tick counts as endless once the thread has used 20 ms of *processor time* in it: a
+busy machine that keeps the thread waiting is late, nothing more.
+"""
 
 from __future__ import annotations
 
+import contextlib
+import os
+import threading
+import time
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
 from app.core import state_vector as sv
-from app.device.control.history import History
-from app.device.control.kernel import MISSED
+from app.core.arrays import IntArray
+from app.device.control.kernel import HEAD, MISSED, RUNNING
+from app.device.control.shared import TickHistory
+from app.device.control.table import Table
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +55,7 @@ class Timing:
     cost: float
 
 
-def measure(history: History, rate_hz: float, host: str, realtime: bool, count: int) -> Timing:
+def measure(history: TickHistory, rate_hz: float, host: str, realtime: bool, count: int) -> Timing:
     """Read the timing of the last `count` ticks from the history."""
     lateness = history.column(sv.LATENESS, count)
     costs = history.column(sv.TICK_COST, count)
@@ -62,3 +75,61 @@ def measure(history: History, rate_hz: float, host: str, realtime: bool, count: 
         maximum=maximum,
         cost=float(np.median(costs)),
     )
+
+
+LIMIT: Final = 0.020
+"""Processor time of one tick [s]; a whole one takes some microseconds."""
+
+_WITHOUT_CLOCK: Final = 1.0  # [s] of waiting, where a thread's processor time cannot be read
+
+
+class TickWatch:
+    """Looks at the counters of one loop from another thread."""
+
+    def __init__(self, counters: IntArray, table: Table) -> None:
+        self._counters = counters
+        self._names = tuple(stage.name for stage in table)
+        self._seen = (-1, 0)
+        self._since = 0.0
+        self.reason = ""
+
+    def check(self, thread: threading.Thread) -> str:
+        """Return which stage does not return, or nothing; once said it stays so.
+
+        Call it again and again: a tick is endless that used `LIMIT` between two calls.
+        """
+        if self.reason:
+            return self.reason
+        head, running = int(self._counters[HEAD]), int(self._counters[RUNNING])
+        used, limit = _used(thread)
+        if running == 0 or head != self._seen[0]:
+            self._seen, self._since = (head, running), used
+        elif used - self._since >= limit:
+            self.reason = self._words(running)
+            _let_others_run(thread)
+        return self.reason
+
+    def _words(self, running: int) -> str:
+        name = self._names[running - 1]
+        law = "keep" in self._names and (
+            self._names.index("keep") < running - 1 < self._names.index("give back")
+        )
+        what = f"the force law or effect {name!r}" if law else f"the stage {name!r} of the loop"
+        return (
+            f"{what} does not return: there is no force any more; end the program, mend or remove"
+            " it, and start again"
+        )
+
+
+def _used(thread: threading.Thread) -> tuple[float, float]:
+    """Processor time of a thread and its limit [s]; or the time of day's, where there is none."""
+    if hasattr(time, "pthread_getcpuclockid") and thread.ident is not None and thread.is_alive():
+        return time.clock_gettime(time.pthread_getcpuclockid(thread.ident)), LIMIT
+    return time.monotonic(), _WITHOUT_CLOCK
+
+
+def _let_others_run(thread: threading.Thread) -> None:
+    """Give an endless thread no more of the processor than nobody else wants."""
+    if hasattr(os, "sched_setscheduler") and thread.native_id is not None:
+        with contextlib.suppress(OSError):
+            os.sched_setscheduler(thread.native_id, os.SCHED_IDLE, os.sched_param(0))

@@ -1,12 +1,12 @@
 """From the wanted force at the hand to joint torques, within the limits of both."""
 
 from dataclasses import dataclass
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
-from app.core.parameters import numbered, packed
+from app.core.parameters import Stage, numbered, packed
 from app.device.control.depth_interval import shortest_lever
 from app.device.control.vectors import shrink_kernel
 from app.mechanisms.pantograph import ForceLaw
@@ -18,7 +18,7 @@ from app.mechanisms.pantograph.kernels import (
 from app.mechanisms.profile import DeviceProfile
 
 
-class _Places(NamedTuple):
+class _TransmissionPlaces(NamedTuple):
     """Limits of force [N] and torque [N·m], and whether the printed law is used."""
 
     hand_limit: int
@@ -26,7 +26,7 @@ class _Places(NamedTuple):
     printed: int
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_TransmissionPlaces)
 
 
 @stage
@@ -81,10 +81,10 @@ class Transmission:
         limits = profile.limits
         return cls(hand_limit=limits.hand_force, torque_limit=limits.joint_torque, law=law)
 
-    def stage(self) -> tuple[str, Any, FloatArray]:
+    def stage(self) -> Stage:
         """Return the stage for a loop's table."""
         printed = 1.0 if self.law is ForceLaw.PRINTED else 0.0
         parameters = packed(
             _AT, hand_limit=self.hand_limit, torque_limit=self.torque_limit, printed=printed
         )
-        return "transmission", transmission_stage, parameters
+        return Stage("transmission", transmission_stage, parameters)

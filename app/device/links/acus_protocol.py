@@ -135,7 +135,9 @@ def _take_state(state: FloatArray, p: FloatArray, data: Any, length: int) -> Non
     fresh = _answered(p, wire.get_int(data, 2, 2))
     if fresh:  # what was recorded or held back is no sign of life
         host.heard(p)
-    if not flags & GREETED or not fresh:  # restarted: its counters mean nothing yet; or old news
+    if (
+        not flags & GREETED or not fresh
+    ):  # restarted: its counters mean nothing yet; or old readings
         return
     state[sv.Q_LEFT] = p[host.OFFSET] + wire.get_int32(data, 8) * p[host.STEP]
     state[sv.Q_RIGHT] = p[host.OFFSET + 1] + wire.get_int32(data, 12) * p[host.STEP]

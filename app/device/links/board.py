@@ -1,5 +1,9 @@
 """A robot's board in software: what a microcontroller does with the bytes that it receives.
 
+It stands behind two faulty pieces of wire: what the emulator and the link in memory consist of. One
+float64 array holds the program's end of the wire, the board and both lines, so that one stage can
+work on all of it.
+
 One float64 array holds everything it knows; `work` is one round of its program, compiled, for both
 protocols. The emulator's process and the link in memory run the same one. What it promises:
 
@@ -8,18 +12,20 @@ protocols. The emulator's process and the link in memory run the same one. What 
 - both torques scaled down together to the largest one; a torque that is not finite counts as zero.
 """
 
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.compiled import njit
+from app.device.errors import LinkError
 from app.device.links import acus_protocol as acus
 from app.device.links import board_layout as at
-from app.device.links import framing, wire
+from app.device.links import framing, line, wire
 from app.device.links import haply_protocol as haply
-from app.device.links.board_error import BoardError
 from app.device.links.framing import RECEIVER
+from app.device.links.link import BoardError
 
 # Compiled code takes plain integers as constants.
 _BAD_TORQUE = int(BoardError.TORQUE_NOT_FINITE)
@@ -220,3 +226,70 @@ def work(p: FloatArray, now: float) -> None:
     if p[at.ENABLED] != 0.0 and late:
         _stop(p)
         p[at.TRIPPED] = 1.0
+
+
+DOWN: Final = at.SIZE  # line to the board
+UP: Final = DOWN + line.SIZE  # line from it
+SIZE: Final = UP + line.SIZE
+
+
+@njit
+def exchange(p: FloatArray, now: float, sent: Any, count: int, answer: Any, fill: int) -> int:
+    """Carry `sent[:count]` to the board, let it work, append what arrives to `answer[fill:]`.
+
+    Returns:
+        The new fill of `answer`.
+    """
+    the_board = p[: at.SIZE]
+    down, up = p[DOWN:UP], p[UP:SIZE]
+    line.push(down, now, sent, count)
+    the_board[wire.IN_COUNT] = line.pop(
+        down, now, wire.incoming(the_board), int(the_board[wire.IN_COUNT]), wire.IN_BYTES
+    )
+    if count > 0:
+        the_board[at.HEARD] = now
+    work(the_board, now)
+    line.push(up, now, wire.outgoing(the_board), int(the_board[wire.OUT_COUNT]))
+    the_board[wire.OUT_COUNT] = 0.0
+    return line.pop(up, now, answer, fill, len(answer))
+
+
+_SWITCHES: Final = {  # most, factor, places in the box
+    "drop": (1.0, 1.0, (DOWN + line.DROP, UP + line.DROP)),
+    "garble": (1.0, 1.0, (DOWN + line.GARBLE, UP + line.GARBLE)),
+    "delay": (30.0, 1e-3, (DOWN + line.DELAY, UP + line.DELAY)),
+    "cut": (1.0, 1.0, (DOWN + line.CUT, UP + line.CUT)),
+    "freeze": (1.0, 1.0, (at.FROZEN,)),
+    "reset": (1.0, 1.0, (at.RESET,)),
+    "version": (255.0, 1.0, (at.VERSION,)),
+    "error": (255.0, 1.0, (at.ERROR,)),
+}
+
+FAULTS: Final = tuple(_SWITCHES)
+"""Names of the faults."""
+
+
+@dataclass(frozen=True, slots=True)
+class Faults:
+    """Switches of a board and its wire; `array` is the box that they act on.
+
+    `drop` and `garble` are probabilities per message in each direction, `delay` is in milliseconds
+    each way, `freeze` and `cut` are on or off, `reset` happens once, `version` is what the board
+    claims, `error` is what it reports.
+    """
+
+    array: FloatArray
+
+    def set(self, name: str, value: float) -> None:
+        """Switch one fault.
+
+        Raises:
+            LinkError: if there is no such fault, or the value is out of range; names those valid.
+        """
+        if name not in _SWITCHES:
+            raise LinkError(f"no fault {name!r}; valid names: {', '.join(FAULTS)}")
+        most, factor, places = _SWITCHES[name]
+        if not 0.0 <= value <= most:
+            raise LinkError(f"fault {name} is {value:g}; it must be from 0 to {most:g}")
+        for place in places:
+            self.array[place] = value * factor

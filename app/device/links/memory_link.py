@@ -11,18 +11,19 @@ import numpy as np
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
+from app.core.parameters import Stage
 from app.device.errors import LinkError
+from app.device.links import board, line, wire
 from app.device.links import board_layout as at
-from app.device.links import fault_box, line, wire
 from app.device.links import host_end as host
+from app.device.links.board import Faults
 from app.device.links.board_layout import new_board
-from app.device.links.fault_box import Faults
-from app.device.links.link import BoardInfo, DeviceLink, Link, LinkStatus, Triple
+from app.device.links.link import BoardInfo, DeviceLink, Link, LinkStatus
 from app.device.links.protocols import Speech, speech_of
 from app.mechanisms.profile import DeviceProfile
 
 _BOX = host.SIZE
-_WANTED = _BOX + fault_box.SIZE
+_WANTED = _BOX + board.SIZE
 _SIZE = _WANTED + 2
 
 
@@ -45,7 +46,7 @@ def _carry(state: FloatArray, p: FloatArray) -> None:
     box[at.GAUGE_READING] = np.sqrt(
         state[sv.PULL_X] ** 2 + state[sv.PULL_Y] ** 2 + state[sv.PULL_Z] ** 2
     )
-    end[wire.IN_COUNT] = fault_box.exchange(
+    end[wire.IN_COUNT] = board.exchange(
         box,
         now,
         wire.outgoing(end),
@@ -78,7 +79,7 @@ class MemoryLink(DeviceLink):
     def __init__(
         self,
         profile: DeviceProfile,
-        plant: Iterable[Triple] = (),
+        plant: Iterable[Stage] = (),
         start: tuple[float, float] | None = None,
         homed: bool = True,
         seed: int = 1,
@@ -92,8 +93,8 @@ class MemoryLink(DeviceLink):
         self._homed = homed
         self._start = start or profile.encoder.home_offsets
         self._box[: at.SIZE] = new_board(profile, serial="MEMORY", boot=0)
-        self._box[fault_box.DOWN : fault_box.UP] = line.line(seed)
-        self._box[fault_box.UP :] = line.line(seed + 1)
+        self._box[board.DOWN : board.UP] = line.line(seed)
+        self._box[board.UP :] = line.line(seed + 1)
         self._end[host.STATUS] = LinkStatus.CLOSED
         self.faults = Faults(self._box)
 
@@ -139,12 +140,12 @@ class MemoryLink(DeviceLink):
         """Stages of the tick; plant included."""
         read, write = self._speech.stages
         return Link.of(
-            [("wire", _clock, self._end), (f"{self._speech.name} read", read, self._end)],
+            [Stage("wire", _clock, self._end), Stage(f"{self._speech.name} read", read, self._end)],
             [
-                (f"{self._speech.name} write", write, self._end),
-                ("board", _carry, self._array),
+                Stage(f"{self._speech.name} write", write, self._end),
+                Stage("board", _carry, self._array),
                 *self._plant,
-                ("wanted torques", _restore, self._array),
+                Stage("wanted torques", _restore, self._array),
             ],
         )
 
@@ -163,5 +164,5 @@ class MemoryLink(DeviceLink):
         sent[: len(data)] = np.frombuffer(data, np.uint8)
         answer = np.zeros(wire.IN_BYTES, np.uint8)
         now = float(self._box[at.LAST])
-        count = fault_box.exchange(self._box, now, sent, len(data), answer, 0)
+        count = board.exchange(self._box, now, sent, len(data), answer, 0)
         return answer[:count].tobytes()

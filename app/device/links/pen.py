@@ -4,29 +4,48 @@ Who measures writes joint angles and their time; the tick reads them. Two rows a
 says which is whole: the writer fills the other row first, so that no tick reads half of one.
 """
 
+from typing import Final, NamedTuple
+
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
+from app.core.parameters import Stage, numbered, packed
 from app.device.errors import LinkError
-from app.device.links.link import Link, Triple
+from app.device.links.link import Link
 
 HOLD = 0.1
 """Age [s] up to which a measured direction counts as the present one: three pictures of a webcam.
 After that the angles grow stale as encoders do, so that a lost pen is seen within 0.2 s."""
 
-_ROW, _HOLD, _FIRST = range(3)
-_WIDTH = 3  # left, right, time
+
+class _PenPlaces(NamedTuple):
+    """The row that is whole (0 or 1) and how long it counts as present; the two rows follow."""
+
+    row: int
+    hold: int
+
+
+class _RowPlaces(NamedTuple):
+    """One measurement: angles [rad] and their time [s]."""
+
+    left: int
+    right: int
+    time: int
+
+
+_AT: Final = numbered(_PenPlaces)
+_ROW: Final = numbered(_RowPlaces)
 
 
 @stage
 def pen_stage(state: FloatArray, p: FloatArray) -> None:
     """Copy the newest angles into Q_* and stamp Q_TIME."""
-    base = 2 + 3 * int(p[0])
-    state[sv.Q_LEFT] = p[base]
-    state[sv.Q_RIGHT] = p[base + 1]
-    state[sv.Q_TIME] = min(state[sv.TIME], p[base + 2] + p[1])
+    row = len(_AT) + len(_ROW) * int(p[_AT.row])
+    state[sv.Q_LEFT] = p[row + _ROW.left]
+    state[sv.Q_RIGHT] = p[row + _ROW.right]
+    state[sv.Q_TIME] = min(state[sv.TIME], p[row + _ROW.time] + p[_AT.hold])
 
 
 class PenLink:
@@ -38,7 +57,7 @@ class PenLink:
 
     def __init__(self, q: tuple[float, float]) -> None:
         row = [*q, -HOLD]
-        self._parameters = np.array([0.0, HOLD, *row, *row])
+        self._parameters = packed(_AT, row, row, row=0.0, hold=HOLD)
         self._last = -np.inf
 
     def write(self, q: FloatArray, time: float) -> None:
@@ -48,19 +67,19 @@ class PenLink:
             LinkError: if a value is not finite.
         """
         values = np.array([*q, time], dtype=np.float64)
-        if values.shape != (_WIDTH,) or not np.isfinite(values).all():
+        if values.shape != (len(_ROW),) or not np.isfinite(values).all():
             raise LinkError(f"the pen's joint angles {values.tolist()} are not finite")
         if time <= self._last:
             return
         self._last = time
-        row = 1 - int(self._parameters[_ROW])
-        first = _FIRST + _WIDTH * row
-        self._parameters[first : first + _WIDTH] = values
-        self._parameters[_ROW] = float(row)
+        row = 1 - int(self._parameters[_AT.row])
+        first = len(_AT) + len(_ROW) * row
+        self._parameters[first : first + len(_ROW)] = values
+        self._parameters[_AT.row] = float(row)
 
-    def stage(self) -> Triple:
+    def stage(self) -> Stage:
         """Return the stage that reads them."""
-        return "pen", pen_stage, self._parameters
+        return Stage("pen", pen_stage, self._parameters)
 
     def stages(self) -> Link:
         """Return the link: angles in, no torque out."""

@@ -2,23 +2,125 @@
 
 from __future__ import annotations
 
+import os
 import sys
+import threading
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
+from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
 from app.core.events import Event, EventQueue
+from app.core.parameters import Stage
 from app.device.errors import BoardVersionError, LinkError
 from app.device.links import host_end as host
 from app.device.links import wire
-from app.device.links.link import BoardInfo, DeviceLink, Link, LinkStatus, Triple
-from app.device.links.plug import Plug
+from app.device.links.link import BoardInfo, DeviceLink, Link, LinkStatus
 from app.device.links.port import Port
 from app.device.links.protocols import speech_of
-from app.device.links.supervisor import Supervisor
 from app.mechanisms.profile import DeviceProfile
+
+
+class Plug:
+    """The plug of a link.
+
+    Args:
+        end: array of the program's end of the wire; its field FD is kept here.
+    """
+
+    def __init__(self, end: FloatArray) -> None:
+        self._end = end
+        self._fd = -1
+        self._port: Port | None = None
+        end[wire.FD] = -1.0
+
+    def open(self) -> None:
+        """Reserve a number, with nothing behind it. Does nothing if it has one."""
+        if self._fd < 0:
+            self._fd = os.open(os.devnull, os.O_RDWR | os.O_NONBLOCK)
+            self._end[wire.FD] = self._fd
+
+    def put(self, port: Port) -> None:
+        """Put an open port behind the number; it belongs to the plug now."""
+        os.dup2(port.fd, self._fd, inheritable=False)
+        self._port = port
+
+    def take_away(self) -> None:
+        """Close the port and leave nothing behind the number. Does nothing without a port."""
+        port, self._port = self._port, None
+        if port is not None:
+            nothing = os.open(os.devnull, os.O_RDWR | os.O_NONBLOCK)
+            os.dup2(nothing, self._fd, inheritable=False)
+            os.close(nothing)
+            port.close()
+
+    def close(self) -> None:
+        """Give the number back; no loop may use the stages any more. Idempotent."""
+        self.take_away()
+        if self._fd >= 0:
+            fd, self._fd = self._fd, -1
+            self._end[wire.FD] = -1.0
+            os.close(fd)
+
+
+CHECK_EVERY = 0.02
+"""Time between two looks [s]."""
+
+SILENCE = 0.25
+"""Without a reply for this long while commands go out, the connection is made anew [s]."""
+
+
+class Supervisor:
+    """Watches one end of a wire.
+
+    Args:
+        end: array of the program's end.
+        lost: called in the thread when the board is lost; returns once it is found, or when `wait`
+            says that the thread shall end.
+    """
+
+    def __init__(self, end: FloatArray, lost: Callable[[], None]) -> None:
+        self._end = end
+        self._lost = lost
+        self._stop = threading.Event()
+        self._thread: threading.Thread | None = None
+
+    @property
+    def running(self) -> bool:
+        """Whether the thread has been started and not stopped."""
+        return self._thread is not None
+
+    def start(self) -> None:
+        """Start watching."""
+        self._stop.clear()
+        self._thread = threading.Thread(target=self._run, name="acus link", daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Stop watching and wait for the thread. Idempotent."""
+        thread, self._thread = self._thread, None
+        self._stop.set()
+        if thread is not None and thread is not threading.current_thread():
+            thread.join()
+
+    def wait(self, seconds: float) -> bool:
+        """Wait; return True at once if the thread shall end."""
+        return self._stop.wait(seconds)
+
+    def _run(self) -> None:
+        silence, replies, ticks = 0.0, -1.0, -1.0
+        while not self._stop.wait(CHECK_EVERY):
+            end = self._end
+            if end[host.REPLIES] != replies or end[host.TICKS] == ticks:
+                silence = 0.0  # it answers, or nobody asks
+            else:
+                silence += CHECK_EVERY
+            replies, ticks = end[host.REPLIES], end[host.TICKS]
+            if end[wire.DEAD] != 0.0 or end[host.ESTRANGED] != 0.0 or silence > SILENCE:
+                self._lost()
+                silence = 0.0
 
 
 class SerialLink(DeviceLink):
@@ -88,8 +190,8 @@ class SerialLink(DeviceLink):
         read, write = self._speech.stages
         name = self._speech.name
         return Link.of(
-            [("receive", fd_receive, self._end), (f"{name} read", read, self._end)],
-            [(f"{name} write", write, self._end), ("send", fd_send, self._end)],
+            [Stage("receive", fd_receive, self._end), Stage(f"{name} read", read, self._end)],
+            [Stage(f"{name} write", write, self._end), Stage("send", fd_send, self._end)],
         )
 
     def info(self) -> BoardInfo:
@@ -114,7 +216,7 @@ class SerialLink(DeviceLink):
         """
         self._end[host.HOME_WANTED] += 1.0
 
-    def test_stages(self, wait: float) -> tuple[Triple, ...]:
+    def test_stages(self, wait: float) -> tuple[Stage, ...]:
         """Stages that send a command and wait up to `wait` [s] for its answer in the same tick.
 
         They measure the true round trip. A controller does not wait: it reads an answer in the next
@@ -125,7 +227,7 @@ class SerialLink(DeviceLink):
 
         self._end[wire.WAIT] = wait
         link = self.stages()
-        return *link.read, *link.write, ("await", fd_await, self._end), link.read[1]
+        return *link.read, *link.write, Stage("await", fd_await, self._end), link.read[1]
 
     def _connect(self, serial: str | None) -> None:
         """Open the port, greet, and put it into the stages; `serial` is the board expected."""

@@ -3,19 +3,19 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 from math import pi
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
-from app.core.parameters import numbered, packed
-from app.device.links.link import BoardInfo, DeviceLink, Link, Triple
+from app.core.parameters import Stage, numbered, packed
+from app.device.links.link import BoardInfo, DeviceLink, Link
 from app.mechanisms.profile import DeviceProfile
 
 
-class _Places(NamedTuple):
+class _SimulatedPlaces(NamedTuple):
     """One count of the encoders, and the joint angles at zero counts [rad]."""
 
     one_count: int
@@ -23,7 +23,7 @@ class _Places(NamedTuple):
     home_right: int
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_SimulatedPlaces)
 
 
 @stage
@@ -50,15 +50,15 @@ class SimulatedEncoders:
     counts_per_turn: int
     home_offsets: tuple[float, float]
 
-    def stage(self) -> tuple[str, Any, FloatArray]:
+    def stage(self) -> Stage:
         """Return the stage for a loop's table."""
         left, right = self.home_offsets
         count = 2.0 * pi / self.counts_per_turn
         parameters = packed(_AT, one_count=count, home_left=left, home_right=right)
-        return "encoders", encoder_stage, parameters
+        return Stage("encoders", encoder_stage, parameters)
 
 
-def simulated_link(profile: DeviceProfile, plant: Iterable[Triple]) -> Link:
+def simulated_link(profile: DeviceProfile, plant: Iterable[Stage]) -> Link:
     """Link to a simulated plant.
 
     Args:
@@ -81,7 +81,7 @@ class SimulatedLink(DeviceLink):
     def __init__(
         self,
         profile: DeviceProfile,
-        plant: Iterable[Triple],
+        plant: Iterable[Stage],
         info: BoardInfo | None = None,
     ) -> None:
         self._link = simulated_link(profile, plant)

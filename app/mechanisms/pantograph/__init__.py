@@ -26,11 +26,16 @@ from app.mechanisms.pantograph.posture import (
 )
 from app.mechanisms.pantograph.statics import (
     ForceLaw,
+    SystemRates,
     felt_force,
     force_map,
+    hub_by_tool,
     joint_torques,
+    joints_by_hub,
     lever_map,
     printed_force,
+    system_rates,
+    tool_by_hub,
     tool_force,
 )
 from app.mechanisms.pantograph.status import Status
@@ -40,13 +45,6 @@ from app.mechanisms.pantograph.system import (
     needle_at,
     system_forward,
     system_inverse,
-)
-from app.mechanisms.pantograph.system_rates import (
-    SystemRates,
-    hub_by_tool,
-    joints_by_hub,
-    system_rates,
-    tool_by_hub,
 )
 
 __all__ = [

@@ -28,9 +28,85 @@ from app.mechanisms import dynamic_model as dm
 from app.mechanisms.dynamic_model import DynamicModel
 from app.mechanisms.geometry import Geometry
 from app.mechanisms.inertia import LumpedInertia
-from app.mechanisms.pantograph import kernels, links, needle_dynamics
+from app.mechanisms.pantograph import kernels, links
 from app.mechanisms.pantograph.kinematics import forward, pair
 from app.mechanisms.pantograph.status import check
+
+
+@njit
+def needle_mass_kernel(
+    dx: float, dy: float, l_in: float, s: float, mass: float, inertia: float
+) -> tuple[float, float, float]:
+    """Inertia at P3 [kg] of the needle that P3 turns: (xx, xy, yy)."""
+    scale = (inertia + mass * s * s) / (l_in * l_in)
+    return scale * (1.0 - dx * dx), -scale * dx * dy, scale * (1.0 - dy * dy)
+
+
+@njit
+def needle_velocity_kernel(
+    vx: float,
+    vy: float,
+    ax: float,
+    ay: float,
+    dx: float,
+    dy: float,
+    l_in: float,
+    s: float,
+    rate: float,
+    mass: float,
+    inertia: float,
+) -> tuple[float, float]:
+    """Force at P3 [N] for velocity v and acceleration a of P3 at depth rate `rate` [m/s]: (x, y).
+
+    From L d = P3 - P_I, twice differentiated: L d̈ = (I - d dᵀ) a - 2 L̇ ḋ across the needle.
+    """
+    along = dx * vx + dy * vy  # = L̇
+    tx, ty = (vx - along * dx) / l_in, (vy - along * dy) / l_in  # ḋ on x and y
+    fall = dx * ax + dy * ay
+    scale = (inertia + mass * s * s) / (l_in * l_in)
+    slide = 2.0 * mass * s * rate / l_in
+    return (
+        scale * (ax - fall * dx - 2.0 * along * tx) + slide * tx,
+        scale * (ay - fall * dy - 2.0 * along * ty) + slide * ty,
+    )
+
+
+@njit
+def needle_gravity_kernel(
+    gx: float,
+    gy: float,
+    gz: float,
+    dx: float,
+    dy: float,
+    dz: float,
+    l_in: float,
+    s: float,
+    mass: float,
+) -> tuple[float, float]:
+    """dV/dP3 of the needle in gravity [N]: (x, y)."""
+    fall = dx * gx + dy * gy + dz * gz
+    scale = -mass * s / l_in
+    return scale * (gx - fall * dx), scale * (gy - fall * dy)
+
+
+@njit
+def needle_axial_kernel(
+    vx: float,
+    vy: float,
+    gx: float,
+    gy: float,
+    gz: float,
+    dx: float,
+    dy: float,
+    dz: float,
+    l_in: float,
+    s: float,
+    mass: float,
+) -> float:
+    """Force that draws the needle inwards [N]: m s |ḋ|² of its turning and m g·d of gravity."""
+    along = dx * vx + dy * vy
+    turning = (vx * vx + vy * vy - along * along) / (l_in * l_in)
+    return mass * (s * turning + dx * gx + dy * gy + dz * gz)
 
 
 @njit
@@ -123,19 +199,17 @@ def dynamics_kernel(
     )
 
     m11, m12, m22 = links.link_mass_kernel(turns, u, rates, p[first + dm.DRIVEN], passive, coupling)
-    xx, xy, yy = needle_dynamics.needle_mass_kernel(dx, dy, l_in, s, mass, inertia)
+    xx, xy, yy = needle_mass_kernel(dx, dy, l_in, s, mass, inertia)
     n11, n12, n22 = links.at_joints_kernel(tool + xx, xy, tool + yy, jxl, jxr, jyl, jyr)
 
     h1, h2 = links.link_velocity_kernel(turns, u, rates, speeds, alpha, alpha_r, passive, coupling)
     vx, vy = jxl * v1 + jxr * v2, jyl * v1 + jyr * v2
-    fx, fy = needle_dynamics.needle_velocity_kernel(
-        vx, vy, ax, ay, dx, dy, l_in, s, depth_rate, mass, inertia
-    )
+    fx, fy = needle_velocity_kernel(vx, vy, ax, ay, dx, dy, l_in, s, depth_rate, mass, inertia)
     i1, i2 = kernels.torque_kernel(tool * ax + fx, tool * ay + fy, jxl, jxr, jyl, jyr)
 
     moment, moment_2 = p[first + dm.DRIVEN_MOMENT], p[first + dm.PASSIVE_MOMENT]
     g1, g2 = links.link_gravity_kernel(turns, u, rates, moment, moment_2, gx, gy)
-    wx, wy = needle_dynamics.needle_gravity_kernel(gx, gy, gz, dx, dy, dz, l_in, s, mass)
+    wx, wy = needle_gravity_kernel(gx, gy, gz, dx, dy, dz, l_in, s, mass)
     k1, k2 = kernels.torque_kernel(wx - tool * gx, wy - tool * gy, jxl, jxr, jyl, jyr)
     return m11 + n11, m12 + n12, m22 + n22, h1 + i1, h2 + i2, g1 + k1, g2 + k2
 
@@ -150,9 +224,7 @@ def axial_load_kernel(
     )
     gx, gy, gz = p[first + dm.GX], p[first + dm.GY], p[first + dm.GZ]
     s = depth + p[first + dm.NEEDLE_OFFSET]
-    return needle_dynamics.needle_axial_kernel(
-        vx, vy, gx, gy, gz, dx, dy, dz, l_in, s, p[first + dm.NEEDLE_MASS]
-    )
+    return needle_axial_kernel(vx, vy, gx, gy, gz, dx, dy, dz, l_in, s, p[first + dm.NEEDLE_MASS])
 
 
 @njit

@@ -16,16 +16,16 @@ from app.mechanisms.profile.control import (
     VelocityMethod,
     WireSection,
 )
-from app.mechanisms.profile.device import DeviceProfile
-from app.mechanisms.profile.files import load_profile, profile_names
+from app.mechanisms.profile.device import DeviceProfile, load_profile, profile_names
 from app.mechanisms.profile.mechanics import (
     FrictionSection,
     GeometrySection,
     InertiaSection,
     MountingSection,
+    Provenance,
+    Section,
     WorkspaceSection,
 )
-from app.mechanisms.profile.values import Provenance, Section
 
 __all__ = [
     "DEFAULT_VELOCITY",

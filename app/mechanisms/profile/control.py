@@ -6,7 +6,7 @@ from typing import Annotated, Final
 from pydantic import Field
 
 from app.core.configuration import Strict
-from app.mechanisms.profile.values import Angle, Provenance, Section, Torque
+from app.mechanisms.profile.mechanics import Angle, Provenance, Section, Torque
 
 
 class Axis(StrEnum):

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
-from app.device.readiness import Clearance
+from app.device.readiness import ForceClearance
 from app.tracking.picture_quality import PictureQuality
 
 
@@ -25,7 +25,7 @@ class RobotFacts:
     ticking: bool
     homed: bool
     signs: bool
-    clearance: Clearance | None
+    clearance: ForceClearance | None
     fault: str
     encoder_age: float
 

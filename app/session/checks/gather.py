@@ -7,7 +7,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.device.faults import Fault
 from app.device.links.link import BoardInfo
-from app.device.readiness import Clearance, Readiness
+from app.device.readiness import ForceClearance, Readiness
 from app.session.checks.facts import CameraFacts, MorningFacts, RobotFacts, TouchFacts
 from app.session.snapshot import Snapshot
 from app.session.touch import Touch
@@ -59,7 +59,7 @@ def morning_facts(
 def robot_facts(
     snapshot: Snapshot,
     board: BoardInfo | None,
-    clearance: Clearance | None,
+    clearance: ForceClearance | None,
     readiness: Readiness | None,
 ) -> RobotFacts:
     """Gather what the robot says; without a board it is simulated."""

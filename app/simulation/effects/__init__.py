@@ -117,6 +117,11 @@ def implementation(name: str) -> ModuleType:
     return KIND.load(declaration(name), before=_needed)
 
 
+def refused() -> dict[Path, str]:
+    """Files of effects that cannot be used, and why; they are left where they are."""
+    return KIND.refused(_needed)
+
+
 def _needed(effect: Effect) -> int:
     """Parameters that an effect's stage uses at least; 0 for the program's own."""
     if KIND.is_own(effect.path):

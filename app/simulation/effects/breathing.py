@@ -11,13 +11,14 @@ Driven by time, so declared active: it is not counted in energy balances.
 """
 
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.simulation.scene import Binding
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -39,7 +40,23 @@ DECLARATION: Final[dict[str, Any]] = {
     },
 }
 
-PERIOD, SHAPE, LAG, START, FIRST, SECOND = 0, 1, 2, 3, 4, 7
+
+class _BreathingPlaces(NamedTuple):
+    """Constants, when the first breath began [s], and the two displacements [m]."""
+
+    period: int
+    shape: int
+    lag: int
+    start: int
+    in_phase_x: int
+    in_phase_y: int
+    in_phase_z: int
+    lagging_x: int
+    lagging_y: int
+    lagging_z: int
+
+
+_AT: Final = numbered(_BreathingPlaces)
 
 
 def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
@@ -47,8 +64,19 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     left, posterior, superior = binding.scene.R_world_patient.T
     in_phase = values["left_right"] * left - values["superior_inferior"] * superior
     lagging = -values["anterior_posterior"] * posterior
-    head = [values["period"], values["shape"], values["anterior_lag"], np.nan]
-    return np.concatenate([head, in_phase, lagging])
+    return packed(
+        _AT,
+        period=values["period"],
+        shape=values["shape"],
+        lag=values["anterior_lag"],
+        start=np.nan,
+        in_phase_x=in_phase[0],
+        in_phase_y=in_phase[1],
+        in_phase_z=in_phase[2],
+        lagging_x=lagging[0],
+        lagging_y=lagging[1],
+        lagging_z=lagging[2],
+    )
 
 
 @njit
@@ -69,13 +97,14 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     time = state[sv.TIME]
     if not np.isfinite(time):
         return
-    if np.isnan(parameters[START]):
-        parameters[START] = time
-    breaths = (time - parameters[START]) / parameters[PERIOD]
+    if np.isnan(parameters[_AT.start]):
+        parameters[_AT.start] = time
+    breaths = (time - parameters[_AT.start]) / parameters[_AT.period]
     phase = np.pi * (breaths - np.floor(breaths))  # one breath: hours lose no digits
-    in_phase = lujan(phase, parameters[SHAPE])
-    lagging = lujan(phase - parameters[LAG], parameters[SHAPE])
+    in_phase = lujan(phase, parameters[_AT.shape])
+    lagging = lujan(phase - parameters[_AT.lag], parameters[_AT.shape])
     for axis in range(3):
         state[sv.TARGET_SHIFT_X + axis] += (
-            in_phase * parameters[FIRST + axis] + lagging * parameters[SECOND + axis]
+            in_phase * parameters[_AT.in_phase_x + axis]
+            + lagging * parameters[_AT.lagging_x + axis]
         )

@@ -37,11 +37,8 @@ from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import stage
 from app.simulation.buried_needle import (
+    AT,
     BIN,
-    BINS,
-    DEPTH,
-    FLEXIBILITY,
-    LEVER,
     advance,
     at_tip,
     empty,
@@ -53,7 +50,7 @@ from app.simulation.errors import SimulationError
 from app.simulation.needles import bending_stiffness
 from app.simulation.scene import Binding
 
-__all__ = ["BIN", "DEPTH", "energy_bound", "parameters", "rotational_stiffness", "step"]
+__all__ = ["AT", "BIN", "energy_bound", "parameters", "rotational_stiffness", "step"]
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "Side stiffness of layered tissue about the fulcrum",
@@ -117,12 +114,12 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     if state[sv.KINEMATICS] != 0.0 or not np.isfinite(depth + lever + x + y + z):
         return
     if state[sv.DEPTH_SOURCE] == 0.0:
-        depth = parameters[DEPTH]
-    depth = min(max(depth, 0.0), parameters[BINS] * BIN - 0.5 * BIN)
+        depth = parameters[AT.depth]
+    depth = min(max(depth, 0.0), parameters[AT.bins] * BIN - 0.5 * BIN)
     change = 0.0
-    if depth != parameters[DEPTH]:
+    if depth != parameters[AT.depth]:
         change = -stored(parameters, x, y, z)
-        if depth > parameters[DEPTH]:
+        if depth > parameters[AT.depth]:
             advance(parameters, depth, x, y, z)
         else:
             retreat(parameters, depth)
@@ -134,11 +131,11 @@ def step(state: FloatArray, parameters: FloatArray) -> None:
     pz, tz, mz, _ = at_tip(parameters, 2, z)
     along = x * mx + y * my + z * mz
     mx, my, mz = mx - along * x, my - along * y, mz - along * z
-    scale = -1.0 / max(lever, parameters[LEVER])
+    scale = -1.0 / max(lever, parameters[AT.lever])
     state[sv.FORCE_X] += scale * mx
     state[sv.FORCE_Y] += scale * my
     state[sv.FORCE_Z] += scale * mz
-    flexibility = parameters[FLEXIBILITY]
+    flexibility = parameters[AT.flexibility]
     if flexibility == 0.0 or depth <= 0.0:
         return
     along = x * px + y * py + z * pz
@@ -166,4 +163,4 @@ def energy_bound(parameters: FloatArray) -> float:
     With the channel's mean direction m / a, no longer than 1, U is ½ a |n - m / a|² and what the
     channel's own windings hold, which no turning gives back.
     """
-    return 2.0 * float(rotational_stiffness(parameters, parameters[BINS] * BIN - 0.5 * BIN))
+    return 2.0 * float(rotational_stiffness(parameters, parameters[AT.bins] * BIN - 0.5 * BIN))

@@ -18,13 +18,14 @@ Energy: dissipative but for the presliding spring, which gives back at most g²/
 """
 
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.simulation.scene import Binding
 
 DECLARATION: Final[dict[str, Any]] = {
@@ -61,8 +62,31 @@ DECLARATION: Final[dict[str, Any]] = {
     },
 }
 
-SLOT, PRESLIDING, STRIBECK, SMOOTHING, LAYERS, DEPTH, SPEED, FORCE, HEAD = range(9)
-_PER_LAYER: Final = 4  # end, kinetic, break-away, viscous
+
+class _FrictionPlaces(NamedTuple):
+    """Constants, how many layers follow, and what is known from the tick before."""
+
+    slot: int
+    presliding: int
+    stribeck: int
+    smoothing: int
+    layers: int
+    depth: int = 0
+    speed: int = 0
+    force: int = 0
+
+
+class _LayerPlaces(NamedTuple):
+    """A layer: depth of its end [m], kinetic and break-away level, viscous friction."""
+
+    end: int
+    kinetic: int
+    static: int
+    viscous: int
+
+
+_AT: Final = numbered(_FrictionPlaces)
+_LAYER: Final = numbered(_LayerPlaces)
 _FASTEST: Final = 10.0  # [m/s]; faster is a jump of the measurement
 _SNAP: Final = 1e-12  # below this a decaying value becomes 0: subnormal numbers cost 20 times more
 
@@ -80,13 +104,16 @@ def parameters(values: Mapping[str, float], binding: Binding) -> FloatArray:
     for end, layer in zip(ends, binding.scene.layers, strict=True):
         static = max(layer.static_friction, layer.friction)
         layers.append((end, layer.friction, static, layer.viscous_friction))
-    head = [
-        binding.depth_slot,
-        values["presliding_stiffness"],
-        values["stribeck_speed"],
-        smoothing,
-    ]
-    return np.concatenate([head, [len(ends), np.nan, 0.0, 0.0], np.ravel(layers)])
+    return packed(
+        _AT,
+        np.ravel(layers),
+        slot=binding.depth_slot,
+        presliding=values["presliding_stiffness"],
+        stribeck=values["stribeck_speed"],
+        smoothing=smoothing,
+        layers=len(ends),
+        depth=np.nan,
+    )
 
 
 @njit
@@ -95,14 +122,15 @@ def _level(p: FloatArray, depth: float, speed: float) -> tuple[float, float, flo
     inserted = 0.0
     level = 0.0
     viscous = 0.0
-    ratio = speed / p[STRIBECK]
+    ratio = speed / p[_AT.stribeck]
     stribeck = np.exp(-ratio * ratio)
-    for i in range(int(p[LAYERS])):
-        at = HEAD + _PER_LAYER * i
-        length = min(p[at], depth) - inserted
+    for i in range(int(p[_AT.layers])):
+        at = len(_AT) + len(_LAYER) * i
+        length = min(p[at + _LAYER.end], depth) - inserted
         if length > 0.0:
-            level += length * (p[at + 1] + (p[at + 2] - p[at + 1]) * stribeck)
-            viscous += length * p[at + 3]
+            kinetic, static = p[at + _LAYER.kinetic], p[at + _LAYER.static]
+            level += length * (kinetic + (static - kinetic) * stribeck)
+            viscous += length * p[at + _LAYER.viscous]
             inserted += length
     return inserted, level, viscous
 
@@ -122,21 +150,21 @@ def dahl(force: float, travel: float, level: float, stiffness: float) -> float:
 @stage
 def step(state: FloatArray, parameters: FloatArray) -> None:
     """Add the friction to AXIAL_FORCE; it opposes the motion (positive pushes the tip out)."""
-    depth = state[int(parameters[SLOT])]
+    depth = state[int(parameters[_AT.slot])]
     dt = state[sv.DT]
     if not np.isfinite(depth):
         return
-    if np.isnan(parameters[DEPTH]):  # the first tick has no travel yet
-        parameters[DEPTH] = depth
-    travel = depth - parameters[DEPTH]
-    parameters[DEPTH] = depth
+    if np.isnan(parameters[_AT.depth]):  # the first tick has no travel yet
+        parameters[_AT.depth] = depth
+    travel = depth - parameters[_AT.depth]
+    parameters[_AT.depth] = depth
     if dt > 0.0:
-        smoothing = parameters[SMOOTHING]
+        smoothing = parameters[_AT.smoothing]
         keep = np.exp(-dt / smoothing) if smoothing > 0.0 else 0.0
         now = min(max(travel / dt, -_FASTEST), _FASTEST)
-        speed = keep * parameters[SPEED] + (1.0 - keep) * now
-        parameters[SPEED] = speed if abs(speed) > _SNAP else 0.0
-    inserted, level, viscous = _level(parameters, depth, parameters[SPEED])
-    force = dahl(parameters[FORCE], travel, level, parameters[PRESLIDING] * inserted)
-    parameters[FORCE] = force if abs(force) > _SNAP else 0.0
-    state[sv.AXIAL_FORCE] += parameters[FORCE] + viscous * parameters[SPEED]
+        speed = keep * parameters[_AT.speed] + (1.0 - keep) * now
+        parameters[_AT.speed] = speed if abs(speed) > _SNAP else 0.0
+    inserted, level, viscous = _level(parameters, depth, parameters[_AT.speed])
+    force = dahl(parameters[_AT.force], travel, level, parameters[_AT.presliding] * inserted)
+    parameters[_AT.force] = force if abs(force) > _SNAP else 0.0
+    state[sv.AXIAL_FORCE] += parameters[_AT.force] + viscous * parameters[_AT.speed]

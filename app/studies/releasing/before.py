@@ -6,14 +6,14 @@ and tool only, and the depth as the loop took it (decision 0008). Kept as the pe
 """
 
 from math import isfinite, pi, sqrt
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.core.parameters import numbered, packed
+from app.core.parameters import Stage, numbered, packed
 from app.device.control.speed_bounds import speed_bounds, stoppable
 from app.device.control.vectors import norm_kernel, snapped
 from app.mechanisms.pantograph.dynamics import mass_matrix_kernel
@@ -29,7 +29,7 @@ _PEAK_LASTS = 0.1  # [s] over which the largest push of late is forgotten
 _WINDOW = 24
 
 
-class _Places(NamedTuple):
+class _BeforePlaces(NamedTuple):
     """Lengths and inertias of the links, limits, memory."""
 
     a1: int
@@ -55,7 +55,7 @@ class _Places(NamedTuple):
     peak: int = 0
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_BeforePlaces)
 _RING = len(_AT)  # rows of (q_left, q_right, time, largest acceleration sent after it)
 
 
@@ -206,7 +206,7 @@ def fixed_speed_stage(state: FloatArray, p: FloatArray) -> None:
     state[sv.TORQUE_LEFT], state[sv.TORQUE_RIGHT] = scale * left, scale * right
 
 
-def fixed_speed(profile: DeviceProfile) -> tuple[str, Any, FloatArray]:
+def fixed_speed(profile: DeviceProfile) -> Stage:
     """Return the stage for a loop's table, under the name of the one it stands for."""
     a1, a2, base = profile.pantograph.links
     part = profile.lumped_inertia
@@ -227,4 +227,4 @@ def fixed_speed(profile: DeviceProfile) -> tuple[str, Any, FloatArray]:
         patience=0.004,
         cause=0.3,
     )
-    return "governor", fixed_speed_stage, parameters
+    return Stage("governor", fixed_speed_stage, parameters)

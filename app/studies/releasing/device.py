@@ -7,15 +7,15 @@ on. What the run has beyond it is what the program's forces gave.
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import STAGE_TYPE, njit, stage
+from app.core.parameters import Stage, numbered
 from app.device.control import kernel, pantograph_stages
-from app.device.control.table import Stage
 from app.device.links.simulated import simulated_link
 from app.mechanisms import dynamic_model as dm
 from app.mechanisms.pantograph.dynamics import dynamics_kernel
@@ -50,12 +50,23 @@ class Rule(StrEnum):
     PROFILE = "limit of the profile"
 
 
+class _WantPlaces(NamedTuple):
+    """Force at the hub that is wanted [N]."""
+
+    x: int
+    y: int
+    z: int
+
+
+_WANT: Final = numbered(_WantPlaces)
+
+
 @stage
 def want_stage(state: FloatArray, p: FloatArray) -> None:
     """Want a force at the hub: its part across the needle is what can be had."""
-    state[sv.FORCE_X] += p[0]
-    state[sv.FORCE_Y] += p[1]
-    state[sv.FORCE_Z] += p[2]
+    state[sv.FORCE_X] += p[_WANT.x]
+    state[sv.FORCE_Y] += p[_WANT.y]
+    state[sv.FORCE_Z] += p[_WANT.z]
 
 
 @njit
@@ -245,7 +256,7 @@ def release(
 
 def _stages(profile: DeviceProfile, rule: Rule, want: FloatArray) -> Iterable[Stage]:
     """Stages of a tick up to safety, with the rule in the governor's place."""
-    law = ("want", want_stage, want)
+    law = Stage("want", want_stage, want)
     for item in pantograph_stages(profile, [law], [], simulated_link(profile, [])):
         if item.name != "governor" or rule is Rule.PROFILE:
             yield item

@@ -222,7 +222,7 @@ def remaining(offset: Offset, across: float, along: float) -> str:
 DECLARATION: Final[dict[str, Any]] = {
     "view": "bullseye",
     "title": "Bull's-eye",
-    "reads": ("tip_offset_x", "tip_offset_y", "tip_offset_z"),
+    "reads": ("tip_offset",),
 }
 
 INTENT_MS: Final = 10

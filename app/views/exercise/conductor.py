@@ -47,7 +47,7 @@ from app.views.slices.viewing import Tool, Viewing
 DECLARATION: Final[dict[str, Any]] = {
     "view": "live_overlay",
     "title": "Needle on the slices",
-    "reads": ("tip_offset_x", "tip_offset_y", "tip_offset_z"),
+    "reads": ("tip_offset",),
 }
 
 SCENE_DEAD_BAND_MM = 0.25

@@ -17,7 +17,7 @@ from app.session.shown_views import Shown
 
 if TYPE_CHECKING:
     from app.device.links.link import BoardInfo
-    from app.device.readiness import Clearance, Readiness
+    from app.device.readiness import ForceClearance, Readiness
     from app.session.trainer import Trainer
     from app.tracking.inspection import Inspection
 
@@ -63,7 +63,7 @@ class ExerciseRun:
     learn_colour: Callable[[str, FloatArray], None] | None = None
     board: BoardInfo | None = None
     port: str = ""
-    clearance: Clearance | None = None
+    clearance: ForceClearance | None = None
     readiness: Readiness | None = None
     velocity: str = ""
     forceful: bool = True

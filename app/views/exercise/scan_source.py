@@ -99,14 +99,7 @@ class _Lines(Shape):
 DECLARATION: Final[dict[str, Any]] = {
     "view": "control_scan",
     "title": "Control scans",
-    "reads": (
-        "target_shift_x",
-        "target_shift_y",
-        "target_shift_z",
-        "tip_offset_x",
-        "tip_offset_y",
-        "tip_offset_z",
-    ),
+    "reads": ("target_shift", "tip_offset"),
 }
 """The slices show the patient where breathing has him, the target too."""
 

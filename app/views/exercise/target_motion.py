@@ -19,7 +19,7 @@ from app.views.reading.workspace import WorkspacePage
 DECLARATION: Final[dict[str, Any]] = {
     "view": "target_motion",
     "title": "Motion of the target",
-    "reads": ("target_shift_x", "target_shift_y", "target_shift_z"),
+    "reads": ("target_shift",),
 }
 
 SCENE_DEAD_BAND_MM: Final = 0.25

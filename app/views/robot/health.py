@@ -8,8 +8,7 @@ from math import degrees, isfinite
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
-from app.device.links.board_error import describe_error
-from app.device.links.link import LinkStatus
+from app.device.links.link import LinkStatus, describe_error
 from app.device.readiness import SCALE_TOLERANCE
 from app.device.wire_watch import WINDOW, WireFigures
 from app.mechanisms.profile import DeviceProfile

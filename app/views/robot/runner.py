@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING, Final
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from app.core.errors import AcusError
-from app.device.commissioning.settle import settle
+from app.device.commissioning.records import settle
 
 if TYPE_CHECKING:
     from app.device.commissioning.bench import Bench
-    from app.device.commissioning.report import Report
-    from app.device.commissioning.results import Step
+    from app.device.commissioning.results import RoutineName, RoutineReport
     from app.device.commissioning.routine import Routine
 
 PERIOD_MS: Final = 10
@@ -35,8 +34,8 @@ class Runner(QObject):
         super().__init__(parent)
         self._bench = bench
         self._routine: Routine | None = None
-        self._step: Step | None = None
-        self._said: Report | None = None
+        self._step: RoutineName | None = None
+        self._said: RoutineReport | None = None
         self._timer = QTimer(self, interval=PERIOD_MS)
         self._timer.timeout.connect(self.look)
 
@@ -45,7 +44,7 @@ class Runner(QObject):
         """Whether a routine runs."""
         return self._routine is not None
 
-    def start(self, step: Step) -> None:
+    def start(self, step: RoutineName) -> None:
         """Begin a routine; one that must not begin yet says why through `failed`."""
         self.cancel()
         try:
@@ -93,7 +92,7 @@ class Runner(QObject):
         if report.done:
             self._end(report)
 
-    def _end(self, report: Report) -> None:
+    def _end(self, report: RoutineReport) -> None:
         self._timer.stop()
         self._routine = None
         if self._step is None:

@@ -32,7 +32,7 @@ from app.views.robot.wizard_pages import (
 
 if TYPE_CHECKING:
     from app.device.commissioning.bench import Bench
-    from app.device.commissioning.results import Step
+    from app.device.commissioning.results import RoutineName
 
 
 class Wizard(QDialog):
@@ -83,7 +83,7 @@ class Wizard(QDialog):
         super().done(code)
 
     # --- routines -----------------------------------------------------------------------------
-    def _start(self, step: Step) -> None:
+    def _start(self, step: RoutineName) -> None:
         page = self._routine_page()
         page.set_running()
         self.runner.start(step)
@@ -94,7 +94,7 @@ class Wizard(QDialog):
         self._routine_page().set_idle(tr("cancelled, the forces are off"))
         self._refresh()
 
-    def _undo(self, step: Step) -> None:
+    def _undo(self, step: RoutineName) -> None:
         page = self._routine_page()
         try:
             self._bench.undo(step)
@@ -104,7 +104,7 @@ class Wizard(QDialog):
             page.set_idle()
         self._refresh()
 
-    def _kept(self, step: Step) -> None:
+    def _kept(self, step: RoutineName) -> None:
         self._routine_page().set_idle()
         self._refresh()
         self.next.setFocus()

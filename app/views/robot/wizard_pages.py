@@ -18,24 +18,28 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.device.commissioning.results import Step
+from app.device.commissioning.results import RoutineName
 from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.text import tr
 
 if TYPE_CHECKING:
     from app.device.commissioning.bench import Bench
-    from app.device.commissioning.report import Report
-    from app.device.commissioning.results import Step
+    from app.device.commissioning.results import RoutineName, RoutineReport
 
 
 ORDER: Final = (
-    Step.HOMING, Step.SIGNS, Step.FORCE, Step.LATENCY, Step.FRICTION, Step.GAUGE,
-)  # fmt: skip
-NEEDED: Final = (Step.HOMING, Step.SIGNS)
+    RoutineName.HOMING,
+    RoutineName.SIGNS,
+    RoutineName.FORCE,
+    RoutineName.LATENCY,
+    RoutineName.FRICTION,
+    RoutineName.GAUGE,
+)
+NEEDED: Final = (RoutineName.HOMING, RoutineName.SIGNS)
 """Without these the robot gives no force in this power cycle; the others may wait."""
 
-_SAME: Final = {Step.HOMING: (Step.HOMING, Step.OFFSETS)}
+_SAME: Final = {RoutineName.HOMING: (RoutineName.HOMING, RoutineName.OFFSETS)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,46 +51,46 @@ class StepWords:
     ready: str
 
 
-def step_words(step: Step) -> StepWords:
+def step_words(step: RoutineName) -> StepWords:
     """Words of a step."""
     return {
-        Step.HOMING: StepWords(
+        RoutineName.HOMING: StepWords(
             tr("Homing"),
             tr("The encoders only count. Bringing both links to a known pose tells the program "
                "where they stand. Needed each time the robot was switched on."),
             tr("The robot gives no force in this step."),
         ),
-        Step.OFFSETS: StepWords(
+        RoutineName.OFFSETS: StepWords(
             tr("Encoder offsets"),
             tr("Finds the encoders' zero with the needle in a jig instead of at the stops."),
             tr("The robot gives no force in this step."),
         ),
-        Step.SIGNS: StepWords(
+        RoutineName.SIGNS: StepWords(
             tr("Sign check"),
             tr("Finds out whether each encoder counts the right way and each motor pushes the "
                "right joint the right way. A robot with a wrong sign runs away instead of "
                "guiding. Needed each time the robot was switched on."),
             tr("Blunt needle. One hand at the switch of the motor supply. Small pulses."),
         ),
-        Step.FORCE: StepWords(
+        RoutineName.FORCE: StepWords(
             tr("Force scale"),
             tr("Finds out whether a commanded newton is a newton. Until it is measured on this "
                "device, forces stay below 1 N."),
             tr("A kitchen scale that shows grams. The robot pushes with 0.2, 0.5 and 0.9 N."),
         ),
-        Step.LATENCY: StepWords(
+        RoutineName.LATENCY: StepWords(
             tr("Latency"),
             tr("Measures the round trip of the wire and the time from a torque to the motion. "
                "Stiffness that is stable depends on it."),
             tr("Hands off the needle. Small pulses."),
         ),
-        Step.FRICTION: StepWords(
+        RoutineName.FRICTION: StepWords(
             tr("Friction"),
             tr("Measures the torque at which each joint begins to move, and its friction in "
                "motion, so that it can be compensated."),
             tr("Hands off the needle. Slow movements."),
         ),
-        Step.GAUGE: StepWords(
+        RoutineName.GAUGE: StepWords(
             tr("Force gauge"),
             tr("Calibrates the board's own gauge by weights, so that the force is measured "
                "instead of estimated."),
@@ -95,12 +99,12 @@ def step_words(step: Step) -> StepWords:
     }[step]  # fmt: skip
 
 
-def steps_of(bench: Bench) -> tuple[Step, ...]:
+def steps_of(bench: Bench) -> tuple[RoutineName, ...]:
     """Return the steps that this robot needs: a gauge is calibrated only where there is one."""
-    return tuple(s for s in ORDER if s is not Step.GAUGE or bench.info.gauge)
+    return tuple(s for s in ORDER if s is not RoutineName.GAUGE or bench.info.gauge)
 
 
-def state_of(bench: Bench, step: Step) -> tuple[Verdict, str, str]:
+def state_of(bench: Bench, step: RoutineName) -> tuple[Verdict, str, str]:
     """Verdict, when and what was found, of a step on this robot."""
     entry = bench.record.newest(*_SAME.get(step, (step,)))
     if entry is None:
@@ -177,7 +181,7 @@ class SummaryPage(QWidget):
         grid = QGridLayout()
         grid.setColumnStretch(2, 1)
         grid.setVerticalSpacing(theme.SPACING)
-        self._rows: dict[Step, tuple[QLabel, QLabel]] = {}
+        self._rows: dict[RoutineName, tuple[QLabel, QLabel]] = {}
         for row, step in enumerate(steps_of(bench)):
             when, found = _label(), _label("dim")
             grid.addWidget(QLabel(step_words(step).title), 2 * row, 0)
@@ -213,7 +217,7 @@ class RoutinePage(QWidget):
     cancel_wanted = Signal()
     undo_wanted = Signal(object)
 
-    def __init__(self, bench: Bench, step: Step, parent: QWidget) -> None:
+    def __init__(self, bench: Bench, step: RoutineName, parent: QWidget) -> None:
         super().__init__(parent)
         self._bench, self.step = bench, step
         words = step_words(step)
@@ -239,7 +243,7 @@ class RoutinePage(QWidget):
         self._prepare()
         self.set_idle()
 
-    def show_report(self, report: Report) -> None:
+    def show_report(self, report: RoutineReport) -> None:
         """Show what the routine says, and ask what it asks."""
         self.bar.setValue(round(1000 * report.progress))
         self.message.setText(report.message)

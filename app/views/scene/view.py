@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 DECLARATION: Final[dict[str, Any]] = {
     "view": "three_d",
     "title": "3D view",
-    "reads": ("tip_offset_x", "tip_offset_y", "tip_offset_z"),
+    "reads": ("tip_offset",),
 }
 
 HOME_TURN_PX = (-50.0, 30.0)

@@ -42,9 +42,7 @@ def connect_messages(
     editor.changed.connect(lambda: bar.forget(REFUSAL))
     runs.failed.connect(lambda error: bar.show_until(ROBOT, error))
     runs.unusable.connect(
-        lambda why: bar.show_until(
-            "laws", tr("A force law of your own cannot be used: {why}", why=why)
-        )
+        lambda why: bar.show_until("laws", tr("A file of your own cannot be used: {why}", why=why))
     )
     for signal in (runs.ready, equipment.accepted):
         signal.connect(lambda *_: bar.forget(ROBOT))

@@ -12,14 +12,13 @@ import math
 from collections.abc import Mapping
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 import numpy as np
 
-from app.core.arrays import FloatArray
 from app.core.compiled import STAGE_SIGNATURE
+from app.core.parameters import Stage
 from app.device.control import law_check
-from app.device.control.law import KIND, Law, read_law
+from app.device.control.law import KIND, Law
 from app.device.errors import LawError
 from app.mechanisms.profile import DeviceProfile
 
@@ -42,7 +41,7 @@ def declaration(name: str) -> Law:
     return KIND.find(name)
 
 
-def stages_of(requests: Requests, profile: DeviceProfile) -> list[tuple[str, Any, FloatArray]]:
+def stages_of(requests: Requests, profile: DeviceProfile) -> list[Stage]:
     """Return (name, function, parameters) of the laws asked for, in their order.
 
     Raises:
@@ -74,9 +73,7 @@ def files() -> list[Path]:
     return KIND.files()
 
 
-def _stage(
-    name: str, given: Mapping[str, float], profile: DeviceProfile
-) -> tuple[str, Any, FloatArray]:
+def _stage(name: str, given: Mapping[str, float], profile: DeviceProfile) -> Stage:
     law = declaration(name)
     values, module = law.checked(given, profile), _implementation(law)
     try:
@@ -88,7 +85,7 @@ def _stage(
             f"{law.path}: step() uses {needed} parameters, and parameters() gives an array of the"
             f" shape {array.shape}"
         )
-    return name, module.step, array
+    return Stage(name, module.step, array)
 
 
 def _bound(name: str, given: Mapping[str, float], profile: DeviceProfile) -> float:
@@ -109,17 +106,13 @@ def refused() -> dict[Path, str]:
 
     Only read, not tried: what a trial found before is known, what it would find is not.
     """
-    found = {}
-    for path in files():
-        try:
-            law = read_law(path)
-            if not is_own(law):
-                law_check.check_text(law)
-                if reason := law_check.known(path).get("reason"):
-                    found[path] = str(reason)
-        except LawError as error:
-            found[path] = str(error)
-    return found
+    return KIND.refused(_check_as_known)
+
+
+def _check_as_known(law: Law) -> None:
+    law_check.check_text(law)
+    if reason := law_check.known(law.path).get("reason"):
+        raise LawError(str(reason))
 
 
 def _needed(law: Law) -> int:

@@ -42,7 +42,7 @@ DECLARATION: Final[dict[str, Any]] = {
 }
 
 
-class _Places(NamedTuple):
+class _CompensationPlaces(NamedTuple):
     """Shares and speeds, and memory; the model of the dynamics follows."""
 
     gravity: int
@@ -54,7 +54,7 @@ class _Places(NamedTuple):
     last_share: int = 0
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_CompensationPlaces)
 _MODEL: Final = len(_AT)
 
 

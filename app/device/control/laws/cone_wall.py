@@ -44,7 +44,7 @@ DECLARATION: Final[dict[str, Any]] = {
 }
 
 
-class _Places(NamedTuple):
+class _ConeWallPlaces(NamedTuple):
     """Strength and place of the wall, and L_out of the last tick."""
 
     stiffness: int
@@ -55,7 +55,7 @@ class _Places(NamedTuple):
     last_l_out: int = 0
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_ConeWallPlaces)
 
 
 def parameters(values: Mapping[str, float], profile: DeviceProfile) -> FloatArray:

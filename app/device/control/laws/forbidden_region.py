@@ -63,7 +63,7 @@ DECLARATION: Final[dict[str, Any]] = {
 }
 
 
-class _Places(NamedTuple):
+class _ForbiddenRegionPlaces(NamedTuple):
     """Capsule seen from the fulcrum (start s, axis b), strength, and memory."""
 
     sx: int
@@ -83,7 +83,7 @@ class _Places(NamedTuple):
     last_depth: int = 0
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_ForbiddenRegionPlaces)
 
 _STEEPEST: Final = 96.0 / (25.0 * sqrt(5.0))
 """Largest slope of (1 - x²)³, at x = 1/sqrt(5)."""

@@ -74,7 +74,7 @@ _COUPLING_DAMPS: Final = 0.4  # of 2 sqrt(K_c m)
 _FLATTEST: Final = 0.1  # -z of a path below which its P3 is too far away
 
 
-class _Places(NamedTuple):
+class _ImpedancePlaces(NamedTuple):
     """Springs, dampers and mass, limits, and memory; the model of the dynamics follows."""
 
     k: int
@@ -94,7 +94,7 @@ class _Places(NamedTuple):
     goal_y: int = 0
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_ImpedancePlaces)
 _MODEL: Final = len(_AT)
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 _NAME = re.compile(r"acus-[a-z]+-(\d+)-(\d+)-.*")
 
 
-def passing_folder(kind: str) -> Path:
+def temporary_folder(kind: str) -> Path:
     """Make a folder of this process, for this user only.
 
     Args:
@@ -26,7 +26,7 @@ def passing_folder(kind: str) -> Path:
     return Path(tempfile.mkdtemp(prefix=f"acus-{kind}-{own}-{_started(own)}-"))
 
 
-def sweep_passing() -> int:
+def sweep_temporary() -> int:
     """Delete the folders of processes that are gone; returns how many there were."""
     swept = 0
     for folder in Path(tempfile.gettempdir()).glob("acus-*-*-*-*"):

@@ -1,14 +1,27 @@
-"""Service: the small test forces and torques of the commissioning routines."""
+"""The tick of a robot that is being commissioned: no force law, only the service stage.
+
+The service stage adds the small test forces and torques of the routines.
+"""
 
 from dataclasses import dataclass
 from math import isfinite
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import njit, stage
-from app.core.parameters import numbered, packed
+from app.core.parameters import Stage, numbered, packed
+from app.device.control.corrections import Corrections
+from app.device.control.depth_interval import DepthInterval
+from app.device.control.governor import SpeedGovernor
+from app.device.control.kinematics import Kinematics
+from app.device.control.safety import Safety
+from app.device.control.table import Table
+from app.device.control.transmission import Transmission
 from app.device.control.vectors import shrink_kernel
+from app.device.control.velocity import VelocityFilter
+from app.device.links.link import Link
+from app.mechanisms.profile import DeviceProfile
 
 LARGEST_FORCE: Final = 1.0
 """Largest test force at the hub [N]: what an unverified robot may give."""
@@ -17,7 +30,7 @@ LARGEST_TORQUE: Final = 0.03
 """Largest test torque of a joint [N·m]: about 0.3 N at the hand."""
 
 
-class _Places(NamedTuple):
+class _ServicePlaces(NamedTuple):
     """Bounds of `Service`, and the force now."""
 
     force: int
@@ -28,7 +41,7 @@ class _Places(NamedTuple):
     z: int = 0
 
 
-_AT: Final = numbered(_Places)
+_AT: Final = numbered(_ServicePlaces)
 
 
 @njit
@@ -82,7 +95,34 @@ class Service:
     torque: float = LARGEST_TORQUE
     rate: float = 2.0
 
-    def stage(self) -> tuple[str, Any, FloatArray]:
+    def stage(self) -> Stage:
         """Return the stage for a loop's table, with memory of its own."""
         parameters = packed(_AT, force=self.force, torque=self.torque, rate=self.rate)
-        return "service", service_stage, parameters
+        return Stage("service", service_stage, parameters)
+
+
+def commissioning_table(
+    profile: DeviceProfile, link: Link, corrections: Corrections | None = None
+) -> Table:
+    """Table of a tick: link read, corrections, velocity, kinematics, service, transmission,
+    speed governor, safety, link write.
+
+    Args:
+        profile: the robot's numbers.
+        link: the robot's two ends.
+        corrections: of its encoders and gauge; nothing is corrected by default.
+    """
+    return Table.of(
+        [
+            *link.read,
+            (corrections or Corrections()).stage(),
+            VelocityFilter().stage(),
+            DepthInterval.of(profile).stage(),
+            Kinematics.of(profile).stage(),
+            Service().stage(),
+            Transmission.of(profile).stage(),
+            SpeedGovernor.of(profile).stage(),
+            Safety.of(profile).stage(),
+        ],
+        link.write,
+    )

@@ -1,30 +1,97 @@
-"""Recorded ticks once more: the same compiled stages, fed with what was recorded, in virtual time.
+"""Checkpoints of a loop: taken between two ticks, and continued from in virtual time.
 
-Nothing is read from a clock, an inbox or a wire. What a tick was given is written into the state,
-the stages run, and the whole state is kept: from the same checkpoint the same build gives the same
+They are asked for with a buffer and two counters, and no lock in the loop. A rerun reads nothing
+from a clock, an inbox or a wire: what a tick was given is written into the state, the same compiled
+stages run, and the whole state is kept. From the same checkpoint the same build gives the same
 bits.
 """
 
+import threading
+import time
 from collections.abc import Sequence
 from math import isfinite
-from typing import Any
+from typing import Final
 
 import numpy as np
 
 from app.core import state_vector as sv
-from app.core.arrays import FloatArray
+from app.core.arrays import FloatArray, IntArray
+from app.core.parameters import Stage
 from app.device.checkpoint import Checkpoint
 from app.device.control import kernel
-from app.device.control.kernel import PARAMETERS, ROWS, STAGES, compiled, run_stages
-from app.device.control.table import Stage, Table
-from app.device.errors import RerunError
+from app.device.control.kernel import (
+    ANSWERED,
+    ASKED,
+    PARAMETERS,
+    ROWS,
+    STAGES,
+    ArrayList,
+    StageList,
+    compiled,
+    run_stages,
+)
+from app.device.control.table import Table
+from app.device.errors import LoopError, RerunError
 
 from numba import types  # isort: skip  (after core.compiled)
 
 
+_PATIENCE: Final = 1.0
+_POLL: Final = 0.0005
+
+
+class CheckpointRequests:
+    """Asks the kernel for checkpoints of one table.
+
+    Args:
+        counters: of the loop's history.
+        table: its stages.
+
+    Attributes:
+        buffer: what the kernel writes: the state, then every stage's array, shape (n,).
+    """
+
+    def __init__(self, counters: IntArray, table: Table) -> None:
+        self.buffer: FloatArray = np.zeros(sv.SLOTS + sum(len(s.parameters) for s in table))
+        self._counters = counters
+        self._table = table
+        self._lock = threading.Lock()
+
+    def checkpoint(self, idle: tuple[FloatArray, ArrayList] | None) -> Checkpoint:
+        """Return a checkpoint, taken by the kernel between two ticks.
+
+        Args:
+            idle: state and packed parameters of a loop that nobody runs at the moment; None of one
+                that a thread runs, which answers after its present tick.
+
+        Raises:
+            LoopError: if the loop does not answer within a second.
+        """
+        with self._lock:
+            self._counters[ASKED] += 1
+            if idle is not None:
+                kernel.answer_now(*idle, self._counters, self.buffer)
+            self._await_answer()
+            return Checkpoint.of(self.buffer, self._table)
+
+    def _await_answer(self) -> None:
+        end = time.monotonic() + _PATIENCE
+        while self._counters[ANSWERED] != self._counters[ASKED]:
+            if time.monotonic() > end:
+                raise LoopError(
+                    f"the loop has not answered within {_PATIENCE:g} s: it does not tick"
+                )
+            time.sleep(_POLL)
+
+
 @compiled(types.void(types.float64[::1], STAGES, PARAMETERS, types.int64[::1], ROWS, ROWS))
 def rerun_kernel(
-    state: Any, stages: Any, parameters: Any, slots: Any, given: Any, rows: Any
+    state: FloatArray,
+    stages: StageList,
+    parameters: ArrayList,
+    slots: IntArray,
+    given: FloatArray,
+    rows: FloatArray,
 ) -> None:
     """Run one tick per row of `given`, whose columns go into `slots`; the states go into `rows`.
 

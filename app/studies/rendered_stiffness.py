@@ -5,14 +5,15 @@ half a millisecond of that would flatter a loop of 1 kHz.
 """
 
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
 from app.core.compiled import STAGE_TYPE, stage
-from app.device.control import Stage, kernel, pantograph_stages
+from app.core.parameters import Stage, numbered, packed
+from app.device.control import kernel, pantograph_stages
 from app.device.control.velocity import DEFAULT_VELOCITY, VelocityMethod
 from app.device.links.simulated import simulated_link
 from app.mechanisms.pantograph.kernels import felt_kernel, forward_kernel
@@ -20,6 +21,10 @@ from app.mechanisms.profile import DeviceProfile
 from app.simulation.plant import initial_plant, plant_stage
 
 from numba import types  # isort: skip  (after core.compiled)
+
+
+from app.mechanisms.pantograph import inverse, jacobian
+from app.mechanisms.pantograph.dynamics import dynamic_terms
 
 DEPTH: Final = 0.060  # [m] of the needle
 DURATION: Final = 1.5  # [s]
@@ -33,7 +38,18 @@ WIDER: Final = 1.1
 
 _FINE: Final = 8
 _AWAY: Final = 0.020  # [m] no stable device goes there
-_K, _B, _X, _Y = range(4)
+
+
+class _SpringPlaces(NamedTuple):
+    """A spring-damper at the tool: stiffness [N/m], damping [N·s/m], where it rests [m]."""
+
+    stiffness: int
+    damping: int
+    x: int
+    y: int
+
+
+_SPRING: Final = numbered(_SpringPlaces)
 _DELAY, _NEXT, _RING = range(3)
 _MOST_DELAY: Final = 4
 
@@ -41,9 +57,9 @@ _MOST_DELAY: Final = 4
 @stage
 def spring_stage(state: FloatArray, p: FloatArray) -> None:
     """Add the hand force that is K and B at the tool point, and its potential."""
-    ex, ey = state[sv.P3_X] - p[_X], state[sv.P3_Y] - p[_Y]
-    gx = -p[_K] * ex - p[_B] * state[sv.P3_VX]
-    gy = -p[_K] * ey - p[_B] * state[sv.P3_VY]
+    ex, ey = state[sv.P3_X] - p[_SPRING.x], state[sv.P3_Y] - p[_SPRING.y]
+    gx = -p[_SPRING.stiffness] * ex - p[_SPRING.damping] * state[sv.P3_VX]
+    gy = -p[_SPRING.stiffness] * ey - p[_SPRING.damping] * state[sv.P3_VY]
     fx, fy, fz = felt_kernel(
         gx,
         gy,
@@ -56,7 +72,7 @@ def spring_stage(state: FloatArray, p: FloatArray) -> None:
     state[sv.FORCE_X] += fx
     state[sv.FORCE_Y] += fy
     state[sv.FORCE_Z] += fz
-    state[sv.POTENTIAL] += 0.5 * p[_K] * (ex * ex + ey * ey)
+    state[sv.POTENTIAL] += 0.5 * p[_SPRING.stiffness] * (ex * ex + ey * ey)
 
 
 @stage
@@ -147,7 +163,9 @@ class Device:
         for slot in (sv.ENABLED, sv.HOMED, sv.ARMING):
             state[slot] = 1.0
         state[sv.FORCE_CAP], state[sv.TIME] = self.profile.limits.hand_force, 1.0
-        law = ("spring", spring_stage, np.array([stiffness, damping, *geometry.fulcrum[:2]]))
+        x, y = geometry.fulcrum[:2]
+        spring = packed(_SPRING, stiffness=stiffness, damping=damping, x=x, y=y)
+        law = Stage("spring", spring_stage, spring)
         functions, values = kernel.no_stages(), kernel.no_parameters()
         for _, function, parameters in self._stages(law):
             kernel.append(functions, values, function, parameters)
@@ -159,7 +177,7 @@ class Device:
         step = 1.0 / self.rate_hz
         return track[: swing(state, functions, values, plant[1], plant[2], links, step, track)]
 
-    def _stages(self, law: tuple[str, Any, FloatArray]) -> list[Stage]:
+    def _stages(self, law: Stage) -> list[Stage]:
         link = simulated_link(self.profile, [])
         table = list(pantograph_stages(self.profile, [law], [], link, velocity=self.velocity))
         names = [item.name for item in table]
@@ -191,3 +209,65 @@ def dies_away(track: FloatArray, quiet: float) -> bool:
     if max(before, after) > WIDER * 2.0 * OFFSET:
         return False
     return bool(after <= quiet or after < LASTING * before)
+
+
+@dataclass(frozen=True, slots=True)
+class Reduction:
+    """What the tool point feels like along one direction: mass [kg] and viscous damping [N·s/m]."""
+
+    mass: float
+    damping: float
+
+
+def reductions(profile: DeviceProfile, depth: float) -> tuple[Reduction, Reduction]:
+    """Mass and damping of P3 along x and y, needle vertical: Λ = (J M⁻¹ Jᵀ)⁻¹, J⁻ᵀ b J⁻¹.
+
+    There the mechanism is symmetric, so that x and y do not couple.
+    """
+    geometry = profile.pantograph
+    q = inverse(geometry, geometry.fulcrum[:2])
+    j = jacobian(geometry, q)
+    mass = dynamic_terms(profile.dynamic_model, q, (0.0, 0.0), depth).mass
+    felt = np.linalg.inv(j @ np.linalg.inv(mass) @ j.T)
+    back = np.linalg.inv(j)
+    damping = profile.friction.viscous * back.T @ back
+    along_x, along_y = (Reduction(float(felt[k, k]), float(damping[k, k])) for k in (0, 1))
+    return along_x, along_y
+
+
+def spectral_radius(
+    model: Reduction, stiffness: FloatArray, damping: FloatArray, step: float, delay: int
+) -> FloatArray:
+    """Spectral radius over arrays of K [N/m] and B [N·s/m], both (n,), for a tick T = `step` [s]
+    and a delay of whole ticks; (n,).
+    """
+    rate = model.damping / model.mass
+    if rate * step > 1e-9:
+        hold = -np.expm1(-rate * step) / rate
+        speed, drift = hold / model.mass, (step - hold) / rate / model.mass
+    else:
+        hold, speed, drift = step, step / model.mass, 0.5 * step**2 / model.mass
+    size = delay + 3  # x, v, then x of the ticks before
+    a = np.zeros((len(stiffness), size, size))
+    a[:, 0, 0], a[:, 0, 1], a[:, 1, 1] = 1.0, hold, 1.0 - rate * hold
+    newest = 0 if delay == 0 else delay + 1
+    for column, gain in (
+        (newest, stiffness + damping / step),
+        (delay + 2, -damping / step),
+    ):
+        a[:, 0, column] -= drift * gain
+        a[:, 1, column] -= speed * gain
+    a[:, 2, 0] = 1.0
+    for row in range(3, size):
+        a[:, row, row - 1] = 1.0
+    return np.asarray(np.abs(np.linalg.eigvals(a)).max(axis=1))
+
+
+def colgate(damping: float, virtual: FloatArray, step: float) -> FloatArray:
+    """Largest K [N/m] by Colgate and Schenkel (1997): passive if b > K T/2 + |B|; (n,) of B."""
+    return np.asarray(np.maximum(2.0 * (damping - np.abs(virtual)) / step, 0.0))
+
+
+def delayed(damping: float, virtual: FloatArray, step: float, delay: int) -> FloatArray:
+    """Largest K [N/m] of the free device with delay: K < (b + B)/(T/2 + t_d), small B and K."""
+    return np.asarray((damping + virtual) / (0.5 * step + delay * step))

@@ -1,0 +1,40 @@
+"""`acus plugin`: files of your own of every kind, and why some cannot be used."""
+
+import typer
+
+from app.commands.answer import Answer, Commands
+
+app = Commands(help="Your own laws, effects, metrics, marker extractors and studies.")
+
+
+def register(root: typer.Typer) -> None:
+    """Add the group."""
+    root.add_typer(app, name="plugin")
+
+
+@app.command("list")
+def list_plugins() -> Answer:
+    """List your own files of every kind, and why one is refused, with file and line.
+
+    Ends with code 3 if one is refused. Nothing is run or deleted; `acus law list --try` also tries
+    force laws.
+    """
+    from app.compose.plugins import plugin_files
+
+    rows = [
+        {
+            "kind": f.kind,
+            "name": f.name,
+            "title": f.title,
+            "file": str(f.path),
+            "refused": f.refused,
+        }
+        for f in plugin_files()
+    ]
+    lines = [
+        f"{'✖' if row['refused'] else '✔'} {row['kind']} {row['name']}: "
+        + (f"refused: {row['refused']}" if row["refused"] else row["title"])
+        for row in rows
+    ]
+    fine = not any(row["refused"] for row in rows)
+    return Answer({"plugins": rows}, lines or ["no files of your own"], yes=fine)

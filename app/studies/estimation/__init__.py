@@ -1,1 +1,0 @@
-"""What the studies of estimators need: motions of a hand, their measurement, filters of a depth."""

@@ -1,1 +1,0 @@
-"""Parts of the study `pantograph`: maps over the workspace, and their pictures."""

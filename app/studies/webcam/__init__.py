@@ -1,1 +1,0 @@
-"""Conditions and trials of the study of the pen."""

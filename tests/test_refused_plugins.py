@@ -1,0 +1,65 @@
+"""Files of others that cannot be used are named with file, line and reason, whatever their kind."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+from app.commands import build
+from app.compose.plugins import plugin_files, refused_files
+
+KINDS = {
+    "laws": "force law",
+    "effects": "effect",
+    "metrics": "metric",
+    "extractors": "marker extractor",
+    "studies": "study",
+}
+BROKEN = {
+    "another_key": ("\nDECLARATION = {'nonsense': 1}\n", "line 2"),
+    "half_a_line": ("\n\nDECLARATION = {\n", "line 3"),
+}
+
+
+@pytest.fixture
+def folders(monkeypatch, tmp_path):
+    for folder in KINDS:
+        (tmp_path / folder).mkdir()
+        monkeypatch.setenv(f"ACUS_{folder.upper()}", str(tmp_path / folder))
+    return tmp_path
+
+
+@pytest.mark.parametrize("folder", KINDS)
+@pytest.mark.parametrize("name", BROKEN)
+def test_a_broken_file_of_any_kind_is_named_with_its_line_and_the_reason(folders, folder, name):
+    text, line = BROKEN[name]
+    path = folders / folder / f"{name}.py"
+    path.write_text(text)
+    (found,) = refused_files()
+    assert (found.kind, found.path, found.name) == (KINDS[folder], path, name)
+    assert str(path) in found.refused or path.name in found.refused
+    assert line in found.refused
+
+
+def test_a_file_that_has_the_name_of_another_is_refused(folders):
+    path = folders / "metrics" / "target_error.py"
+    path.write_text("x = 1\n")
+    (found,) = refused_files()
+    assert found.path == path
+    assert "rename one" in found.refused
+
+
+def test_the_list_ends_with_code_3_where_a_file_is_refused_and_with_0_where_none_is(folders):
+    assert CliRunner().invoke(build(), ["plugin", "list"]).exit_code == 0
+    assert plugin_files() == ()
+    (folders / "effects" / "mine.py").write_text("DECLARATION = {'nonsense': 1}\n")
+    answer = CliRunner().invoke(build(), ["plugin", "list", "--json"])
+    assert answer.exit_code == 3
+    assert "mine.py, line 1" in json.dumps(json.loads(answer.stdout))
+
+
+def test_the_explanation_of_an_exercise_names_them_too(folders):
+    (folders / "effects" / "mine.py").write_text("DECLARATION = {'nonsense': 1}\n")
+    said = CliRunner().invoke(build(), ["explain", "first-insertion"]).stdout
+    assert "refused effect" in said
+    assert "mine.py, line 1" in said
