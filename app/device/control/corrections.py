@@ -38,7 +38,8 @@ def corrections_stage(state: FloatArray, p: FloatArray) -> None:
     """Add the offsets to Q_*; correct GAUGE_FORCE.
 
     Without a new reading a link leaves the slots as they are: what this stage wrote is not
-    corrected a second time. (Joint angles are whole counts, so an equal one may be new: Q_TIME tells.)
+    corrected a second time. (Joint angles are whole counts, so an equal one may be new: Q_TIME
+    tells.)
     """
     old = state[sv.Q_TIME] == p[_AT.time]
     joints = state[sv.Q_LEFT] == p[_AT.out_left] and state[sv.Q_RIGHT] == p[_AT.out_right]

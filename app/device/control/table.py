@@ -10,7 +10,7 @@ limits behind them; a value there that is not finite holds the force at zero.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -76,7 +76,7 @@ class Table:
     write: tuple[Stage, ...] = ()
 
     @classmethod
-    def of(cls, compute: Iterable[Stage], write: Iterable[Any] = ()) -> "Table":
+    def of(cls, compute: Iterable[Stage], write: Iterable[Stage] = ()) -> "Table":
         """Build a table from (name, function, parameters) triples."""
         return cls(tuple(Stage(*s) for s in compute), tuple(Stage(*s) for s in write))
 
