@@ -36,7 +36,7 @@ def test_modules_in_a_circle_are_refused() -> None:
 
 def test_the_kernels_of_the_program_are_found_with_what_they_are_compiled_from() -> None:
     modules = compile_kernels.kernel_modules()
-    assert "app.device.control.kernel" in modules["app.device.control.checkpoints"]
+    assert "app.device.control.kernel" in modules["app.device.control.realtime"]
     assert modules.keys() >= set().union(*modules.values())
 
 
