@@ -157,7 +157,7 @@ def test_a_calibration_that_was_found_bad_is_refused_though_the_settings_name_it
     path = history.keep(calibration(wide))
     settings = settings.model_copy(update={"calibration": path})
     assert real_cameras(settings).rig.calibration is not None
-    history.condemn("20261122-091244-3f2a", "a camera was bumped")
+    history.reject("20261122-091244-3f2a", "a camera was bumped")
     with pytest.raises(CalibrationError, match=r"found bad \(a camera was bumped\)"):
         real_cameras(settings)
 

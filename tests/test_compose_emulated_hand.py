@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.compose.emulated_hand import SPEED, EmulatedHand
+from app.compose.emulator import SPEED, EmulatedHand
 from app.device.errors import LinkError
 from app.mechanisms.errors import MechanismError
 from app.mechanisms.pantograph import system_inverse

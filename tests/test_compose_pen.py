@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from app.compose.pen import Pen
-from app.compose.pen_table import joint_angles, without_force
+from app.compose.pen import Pen, joint_angles, without_force
 from app.compose.replay import replay_recording
 from app.compose.trainer import TrainerSetup, build_rig
 from app.core import state_vector as sv

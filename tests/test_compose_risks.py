@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.compose.record import _anonymous
-from app.compose.risks import load_risks
+from app.compose.desktop import load_risks
+from app.compose.trainer import _anonymous
 from app.exercises.errors import ExerciseError
 from app.exercises.library import load_exercise
 from app.exercises.parts import StructurePart

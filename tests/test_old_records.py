@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.exchange.csv_export import score_table, trajectory_table
 from app.session.recording import read_recording
-from app.session.replay_contents import contents
+from app.session.replay import contents
 from app.session.review import review
 from app.session.store import list_sessions
 from app.views.debrief.report import report_bytes

@@ -27,7 +27,7 @@ from app.planning.plan import Plan
 from app.session.ct_facts import CtFacts
 from app.session.errors import ReplayError
 from app.session.recording import Recording, read_recording
-from app.session.replay_contents import contents
+from app.session.replay import contents
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.optics.rig import load_rig

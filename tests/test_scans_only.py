@@ -17,7 +17,7 @@ from app.imaging.scanned import scan_image
 from app.session.control_scan import scans_of
 from app.session.ct_facts import CtFacts
 from app.session.recording import read_recording
-from app.session.replay_contents import contents
+from app.session.replay import contents
 from app.session.trainer import Trainer
 from app.tracking.fix import FixStatus, NeedleFix
 

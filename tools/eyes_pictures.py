@@ -1,4 +1,4 @@
-"""Makes the pictures of cameras, registration and morning check; part of `make docs-pictures`.
+"""Makes the pictures of cameras, registration and daily check; part of `make docs-pictures`.
 
 `python -m tools.eyes_pictures FOLDER` opens the window in memory on simulated robot and cameras.
 """
@@ -54,12 +54,12 @@ def tracker(window: MainWindow, folder: Path) -> None:
     keep(panel, folder / "eyes-tracker.png")
 
 
-def morning(window: MainWindow, folder: Path) -> None:
-    """Make the morning check, its point touched by the simulated tip."""
-    window.feature(ChecksFeature).open_morning()
-    page = window.feature(ChecksFeature).morning
+def daily_check(window: MainWindow, folder: Path) -> None:
+    """Make the daily check, its point touched by the simulated tip."""
+    window.feature(ChecksFeature).open_daily()
+    page = window.feature(ChecksFeature).daily
     if page is None:
-        raise RuntimeError("the morning check did not open")
+        raise RuntimeError("the daily check did not open")
     page.move_tip.click()
     pause(3.0)
     page.touch.click()
@@ -108,7 +108,7 @@ def main(folder: Path) -> None:
         try:
             running(window)
             tracker(window, folder)
-            morning(window, folder)
+            daily_check(window, folder)
             registration(window, folder)
         finally:
             window.editor.saved(Path("kept"))

@@ -14,7 +14,7 @@ import numpy as np
 from PySide6.QtWidgets import QApplication
 
 from app.compose import Desktop
-from app.compose.pen_webcam import SIMULATED_WEBCAM, simulated_lens
+from app.compose.live_pen import SIMULATED_WEBCAM, simulated_lens
 from app.core.units import MILLIMETRE
 from app.mechanisms.profile import load_profile
 from app.tracking.pen.body import load_pen

@@ -10,7 +10,7 @@ from app.commands.calibrate_parts import app
 from app.core.errors import ConfigurationError
 
 if TYPE_CHECKING:
-    from app.tracking.calibration.history import CalibrationHistory, Entry
+    from app.tracking.calibration.history import CalibrationHistory, KeptCalibration
     from app.tracking.optics.calibration import StereoCalibration
 
 BoardOption = Annotated[
@@ -40,8 +40,8 @@ def show(calibration_id: Id) -> Answer:
     calibration = history.load(entry.id)
     content = calibration.model_dump(mode="json")
     lines = calibration_lines(calibration)
-    if entry.condemned is not None:
-        lines.append(f"found bad     {entry.condemned.date:%Y-%m-%d}: {entry.condemned.reason}")
+    if entry.rejected is not None:
+        lines.append(f"found bad     {entry.rejected.date:%Y-%m-%d}: {entry.rejected.reason}")
     lines.append(f"file          {entry.path}{'  (in use)' if entry.active else ''}")
     return Answer(entry_document(history, entry) | {"calibration": content}, lines)
 
@@ -78,7 +78,7 @@ def reject(
 ) -> Answer:
     """Mark a calibration as bad. It is not used, its attempts are flagged."""
     history = _history()
-    history.condemn(calibration_id, why)
+    history.reject(calibration_id, why)
     return _in_use(history)
 
 
@@ -133,8 +133,7 @@ def import_(
     ] = None,
 ) -> Answer:
     """Read another program's calibration and use it from now on."""
-    from app.tracking.calibration.formats.reading import read_calibration
-    from app.tracking.calibration.formats.said import length, picture_size
+    from app.tracking.calibration.formats.reading import length, picture_size, read_calibration
 
     calibration = read_calibration(
         files,
@@ -183,7 +182,7 @@ def board_(
     return Answer(facts, lines)
 
 
-def entry_document(history: "CalibrationHistory", entry: "Entry") -> dict[str, Any]:
+def entry_document(history: "CalibrationHistory", entry: "KeptCalibration") -> dict[str, Any]:
     """One calibration as JSON; a file that cannot be read says why in `problem`."""
     from app.core.errors import AcusError
 
@@ -192,7 +191,7 @@ def entry_document(history: "CalibrationHistory", entry: "Entry") -> dict[str, A
         "file": str(entry.path),
         "kept": entry.kept.isoformat() if entry.kept is not None else None,
         "in_use": entry.active,
-        "found_bad": entry.condemned.reason if entry.condemned is not None else "",
+        "found_bad": entry.rejected.reason if entry.rejected is not None else "",
         "problem": "",
     }
     try:

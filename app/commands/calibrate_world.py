@@ -56,9 +56,9 @@ def world(
     from app.mechanisms.profile import load_profile
     from app.tracking.calibration.boards import parse_board
     from app.tracking.calibration.history import CalibrationHistory
+    from app.tracking.calibration.placed_pictures import placed_boards
     from app.tracking.calibration.views import Rejection
     from app.tracking.calibration.world import find_world, with_world
-    from app.tracking.calibration.world_set import placed_boards
     from app.tracking.optics.rig import load_rig
 
     known = parse_board(board)

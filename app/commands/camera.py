@@ -77,13 +77,13 @@ def use(
     """
     from app.core.configuration import parse
     from app.tracking.cameras.ports import camera_ports
-    from app.tracking.cameras.presence import missing
     from app.tracking.cameras.settings import (
         CameraSettings,
         load_settings,
         save_settings,
         with_sources,
     )
+    from app.tracking.cameras.survey import missing
     from app.tracking.optics.rig import load_rig
 
     given = {side: text for side, text in (("left", left), ("right", right)) if text}

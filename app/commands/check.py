@@ -1,4 +1,4 @@
-"""`acus check`: the morning check."""
+"""`acus check`: the daily check."""
 
 from typing import TYPE_CHECKING, Annotated
 
@@ -33,21 +33,21 @@ def check(
         bool, typer.Option("--last", help="Show the newest check instead of making one.")
     ] = False,
 ) -> Answer:
-    """Make the morning check of robot and cameras. It takes two minutes.
+    """Make the daily check of robot and cameras. It takes two minutes.
 
     Looked at: robot, pictures, marker and one touched point; the result is kept.
 
     Ends with code 3 if something is wrong.
     """
     from app.session.checks.record import newest_check
-    from app.session.checks.steps import Verdict
+    from app.session.checks.steps import CheckVerdict
 
     found = newest_check() if last else _made(device, cameras, plate, point, touch)
     if found is None:
-        none = ["no morning check was made yet"]
+        none = ["no daily check was made yet"]
         return Answer({"check": None}, none, yes=False, first_form=None)
     document = found.model_dump(mode="json")
-    passed = found.verdict not in (Verdict.BAD, Verdict.WAITING)
+    passed = found.verdict not in (CheckVerdict.BAD, CheckVerdict.WAITING)
     return Answer({"check": document}, _lines(found), yes=passed, first_form=document)
 
 
@@ -56,35 +56,33 @@ def _made(
 ) -> "DayCheck":
     from datetime import datetime
 
-    from app.compose.morning import MorningCheck, known_point
+    from app.compose.daily_check import DailyCheck, known_point
     from app.planning.registration.plate import load_plate
     from app.session.checks.record import DayCheck, save_check
-    from app.session.checks.steps import morning_check
+    from app.session.checks.steps import daily_check
     from app.tracking.cameras.settings import parse_cameras
 
     name, place = known_point(load_plate(plate), point)
     settings = parse_cameras(cameras) if cameras else None
-    morning = MorningCheck(port=device, cameras=settings)
+    running = DailyCheck(port=device, cameras=settings)
     try:
-        morning.open()
+        running.open()
         if touch:
-            if morning.simulated and settings is None:
-                morning.move_to(place)
+            if running.simulated and settings is None:
+                running.move_to(place)
             else:
                 typer.prompt(
                     f"Rest the tip in {name} and hold still; press Enter", default="",
                     show_default=False, err=True,
                 )  # fmt: skip
-            morning.touch(name, place)
-        results = tuple(
-            one for one in morning_check(morning.facts()) if touch or one.name != "touch"
-        )
+            running.touch(name, place)
+        results = tuple(one for one in daily_check(running.facts()) if touch or one.name != "touch")
         found = DayCheck.of(
-            results, datetime.now().astimezone(), morning.device, morning.simulated,
-            morning.calibration,
+            results, datetime.now().astimezone(), running.device, running.simulated,
+            running.calibration,
         )  # fmt: skip
     finally:
-        morning.close()
+        running.close()
     save_check(found)
     return found
 

@@ -88,8 +88,7 @@ def calibrate(
     quarter turn or more. Without, the shaft is taken to run through the middle of the cube.
     """
     from app.compose.pen_calibration import calibrate_pen, measure_shaft
-    from app.tracking.pen.kept import save_pen
-    from app.tracking.pen.settings import load_settings, save_settings, with_source
+    from app.tracking.pen.settings import load_settings, save_pen, save_settings, with_source
 
     settings = load_settings().model_copy(update={"pen": pen, "edge_mm": edge})
     settings = settings if source is None else with_source(settings, source)

@@ -73,7 +73,7 @@ def replay(
 ) -> Answer:
     """Say what a record holds of the robot's loop. --check computes it anew and compares."""
     from app.session.recording import read_recording
-    from app.session.replay_contents import contents
+    from app.session.replay import contents
     from app.session.store import find
 
     recording = read_recording(find(_folder(folder), session_id))

@@ -15,25 +15,24 @@ from app.core.configuration import parse
 from app.core.units import MILLISECOND
 from app.mechanisms.profile import load_profile
 from app.tracking.calibration.applies import require_cameras
-from app.tracking.cameras.camera import Frame, Image
+from app.tracking.cameras.camera import CameraFrame, Image
 from app.tracking.cameras.factory import make_camera
-from app.tracking.cameras.pictures import with_outline, write_pictures
 from app.tracking.cameras.settings import CameraSettings, OneCamera
 from app.tracking.cameras.source import parse_source
-from app.tracking.cameras.survey import CameraReport, survey
+from app.tracking.cameras.survey import CameraReport, survey, with_outline, write_pictures
 from app.tracking.errors import CameraError
 from app.tracking.markers.choice import extractors
 from app.tracking.markers.colour import RED
 from app.tracking.markers.extractor import MarkerFix
 from app.tracking.optics.rig import RangeProfile, RigProfile, load_rig
 from app.tracking.optics.view_cone import ViewCone, view_cone
-from app.tracking.stereo.swapped import check_order
+from app.tracking.stereo.epipolar import check_order
 
 _MOMENT = 0.5
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Look:
+class CameraCheck:
     """What was seen: a report per camera, skew [ms] and the order of the two in words."""
 
     reports: tuple[CameraReport, ...]
@@ -84,7 +83,7 @@ class Aim:
         write_pictures(folder, dict(zip(self.cone.names, drawn, strict=True)))
 
 
-def look(settings: CameraSettings, source: str, seconds: float) -> Look:
+def look(settings: CameraSettings, source: str, seconds: float) -> CameraCheck:
     """Look at the cameras of the settings, or at one source.
 
     Raises:
@@ -93,7 +92,7 @@ def look(settings: CameraSettings, source: str, seconds: float) -> Look:
     clock = SystemClock()
     if source:
         camera = make_camera(settings, OneCamera(source=str(parse_source(source))), clock)
-        return Look(survey([camera], [source], clock, seconds), None, "")
+        return CameraCheck(survey([camera], [source], clock, seconds), None, "")
     if settings.simulated:
         raise CameraError(
             "the cameras are simulated; choose real ones with `acus camera use --left SOURCE "
@@ -102,15 +101,17 @@ def look(settings: CameraSettings, source: str, seconds: float) -> Look:
     settings.check()
     rig = load_rig(settings.rig)
     pair = checked_cameras(settings, clock, "the camera settings")
-    frames: list[tuple[Frame, ...]] = []
+    frames: list[tuple[CameraFrame, ...]] = []
     names = [camera.name for camera in rig.cameras]
     reports = survey(pair, names, clock, seconds, frames.append)
     apart = [right.time - left.time for left, right in frames]
     skew = float(np.median(apart)) / MILLISECOND if apart else None
-    return Look(reports, skew, _order(settings, rig, frames))
+    return CameraCheck(reports, skew, _order(settings, rig, frames))
 
 
-def _order(settings: CameraSettings, rig: RigProfile, frames: Sequence[tuple[Frame, ...]]) -> str:
+def _order(
+    settings: CameraSettings, rig: RigProfile, frames: Sequence[tuple[CameraFrame, ...]]
+) -> str:
     calibration = calibration_of(settings)
     if calibration is None:
         return "left and right are not checked: there is no calibration yet (`acus calibrate`)"

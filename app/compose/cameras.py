@@ -9,7 +9,7 @@ from app.core.clock import Clock, SystemClock
 from app.tracking.calibration.applies import require_cameras
 from app.tracking.calibration.formats.own import load_calibration
 from app.tracking.calibration.history import CalibrationHistory
-from app.tracking.calibration.history_file import condemned_ids
+from app.tracking.calibration.history_file import rejected_ids
 from app.tracking.cameras.camera import Camera
 from app.tracking.cameras.checked import CheckedCamera
 from app.tracking.cameras.factory import make_camera
@@ -125,7 +125,7 @@ def calibration_of(settings: CameraSettings) -> StereoCalibration | None:
 
 def _require_good(calibration: StereoCalibration) -> None:
     """Refuse one that was found bad: the settings may name its file all the same."""
-    reason = condemned_ids().get(calibration.id)
+    reason = rejected_ids().get(calibration.id)
     if reason is not None:
         raise CalibrationError(
             f"calibration {calibration.id} was found bad ({reason}); calibrate again, or choose "

@@ -10,9 +10,12 @@ from app.core import paths
 from app.core.loading import load_modules, turn
 from app.core.progress import Progress
 from app.device.errors import LoopError
+from app.exercises.errors import ExerciseError
 from app.exercises.library import library
 from app.exercises.schema import Exercise
+from app.imaging.volume import Volume
 from app.planning.placement import PlacedPlan
+from app.session.risks import Risk
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -31,6 +34,37 @@ if TYPE_CHECKING:
     from app.tracking.tracker import Tracker
     from app.views.exercise.run import ExerciseRun
     from app.views.shell.services import RobotPort, RunSetup
+
+
+def load_risks(
+    exercise: Exercise, volume: Volume | None, progress: Progress | None = None
+) -> tuple[Risk, ...]:
+    """Read an exercise's files of structures onto its CT; seconds for large structures.
+
+    Raises:
+        ExerciseError: if there is no CT to place them on.
+        AcusError: if a file cannot be read, does not belong to the CT, or lacks a structure named.
+        Cancelled: if `progress` was cancelled.
+    """
+    parts = [part for part in exercise.structures if part.risks]
+    if not parts:
+        return ()
+    if volume is None:
+        raise ExerciseError(
+            f"exercise {exercise.id} has structures of risk, and no CT to place them on: open it"
+        )
+    from app.imaging.structures.distance import SignedDistance  # scipy
+    from app.imaging.structures.files import read_structures
+
+    progress, risks = progress or Progress(), []
+    for number, part in enumerate(parts):
+        step = progress.part(number / len(parts), (number + 1) / len(parts))
+        found = read_structures(part.file, volume, step.part(0.0, 0.5))
+        for name, limit in part.risks.items():
+            field = SignedDistance.of(found.find(name), step.part(0.5, 1.0))
+            risks.append(Risk(name, limit, field))
+    return tuple(risks)
+
 
 HEAVY_MODULES: Final = (
     "app.imaging.reading",
@@ -103,13 +137,13 @@ class Desktop:
 
     def robots(self) -> tuple[RobotPort, ...]:
         """Ports at which a robot may be plugged in now."""
-        from app.compose.robots import robot_ports
+        from app.compose.robot import robot_ports
 
         return robot_ports()
 
     def open_robot(self, port: str, profile: DeviceProfile, progress: Progress) -> Bench:
         """Open a robot for commissioning; called beside the window, may take seconds."""
-        from app.compose.robots import open_bench
+        from app.compose.robot import open_bench
 
         return open_bench(port, profile, progress)
 
@@ -147,8 +181,8 @@ class Desktop:
     def open_run(self, setup: RunSetup, progress: Progress) -> DesktopRun:
         """Build and start a trainer; called beside the window, may take seconds."""
         with turn(progress):  # kernels and OpenCV: behind the window, not before it
+            from app.compose.desktop import load_risks
             from app.compose.pen import pen_settings
-            from app.compose.risks import load_risks
             from app.compose.trainer import TrainerSetup, build_rig
         risks = load_risks(setup.exercise, setup.volume, progress.part(0.0, 0.1))
         progress.report(0.1, "compiling the loop")

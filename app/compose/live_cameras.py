@@ -11,7 +11,7 @@ import numpy as np
 from app.compose.cameras import checked_cameras
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
-from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.latency import grid_means
 from app.tracking.cameras.settings import SIDES, CameraSettings
 from app.tracking.cameras.usb import UsbCamera
@@ -49,7 +49,7 @@ class LiveReader:
         """Let go of the camera; idempotent."""
         self._reader.close()
 
-    def newest(self) -> Frame | None:
+    def newest(self) -> CameraFrame | None:
         """Return the newest picture, or None before the first."""
         return self._reader.newest()
 
@@ -71,7 +71,7 @@ class LiveReader:
         times = np.array([time for time, _ in kept])
         return times, np.array([tiles for _, tiles in kept])
 
-    def _keep(self, frame: Frame, delivered: float) -> None:
+    def _keep(self, frame: CameraFrame, delivered: float) -> None:
         light = self._light
         if light is not None:
             light.append((delivered, grid_means(frame.image)))

@@ -11,19 +11,27 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Final
 
+from app.compose.declared_views import declared_views
+from app.compose.live_pen import attached_camera, simulated_lens, simulated_webcam
 from app.compose.needle import UPRIGHT, row_at
-from app.compose.pen_table import START_DEPTH, joint_angles, pen_table, without_force
-from app.compose.pen_webcam import attached_camera, simulated_lens, simulated_webcam
 from app.core import state_vector as sv
+from app.core.arrays import FloatArray
 from app.core.clock import Clock
+from app.core.parameters import Stage
 from app.device.control import Loop, Table
+from app.device.control.depth_interval import DepthInterval
+from app.device.control.kinematics import Kinematics
+from app.device.control.velocity import velocity_stage
 from app.device.links.pen import PenLink
+from app.exercises.scene import compile_exercise
 from app.exercises.schema import Exercise
-from app.mechanisms.pantograph import system_forward
+from app.mechanisms.errors import MechanismError
+from app.mechanisms.pantograph import inverse, system_forward
 from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
-from app.session.hands import TRAINEE
-from app.simulation.plant import initial_plant
+from app.session.conditions import TRAINEE
+from app.simulation.plant import initial_plant, plant_stage
+from app.simulation.trainee import trainee_stage
 from app.tracking.cameras.camera import Camera
 from app.tracking.pen.needle import PenTip
 from app.tracking.pen.settings import PenSettings, load_settings, with_source
@@ -31,6 +39,60 @@ from app.tracking.pen.step import PenObservation
 from app.tracking.pen.tracker import PenTracker
 from app.tracking.pen.webcam import Webcam
 from app.tracking.simulated.pen_scene import PenScene, PenSceneAt, body_pose
+
+START_DEPTH: Final = -0.015
+"""Where the needle of a simulated hand waits [m]."""
+
+
+def without_force(profile: DeviceProfile) -> DeviceProfile:
+    """Return the geometry of a device that pushes nobody."""
+    return profile.model_copy(update={"loop": profile.loop.model_copy(update={"renders": ()})})
+
+
+def joint_angles(profile: DeviceProfile, axis: FloatArray) -> FloatArray | None:
+    """Joint angles [rad], shape (2,), of a robot whose needle points along `axis` (unit vector).
+
+    None where no robot could: a needle that does not point down, or out of reach.
+    """
+    if not axis[2] < -0.1:
+        return None
+    fulcrum = profile.pantograph.fulcrum
+    try:
+        return inverse(profile.pantograph, (fulcrum - axis * fulcrum[2] / axis[2])[:2])
+    except MechanismError:
+        return None
+
+
+def pen_table(
+    exercise: Exercise,
+    placed: PlacedPlan,
+    profile: DeviceProfile,
+    read: list[Stage],
+    skill: str | None,
+    seed: int,
+    simulated: bool,
+) -> Table:
+    """Table of a tick without force.
+
+    Args:
+        exercise: whose effects are computed; its force laws are not.
+        placed: the plan.
+        profile: geometry that renders nothing.
+        read: stages that give the joint angles; none in a replay, which is given them.
+        skill: of the scripted trainee; None without one.
+        seed: of the trainee.
+        simulated: whether a simulated hand holds the pen.
+    """
+    placed_exercise = exercise.placed_as(placed.placement)
+    effects = compile_exercise(placed_exercise, profile, declared_views(), simulated=False)
+    plant = [plant_stage(profile, UPRIGHT, START_DEPTH)] if simulated else []
+    trainee = (
+        [trainee_stage(placed.axis, placed.length, skill, seed)] if simulated and skill else []
+    )
+    place = [DepthInterval.of(profile).stage(), Kinematics.of(profile).stage()]
+    stages = [*trainee, *read, velocity_stage(profile), *place]
+    return Table.of([*stages, *effects.stages()], plant)
+
 
 _ROLL: Final = 1.0
 """Turn of the simulated pen about its shaft [rad]: two sides and the top show."""

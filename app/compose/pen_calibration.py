@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from app.compose.pen_webcam import attached_camera
+from app.compose.live_pen import attached_camera
 from app.core.clock import Clock, SystemClock
 from app.mechanisms.profile import load_profile
 from app.tracking.calibration.pictures import list_pictures
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.cameras.files import read_picture
-from app.tracking.cameras.source import Kind, parse_source
+from app.tracking.cameras.source import SourceKind, parse_source
 from app.tracking.errors import PenError
 from app.tracking.pen.calibrating import WANTED, PenCalibration, PoseCollector
 from app.tracking.pen.settings import PenSettings
@@ -91,12 +91,12 @@ def _collect(
         tell(step.webcam.words)
 
 
-def _frames(settings: PenSettings, seconds: float, time: Clock) -> Iterator[Frame]:
+def _frames(settings: PenSettings, seconds: float, time: Clock) -> Iterator[CameraFrame]:
     """Pictures of a webcam until the time is over, or all of a folder, once, in their order."""
     source = parse_source(settings.source)
-    if source.kind is Kind.FOLDER:
+    if source.kind is SourceKind.FOLDER:
         for number, path in enumerate(list_pictures(Path(source.place))):
-            yield Frame(read_picture(path), number / settings.rate_hz)
+            yield CameraFrame(read_picture(path), number / settings.rate_hz)
         return
     camera = attached_camera(settings, time)
     camera.open()

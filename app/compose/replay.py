@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from app.compose.pen_table import pen_table
+from app.compose.pen import pen_table
 from app.compose.trainer import TrainerSetup, loop_table
 from app.core.configuration import parse
 from app.device.control import Table
@@ -13,8 +13,7 @@ from app.exercises.schema import Exercise
 from app.mechanisms.profile import DeviceProfile
 from app.session.errors import ReplayError
 from app.session.recording import Recording
-from app.session.replay import is_simulated, replay
-from app.session.replay_report import ReplayReport
+from app.session.replay import ReplayReport, is_simulated, replay
 
 
 def replay_recording(recording: Recording) -> ReplayReport:

@@ -24,7 +24,7 @@ from app.session.result import AttemptResult
 from app.session.risks import Risk, event_of, risk_marks_of
 from app.session.sample import Sample
 from app.session.sample_columns import attachment
-from app.session.samples import History, Samples
+from app.session.samples import SampleHistory, Samples
 from app.session.scored import renders_force, score_document, trajectory
 from app.session.sidecar import write_summary
 from app.session.summary import Summary
@@ -52,7 +52,7 @@ class AttemptLog:
     recorder: Recorder
     placed: PlacedPlan
     scorer: Scorer
-    history: History = field(default_factory=History)
+    history: SampleHistory = field(default_factory=SampleHistory)
     events: list[Event] = field(default_factory=list)
     scans: int = 0
     risks: tuple[Risk, ...] = ()

@@ -58,7 +58,7 @@ _TRAINEE: Final = np.array([COLUMNS.index(name) for name in TRAINEE])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Block:
+class TickBlock:
     """One block.
 
     Attributes:
@@ -93,7 +93,7 @@ def pack(rows: FloatArray, lost: int) -> bytes:
     return head + columns.encode(values) + checks
 
 
-def unpack(data: bytes) -> Block:
+def unpack(data: bytes) -> TickBlock:
     """Read a block.
 
     Raises:
@@ -118,20 +118,20 @@ def unpack(data: bytes) -> Block:
         raise BrokenRecordingError(f"a block of {count} columns has no tick numbers")
     where = _state_rows(values[:, _TICK])
     hashes, states = _checks(body[place:], rows, len(where))
-    return Block(read_only(values), first, lost, hashes, where, states)
+    return TickBlock(read_only(values), first, lost, hashes, where, states)
 
 
 def _state_rows(tick: FloatArray) -> NDArray[np.int64]:
     return np.flatnonzero(np.mod(tick, STATE_EVERY) == 0.0)
 
 
-def _plain(body: bytes, count: int, rows: int, lost: int, first: int) -> Block:
+def _plain(body: bytes, count: int, rows: int, lost: int, first: int) -> TickBlock:
     if len(body) != 8 * count * rows:
         raise BrokenRecordingError(f"a block of {rows} rows has {len(body)} bytes of numbers")
     values = np.frombuffer(body, dtype="<f8").reshape(count, rows).T
     array = read_only(np.ascontiguousarray(values, dtype=np.float64))
     none, nowhere = np.zeros(0, dtype=np.uint32), np.zeros(0, dtype=np.int64)
-    return Block(array, first, lost, none, nowhere, read_only(np.zeros((0, 0))))
+    return TickBlock(array, first, lost, none, nowhere, read_only(np.zeros((0, 0))))
 
 
 def _checks(data: bytes, rows: int, states: int) -> tuple[NDArray[np.uint32], FloatArray]:

@@ -6,7 +6,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from app.session.summary import Summary
-from app.tracking.calibration.history_file import condemned_ids
+from app.tracking.calibration.history_file import rejected_ids
 from app.tracking.errors import CalibrationError
 
 
@@ -26,7 +26,7 @@ class CalibrationFlags:
     def read(cls, folder: Path | None = None) -> "CalibrationFlags":
         """Read the history of calibrations (the user's by default); never raises."""
         try:
-            return cls(MappingProxyType(condemned_ids(folder)))
+            return cls(MappingProxyType(rejected_ids(folder)))
         except CalibrationError as error:
             return cls(unknown=str(error))
 

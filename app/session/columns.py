@@ -20,7 +20,7 @@ _EXACT: Final = 2.0**53
 _FEW: Final = 0.25
 
 
-class Way(IntEnum):
+class ColumnCoding(IntEnum):
     """How a column is stored (its first byte)."""
 
     CONSTANT = 0
@@ -32,8 +32,13 @@ class Way(IntEnum):
     NANOSECONDS_2 = 6
 
 
-_OF_TIMES: Final = (Way.NANOSECONDS_1, Way.NANOSECONDS_2)
-_ORDER: Final = {Way.BITS_1: 1, Way.BITS_2: 2, Way.NANOSECONDS_1: 1, Way.NANOSECONDS_2: 2}
+_OF_TIMES: Final = (ColumnCoding.NANOSECONDS_1, ColumnCoding.NANOSECONDS_2)
+_ORDER: Final = {
+    ColumnCoding.BITS_1: 1,
+    ColumnCoding.BITS_2: 2,
+    ColumnCoding.NANOSECONDS_1: 1,
+    ColumnCoding.NANOSECONDS_2: 2,
+}
 
 
 def encode(values: FloatArray) -> bytes:
@@ -73,15 +78,15 @@ class _Reader:
 
 def _encode(column: Bits, index: int, seen: dict[bytes, int]) -> bytes:
     if (column == column[0]).all():
-        return bytes([Way.CONSTANT]) + column[:1].tobytes()
+        return bytes([ColumnCoding.CONSTANT]) + column[:1].tobytes()
     plain = column.tobytes()
     if plain in seen:
-        return bytes([Way.SAME]) + struct.pack("<H", seen[plain])
+        return bytes([ColumnCoding.SAME]) + struct.pack("<H", seen[plain])
     seen[plain] = index
     if np.count_nonzero(np.diff(column)) < _FEW * len(column):
-        return bytes([Way.PLAIN]) + plain
+        return bytes([ColumnCoding.PLAIN]) + plain
     nanoseconds = _nanoseconds(column)
-    ways = (Way.BITS_1, Way.BITS_2) if nanoseconds is None else _OF_TIMES
+    ways = (ColumnCoding.BITS_1, ColumnCoding.BITS_2) if nanoseconds is None else _OF_TIMES
     first = _differences(column if nanoseconds is None else nanoseconds)
     found = dict(zip(ways, (_folded(first), _folded(_differences(first))), strict=True))
     way = min(ways, key=lambda way: np.count_nonzero(found[way].view(np.uint8)))
@@ -90,21 +95,21 @@ def _encode(column: Bits, index: int, seen: dict[bytes, int]) -> bytes:
 
 def _decode(read: _Reader, rows: int, before: Bits) -> Bits:
     code = read.take(1)[0]
-    if code not in set(Way):
+    if code not in set(ColumnCoding):
         raise BrokenRecordingError(f"a column is stored in a way, {code}, that is not known")
-    way = Way(code)
-    if way is Way.CONSTANT:
+    way = ColumnCoding(code)
+    if way is ColumnCoding.CONSTANT:
         return np.repeat(np.frombuffer(read.take(8), dtype="<u8"), rows)
-    if way is Way.PLAIN:
+    if way is ColumnCoding.PLAIN:
         return np.frombuffer(read.take(8 * rows), dtype="<u8")
-    if way is Way.SAME:
+    if way is ColumnCoding.SAME:
         (index,) = struct.unpack("<H", read.take(2))
         if index >= len(before):
             raise BrokenRecordingError(f"a column repeats column {index}, which is not before it")
         return np.asarray(before[index])
     planes = np.frombuffer(read.take(8 * rows), dtype=np.uint8).reshape(8, rows)
     bits = _sums(np.ascontiguousarray(planes.T).view("<u8")[:, 0], _ORDER[way])
-    if way in (Way.BITS_1, Way.BITS_2):
+    if way in (ColumnCoding.BITS_1, ColumnCoding.BITS_2):
         return bits
     return (bits.view("<i8") * 1e-9).view("<u8")
 

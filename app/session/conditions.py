@@ -1,4 +1,7 @@
-"""Gathers from an attempt's head and samples what its score was made under."""
+"""Gathers from an attempt's head and samples what its score was made under.
+
+What held the needle is one of them; it stands in every record.
+"""
 
 import json
 import math
@@ -8,9 +11,38 @@ from typing import Any, Final
 import numpy as np
 
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
-from app.session.hands import TRAINEE
+from app.session.errors import SessionError
 from app.session.machine import State
 from app.session.samples import Samples
+
+TRAINEE: Final = "trainee"
+"""Name of the metadata record; its key `hand` holds one of `HANDS`."""
+
+HANDS: Final = ("mouse", "keyboard", "tablet", "gamepad", "robot", "pen", "script")
+"""Sources of the hand: `robot` is a real hand at a real robot, `pen` one that holds a pen with
+printed markers, `script` the scripted trainee."""
+
+
+def hand_of(trainee: Mapping[str, str], asked: str = "") -> str:
+    """Return the hand of an attempt.
+
+    A run that was built for one hand (a scripted trainee, a real robot, a pen) keeps it whatever is
+    asked for; without a word it is the mouse.
+
+    Args:
+        trainee: metadata record of the run: `scripted` not empty, or `hand`, says the one hand.
+        asked: what the window says.
+
+    Raises:
+        SessionError: for another name; gives the valid ones.
+    """
+    if trainee.get("scripted"):
+        return "script"
+    hand = trainee.get("hand") or asked or "mouse"
+    if hand not in HANDS:
+        raise SessionError(f"hand {hand!r} is not known; valid names: {', '.join(HANDS)}")
+    return hand
+
 
 CONDITIONS: Final = "conditions"
 """Metadata record of what the exercise sets: `level`, `views`, `assistance`, `content`."""

@@ -15,9 +15,8 @@ from app.core.errors import AcusError
 from app.core.paths import sessions
 from app.device.checkpoint import Checkpoint
 from app.planning.placement import PlacedPlan
-from app.session.conditions import AGREEMENT
+from app.session.conditions import AGREEMENT, TRAINEE, hand_of
 from app.session.facts import PLAN, plan_record
-from app.session.hands import TRAINEE, hand_of
 from app.session.header import TRASH, Attachment, SessionHeader, new_id
 from app.session.recorder import Recorder
 

@@ -33,8 +33,7 @@ from app.core.units import MILLIMETRE
 from app.session.fusion import fix_depth, is_usable
 from app.session.inputs import LoopInputs
 from app.tracking.fix import FixStatus, NeedleFix
-from app.tracking.motion.constant_velocity import ConstantVelocity
-from app.tracking.motion.depth_filter import DepthMotion
+from app.tracking.motion.depth_filter import ConstantVelocity, DepthMotion
 
 if TYPE_CHECKING:
     from app.device.control.loop import Loop

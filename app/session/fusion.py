@@ -113,17 +113,17 @@ def fuse_tip(
     along = np.outer(axis, axis)
     foot = float(offset @ axis)
     beside = read_only(offset - foot * axis)
+    own = FusedTip(
+        p_tip=read_only(np.array(p_tip, dtype=np.float64)),
+        covariance=read_only(np.array(covariance)),
+        depth=foot,
+        depth_variance=max(0.0, float(axis @ covariance @ axis)),
+        snapped=line_variance is None,
+        beside=beside,
+        chi_square=0.0,
+    )
     if line_variance is None:
-        variance = max(0.0, float(axis @ covariance @ axis))
-        return FusedTip(
-            read_only(np.array(p_tip, dtype=np.float64)),
-            read_only(np.array(covariance)),
-            foot,
-            variance,
-            True,
-            beside,
-            0.0,
-        )
+        return own
     s_line = line_covariance(axis, foot, line_variance)
     total = covariance + s_line + 1e-18 * np.eye(3)
     weighted = np.linalg.solve(total, axis)
@@ -133,16 +133,7 @@ def fuse_tip(
     apart = offset - depth * axis
     chi_square = float(apart @ np.linalg.solve(total, apart))
     if chi_square > _LIMIT:
-        spread = max(0.0, float(axis @ covariance @ axis))
-        return FusedTip(
-            read_only(np.array(p_tip, dtype=np.float64)),
-            read_only(np.array(covariance)),
-            foot,
-            spread,
-            False,
-            beside,
-            chi_square,
-        )
+        return replace(own, chi_square=chi_square)
     moves = np.outer(axis, gain)
     stays = moves - np.eye(3)
     spread_tip = float(gain @ covariance @ gain) * along + stays @ s_line @ stays.T
@@ -186,7 +177,7 @@ def is_usable(fix: NeedleFix) -> bool:
     )
 
 
-def is_one_eyed(fix: NeedleFix) -> bool:
+def by_one_camera(fix: NeedleFix) -> bool:
     """Whether one camera alone has seen the marker."""
     return str(fix.status) == FixStatus.ONE_CAMERA
 
@@ -275,7 +266,7 @@ def _measured(
     """Pose with a depth by the cameras, from `fulcrum` [m] along the unit `axis`."""
     tip = tip_of(fix, fulcrum, axis)
     age = _age(fix.time, now)
-    fresh = DepthSource.ONE_CAMERA if is_one_eyed(fix) else DepthSource.TRACKED
+    fresh = DepthSource.ONE_CAMERA if by_one_camera(fix) else DepthSource.TRACKED
     aged = (HAND_SPEED * age) ** 2 * np.outer(axis, axis)
     both = fix.line_variance is not None
     bend = Bend.of_row(np.asarray(device.row))

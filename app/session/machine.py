@@ -24,7 +24,7 @@ class State(StrEnum):
     ABORTED = "aborted"
 
 
-class Event(StrEnum):
+class AttemptEvent(StrEnum):
     """What moves an attempt."""
 
     PREPARE = "prepare"
@@ -38,32 +38,32 @@ class Event(StrEnum):
     ABORT = "abort"
 
 
-TABLE: Final[Mapping[tuple[State, Event], State]] = MappingProxyType(
+TABLE: Final[Mapping[tuple[State, AttemptEvent], State]] = MappingProxyType(
     {
-        (State.READY, Event.PREPARE): State.WITHDRAWING,
-        (State.READY, Event.BEGIN): State.ALIGNING,
-        (State.READY, Event.ABORT): State.ABORTED,
-        (State.WITHDRAWING, Event.BEGIN): State.ALIGNING,
-        (State.WITHDRAWING, Event.END): State.ENDED,
-        (State.WITHDRAWING, Event.ABORT): State.ABORTED,
-        (State.ALIGNING, Event.INSERT): State.INSERTING,
-        (State.ALIGNING, Event.PAUSE): State.PAUSED,
-        (State.ALIGNING, Event.END): State.ENDED,
-        (State.ALIGNING, Event.ABORT): State.ABORTED,
-        (State.INSERTING, Event.HOLD): State.HOLDING,
-        (State.INSERTING, Event.WITHDRAW): State.ALIGNING,
-        (State.INSERTING, Event.PAUSE): State.PAUSED,
-        (State.INSERTING, Event.END): State.ENDED,
-        (State.INSERTING, Event.ABORT): State.ABORTED,
-        (State.HOLDING, Event.INSERT): State.INSERTING,
-        (State.HOLDING, Event.WITHDRAW): State.ALIGNING,
-        (State.HOLDING, Event.PAUSE): State.PAUSED,
-        (State.HOLDING, Event.END): State.ENDED,
-        (State.HOLDING, Event.ABORT): State.ABORTED,
-        (State.PAUSED, Event.RESUME): State.INSERTING,
-        (State.PAUSED, Event.WITHDRAW): State.ALIGNING,
-        (State.PAUSED, Event.END): State.ENDED,
-        (State.PAUSED, Event.ABORT): State.ABORTED,
+        (State.READY, AttemptEvent.PREPARE): State.WITHDRAWING,
+        (State.READY, AttemptEvent.BEGIN): State.ALIGNING,
+        (State.READY, AttemptEvent.ABORT): State.ABORTED,
+        (State.WITHDRAWING, AttemptEvent.BEGIN): State.ALIGNING,
+        (State.WITHDRAWING, AttemptEvent.END): State.ENDED,
+        (State.WITHDRAWING, AttemptEvent.ABORT): State.ABORTED,
+        (State.ALIGNING, AttemptEvent.INSERT): State.INSERTING,
+        (State.ALIGNING, AttemptEvent.PAUSE): State.PAUSED,
+        (State.ALIGNING, AttemptEvent.END): State.ENDED,
+        (State.ALIGNING, AttemptEvent.ABORT): State.ABORTED,
+        (State.INSERTING, AttemptEvent.HOLD): State.HOLDING,
+        (State.INSERTING, AttemptEvent.WITHDRAW): State.ALIGNING,
+        (State.INSERTING, AttemptEvent.PAUSE): State.PAUSED,
+        (State.INSERTING, AttemptEvent.END): State.ENDED,
+        (State.INSERTING, AttemptEvent.ABORT): State.ABORTED,
+        (State.HOLDING, AttemptEvent.INSERT): State.INSERTING,
+        (State.HOLDING, AttemptEvent.WITHDRAW): State.ALIGNING,
+        (State.HOLDING, AttemptEvent.PAUSE): State.PAUSED,
+        (State.HOLDING, AttemptEvent.END): State.ENDED,
+        (State.HOLDING, AttemptEvent.ABORT): State.ABORTED,
+        (State.PAUSED, AttemptEvent.RESUME): State.INSERTING,
+        (State.PAUSED, AttemptEvent.WITHDRAW): State.ALIGNING,
+        (State.PAUSED, AttemptEvent.END): State.ENDED,
+        (State.PAUSED, AttemptEvent.ABORT): State.ABORTED,
     }
 )
 """Every legal transition; nothing else is legal."""
@@ -120,12 +120,12 @@ class Attempt:
         return end - self.began - self.phases(end).get(State.PAUSED, 0.0)
 
 
-def legal(state: State) -> tuple[Event, ...]:
+def legal(state: State) -> tuple[AttemptEvent, ...]:
     """Return the events that `state` knows."""
     return tuple(event for (origin, event) in TABLE if origin is state)
 
 
-def advance(attempt: Attempt, event: Event, time: float, reason: str = "") -> Attempt:
+def advance(attempt: Attempt, event: AttemptEvent, time: float, reason: str = "") -> Attempt:
     """Apply one event.
 
     Args:
@@ -153,7 +153,7 @@ def advance(attempt: Attempt, event: Event, time: float, reason: str = "") -> At
         attempt,
         state=target,
         since=time,
-        began=time if event is Event.BEGIN else attempt.began,
+        began=time if event is AttemptEvent.BEGIN else attempt.began,
         elapsed=MappingProxyType(attempt.phases(time)),
-        reason=reason if event is Event.ABORT else attempt.reason,
+        reason=reason if event is AttemptEvent.ABORT else attempt.reason,
     )

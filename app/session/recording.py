@@ -20,7 +20,7 @@ from app.session.facts import PLAN, placed_plan
 from app.session.risks import risk_marks
 from app.session.sample_columns import SAMPLES_FILE, same, unpack
 from app.session.samples import Samples, bends, floats, vectors, words
-from app.session.scan import Scan, scan, scan_by_index
+from app.session.scan import FileContents, scan, scan_by_index
 from app.session.schemas import CHANNELS, conforms
 from app.session.scored import renders_force, trajectory
 from app.session.ticks import Inputs, read_inputs
@@ -195,7 +195,12 @@ def messages_agree(recording: Recording) -> str:
 
 
 def _recording(
-    path: Path, content: Scan, samples: Samples, problems: list[str], inputs: Inputs, lost: int
+    path: Path,
+    content: FileContents,
+    samples: Samples,
+    problems: list[str],
+    inputs: Inputs,
+    lost: int,
 ) -> Recording:
     events = tuple(_event(document) for document in _documents(content, "/events", problems))
     if lost:
@@ -215,7 +220,7 @@ def _recording(
     )
 
 
-def _documents(content: Scan, topic: str, problems: list[str]) -> list[dict[str, Any]]:
+def _documents(content: FileContents, topic: str, problems: list[str]) -> list[dict[str, Any]]:
     """Messages of a JSON channel that are as its schema says."""
     schema = CHANNELS[topic].schema or {}
     documents = []
@@ -239,7 +244,7 @@ def _event(document: dict[str, Any]) -> Event:
     return Event(time, str(document.get("kind", "")), str(document.get("message", "")), data)
 
 
-def _columns(content: Scan, problems: list[str]) -> Samples | None:
+def _columns(content: FileContents, problems: list[str]) -> Samples | None:
     """Return the samples by the attachment; None without one that can be read."""
     try:
         return unpack(content.attachments[SAMPLES_FILE])
@@ -250,7 +255,7 @@ def _columns(content: Scan, problems: list[str]) -> Samples | None:
         return None
 
 
-def _samples(content: Scan, problems: list[str]) -> Samples:
+def _samples(content: FileContents, problems: list[str]) -> Samples:
     rows = _documents(content, "/attempt", problems)
     by_stamp = {_stamp(d): d for d in _documents(content, "/haptic/wrench", problems)}
     wrenches = [by_stamp.get(_stamp(row), {}) for row in rows]  # both channels share the stamp

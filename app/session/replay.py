@@ -5,21 +5,128 @@ time and, of a real robot, what its wire read. Everything else is computed: of a
 also the plant and so the encoders. Compared is every slot of the state, by a digest per tick; the
 main outputs by their values in every tick; all by their values twice a second. Not compared is
 `TICK_COST`, the time that a tick took; `LATENESS` and `MISSED` are measured too and are given.
+
+What a record holds for a replay can be told without computing anything.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from math import isfinite
 from typing import Any, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.build import BUILD, build, changes
+from app.scoring.risks import RiskMark
 from app.session.blocks import CLOCK, INPUTS, SLOT_NAMES, WIRE
-from app.session.comparison import Comparison
+from app.session.comparison import Comparison, Difference
+from app.session.control_scan import ControlScan
+from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.errors import ReplayError
 from app.session.recording import Recording
-from app.session.replay_report import ReplayReport
+from app.session.risks import event_of, risk_marks, sentence
 from app.session.ticks import Inputs
+
+
+@dataclass(frozen=True, slots=True)
+class ReplayReport:
+    """Result of a replay.
+
+    Attributes:
+        session: id of the session.
+        ticks: ticks that were recomputed.
+        seconds: time that they stand for [s].
+        recorded_ticks: ticks in the record; more than `ticks` if some are missing between.
+        first_difference: None if every bit is the same.
+        largest_difference: relative to the slot's own size; None if there is none.
+        every_slot: whether every slot of every tick was compared; otherwise only those recorded.
+        changes: what differs between the build that recorded and this one, one line each.
+        gaps: (first tick, count) of every stretch of ticks that the record lacks.
+    """
+
+    session: str
+    ticks: int
+    seconds: float
+    recorded_ticks: int
+    first_difference: Difference | None
+    largest_difference: Difference | None
+    every_slot: bool
+    changes: tuple[str, ...] = ()
+    gaps: tuple[tuple[int, int], ...] = ()
+
+    @property
+    def same_build(self) -> bool:
+        """Whether the record was made by this very build on this kind of processor."""
+        return not self.changes
+
+    @property
+    def identical(self) -> bool:
+        """Whether nothing differs."""
+        return self.first_difference is None
+
+    def sentences(self) -> list[str]:
+        """Say it, one line each."""
+        lines = [self._verdict()]
+        if not self.every_slot:
+            lines.append("compared were only the slots that the record holds by value")
+        for first, count in self.gaps:
+            lines.append(f"{count} ticks from tick {first} on are not in the record")
+        if self.gaps:
+            left = self.recorded_ticks - self.ticks
+            lines.append(f"the replay ends there: {left} recorded ticks were not recomputed")
+        lines += [f"another build: {change}" for change in self.changes]
+        if self.changes and not self.identical:
+            lines.append("with another build, differences in the last digits are expected")
+        return lines
+
+    def document(self) -> dict[str, Any]:
+        """JSON-ready mapping; the keys stand in docs/json.md."""
+        return {
+            "session": self.session,
+            "identical": self.identical,
+            "ticks": self.ticks,
+            "seconds": self.seconds,
+            "recorded_ticks": self.recorded_ticks,
+            "every_slot": self.every_slot,
+            "first_difference": _document(self.first_difference),
+            "largest_difference": _document(self.largest_difference),
+            "same_build": self.same_build,
+            "build_changes": list(self.changes),
+            "gaps": [{"first_tick": first, "ticks": count} for first, count in self.gaps],
+        }
+
+    def _verdict(self) -> str:
+        if self.first_difference is None:
+            return f"identical over {self.ticks} ticks ({self.seconds:.1f} s)"
+        text = f"differs from tick {self.first_difference.tick} on: {_words(self.first_difference)}"
+        most = self.largest_difference
+        if most is not None and most != self.first_difference:
+            text += f"; the largest difference is in tick {most.seen_at}: {_words(most)}"
+        return text
+
+
+def _words(difference: Difference) -> str:
+    d = difference
+    if not d.slot:
+        return f"at {d.time:.4f} s, in a slot that is not recorded in every tick"
+    where = "" if d.seen_at == d.tick else f" (as seen in tick {d.seen_at})"
+    size = f", by {d.size:.2g}" if isfinite(d.size) else ""
+    return f"{d.slot} was {d.recorded!r}, is now {d.recomputed!r}{size}{where}"
+
+
+def _document(difference: Difference | None) -> dict[str, Any] | None:
+    if difference is None:
+        return None
+    return {
+        "tick": difference.tick,
+        "time_s": difference.time,
+        "slot": difference.slot,
+        "recorded": difference.recorded,
+        "recomputed": difference.recomputed,
+        "seen_at_tick": difference.seen_at,
+    }
+
 
 TableOf = Callable[[Recording], Any]
 """Builds the loop's table (`device.control.Table`) of a recorded attempt: `compose` knows how."""
@@ -106,3 +213,119 @@ def _states(
     rerun = Rerun(table_of(recording), recorded.in_order_of(SLOT_NAMES), given)
     for first in range(0, rows, _CHUNK):
         yield first, rerun.run(values[first : min(first + _CHUNK, rows)])
+
+
+@dataclass(frozen=True, slots=True)
+class ReplayContents:
+    """What can be replayed of a record.
+
+    Attributes:
+        session: id of the session.
+        why_not: why it cannot be replayed; empty if it can.
+        simulated: whether the robot is simulated, so that its encoders are recomputed.
+        ticks: ticks of the loop in the record.
+        seconds: time from the first to the last [s].
+        rate_hz: rate of the ticks, from their median distance [Hz].
+        stages: of the tick, in order, with the size of their memory.
+        changing: inputs that change during the attempt, with the number of changes.
+        missed: deadlines missed during the attempt.
+        gaps: (first tick, count) of every stretch of ticks that is missing.
+        build: what recorded it.
+        scans: control scans with an order.
+        origin: monotonic time of the beginning, which their times are told from [s].
+        ct: the CT, and how it was read.
+        risks: structures of risk, and how near the needle came.
+    """
+
+    session: str
+    why_not: str
+    simulated: bool
+    ticks: int
+    seconds: float
+    rate_hz: float
+    stages: Mapping[str, int]
+    changing: Mapping[str, int]
+    missed: int
+    gaps: tuple[tuple[int, int], ...]
+    build: Mapping[str, str]
+    scans: tuple[ControlScan, ...] = ()
+    origin: float = 0.0
+    ct: CtFacts = UNKNOWN_CT
+    risks: tuple[RiskMark, ...] = ()
+
+    def sentences(self) -> list[str]:
+        """Say it, one line each."""
+        robot = "the simulated robot" if self.simulated else "a real robot"
+        lines = [
+            f"{self.ticks} ticks ({self.seconds:.1f} s at {self.rate_hz:.0f} Hz) of {robot}, "
+            f"{self.missed} deadlines missed",
+            "can be replayed: add --check" if not self.why_not else f"no replay: {self.why_not}",
+        ]
+        stages = ", ".join(f"{name} ({size})" for name, size in self.stages.items())
+        lines.append(f"stages: {stages or 'not recorded'}")
+        inputs = ", ".join(f"{name} ({count})" for name, count in self.changing.items())
+        lines.append(f"inputs that change (how often): {inputs or 'none'}")
+        lines += [f"{count} ticks from tick {first} on are missing" for first, count in self.gaps]
+        if self.ct.recipe is not None:
+            lines.append(f"CT {self.ct.pseudonym}: {self.ct.words()}")
+        lines += [scan.sentence(self.origin) for scan in self.scans]
+        lines += [sentence(mark) for mark in self.risks]
+        build = ", ".join(f"{name} {value}" for name, value in self.build.items())
+        return [*lines, f"build: {build or 'not recorded'}"]
+
+    def document(self) -> dict[str, Any]:
+        """JSON-ready mapping; the keys stand in docs/json.md."""
+        return {
+            "session": self.session,
+            "replayable": not self.why_not,
+            "why_not": self.why_not,
+            "simulated": self.simulated,
+            "ticks": self.ticks,
+            "seconds": self.seconds,
+            "rate_hz": self.rate_hz,
+            "stages": dict(self.stages),
+            "changing_inputs": dict(self.changing),
+            "missed": self.missed,
+            "gaps": [{"first_tick": first, "ticks": count} for first, count in self.gaps],
+            "build": dict(self.build),
+            "ct": self.ct.document(),
+            "risks": [dict(event_of(mark).data) for mark in self.risks],
+            "scans": [scan.document(self.origin) for scan in self.scans],
+        }
+
+
+def contents(recording: Recording) -> ReplayContents:
+    """Look into a record."""
+    inputs = recording.inputs
+    recorded, enough = inputs.checkpoint, len(inputs.values) > 1
+    time = inputs.column("time") if enough else np.zeros(2)
+    period = float(np.median(np.diff(time)))
+    missed = inputs.column("missed") if enough and "missed" in inputs.columns else np.zeros(1)
+    start = recorded.checkpoint if recorded is not None else None
+    return ReplayContents(
+        session=recording.id,
+        why_not=why_not(inputs),
+        simulated=is_simulated(recording),
+        ticks=len(inputs.values),
+        seconds=float(time[-1] - time[0]),
+        rate_hz=1.0 / period if period > 0.0 else 0.0,
+        stages=dict(zip(start.names, start.sizes, strict=True)) if start is not None else {},
+        changing=_changing(recording) if enough else {},
+        missed=int(missed[-1] - missed[0]),
+        gaps=inputs.gaps(),
+        build=recording.metadata.get(BUILD, {}),
+        scans=recording.control_scans(),
+        origin=recording.origin,
+        ct=recording.ct,
+        risks=risk_marks(recording.events),
+    )
+
+
+def _changing(recording: Recording) -> dict[str, int]:
+    inputs = recording.inputs
+    counts = {}
+    for name in INPUTS:
+        if name in inputs.columns:
+            values = np.nan_to_num(inputs.column(name), nan=0.0)
+            counts[name] = int(np.count_nonzero(np.diff(values)))
+    return {name: count for name, count in counts.items() if count}

@@ -20,13 +20,13 @@ from app.session.transitions import (
     KIND,
     PAUSED_WORDS,
     RESUMED_WORDS,
-    Cause,
     Classifier,
+    PauseCause,
     Pauses,
     Thresholds,
     classify,
 )
-from app.session.withdrawal import Known
+from app.session.withdrawal import OutsideBy
 
 STEADY: Final = 1.0
 """Time for which the depth is measured without a break before a loss is told again [s]."""
@@ -65,9 +65,9 @@ class DepthLoss:
 
 
 _OUT_WORDS = {
-    Known.SIMULATED: "the needle is out of the skin: the attempt begins",
-    Known.MEASURED: "the needle is out of the skin, as measured: the attempt begins",
-    Known.CONFIRMED: (
+    OutsideBy.SIMULATED: "the needle is out of the skin: the attempt begins",
+    OutsideBy.MEASURED: "the needle is out of the skin, as measured: the attempt begins",
+    OutsideBy.CONFIRMED: (
         "the needle is out of the skin, as the student says and nothing measures: it begins"
     ),
 }
@@ -109,7 +109,7 @@ class RunningAttempt:
     @property
     def pause_words(self) -> str:
         """Why the attempt waits; empty if it does not."""
-        return PAUSED_WORDS[self._pauses.cause or Cause.CAMERAS] if self.paused else ""
+        return PAUSED_WORDS[self._pauses.cause or PauseCause.CAMERAS] if self.paused else ""
 
     def require_idle(self, what: str) -> None:
         """Refuse what is not possible during an attempt.
@@ -123,7 +123,11 @@ class RunningAttempt:
             )
 
     def begin(
-        self, log: AttemptLog, now: float, failure: str = "", out: Known | None = Known.SIMULATED
+        self,
+        log: AttemptLog,
+        now: float,
+        failure: str = "",
+        out: OutsideBy | None = OutsideBy.SIMULATED,
     ) -> None:
         """Begin a new attempt at `now` [s], or, while the needle is not out, what goes before it.
 
@@ -133,7 +137,7 @@ class RunningAttempt:
             IllegalTransitionError: if one is running.
         """
         self.require_idle("an attempt cannot begin")
-        event = machine.Event.PREPARE if out is None else machine.Event.BEGIN
+        event = machine.AttemptEvent.PREPARE if out is None else machine.AttemptEvent.BEGIN
         self.attempt = machine.advance(Attempt(), event, now)
         self._classifier, self._depth, self.log = Classifier(), DepthLoss(), log
         self._pauses = Pauses()
@@ -141,10 +145,10 @@ class RunningAttempt:
             self.say("recorder", f"this attempt is not recorded: {failure}", now)
         self._say_state(now)
 
-    def release(self, known: Known, now: float) -> None:
+    def release(self, known: OutsideBy, now: float) -> None:
         """Begin the attempt, with the needle out of the skin; `known` says how that is known."""
         waited = now - self.attempt.since
-        self._advance(machine.Event.BEGIN, now)
+        self._advance(machine.AttemptEvent.BEGIN, now)
         data: dict[str, object] = {"how": known.value, "duration_s": waited}
         self.say("withdrawal", _OUT_WORDS[known], now, data)
 
@@ -217,7 +221,7 @@ class RunningAttempt:
 
     def finish(
         self,
-        event: machine.Event,
+        event: machine.AttemptEvent,
         seen: Observation | None,
         inputs: LoopInputs,
         now: float,
@@ -247,8 +251,8 @@ class RunningAttempt:
         if self.log is not None:
             self.log.event(event)
 
-    def _change(self, event: machine.Event, now: float) -> None:
-        paused, cause = self.paused, self._pauses.cause or Cause.CAMERAS
+    def _change(self, event: machine.AttemptEvent, now: float) -> None:
+        paused, cause = self.paused, self._pauses.cause or PauseCause.CAMERAS
         self._advance(event, now)
         if self.paused:
             self._tell_pause(PAUSED_WORDS[cause], now, over=False)
@@ -257,12 +261,12 @@ class RunningAttempt:
             self._tell_pause(RESUMED_WORDS[cause], now, over=True)
 
     def _tell_pause(self, words: str, now: float, over: bool) -> None:
-        data: dict[str, object] = {"cause": str(self._pauses.cause or Cause.CAMERAS)}
+        data: dict[str, object] = {"cause": str(self._pauses.cause or PauseCause.CAMERAS)}
         if over:
             data["duration_s"] = self._pauses.lasted(now)
         self.say(KIND, words, now, data)
 
-    def _advance(self, event: machine.Event, now: float, reason: str = "") -> None:
+    def _advance(self, event: machine.AttemptEvent, now: float, reason: str = "") -> None:
         # The caller's time may have been read just before another thread's last transition.
         time = max(now, self.attempt.since)
         self.attempt = machine.advance(self.attempt, event, time, reason)

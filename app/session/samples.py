@@ -67,7 +67,7 @@ class Samples:
         return float(np.nanmedian(self.radius))
 
 
-class History:
+class SampleHistory:
     """Samples of a running attempt, at most one per `SAMPLE_PERIOD`."""
 
     def __init__(self) -> None:

@@ -34,7 +34,7 @@ _MESSAGE: Final = struct.Struct("<HIQQ")
 
 
 @dataclass(slots=True)
-class Scan:
+class FileContents:
     """What a file holds.
 
     Attributes:
@@ -54,13 +54,13 @@ class Scan:
     problems: list[str] = field(default_factory=list)
 
 
-def scan(path: Path) -> Scan:
+def scan(path: Path) -> FileContents:
     """Read all records that are whole.
 
     Raises:
         BrokenRecordingError: if the file cannot be read or does not begin as an MCAP file.
     """
-    result = Scan()
+    result = FileContents()
     topics: dict[int, str] = {}
     payloads: dict[int, list[bytes]] = {}
     try:
@@ -79,7 +79,7 @@ def scan(path: Path) -> Scan:
     return result
 
 
-def scan_by_index(path: Path, topic: str) -> Scan | None:
+def scan_by_index(path: Path, topic: str) -> FileContents | None:
     """Read metadata, attachments and the messages of one topic by the index at the file's end.
 
     The length of the attempt then hardly matters. None where the file was not finished or anything
@@ -101,9 +101,9 @@ class _UnsoundError(Exception):
     """The index, or something that it points to, is not as it should be."""
 
 
-def _indexed(stream: IO[bytes], size: int, topic: str) -> Scan:
+def _indexed(stream: IO[bytes], size: int, topic: str) -> FileContents:
     summary = _summary(stream, size)
-    result, ids = Scan(complete=True), []
+    result, ids = FileContents(complete=True), []
     for record in summary:
         if isinstance(record, Channel):
             result.channels[record.topic] = record.metadata
@@ -217,7 +217,7 @@ def _parse(frame: bytes, offset: int, problems: list[str], chunk: bool = False) 
     return records
 
 
-def _sort(record: McapRecord, topics: dict[int, str], result: Scan) -> None:
+def _sort(record: McapRecord, topics: dict[int, str], result: FileContents) -> None:
     if isinstance(record, Channel):
         topics[record.id] = record.topic
         result.channels[record.topic] = record.metadata

@@ -150,7 +150,7 @@ SCORE: Final = _object(
 
 
 @dataclass(frozen=True, slots=True)
-class Channel:
+class RecordChannel:
     """A channel: its topic, and its schema or, of a binary one, the name of its layout."""
 
     topic: str
@@ -161,15 +161,15 @@ class Channel:
 CHANNELS: Final = {
     channel.topic: channel
     for channel in (
-        Channel("/tf", FRAME_TRANSFORM),
-        Channel("/needle/tip", POSE_IN_FRAME),
-        Channel("/haptic/joints", JOINT_STATES),
-        Channel("/haptic/wrench", WRENCH),
-        Channel("/tracking/quality", QUALITY),
-        Channel("/attempt", ATTEMPT),
-        Channel("/events", LOG),
-        Channel("/loop/inputs", None, "acus-block"),
-        Channel("/loop/checkpoint", None, "acus-checkpoint"),
+        RecordChannel("/tf", FRAME_TRANSFORM),
+        RecordChannel("/needle/tip", POSE_IN_FRAME),
+        RecordChannel("/haptic/joints", JOINT_STATES),
+        RecordChannel("/haptic/wrench", WRENCH),
+        RecordChannel("/tracking/quality", QUALITY),
+        RecordChannel("/attempt", ATTEMPT),
+        RecordChannel("/events", LOG),
+        RecordChannel("/loop/inputs", None, "acus-block"),
+        RecordChannel("/loop/checkpoint", None, "acus-checkpoint"),
     )
 }
 """Every channel of a record by topic."""

@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, read_only
 from app.session import blocks, checkpoint_file
-from app.session.blocks import Block
+from app.session.blocks import TickBlock
 from app.session.checkpoint_file import RecordedCheckpoint
 from app.session.errors import BrokenRecordingError
-from app.session.scan import Scan
+from app.session.scan import FileContents
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -57,7 +57,7 @@ class Inputs:
         return tuple((int(tick[k]) + 1, int(tick[k + 1] - tick[k]) - 1) for k in at)
 
 
-def read_inputs(content: Scan, problems: list[str]) -> Inputs:
+def read_inputs(content: FileContents, problems: list[str]) -> Inputs:
     """Read all blocks of a record; what cannot be read is told in `problems`."""
     channel = content.channels.get("/loop/inputs", {})
     columns = _names(channel.get("slots", "")) or blocks.COLUMNS
@@ -77,7 +77,7 @@ def read_inputs(content: Scan, problems: list[str]) -> Inputs:
     )
 
 
-def _blocks(content: Scan, columns: int, problems: list[str]) -> list[Block]:
+def _blocks(content: FileContents, columns: int, problems: list[str]) -> list[TickBlock]:
     parts = []
     for data in content.messages.get("/loop/inputs", []):
         try:
@@ -92,12 +92,12 @@ def _blocks(content: Scan, columns: int, problems: list[str]) -> list[Block]:
     return parts
 
 
-def _starts(parts: list[Block]) -> list[tuple[int, Block]]:
+def _starts(parts: list[TickBlock]) -> list[tuple[int, TickBlock]]:
     ends = np.cumsum([len(part.values) for part in parts]).tolist()
     return [(end - len(part.values), part) for end, part in zip(ends, parts, strict=True)]
 
 
-def _checkpoint(content: Scan, problems: list[str]) -> RecordedCheckpoint | None:
+def _checkpoint(content: FileContents, problems: list[str]) -> RecordedCheckpoint | None:
     for data in content.messages.get("/loop/checkpoint", []):
         try:
             return checkpoint_file.unpack(data)

@@ -18,7 +18,7 @@ from app.session.context import RunContext
 from app.session.errors import ControlLockedError
 from app.session.fixes import TRUST, DepthTrust
 from app.session.inputs import Arming, ClearanceOf, LoopInputs
-from app.session.machine import Event
+from app.session.machine import AttemptEvent
 from app.session.observation import Observation, RobotAndCameras
 from app.session.result import AttemptResult
 from app.session.risks import Risk
@@ -192,14 +192,14 @@ class Trainer:
             IllegalTransitionError: if no attempt is running.
         """
         with self._lock:
-            return self._finish(Event.END)
+            return self._finish(AttemptEvent.END)
 
     def abort(self, reason: str = "by the user") -> AttemptResult | None:
         """Break a running attempt off, with the reason; nothing happens if none is running."""
         with self._lock:
             if not self._running.attempt.running:
                 return None
-            return self._finish(Event.ABORT, reason)
+            return self._finish(AttemptEvent.ABORT, reason)
 
     def confirm_outside(self) -> None:
         """Take the student's word that the needle is out of the skin; see `session.withdrawal`."""
@@ -377,7 +377,7 @@ class Trainer:
         self._running.say("slept", standstill_words(slept), now, {"seconds": slept})
         return standstill_words(slept)
 
-    def _finish(self, event: Event, reason: str = "") -> AttemptResult:
+    def _finish(self, event: AttemptEvent, reason: str = "") -> AttemptResult:
         self.disarm()
         self._withdrawal.stop()
         now = self._clock.now()

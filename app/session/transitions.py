@@ -22,7 +22,7 @@ from typing import Final
 
 from app.core.events import Event as Told
 from app.core.staleness import HEARTBEAT
-from app.session.machine import Event, State
+from app.session.machine import AttemptEvent, State
 from app.session.needle import NeedlePose
 from app.tracking.fix import FixStatus
 
@@ -71,7 +71,7 @@ def classify(
     pose: NeedlePose,
     distance: float,
     limits: Thresholds = DEFAULT,
-) -> tuple[Classifier, Event | None]:
+) -> tuple[Classifier, AttemptEvent | None]:
     """Look at one pose.
 
     A depth that the cameras do not vouch for moves nothing and breaks a beginning hold. The speed
@@ -92,15 +92,15 @@ def classify(
         return replace(memory, window=()), None
     memory = _remember(memory, pose, limits)
     if state is State.ALIGNING:
-        return memory, Event.INSERT if pose.depth > limits.insert_depth else None
+        return memory, AttemptEvent.INSERT if pose.depth > limits.insert_depth else None
     if state not in (State.INSERTING, State.HOLDING):
         return memory, None
     if pose.depth < limits.withdraw_depth:
-        return Classifier(), Event.WITHDRAW
+        return Classifier(), AttemptEvent.WITHDRAW
     if state is State.INSERTING:
         return _begin_hold(memory, pose, distance, limits)
     if abs(pose.depth - memory.held_depth) > limits.move_distance:
-        return Classifier(), Event.INSERT
+        return Classifier(), AttemptEvent.INSERT
     return memory, None
 
 
@@ -114,12 +114,12 @@ def _remember(memory: Classifier, pose: NeedlePose, limits: Thresholds) -> Class
 
 def _begin_hold(
     memory: Classifier, pose: NeedlePose, distance: float, limits: Thresholds
-) -> tuple[Classifier, Event | None]:
+) -> tuple[Classifier, AttemptEvent | None]:
     depths = [depth for _, depth in memory.window]
     spans = pose.time - memory.window[0][0] >= limits.hold_time - 1e-9
     still = max(depths) - min(depths) < limits.hold_rate * limits.hold_time
     if spans and still and distance < limits.hold_distance:
-        return replace(memory, held_depth=pose.depth), Event.HOLD
+        return replace(memory, held_depth=pose.depth), AttemptEvent.HOLD
     return memory, None
 
 
@@ -134,7 +134,7 @@ BACK: Final = 0.5
 """Time for which the cause must be gone until it goes on [s]."""
 
 
-class Cause(StrEnum):
+class PauseCause(StrEnum):
     """Why an attempt waits."""
 
     CAMERAS = "cameras"
@@ -143,32 +143,32 @@ class Cause(StrEnum):
 
 
 PAUSED_WORDS: Final = {
-    Cause.CAMERAS: (
+    PauseCause.CAMERAS: (
         "paused: for a second no picture has told how deep the needle is in the body; forces are "
         "off and the clock stands still; show the marker to the cameras, or let the computer catch "
         "up"
     ),
-    Cause.WINDOW: (
+    PauseCause.WINDOW: (
         "paused: the window was busy for a second; forces are off and the clock stands still; the "
         "attempt goes on by itself"
     ),
-    Cause.HAND: (
+    PauseCause.HAND: (
         "paused: the needle swung in the simulated hand as if nobody held it, so its force was "
         "cut; the clock stands still and the attempt goes on by itself"
     ),
 }
 RESUMED_WORDS: Final = {
-    Cause.CAMERAS: (
+    PauseCause.CAMERAS: (
         "the cameras see the marker again: the attempt goes on, forces come back; a switch that "
         "must be held has to be pressed again"
     ),
-    Cause.WINDOW: (
+    PauseCause.WINDOW: (
         "the window answers again: the attempt goes on, forces come back; a switch that must be "
         "held has to be pressed again"
     ),
-    Cause.HAND: "the needle is at rest in the hand: the attempt goes on, forces come back",
+    PauseCause.HAND: "the needle is at rest in the hand: the attempt goes on, forces come back",
 }
-_OWN_TROUBLE: Final = (Cause.WINDOW, Cause.HAND)
+_OWN_TROUBLE: Final = (PauseCause.WINDOW, PauseCause.HAND)
 
 
 class _Watched:
@@ -197,8 +197,8 @@ class Pauses:
     """
 
     def __init__(self) -> None:
-        self.cause: Cause | None = None
-        self._watched = {cause: _Watched() for cause in Cause}
+        self.cause: PauseCause | None = None
+        self._watched = {cause: _Watched() for cause in PauseCause}
         self._inside = True
         self._began = 0.0
 
@@ -209,7 +209,7 @@ class Pauses:
         fix_status: str,
         silence: float = 0.0,
         swings: bool = False,
-    ) -> Event | None:
+    ) -> AttemptEvent | None:
         """Return what a moment means for the attempt, if anything.
 
         A pose that is not valid is the robot's trouble, and no reason to blame the cameras.
@@ -218,32 +218,32 @@ class Pauses:
         """
         now = pose.time
         blamed = pose.valid and fix_status != FixStatus.NOT_YET_VISIBLE
-        cameras = self._watched[Cause.CAMERAS]
+        cameras = self._watched[PauseCause.CAMERAS]
         cameras.look(not pose.measured and blamed, pose.measured, now)
         busy = silence > HEARTBEAT
-        own = {Cause.WINDOW: busy, Cause.HAND: swings}
+        own = {PauseCause.WINDOW: busy, PauseCause.HAND: swings}
         for cause, there in own.items():
             self._watched[cause].look(there, not there, now)
         if state is State.PAUSED:
             if self.cause is None or not self._watched[self.cause].over(now):
                 return None
-            return Event.RESUME if self._inside else Event.WITHDRAW
+            return AttemptEvent.RESUME if self._inside else AttemptEvent.WITHDRAW
         inside = state in (State.INSERTING, State.HOLDING)
         if inside or state is State.ALIGNING:
             for cause, there in own.items():
                 if there:
                     return self._pause(cause, inside, now)
         if inside and cameras.lasts(now, LOST):
-            return self._pause(Cause.CAMERAS, inside, now)
+            return self._pause(PauseCause.CAMERAS, inside, now)
         return None
 
     def lasted(self, now: float) -> float:
         """How long the present pause has lasted [s]."""
         return max(0.0, now - self._began)
 
-    def _pause(self, cause: Cause, inside: bool, now: float) -> Event:
+    def _pause(self, cause: PauseCause, inside: bool, now: float) -> AttemptEvent:
         self.cause, self._inside, self._began = cause, inside, now
-        return Event.PAUSE
+        return AttemptEvent.PAUSE
 
 
 def excused(events: Iterable[Told]) -> float:

@@ -19,7 +19,7 @@ from app.session.inputs import LoopInputs
 from app.session.needle import NeedlePose
 
 KIND: Final = "withdrawal"
-"""Kind of the events that tell of it; `how` in their data is a `Known`."""
+"""Kind of the events that tell of it; `how` in their data is a `OutsideBy`."""
 
 INSIDE: Final = -0.002
 """Depth from which a simulated needle is brought out before an attempt [m]."""
@@ -48,7 +48,7 @@ class Start(StrEnum):
     REAL = "real"
 
 
-class Known(StrEnum):
+class OutsideBy(StrEnum):
     """How it is known that the tip is outside."""
 
     SIMULATED = "simulated"
@@ -89,10 +89,10 @@ def tip_outside(pose: NeedlePose) -> Outside:
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class WithdrawalStep:
     """What a look came to: not yet out, out (`known`), or given up (`failure`)."""
 
-    known: Known | None = None
+    known: OutsideBy | None = None
     failure: str = ""
 
 
@@ -122,41 +122,41 @@ class Withdrawal:
         """Whether it is moving the simulated hand."""
         return self.active and self._start is Start.SIMULATED
 
-    def begin(self, device: DeviceState | None, pose: NeedlePose, now: float) -> Known | None:
+    def begin(self, device: DeviceState | None, pose: NeedlePose, now: float) -> OutsideBy | None:
         """Begin before an attempt: how it is known that the tip is out already, or None."""
         self._since, self._confirmed, self._said = now, None, False
         self.active, self.asks, self.words = False, False, ""
         if self._start is Start.SIMULATED:
             if device is None or not _depth(device) > INSIDE:
-                return Known.SIMULATED
+                return OutsideBy.SIMULATED
             self.active = True  # before the hand moves: nobody else may move it from now on
             self._bring_out(device)
         elif self._start is Start.REAL:
             if tip_outside(pose) is Outside.YES:
-                return Known.MEASURED
+                return OutsideBy.MEASURED
             self.active = True
             self._ask(tip_outside(pose))
         else:
-            return Known.SIMULATED
+            return OutsideBy.SIMULATED
         return None
 
-    def advance(self, device: DeviceState | None, pose: NeedlePose, now: float) -> Step:
+    def advance(self, device: DeviceState | None, pose: NeedlePose, now: float) -> WithdrawalStep:
         """Look once more while the tip is being brought out."""
         if self._start is Start.SIMULATED:
             if device is not None and _depth(device) <= OUT:
-                return self._out(Known.SIMULATED)
+                return self._out(OutsideBy.SIMULATED)
             if now - self._since > PATIENCE:
                 self.stop()
-                return Step(failure="the simulated needle did not come out of the skin")
-            return Step()
+                return WithdrawalStep(failure="the simulated needle did not come out of the skin")
+            return WithdrawalStep()
         outside = tip_outside(pose)
         if outside is Outside.YES:
-            return self._out(Known.MEASURED)
+            return self._out(OutsideBy.MEASURED)
         if self._said and outside is Outside.UNKNOWN:
             self._confirmed = now
-            return self._out(Known.CONFIRMED)
+            return self._out(OutsideBy.CONFIRMED)
         self._ask(outside)
-        return Step()
+        return WithdrawalStep()
 
     def confirm(self) -> None:
         """Take the student's word that the needle is out; counts only where nothing measures it."""
@@ -181,9 +181,9 @@ class Withdrawal:
         """Stop waiting; the hand obeys its window again."""
         self.active, self.asks, self.words, self._said = False, False, "", False
 
-    def _out(self, known: Known) -> Step:
+    def _out(self, known: OutsideBy) -> WithdrawalStep:
         self.stop()
-        return Step(known)
+        return WithdrawalStep(known)
 
     def _ask(self, outside: Outside) -> None:
         self.asks = outside is Outside.UNKNOWN

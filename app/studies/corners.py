@@ -19,8 +19,8 @@ from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
 from app.tracking.calibration import finders
 from app.tracking.calibration.boards import Board, parse_board
 from app.tracking.calibration.corners import WINDOW_MAX, WINDOW_SHARE, half_window, refined
+from app.tracking.calibration.finders import edge_width
 from app.tracking.calibration.grid import extents, local_axes, plane_map
-from app.tracking.calibration.sharpness import edge_width
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.simulated.board import BoardRenderer
 

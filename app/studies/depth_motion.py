@@ -15,8 +15,12 @@ from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.studies.findings import Findings, Sheet
 from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
-from app.tracking.motion.constant_velocity import ConstantVelocity
-from app.tracking.motion.depth_filter import FASTEST, HAND_SPEED, DepthFilter
+from app.tracking.motion.depth_filter import (
+    FASTEST,
+    HAND_SPEED,
+    ConstantVelocity,
+    DepthFilter,
+)
 
 DECLARATION: Final[dict[str, Any]] = {
     "title": "The tip on the screen: newest fix, Kalman, one euro",

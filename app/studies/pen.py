@@ -11,7 +11,7 @@ from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.mechanisms.profile import load_profile
 from app.studies.findings import Cell, Figure, Findings, Sheet, Survey
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.optics.calibration import CameraCalibration
 from app.tracking.optics.camera_model import CameraModel
@@ -123,7 +123,7 @@ def rendered(setup: Setup, poses: int = _POSES, seed: int = _SEED) -> Outcome:
         T_world_body, p_tip, axis = _held(rng, entry)
         image = draw.render(PenScene(T_world_body, p_tip)).astype(np.float64)
         image += rng.normal(0.0, setup.noise, image.shape[:2])[..., None]
-        frame = Frame(np.clip(np.rint(image), 0, 255).astype(np.uint8), 1.0)
+        frame = CameraFrame(np.clip(np.rint(image), 0, 255).astype(np.uint8), 1.0)
         needle = known.look(frame).needle
         if needle is None:
             continue

@@ -17,7 +17,7 @@ from app.studies.study import Case, Limit, Prepared, Setting, Study, Way
 from app.tracking.confidence import covariance_radius
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.stereo import triangulation
-from app.tracking.stereo.rays import normalised
+from app.tracking.stereo.epipolar import normalised
 from app.tracking.stereo.reprojection import reprojection
 
 DECLARATION: Final[dict[str, Any]] = {

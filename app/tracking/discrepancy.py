@@ -22,7 +22,49 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
-from app.tracking.discrepancy_words import BUMPED, SWAPPED, bent, lean, slipped, unclear
+
+BUMPED: Final = (
+    "the two pictures, or pictures and robot, no longer fit each other: a camera was moved; run "
+    "the daily check, then calibrate"
+)
+"""Said of a camera that was moved."""
+
+SWAPPED: Final = (
+    "the pictures fit with left and right exchanged: the cameras are swapped; put both cables "
+    "back, or exchange left and right in the settings"
+)
+"""Said of swapped cameras."""
+
+
+def bent(size: float) -> str:
+    """Speak of a needle that bends by so much at the deepest [m]."""
+    return f"the needle bends: up to {size / MILLIMETRE:.1f} mm off its line at the band"
+
+
+def lean(turn: float) -> str:
+    """Speak of an axis by the cameras that is turned from the robot's [rad]."""
+    return (
+        f"the cameras see the needle turned by {np.degrees(turn):.1f}° from the robot's direction: "
+        "home the robot again, then run the daily check"
+    )
+
+
+def unclear(rms: float) -> str:
+    """Speak of a distance beside the line [m] without a cause."""
+    return (
+        f"the cameras see the needle {rms / MILLIMETRE:.1f} mm beside the robot's line: move it "
+        "through its whole depth to tell a bent needle from a camera that was moved"
+    )
+
+
+def slipped(slip: float) -> str:
+    """Speak of a marker that is off along the needle [m]."""
+    where = "towards the tip" if slip > 0.0 else "towards the hub"
+    return (
+        f"the tip touches known places {abs(slip) / MILLIMETRE:.1f} mm from where the cameras see "
+        f"it: the marker has slipped {where}; set it back to its mark"
+    )
+
 
 WINDOW: Final = 300
 """Fixes that are looked at: 10 s of 30 Hz."""
@@ -58,7 +100,7 @@ _FORCE: Final = 0.3
 """RMS sideways force [N] from which its direction is believed."""
 
 
-class Cause(StrEnum):
+class DiscrepancyCause(StrEnum):
     """Why cameras and robot disagree."""
 
     NONE = "none"
@@ -83,7 +125,7 @@ class Discrepancy:
             the rig has one band.
     """
 
-    cause: Cause = Cause.NONE
+    cause: DiscrepancyCause = DiscrepancyCause.NONE
     beside: float = 0.0
     size: float = 0.0
     words: str = ""
@@ -155,10 +197,10 @@ class DiscrepancyMonitor:
         """Say what the evidence so far means."""
         evidence = [one for one in self._evidence if not one.exchanged]
         if len(self._evidence) - len(evidence) >= ENOUGH:
-            return Discrepancy(Cause.SWAPPED_CAMERAS, words=SWAPPED)
+            return Discrepancy(DiscrepancyCause.SWAPPED_CAMERAS, words=SWAPPED)
         if len(evidence) >= ENOUGH:
             found = self._turned(self._beside(evidence))
-            if found.cause is not Cause.NONE:
+            if found.cause is not DiscrepancyCause.NONE:
                 return found
         else:
             found = Discrepancy()
@@ -166,7 +208,9 @@ class DiscrepancyMonitor:
             slip = float(np.mean(self._touches))
             scatter = float(np.std(self._touches)) / np.sqrt(len(self._touches))
             if abs(slip) > max(SLIP_LIMIT, 3.0 * scatter):
-                return Discrepancy(Cause.SLIPPED_MARKER, found.beside, abs(slip), slipped(slip))
+                return Discrepancy(
+                    DiscrepancyCause.SLIPPED_MARKER, found.beside, abs(slip), slipped(slip)
+                )
         return found
 
     def _turned(self, found: Discrepancy) -> Discrepancy:
@@ -176,8 +220,8 @@ class DiscrepancyMonitor:
             return found
         turn = float(np.linalg.norm(np.mean([turn for turn, _ in both], axis=0)))
         sigma = float(np.median([sigma for _, sigma in both]))
-        if found.cause is Cause.NONE and turn > TURN_LIMIT * sigma:
-            return replace(found, cause=Cause.TURNED, turn=turn, words=lean(turn))
+        if found.cause is DiscrepancyCause.NONE and turn > TURN_LIMIT * sigma:
+            return replace(found, cause=DiscrepancyCause.TURNED, turn=turn, words=lean(turn))
         return replace(found, turn=turn)
 
     def _beside(self, evidence: list[Evidence]) -> Discrepancy:
@@ -186,7 +230,7 @@ class DiscrepancyMonitor:
         rms = float(np.sqrt(np.mean(np.sum(beside**2, axis=1))))
         epipolar = float(np.median([e.epipolar for e in evidence]))
         if abs(epipolar) > EPIPOLAR_LIMIT or rms > LARGEST_BEND:
-            return Discrepancy(Cause.BUMPED_CAMERA, rms, rms, BUMPED)
+            return Discrepancy(DiscrepancyCause.BUMPED_CAMERA, rms, rms, BUMPED)
         if np.mean(np.sum(beside**2, axis=1) / (2.0 * sigma**2)) < BESIDE_LIMIT**2:
             return Discrepancy(beside=rms)
         return _explained(evidence, beside, rms)
@@ -211,7 +255,9 @@ def _explained(evidence: list[Evidence], beside: FloatArray, rms: float) -> Disc
         left_by_bend < EXPLAINED * left_by_shift and np.ptp(depth) > SPREAD
     ):
         size = float(np.max(np.linalg.norm(beside, axis=1)))
-        return Discrepancy(Cause.BENT_NEEDLE, rms, size, bent(size))
+        return Discrepancy(DiscrepancyCause.BENT_NEEDLE, rms, size, bent(size))
     if left_by_shift < least and np.ptp(depth) > SPREAD:
-        return Discrepancy(Cause.BUMPED_CAMERA, rms, float(np.linalg.norm(constant)), BUMPED)
-    return Discrepancy(Cause.UNCLEAR, rms, rms, unclear(rms))
+        return Discrepancy(
+            DiscrepancyCause.BUMPED_CAMERA, rms, float(np.linalg.norm(constant)), BUMPED
+        )
+    return Discrepancy(DiscrepancyCause.UNCLEAR, rms, rms, unclear(rms))

@@ -17,7 +17,7 @@ from app.tracking.agreement import EpipolarGate, Pairing
 from app.tracking.cameras.feed import Pair
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix, Miss, MissReason
-from app.tracking.solver import FixSolver, Sighting
+from app.tracking.solver import FixSolver, SeenMarker
 from app.tracking.track import Found, Markers, PixelTrack, sightings_at
 
 _SAME_PX: Final = 2.0
@@ -149,7 +149,7 @@ class MarkerFollower:
 
     def sightings(
         self, frames: Pair, markers: Markers, time: float
-    ) -> tuple[Sighting | None, Sighting | None]:
+    ) -> tuple[SeenMarker | None, SeenMarker | None]:
         """Bring both pixels to `time` [s], the earlier capture, by interpolating the other."""
         return sightings_at(frames, markers, self._tracks, time)
 
@@ -182,9 +182,9 @@ class MarkerFollower:
             chosen = self._chosen(agreeing, markers, frames, axis, time)
             if any(isinstance(one, MarkerFix) for one in chosen) or self._distance is not None:
                 return chosen
-            return self._amiss(candidates, frames, axis) or _unproven(agreeing[0])
-        if pairings and (amiss := self._amiss(candidates, frames, axis)) is not None:
-            return amiss
+            return self._wrong(candidates, frames, axis) or _unproven(agreeing[0])
+        if pairings and (wrong := self._wrong(candidates, frames, axis)) is not None:
+            return wrong
         if pairings and not pairings[0].hopeless:  # a bumped camera: the solver says how far off
             near = pairings[:1]  # or outlines far from their bands' centres, which the axis tells
             if self._distance is None:
@@ -205,7 +205,7 @@ class MarkerFollower:
             for i, (one, marker) in enumerate(zip(best, markers, strict=True))
         ]  # fmt: skip
 
-    def _amiss(
+    def _wrong(
         self, candidates: list[list[Found]], frames: Pair, axis: FloatArray | None
     ) -> list[Found] | None:
         """Look for signs of a camera that was moved, or of left and right exchanged."""
@@ -259,7 +259,9 @@ class MarkerFollower:
         ]
 
     def _solved(self, pair: Pairing, axis: FloatArray, time: float) -> NeedleFix:
-        return self._solver.solve((Sighting.of(pair.first), Sighting.of(pair.second)), axis, time)
+        return self._solver.solve(
+            (SeenMarker.of(pair.first), SeenMarker.of(pair.second)), axis, time
+        )
 
     def _first_band(
         self, solved: list[tuple[Pairing, NeedleFix]], markers: list[Found], distance: float
@@ -302,7 +304,7 @@ def _either(found: MarkerFix) -> Miss:
 
 
 def _unproven(pair: Pairing) -> list[Found]:
-    """Two outlines in which no fit finds the band: they tell people what is amiss, no more."""
+    """Two outlines in which no fit finds the band: they tell people what is wrong, no more."""
     return [replace(one, alone=False) for one in (pair.first, pair.second)]
 
 

@@ -13,8 +13,8 @@ from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.tracking.discrepancy import (
     LARGEST_BEND,
-    Cause,
     Discrepancy,
+    DiscrepancyCause,
     DiscrepancyMonitor,
     Evidence,
 )
@@ -35,7 +35,7 @@ class Hiding:
     """Remembers where the band was seen last.
 
     A band that no camera shows is hidden if it was last seen at the tube, or never: an attempt
-    begins with the needle drawn back. After `NEVER` without a sight of it that is no explanation
+    begins with the needle drawn back. After `NEVER` without being seen that is no explanation
     any more, and is said. Nothing hides it where the profile names no range.
 
     Args:
@@ -149,7 +149,7 @@ class FixHealth:
         if fix.line_variance is None or axis is None or not (certain or _near(fix)):
             return replace(fix, discrepancy=self._verdict)
         self._gather(fix, axis, fix.line_variance)
-        bent = self._verdict.cause is Cause.BENT_NEEDLE and _may_be_bent(fix)
+        bent = self._verdict.cause is DiscrepancyCause.BENT_NEEDLE and _may_be_bent(fix)
         if bent and (fix.usable or fix.status is FixStatus.INCONSISTENT):
             fix = replace(fix, status=FixStatus.VALID, reason="", covariance=self._of_bent(fix))
         return replace(fix, discrepancy=self._verdict)

@@ -1,21 +1,180 @@
-"""From what both cameras show and the robot's axis to the needle's tip."""
+"""From what both cameras show and the robot's axis to the needle's tip.
+
+Of both pictures' pixels that is compiled and done in one go, because it is a pair's every-day path:
+as dozens of small array operations it took as long as a fit.
+`tests/tracking/test_tracking_pair_kernels.py` holds it against the same steps in plain numpy.
+"""
 
 from dataclasses import dataclass
+from typing import Any, Final
 
 import numpy as np
 
 from app.core.arrays import FloatArray, frozen, unit
+from app.core.compiled import njit
 from app.core.units import MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.fix import GATE, FixStatus, NeedleFix, without_point
 from app.tracking.markers.extractor import Centre, MarkerFix
+from app.tracking.markers.silhouette import outline_shift
 from app.tracking.one_camera_fix import OneCameraSolver
-from app.tracking.optics.packed import packed
+from app.tracking.optics.packed import normalise, packed
 from app.tracking.optics.rig import RigProfile
-from app.tracking.pair_kernels import NO_OUTLINE, NO_RAY, SUMMARY, locate, summarise
 from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty
 from app.tracking.stereo.epipolar import essential_matrix
+from app.tracking.stereo.kernels import BEHIND, DEGENERATE, FOUND, NEAREST, inverse3, meet, optimum
 from app.tracking.stereo.triangulation import StereoStatus, Triangulation, triangulation
+
+NO_RAY: Final = 5
+NO_OUTLINE: Final = 6
+"""What `locate` returns besides `stereo.kernels.FOUND` and its like."""
+
+_STEPS: Final = 10
+
+SUMMARY: Final = 3
+"""Root mean square residual [px], signed root of chi-square (the sign is that of x₂ᵀ E x₁), squared
+distance from the line [variances]."""
+
+
+@njit
+def locate(
+    cameras: Any,
+    poses: Any,
+    pixels: Any,
+    spreads: Any,
+    outlines: Any,
+    needle: Any,
+    axis: Any,
+    point: Any,
+    covariance: Any,
+    residual: Any,
+    observed: Any,
+    seen: Any,
+) -> Any:
+    """Triangulate the band, outlines moved to its centre; returns status and chi-square.
+
+    Args:
+        cameras: rows of both, see `optics.packed`, (2, CAMERA).
+        poses: rotations and translations of T_camera_world, (2, 3, 4).
+        pixels: (2, 2) [px].
+        spreads: covariances of them [px²], (2, 2, 2).
+        outlines: whether each is an outline's centroid, (2,).
+        needle: a `rig.NeedleShape` as an array.
+        axis: unit vector from hub to tip, (3,).
+        point: out [m], (3,).
+        covariance: of it, out [m²], (3, 3).
+        residual: out, observed minus predicted normalised coordinates, (4,).
+        observed: out, normalised coordinates, (2, 2).
+        seen: out, covariances of them, (2, 2, 2).
+    """
+    shift = np.zeros((2, 2))
+    for attempt in range(2):
+        for i in range(2):
+            u, v = pixels[i, 0] - shift[i, 0], pixels[i, 1] - shift[i, 1]
+            if not normalise(cameras[i], u, v, spreads[i], observed[i], seen[i]):
+                return NO_RAY, 0.0
+        steps = _STEPS if attempt else 0
+        status, square = _triangulate(poses, observed, seen, steps, point, covariance, residual)
+        if status != FOUND or attempt:
+            break
+        for i in range(2):
+            if outlines[i] and not outline_shift(cameras[i], needle, point, axis, shift[i]):
+                return NO_OUTLINE, 0.0
+    return status, square
+
+
+@njit
+def _triangulate(
+    poses: Any, observed: Any, seen: Any, steps: int, point: Any, covariance: Any, residual: Any
+) -> Any:
+    """See `stereo.triangulation.triangulate`: status and chi-square."""
+    rotations, translations = poses[:, :, :3], poses[:, :, 3]
+    status = meet(rotations, translations, observed, point)
+    if status != FOUND:
+        return status, 0.0
+    square, nearest, found = optimum(
+        rotations, translations, observed, seen, point, point.copy(), np.zeros((3, 3)), steps,
+        residual, covariance,
+    )  # fmt: skip
+    if nearest <= NEAREST:
+        return BEHIND, 0.0
+    return (FOUND if found else DEGENERATE), square
+
+
+@njit
+def summarise(
+    point: Any,
+    covariance: Any,
+    residual: Any,
+    observed: Any,
+    square: float,
+    focal: Any,
+    essential: Any,
+    fulcrum: Any,
+    axis: Any,
+    line_variance: float,
+    beside: Any,
+    summary: Any,
+) -> bool:
+    """Compare a point with the robot's line and the pictures with each other.
+
+    Args:
+        point: [m], (3,).
+        covariance: of it, with the calibration's share [m²], (3, 3).
+        residual: observed minus predicted normalised coordinates, (4,).
+        observed: normalised coordinates, (2, 2).
+        square: chi-square of the point.
+        focal: of both cameras, (4,) [px].
+        essential: of the pair, (3, 3).
+        fulcrum: a point of the line [m], (3,).
+        axis: its unit vector, (3,).
+        line_variance: of the line across itself [m²].
+        beside: out, from the line to the point, across it [m], (3,).
+        summary: out, see SUMMARY.
+
+    Returns:
+        False where the distance from the line cannot be weighed.
+    """
+    along, total, miss = 0.0, 0.0, 0.0
+    for k in range(3):
+        along += (point[k] - fulcrum[k]) * axis[k]
+    for k in range(3):
+        beside[k] = point[k] - fulcrum[k] - along * axis[k]
+    for k in range(4):
+        total += (residual[k] * focal[k]) ** 2
+    for i in range(3):
+        second = observed[1, i] if i < 2 else 1.0
+        for k in range(3):
+            first = observed[0, k] if k < 2 else 1.0
+            miss += second * essential[i, k] * first
+    summary[0], summary[1] = np.sqrt(0.25 * total), np.copysign(np.sqrt(square), miss)
+    spread, inverse = np.empty((3, 3)), np.empty((3, 3))
+    _across(covariance, axis, line_variance, spread)
+    if not inverse3(spread, inverse):
+        return False
+    summary[2] = 0.0
+    for i in range(3):
+        for k in range(3):
+            summary[2] += beside[i] * inverse[i, k] * beside[k]
+    return True
+
+
+@njit
+def _across(covariance: Any, axis: Any, line_variance: float, out: Any) -> None:
+    """P Σ Pᵀ + σ² I with P = I - d dᵀ, in place."""
+    turned = np.empty((3, 3))
+    for i in range(3):
+        for k in range(3):
+            turned[i, k] = covariance[i, k]
+            for j in range(3):
+                turned[i, k] -= axis[i] * axis[j] * covariance[j, k]
+    for i in range(3):
+        for k in range(3):
+            out[i, k] = turned[i, k]
+            for j in range(3):
+                out[i, k] -= turned[i, j] * axis[j] * axis[k]
+        out[i, i] += line_variance
+
 
 OUTLINE_PX = 0.1
 """What edges of the background do to an outline's centroid, standard deviation per axis [px], and
@@ -28,7 +187,7 @@ _RESIDUAL_LIMIT = chi_square_quantile(1.0 - GATE, 1)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sighting:
+class SeenMarker:
     """What one camera shows at the time of the fix: pixel, covariance, and of what point."""
 
     uv: FloatArray
@@ -36,7 +195,7 @@ class Sighting:
     centre: Centre = Centre.OUTLINE
 
     @classmethod
-    def of(cls, marker: MarkerFix) -> "Sighting":
+    def of(cls, marker: MarkerFix) -> "SeenMarker":
         """Take them from an extractor's find; an outline's covariance grows by its edges' share."""
         edges = OUTLINE_PX**2 if marker.centre is Centre.OUTLINE else 0.0
         return cls(marker.uv, marker.covariance + edges * np.eye(2), marker.centre)
@@ -64,7 +223,7 @@ class FixSolver:
 
     def solve(
         self,
-        sightings: tuple[Sighting | None, Sighting | None],
+        sightings: tuple[SeenMarker | None, SeenMarker | None],
         axis: FloatArray | None,
         time: float,
     ) -> NeedleFix:
@@ -81,19 +240,19 @@ class FixSolver:
                 reason="the robot gives no needle direction",
             )
         if first is None or second is None:
-            return self._one_eyed((first, second), unit(axis), time)
+            return self._by_one_camera((first, second), unit(axis), time)
         return self._solve((first, second), unit(axis), time)
 
     def triangulated(
         self,
-        sightings: tuple[Sighting | MarkerFix, Sighting | MarkerFix],
+        sightings: tuple[SeenMarker | MarkerFix, SeenMarker | MarkerFix],
         axis: FloatArray | None,
     ) -> Triangulation | None:
         """Point of two sightings, without the robot's line; None without one.
 
         With the axis outlines are moved to the band's centre; without it they are taken for it.
         """
-        first, second = (Sighting(one.uv, one.covariance, one.centre) for one in sightings)
+        first, second = (SeenMarker(one.uv, one.covariance, one.centre) for one in sightings)
         found = self._located((first, second), None if axis is None else unit(axis))
         return found if found is not None and found.status is StereoStatus.FOUND else None
 
@@ -112,7 +271,7 @@ class FixSolver:
         return self._models[camera].pixel(p_world)
 
     def _solve(
-        self, sightings: tuple[Sighting, Sighting], axis: FloatArray, time: float
+        self, sightings: tuple[SeenMarker, SeenMarker], axis: FloatArray, time: float
     ) -> NeedleFix:
         pixels = (sightings[0].uv, sightings[1].uv)
         found = self._located(sightings, axis)
@@ -147,7 +306,7 @@ class FixSolver:
         )
 
     def _located(
-        self, sightings: tuple[Sighting, Sighting], axis: FloatArray | None
+        self, sightings: tuple[SeenMarker, SeenMarker], axis: FloatArray | None
     ) -> Triangulation | None:
         """Point of two pixels, outlines moved to the band's centre where the axis is known.
 
@@ -187,8 +346,8 @@ class FixSolver:
             "the marker is out of view of either camera",
         )
 
-    def _one_eyed(
-        self, sightings: tuple[Sighting | None, Sighting | None], axis: FloatArray, time: float
+    def _by_one_camera(
+        self, sightings: tuple[SeenMarker | None, SeenMarker | None], axis: FloatArray, time: float
     ) -> NeedleFix:
         camera, sighting = next((i, s) for i, s in enumerate(sightings) if s is not None)
         pixels = (sighting.uv, None) if camera == 0 else (None, sighting.uv)

@@ -7,7 +7,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.tracking.cameras.feed import Pair
 from app.tracking.markers.extractor import MarkerFix, Miss
-from app.tracking.solver import Sighting
+from app.tracking.solver import SeenMarker
 
 _SYNCHRONOUS = 0.5e-3
 """Capture times [s] this close count as the same."""
@@ -74,7 +74,7 @@ class PixelTrack:
         step = speed * ahead
         return np.asarray(last.uv + np.clip(step, -_FARTHEST, _FARTHEST))
 
-    def at(self, time: float) -> Sighting | None:
+    def at(self, time: float) -> SeenMarker | None:
         """Sighting at `time` [s], on the line between the last two finds; None if lost.
 
         Only interpolates. Later than the newest find, before both, or with too wide a gap, the
@@ -90,26 +90,26 @@ class PixelTrack:
             return _moved(first, time - first_time)
         share = (time - first_time) / span
         uv = (1.0 - share) * first.uv + share * last.uv
-        before, after = Sighting.of(first).covariance, Sighting.of(last).covariance
-        return Sighting(uv, (1.0 - share) ** 2 * before + share**2 * after, last.centre)
+        before, after = SeenMarker.of(first).covariance, SeenMarker.of(last).covariance
+        return SeenMarker(uv, (1.0 - share) ** 2 * before + share**2 * after, last.centre)
 
 
 def sightings_at(
     frames: Pair, markers: Markers, tracks: Sequence[PixelTrack], time: float
-) -> tuple[Sighting | None, Sighting | None]:
+) -> tuple[SeenMarker | None, SeenMarker | None]:
     """Bring the finds of both pictures to `time` [s], the earlier capture, by their tracks."""
-    sightings: list[Sighting | None] = []
+    sightings: list[SeenMarker | None] = []
     for frame, marker, track in zip(frames, markers, tracks, strict=True):
         if frame is None or not isinstance(marker, MarkerFix):
             sightings.append(None)
         elif frame.time - time > _SYNCHRONOUS:
             sightings.append(track.at(time))
         else:
-            sightings.append(Sighting.of(marker))
+            sightings.append(SeenMarker.of(marker))
     return sightings[0], sightings[1]
 
 
-def _moved(marker: MarkerFix, dt: float) -> Sighting:
+def _moved(marker: MarkerFix, dt: float) -> SeenMarker:
     """Return what a find says `dt` [s] away from its capture, at an unknown speed."""
     spread = (_UNKNOWN_SPEED * dt) ** 2 * np.eye(2)
-    return Sighting(marker.uv, Sighting.of(marker).covariance + spread, marker.centre)
+    return SeenMarker(marker.uv, SeenMarker.of(marker).covariance + spread, marker.centre)

@@ -1,12 +1,13 @@
 """The tracker: two cameras in, needle fixes out.
 
-One step of the tracker on drawn pictures, before the first real ones.
-
-Compiled functions are built, or loaded, when they are first called: without a rehearsal the first
-fix of a new build would come half a minute late, and the first of any run some tenths of a second.
+Opening rehearses one step on drawn pictures: compiled functions are built, or loaded, when they are
+first called: without a rehearsal the first fix of a new build would come half a minute late, and
+the first of any run some tenths of a second.
 """
 
+import threading
 from collections.abc import Callable, Sequence
+from typing import Final
 
 import cv2
 import numpy as np
@@ -16,11 +17,10 @@ from app.core.clock import Clock
 from app.core.events import Event, EventQueue
 from app.core.latest import Latest
 from app.core.units import MILLIMETRE
-from app.tracking.agreement import EpipolarGate
-from app.tracking.cameras.camera import Camera, Frame, Image
+from app.tracking.agreement import Continuity, EpipolarGate
+from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.cameras.feed import CameraFeed, CaptureTimes, Pair, without_picture
-from app.tracking.continuity import Continuity
-from app.tracking.discrepancy_words import SWAPPED
+from app.tracking.discrepancy import SWAPPED
 from app.tracking.errors import TrackingError
 from app.tracking.fix import FixStatus, NeedleFix, without_point
 from app.tracking.follower import MarkerFollower
@@ -30,12 +30,89 @@ from app.tracking.markers.colour import RED, ColourModel, learn
 from app.tracking.markers.extractor import Centre, Extractor, Hint, MarkerFix
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape, RigProfile
-from app.tracking.solver import FixSolver, Sighting
+from app.tracking.solver import FixSolver, SeenMarker
 from app.tracking.statistics import TrackerMeter, TrackerStatistics
 from app.tracking.track import Markers
 from app.tracking.tracked_picture import TrackedPicture
 from app.tracking.two_bands import TwoBands
-from app.tracking.worker import Stopped, Worker
+
+_PAUSE: Final = 0.1
+"""Time [s] to wait after an error inside a step."""
+
+_PATIENCE: Final = 2.0
+"""Time [s] that closing waits for the thread."""
+
+Stopped = Callable[[], bool]
+"""Whether the thread that asks was told to stop."""
+
+
+class Worker:
+    """Runs a step again and again in a thread of its own.
+
+    Args:
+        step: the work; asks whether it was told to stop before it publishes anything.
+        report: takes (kind, message) when steps begin to fail, and when the thread outlives its
+            end.
+
+    Attributes:
+        fault: what the last step failed with; a step that succeeds empties it.
+    """
+
+    def __init__(self, step: Callable[[Stopped], None], report: Callable[[str, str], None]) -> None:
+        self.fault = ""
+        self._step = step
+        self._report = report
+        self._thread: threading.Thread | None = None
+        self._stop = threading.Event()
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the thread was started and not stopped."""
+        return self._thread is not None
+
+    def open(self) -> None:
+        """Start; a thread that an earlier end has left behind stays stopped."""
+        self._stop = threading.Event()
+        self._thread = threading.Thread(
+            target=self._run, args=(self._stop,), name="tracker", daemon=True
+        )
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Tell the thread to stop, without waiting."""
+        self._stop.set()
+
+    def join(self, patience: float = _PATIENCE) -> None:
+        """Wait for its end; one that does not come in time is told of.
+
+        Args:
+            patience: how long [s].
+        """
+        thread, self._thread = self._thread, None
+        if thread is None:
+            return
+        thread.join(timeout=patience)
+        if thread.is_alive():
+            self._report(
+                "tracker",
+                f"the tracker has not ended within {patience:.1f} s of being closed: it is still "
+                "at its last pictures; what it finds in them does not count",
+            )
+
+    def _run(self, stop: threading.Event) -> None:
+        while not stop.is_set():
+            try:
+                self._step(stop.is_set)
+            except Exception as error:  # shown as a fault; the next pictures are looked at
+                if not stop.is_set():
+                    self._fail(f"{type(error).__name__}: {error}")
+                stop.wait(_PAUSE)
+
+    def _fail(self, message: str) -> None:
+        if message != self.fault:
+            self._report("fault", f"the tracker failed: {message}")
+        self.fault = message
+
 
 _DOWN = np.array([0.0, 0.0, -1.0])
 _GREY, _RED = 120, (40, 30, 205)
@@ -63,7 +140,7 @@ def rehearse(
         extractor.search(picture)
         found = extractor.find(picture, Hint(uv, centre, _DOWN))
         spread = found.covariance if isinstance(found, MarkerFix) else np.eye(2)
-        sightings.append(Sighting(uv, spread))
+        sightings.append(SeenMarker(uv, spread))
     solver.solve((sightings[0], sightings[1]), _DOWN, 0.0)
     solver.solve((sightings[0], None), _DOWN, 0.0)
 
@@ -174,7 +251,7 @@ class Tracker:
         self._feed.close()
         self._worker.join()
 
-    def process(self, left: Frame | None, right: Frame | None) -> NeedleFix:
+    def process(self, left: CameraFrame | None, right: CameraFrame | None) -> NeedleFix:
         """Fix of one pair of pictures, of whatever capture times; None for a camera without one.
 
         This is the whole work of a step and needs no thread. The fix is of the earlier capture

@@ -17,7 +17,7 @@ from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.mechanisms.profile import load_profile
 from app.studies.pen import Setup
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.optics.calibration import CameraCalibration
 from app.tracking.pen.board import MarkerBoard, aruco_dictionary
 from app.tracking.pen.needle import PenTip
@@ -80,7 +80,7 @@ def pictures(setup: Setup, count: int):
             PenScene(body_pose(p_tip, axis, tip.p_tip, tip.axis, 1.0), p_tip)
         ).astype(np.float64)
         image += rng.normal(0.0, setup.noise, image.shape[:2])[..., None]
-        frames.append(Frame(np.clip(np.rint(image), 0, 255).astype(np.uint8), 1.0 + s))
+        frames.append(CameraFrame(np.clip(np.rint(image), 0, 255).astype(np.uint8), 1.0 + s))
         tips.append(p_tip)
     return frames, tips
 
@@ -128,7 +128,7 @@ def compare(setup: Setup, count: int) -> None:
         return None if needle is None else needle.p_tip
 
     # Pictures a second apart remember nothing of each other: each is searched as a whole.
-    apart = [Frame(frame.image, 100.0 + number) for number, frame in enumerate(frames)]
+    apart = [CameraFrame(frame.image, 100.0 + number) for number, frame in enumerate(frames)]
     stepped(frames[0]), plain.look(frames[0].image)  # load the kernels
     print(f"{setup.width}x{setup.height}, cube of {setup.edge_mm:g} mm at {setup.distance:g} m")
     by_plain, tips_plain = timed(lambda frame: plain.look(frame.image), frames)

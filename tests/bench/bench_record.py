@@ -34,7 +34,7 @@ from app.session.recording import Recording, _recording, _samples, open_recordin
 from app.session.review import Review, review
 from app.session.sample import Sample
 from app.session.sample_columns import attachment
-from app.session.samples import History
+from app.session.samples import SampleHistory
 from app.session.scan import scan
 from app.session.scored import score_document, trajectory
 from app.session.ticks import read_inputs
@@ -53,7 +53,7 @@ def record(folder: Path, minutes: float) -> Path:
         "hour", datetime(2026, 1, 1, tzinfo=UTC), ORIGIN, "s-1", "bench",
         metadata={PLAN: plan_record(PLACED)},
     )  # fmt: skip
-    recorder, history = Recorder(folder, head, clock=clock), History()
+    recorder, history = Recorder(folder, head, clock=clock), SampleHistory()
     recorder.open()
     state = np.tile(rng.normal(size=sv.SLOTS), (100, 1))
     state[:, sv.TICK] = np.arange(1, 101)

@@ -15,7 +15,7 @@ import cv2
 import numpy as np
 
 from app.core.clock import VirtualClock
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.markers.choice import ExtractorName, extractors
 from app.tracking.markers.extractor import Extractor
@@ -32,7 +32,7 @@ COUNT = 100
 THESIS = "thesis' extractor"
 
 Ways = dict[str, tuple[Extractor, Extractor]]
-Shot = tuple[Frame, Frame, np.ndarray, np.ndarray]  # pictures, tip, axis
+Shot = tuple[CameraFrame, CameraFrame, np.ndarray, np.ndarray]  # pictures, tip, axis
 
 
 def pin_to_one_core() -> None:
@@ -69,7 +69,7 @@ def shoot(rig: RigProfile, poses: list[tuple[np.ndarray, np.ndarray]]) -> list[S
         if not all(model.sees(scene.p_world, 20.0)[0] for model in rig.models):
             continue  # the figure is for where both cameras see it
         left, right = (
-            Frame(noise(renderer.render(scene), tile, rng), step / 30.0)
+            CameraFrame(noise(renderer.render(scene), tile, rng), step / 30.0)
             for renderer, tile in zip(renderers, tiles, strict=True)
         )
         shots.append((left, right, tip, axis))

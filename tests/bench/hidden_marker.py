@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from app.core.clock import VirtualClock
-from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.fix import NeedleFix
 from app.tracking.simulated.obstacles import ORANGE, RED_CLOTH, Patch, patch
 from app.tracking.simulated.picture_effects import NoiseTile, noise
@@ -29,7 +29,7 @@ class _NoCamera(Camera):
     def open(self) -> None:
         raise NotImplementedError
 
-    def read(self) -> Frame:
+    def read(self) -> CameraFrame:
         raise NotImplementedError
 
     def close(self) -> None:
@@ -71,9 +71,9 @@ class Hidden:
         cameras = (_NoCamera(), _NoCamera())
         return Tracker(cameras, self._rig, VirtualClock(), lambda _: axis, FULCRUM)
 
-    def _frames(self, pictures: list[np.ndarray], time: float) -> list[Frame]:
+    def _frames(self, pictures: list[np.ndarray], time: float) -> list[CameraFrame]:
         return [
-            Frame(noise(picture.copy(), tile, self._rng), time)
+            CameraFrame(noise(picture.copy(), tile, self._rng), time)
             for picture, tile in zip(pictures, self._tiles, strict=True)
         ]
 

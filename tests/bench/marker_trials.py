@@ -16,7 +16,7 @@ from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import NeedleRenderer
 from app.tracking.simulated.obstacles import Finger, Highlight, finger, highlight
 from app.tracking.simulated.scene import MarkerScene
-from app.tracking.solver import FixSolver, Sighting
+from app.tracking.solver import FixSolver, SeenMarker
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 KINDS = ("clean", "finger", "highlight")
@@ -145,7 +145,7 @@ class Trials:
         """The fix of two finds, and its error."""
         if isinstance(first, Miss) or isinstance(second, Miss):
             return Trial((first, second), None, np.zeros(3))
-        pair = (Sighting.of(first), Sighting.of(second))
+        pair = (SeenMarker.of(first), SeenMarker.of(second))
         fix = self.solver.solve(pair, scene.axis_world, 0.0)
         true = scene.p_world + self.rig.needle.marker_offset * scene.axis_world
         return Trial((first, second), fix, fix.p_tip_world - true)

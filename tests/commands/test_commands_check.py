@@ -7,7 +7,7 @@ import pytest
 
 from app.__main__ import main
 from app.session.checks.record import DayCheck, save_check
-from app.session.checks.steps import StepResult, Verdict
+from app.session.checks.steps import CheckVerdict, StepResult
 
 
 def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
@@ -24,20 +24,20 @@ def _data(tmp_path, monkeypatch):
     monkeypatch.setenv("ACUS_DATA", str(tmp_path))
 
 
-def kept(verdict: Verdict) -> None:
+def kept(verdict: CheckVerdict) -> None:
     steps = (StepResult("marker", "Marker", verdict, "left: too small", "push the needle on"),)
     save_check(DayCheck.of(steps, datetime.now().astimezone(), "icube", simulated=True))
 
 
 def test_no_check_is_said(monkeypatch, capsys):
     assert run(monkeypatch, "--last") == 3
-    assert "no morning check" in capsys.readouterr().out
+    assert "no daily check" in capsys.readouterr().out
     assert run(monkeypatch, "--last", "--json=1") == 3
     assert json.loads(capsys.readouterr().out) is None
 
 
 def test_the_newest_check_says_what_to_do_and_ends_with_3(monkeypatch, capsys):
-    kept(Verdict.BAD)
+    kept(CheckVerdict.BAD)
     assert run(monkeypatch, "--last") == 3
     text = capsys.readouterr().out
     assert "✖ marker" in text
@@ -46,7 +46,7 @@ def test_the_newest_check_says_what_to_do_and_ends_with_3(monkeypatch, capsys):
 
 
 def test_a_good_check_ends_with_0(monkeypatch, capsys):
-    kept(Verdict.GOOD)
+    kept(CheckVerdict.GOOD)
     assert run(monkeypatch, "--last", "--json=1") == 0
     document = json.loads(capsys.readouterr().out)
     assert document["verdict"] == "good"

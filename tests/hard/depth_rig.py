@@ -32,7 +32,7 @@ from app.session.snapshot import Snapshot
 from app.session.trainer import Trainer
 from app.tracking.markers.extractor import Centre
 from app.tracking.optics.rig import load_rig
-from app.tracking.solver import FixSolver, Sighting
+from app.tracking.solver import FixSolver, SeenMarker
 
 NOISE_PX = 0.1
 LATENCY = 0.040
@@ -145,7 +145,7 @@ class DepthRig:
             noise = NOISE_PX * self.random.standard_normal(2)
             spread = NOISE_PX**2 * np.eye(2)
             sightings.append(
-                Sighting(model.pixel(band) + noise, spread, Centre.BAND) if there else None
+                SeenMarker(model.pixel(band) + noise, spread, Centre.BAND) if there else None
             )
         return self._solver.solve((sightings[0], sightings[1]), state.axis, now)
 

@@ -23,13 +23,12 @@ from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.mono import calibrate_mono
 from app.tracking.calibration.pairing import Pair
 from app.tracking.calibration.pictures import look
-from app.tracking.calibration.poses import board_pose
-from app.tracking.calibration.rigid_fit import rigid_fit
+from app.tracking.calibration.poses import board_pose, rigid_fit
 from app.tracking.calibration.run import calibrate_pairs
 from app.tracking.calibration.sets import mono_set, stereo_set
-from app.tracking.calibration.sightings import Sighting, State
+from app.tracking.calibration.sightings import AdjustedState, SeenBoard
 from app.tracking.calibration.validation import triangulated
-from app.tracking.calibration.views import BoardView, Reason, Rejection
+from app.tracking.calibration.views import BoardView, Rejection, RejectionReason
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import PARAMETERS, StereoCalibration
 from app.tracking.simulated.board import BoardRenderer
@@ -106,12 +105,12 @@ def test_corners_on_one_line_or_in_one_point_give_no_pose_and_no_nan(rig: Rig) -
 
 def test_fewer_measurements_than_unknowns_are_refused(rig: Rig) -> None:
     (view,) = views_at(rig, [tilted(rig, (20, 10, 0), [0, 0, 0.4])])
-    start = State(
+    start = AdjustedState(
         np.array([[534.0, 534, 342, 235, 0, 0, 0, 0, 0]]),
         RigidTransform.identity(),
         (tilted(rig, (20, 10, 0), [0, 0, 0.4]),),
     )
-    seen = [Sighting(0, 0, view.points[:5], view.pixels[:5])]
+    seen = [SeenBoard(0, 0, view.points[:5], view.pixels[:5])]
     with pytest.raises(CalibrationError, match="cannot determine 15 unknowns"):
         adjust(seen, start, with_free(PARAMETERS))
 
@@ -122,9 +121,9 @@ def test_what_the_views_do_not_determine_has_a_huge_but_finite_standard_deviatio
     T = tilted(rig, (0, 0, 0), [0, 0, 0.4])  # facing the camera: focal length against distance
     (view,) = views_at(replace(rig, left=replace(rig.left, distortion=np.zeros(5))), [T])
     p = np.array([[534.0, 534.0, 342.0, 235.0, 0, 0, 0, 0, 0]])
-    seen = [Sighting(0, 0, view.points, view.pixels)]
+    seen = [SeenBoard(0, 0, view.points, view.pixels)]
     free = with_free(("fx", "fy", "cx", "cy"))
-    result = adjust(seen, State(p, RigidTransform.identity(), (T,)), free)
+    result = adjust(seen, AdjustedState(p, RigidTransform.identity(), (T,)), free)
     assert np.isfinite(result.covariance).all()
     assert result.sd()[0] > 50.0
 
@@ -132,9 +131,11 @@ def test_what_the_views_do_not_determine_has_a_huge_but_finite_standard_deviatio
 def test_a_first_estimate_behind_the_camera_is_refused(rig: Rig) -> None:
     (view,) = views_at(rig, [tilted(rig, (20, 10, 0), [0, 0, 0.4])])
     p = np.array([[534.0, 534.0, 342.0, 235.0, 0, 0, 0, 0, 0]])
-    start = State(p, RigidTransform.identity(), (RigidTransform.from_translation([0, 0, -0.4]),))
+    start = AdjustedState(
+        p, RigidTransform.identity(), (RigidTransform.from_translation([0, 0, -0.4]),)
+    )
     with pytest.raises(CalibrationError, match="behind a camera"):
-        adjust([Sighting(0, 0, view.points, view.pixels)], start, with_free(("fx",)))
+        adjust([SeenBoard(0, 0, view.points, view.pixels)], start, with_free(("fx",)))
 
 
 def test_parallel_rays_are_refused(rig: Rig) -> None:
@@ -166,7 +167,7 @@ def test_a_corrupt_picture_is_a_rejection_by_name(content: bytes, tmp_path: Path
     path.write_bytes(content)
     found = look(path, rig.board)
     assert isinstance(found, Rejection)
-    assert (found.reason, found.name) == (Reason.UNREADABLE, "left1.png")
+    assert (found.reason, found.name) == (RejectionReason.UNREADABLE, "left1.png")
 
 
 def test_half_a_picture_is_a_rejection_or_a_view_never_an_exception(

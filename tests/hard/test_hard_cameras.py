@@ -11,15 +11,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.core.clock import VirtualClock
-from app.tracking.cameras.camera import Camera, Frame
-from app.tracking.cameras.intake import Intake, Verdict
-from app.tracking.cameras.pump import CaptureTime
+from app.tracking.cameras.camera import Camera, CameraFrame
+from app.tracking.cameras.intake import Intake, IntakeVerdict
+from app.tracking.cameras.usb import CaptureTime
 from app.tracking.cameras.watch import CameraReader, CameraState
 from app.tracking.errors import CameraError
 
 
 def _frame(time, grey=0):
-    return Frame(np.full((32, 32, 3), grey, np.uint8), time)
+    return CameraFrame(np.full((32, 32, 3), grey, np.uint8), time)
 
 
 _TIMES = st.floats(allow_nan=True, allow_infinity=True) | st.floats(0.0, 20.0)
@@ -29,7 +29,7 @@ _TIMES = st.floats(allow_nan=True, allow_infinity=True) | st.floats(0.0, 20.0)
 def test_whatever_a_driver_says_the_times_that_pass_only_grow_and_each_picture_is_counted(stream):
     intake, passed = Intake(noise_expected=True), []
     for time, grey in stream:
-        if intake.judge(_frame(time, grey), 10.0) is Verdict.NEW:
+        if intake.judge(_frame(time, grey), 10.0) is IntakeVerdict.NEW:
             passed.append(time)
     assert all(np.isfinite(t) for t in passed)
     assert all(late > early for early, late in pairwise(passed))
@@ -49,14 +49,20 @@ def test_capture_times_are_finite_and_never_in_the_future(stamps):
 
 @pytest.mark.parametrize(
     ("time", "grey", "verdict"),
-    [(5.0, 1, Verdict.REPEATED), (5.1, 0, Verdict.REPEATED), (4.9, 1, Verdict.BACKWARDS),
-     (9.0, 1, Verdict.IMPOSSIBLE),
-     (np.nan, 1, Verdict.IMPOSSIBLE), (-np.inf, 1, Verdict.IMPOSSIBLE),
-     (-1e160, 1, Verdict.IMPOSSIBLE), (5.1, 1, Verdict.NEW)],
-)  # fmt: skip
+    [
+        (5.0, 1, IntakeVerdict.REPEATED),
+        (5.1, 0, IntakeVerdict.REPEATED),
+        (4.9, 1, IntakeVerdict.BACKWARDS),
+        (9.0, 1, IntakeVerdict.IMPOSSIBLE),
+        (np.nan, 1, IntakeVerdict.IMPOSSIBLE),
+        (-np.inf, 1, IntakeVerdict.IMPOSSIBLE),
+        (-1e160, 1, IntakeVerdict.IMPOSSIBLE),
+        (5.1, 1, IntakeVerdict.NEW),
+    ],
+)
 def test_a_picture_is_refused_by_name(time, grey, verdict):
     intake = Intake(noise_expected=True)
-    assert intake.judge(_frame(5.0, 0), 5.1) is Verdict.NEW
+    assert intake.judge(_frame(5.0, 0), 5.1) is IntakeVerdict.NEW
     assert intake.judge(_frame(time, grey), 5.1) is verdict
 
 
@@ -105,11 +111,15 @@ def _until(condition):
 
 @pytest.mark.parametrize(
     ("later", "state"),
-    [([], CameraState.STALLED), ([(10.0, 2), (10.0, 2)], CameraState.FROZEN),
-     ([(10.2, 1), (10.5, 1)], CameraState.FROZEN), ([(9.0, 2)], CameraState.FAILED),
-     ([CameraError("unplugged")], CameraState.FAILED),
-     ([(10.2, 2), (10.4, 3)], CameraState.LIVE)],
-)  # fmt: skip
+    [
+        ([], CameraState.STALLED),
+        ([(10.0, 2), (10.0, 2)], CameraState.FROZEN),
+        ([(10.2, 1), (10.5, 1)], CameraState.FROZEN),
+        ([(9.0, 2)], CameraState.FAILED),
+        ([CameraError("unplugged")], CameraState.FAILED),
+        ([(10.2, 2), (10.4, 3)], CameraState.LIVE),
+    ],
+)
 def test_half_a_second_after_a_camera_goes_wrong_it_is_known(later, state):
     assert _state_after(0.5, later) is state
 

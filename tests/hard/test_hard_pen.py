@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from app.core.transform import RigidTransform
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.fix import FixStatus
 from app.tracking.pen.board import MarkerBoard
 from app.tracking.pen.detector import MarkerSighting
@@ -130,7 +130,7 @@ def test_one_id_twice_in_the_picture_is_named(draw):
     what, _ = scene()
     image = picture(draw, what).image.copy()
     image[20:120, 20:140] = image[75:175, 280:400]  # the cube once more
-    look = step(MODEL).look(Frame(image, 1.0))
+    look = step(MODEL).look(CameraFrame(image, 1.0))
     assert look.fix.status is FixStatus.INCONSISTENT
     assert "twice" in look.fix.reason
 
@@ -138,7 +138,7 @@ def test_one_id_twice_in_the_picture_is_named(draw):
 def test_a_mirrored_picture_is_named(draw):
     what, _ = scene()
     image = np.ascontiguousarray(picture(draw, what).image[:, ::-1])
-    look = step(MODEL).look(Frame(image, 1.0))
+    look = step(MODEL).look(CameraFrame(image, 1.0))
     assert look.fix.status is FixStatus.INCONSISTENT
     assert "mirrored" in look.fix.reason
 
@@ -165,7 +165,7 @@ def test_no_sheet_in_view_is_named_and_gives_no_needle(draw):
     what, _ = scene()
     image = picture(draw, what).image.copy()
     image[205:] = 120
-    look = step(MODEL).look(Frame(image, 1.0))
+    look = step(MODEL).look(CameraFrame(image, 1.0))
     assert look.fix.status is FixStatus.NO_ORIENTATION
     assert "sheet" in look.fix.reason
     assert look.needle is None
@@ -176,7 +176,7 @@ def test_no_cube_and_an_empty_picture_are_out_of_view(draw):
     look = step(MODEL).look(picture(draw, PenScene(None, tip)))
     assert look.fix.status is FixStatus.OUT_OF_VIEW
     for grey in (0, 128, 255):
-        blank = Frame(np.full((480, 640, 3), grey, np.uint8), 1.0)
+        blank = CameraFrame(np.full((480, 640, 3), grey, np.uint8), 1.0)
         assert step(MODEL).look(blank).fix.status is FixStatus.OUT_OF_VIEW
 
 
@@ -185,7 +185,7 @@ def test_noise_alone_gives_no_needle():
     known = step(MODEL)
     for _ in range(10):
         image = rng.integers(0, 256, (480, 640, 3), dtype=np.uint8)
-        assert known.look(Frame(image, 1.0)).fix.status is FixStatus.OUT_OF_VIEW
+        assert known.look(CameraFrame(image, 1.0)).fix.status is FixStatus.OUT_OF_VIEW
 
 
 def test_corners_that_are_no_numbers_are_left_out():

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.core.transform import RigidTransform
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.errors import CameraError
 from app.tracking.fix import FixStatus
 from app.tracking.markers.extractor import Hint, MarkerFix, Miss
@@ -14,7 +14,7 @@ from app.tracking.markers.outline_centroid import OutlineCentroid
 from app.tracking.markers.thesis import ThesisMarker
 from app.tracking.optics.distortion import distort_point, fold_radius, undistort_point
 from app.tracking.optics.rig import load_rig
-from app.tracking.solver import FixSolver, Sighting
+from app.tracking.solver import FixSolver, SeenMarker
 from app.tracking.stereo.triangulation import StereoStatus, Way, triangulate
 
 THESIS = np.array([-0.091006, 2.735876, -0.001135, -0.004749, -20.789586])
@@ -166,7 +166,7 @@ def test_a_senseless_prediction_finds_nothing_and_raises_nothing(predicted):
 @pytest.mark.parametrize("axis", [None, np.zeros(3), np.full(3, np.nan)])
 def test_without_an_axis_the_fix_says_so(axis):
     rig = load_rig("wide")
-    sighting = Sighting(np.array([320.0, 240.0]), np.eye(2) * 1e-3)
+    sighting = SeenMarker(np.array([320.0, 240.0]), np.eye(2) * 1e-3)
     fix = FixSolver(rig, FULCRUM).solve((sighting, sighting), axis, 1.0)
     assert fix.status is FixStatus.NO_ORIENTATION
     assert not fix.has_point
@@ -176,7 +176,7 @@ def test_without_an_axis_the_fix_says_so(axis):
 @given(*[st.floats(-2000.0, 3000.0)] * 4, st.sampled_from(["wide", "thesis"]))
 def test_any_pair_of_pixels_gives_a_finite_fix_with_a_status(u1, v1, u2, v2, name):
     rig = load_rig(name)
-    pair = tuple(Sighting(np.array(uv), np.eye(2) * 1e-3) for uv in ((u1, v1), (u2, v2)))
+    pair = tuple(SeenMarker(np.array(uv), np.eye(2) * 1e-3) for uv in ((u1, v1), (u2, v2)))
     fix = FixSolver(rig, FULCRUM).solve(pair, np.array([0.0, 0.0, -1.0]), 0.0)
     assert np.isfinite(fix.p_tip_world).all()
     assert np.isfinite(fix.covariance).all()
@@ -186,4 +186,4 @@ def test_any_pair_of_pixels_gives_a_finite_fix_with_a_status(u1, v1, u2, v2, nam
 
 def test_a_picture_of_the_wrong_kind_is_refused_with_what_is_needed():
     with pytest.raises(CameraError, match="uint8"):
-        Frame(np.zeros((480, 640), dtype=np.float64), 0.0)
+        CameraFrame(np.zeros((480, 640), dtype=np.float64), 0.0)

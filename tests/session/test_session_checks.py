@@ -1,4 +1,4 @@
-"""The morning check: verdicts and what to do, from plain facts."""
+"""The daily check: verdicts and what to do, from plain facts."""
 
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
@@ -10,7 +10,7 @@ import pytest
 from app.device.readiness import ForceClearance
 from app.session.checks.facts import CameraFacts, MorningFacts, RobotFacts, TouchFacts
 from app.session.checks.record import DayCheck, newest_check, save_check
-from app.session.checks.steps import StepResult, Verdict, morning_check, overall
+from app.session.checks.steps import CheckVerdict, StepResult, daily_check, overall
 from app.tracking.picture_quality import PictureQuality, picture_quality
 
 MM = 1e-3
@@ -23,12 +23,12 @@ GOOD = MorningFacts(ROBOT, (LEFT, RIGHT), 0.3, "", 0.4 * MM, TOUCH)
 
 
 def step(facts: MorningFacts, name: str) -> StepResult:
-    return next(one for one in morning_check(facts) if one.name == name)
+    return next(one for one in daily_check(facts) if one.name == name)
 
 
 def test_everything_well_is_green_and_says_nothing_to_do() -> None:
-    results = morning_check(GOOD)
-    assert overall(results) is Verdict.GOOD
+    results = daily_check(GOOD)
+    assert overall(results) is CheckVerdict.GOOD
     assert [one.name for one in results] == [
         "homing", "signs", "force", "pictures", "marker", "residual", "touch",
     ]  # fmt: skip
@@ -38,59 +38,115 @@ def test_everything_well_is_green_and_says_nothing_to_do() -> None:
 @pytest.mark.parametrize(
     ("facts", "name", "verdict", "text"),
     [
-        (replace(GOOD, robot=replace(ROBOT, ticking=False)), "homing", Verdict.BAD, "loop"),
-        (replace(GOOD, robot=replace(ROBOT, homed=False)), "homing", Verdict.BAD, "not homed"),
-        (replace(GOOD, robot=replace(ROBOT, signs=False)), "signs", Verdict.BAD, "not checked"),
-        (replace(GOOD, robot=replace(ROBOT, fault="board error")), "force", Verdict.BAD, "board"),
-        (replace(GOOD, robot=replace(ROBOT, encoder_age=0.2)), "force", Verdict.BAD, "late"),
-        (replace(GOOD, robot=replace(ROBOT, encoder_age=np.nan)), "force", Verdict.BAD, "late"),
-        (replace(GOOD, robot=replace(ROBOT, clearance=ForceClearance(1.0, 1.0, "weigh it"))),
-         "force", Verdict.WARNING, "at most 1 N"),
-        (replace(GOOD, robot=replace(ROBOT, clearance=ForceClearance(0.0, 0.0, "home it"))),
-         "force", Verdict.BAD, "at most 0 N"),
-        (replace(GOOD, cameras=()), "pictures", Verdict.BAD, "0 of 2 cameras"),
-        (replace(GOOD, cameras=(LEFT,)), "pictures", Verdict.BAD, "1 of 2 cameras"),
-        (replace(GOOD, cameras=(LEFT, replace(RIGHT, trouble="no picture for 2.0 s"))),
-         "pictures", Verdict.BAD, "right: no picture"),
-        (replace(GOOD, cameras=(LEFT, replace(RIGHT, quality=replace(SHARP, level=4.0)))),
-         "pictures", Verdict.BAD, "right: the picture is dark"),
-        (replace(GOOD, cameras=(replace(LEFT, quality=replace(SHARP, bright=0.3)), RIGHT)),
-         "pictures", Verdict.WARNING, "overexposed"),
-        (replace(GOOD, cameras=(replace(LEFT, quality=replace(SHARP, edge_width=9.0)), RIGHT)),
-         "pictures", Verdict.WARNING, "9.0 px wide"),
-        (replace(GOOD, cameras=(replace(LEFT, rate=12.0), RIGHT)),
-         "pictures", Verdict.WARNING, "12 pictures a second instead of 30"),
-        (replace(GOOD, cameras=(LEFT, replace(RIGHT, miss="too small for the marker"))),
-         "marker", Verdict.BAD, "right: too small"),
-        (replace(GOOD, residual_px=None), "residual", Verdict.WAITING, "no point"),
-        (replace(GOOD, residual_px=1.5), "residual", Verdict.WARNING, "1.50 px"),
-        (replace(GOOD, residual_px=4.0), "residual", Verdict.BAD, "4.00 px"),
-        (replace(GOOD, status="the cameras disagree"), "residual", Verdict.BAD, "disagree"),
-        (replace(GOOD, touch=replace(TOUCH, radius=7 * MM)), "touch", Verdict.WARNING, "± 7.00"),
-        (replace(GOOD, touch=None), "touch", Verdict.WAITING, "not touched"),
-        (replace(GOOD, touch=replace(TOUCH, p_measured=np.array([0, 3 * MM, 0]))),
-         "touch", Verdict.BAD, "3.00 mm off"),
+        (replace(GOOD, robot=replace(ROBOT, ticking=False)), "homing", CheckVerdict.BAD, "loop"),
+        (replace(GOOD, robot=replace(ROBOT, homed=False)), "homing", CheckVerdict.BAD, "not homed"),
+        (
+            replace(GOOD, robot=replace(ROBOT, signs=False)),
+            "signs",
+            CheckVerdict.BAD,
+            "not checked",
+        ),
+        (
+            replace(GOOD, robot=replace(ROBOT, fault="board error")),
+            "force",
+            CheckVerdict.BAD,
+            "board",
+        ),
+        (replace(GOOD, robot=replace(ROBOT, encoder_age=0.2)), "force", CheckVerdict.BAD, "late"),
+        (
+            replace(GOOD, robot=replace(ROBOT, encoder_age=np.nan)),
+            "force",
+            CheckVerdict.BAD,
+            "late",
+        ),
+        (
+            replace(GOOD, robot=replace(ROBOT, clearance=ForceClearance(1.0, 1.0, "weigh it"))),
+            "force",
+            CheckVerdict.WARNING,
+            "at most 1 N",
+        ),
+        (
+            replace(GOOD, robot=replace(ROBOT, clearance=ForceClearance(0.0, 0.0, "home it"))),
+            "force",
+            CheckVerdict.BAD,
+            "at most 0 N",
+        ),
+        (replace(GOOD, cameras=()), "pictures", CheckVerdict.BAD, "0 of 2 cameras"),
+        (replace(GOOD, cameras=(LEFT,)), "pictures", CheckVerdict.BAD, "1 of 2 cameras"),
+        (
+            replace(GOOD, cameras=(LEFT, replace(RIGHT, trouble="no picture for 2.0 s"))),
+            "pictures",
+            CheckVerdict.BAD,
+            "right: no picture",
+        ),
+        (
+            replace(GOOD, cameras=(LEFT, replace(RIGHT, quality=replace(SHARP, level=4.0)))),
+            "pictures",
+            CheckVerdict.BAD,
+            "right: the picture is dark",
+        ),
+        (
+            replace(GOOD, cameras=(replace(LEFT, quality=replace(SHARP, bright=0.3)), RIGHT)),
+            "pictures",
+            CheckVerdict.WARNING,
+            "overexposed",
+        ),
+        (
+            replace(GOOD, cameras=(replace(LEFT, quality=replace(SHARP, edge_width=9.0)), RIGHT)),
+            "pictures",
+            CheckVerdict.WARNING,
+            "9.0 px wide",
+        ),
+        (
+            replace(GOOD, cameras=(replace(LEFT, rate=12.0), RIGHT)),
+            "pictures",
+            CheckVerdict.WARNING,
+            "12 pictures a second instead of 30",
+        ),
+        (
+            replace(GOOD, cameras=(LEFT, replace(RIGHT, miss="too small for the marker"))),
+            "marker",
+            CheckVerdict.BAD,
+            "right: too small",
+        ),
+        (replace(GOOD, residual_px=None), "residual", CheckVerdict.WAITING, "no point"),
+        (replace(GOOD, residual_px=1.5), "residual", CheckVerdict.WARNING, "1.50 px"),
+        (replace(GOOD, residual_px=4.0), "residual", CheckVerdict.BAD, "4.00 px"),
+        (replace(GOOD, status="the cameras disagree"), "residual", CheckVerdict.BAD, "disagree"),
+        (
+            replace(GOOD, touch=replace(TOUCH, radius=7 * MM)),
+            "touch",
+            CheckVerdict.WARNING,
+            "± 7.00",
+        ),
+        (replace(GOOD, touch=None), "touch", CheckVerdict.WAITING, "not touched"),
+        (
+            replace(GOOD, touch=replace(TOUCH, p_measured=np.array([0, 3 * MM, 0]))),
+            "touch",
+            CheckVerdict.BAD,
+            "3.00 mm off",
+        ),
     ],
-)  # fmt: skip
+)
 def test_what_is_wrong_is_found_and_something_is_to_do(
-    facts: MorningFacts, name: str, verdict: Verdict, text: str
+    facts: MorningFacts, name: str, verdict: CheckVerdict, text: str
 ) -> None:
     found = step(facts, name)
     assert found.verdict is verdict
     assert text in found.found
     assert found.todo
-    assert overall(morning_check(facts)) is verdict
+    assert overall(daily_check(facts)) is verdict
 
 
 def test_a_simulated_robot_needs_no_homing() -> None:
     simulated = RobotFacts(True, True, False, False, None, "", 0.001)
-    assert overall(morning_check(replace(GOOD, robot=simulated))) is Verdict.GOOD
+    assert overall(daily_check(replace(GOOD, robot=simulated))) is CheckVerdict.GOOD
 
 
 def test_the_result_of_the_day_is_kept_and_said(tmp_path: Path) -> None:
     assert newest_check(tmp_path) is None
     morning = datetime(2026, 11, 22, 8, 12, tzinfo=UTC)
-    check = DayCheck.of(morning_check(GOOD), morning, "icube", simulated=True)
+    check = DayCheck.of(daily_check(GOOD), morning, "icube", simulated=True)
     save_check(check, tmp_path)
     assert newest_check(tmp_path) == check
     assert check.words(morning + timedelta(hours=3)) == "checked today 08:12"

@@ -16,7 +16,7 @@ from app.imaging.scan_order import ScanOrder, Seen
 from app.session.control_scan import ControlScan, scan_marks, scans_of
 from app.session.errors import IllegalTransitionError, ScanNotPossibleError
 from app.session.recording import read_recording
-from app.session.replay_contents import contents
+from app.session.replay import contents
 
 
 @pytest.fixture

@@ -17,11 +17,11 @@ from session_fakes import WALL, Bench, row
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
 from app.device.checkpoint import Checkpoint
-from app.session import growing_file
+from app.session import mcap_file
 from app.session.context import RunContext
-from app.session.growing_file import GrowingFile
 from app.session.header import Attachment, SessionHeader, new_id
 from app.session.machine import State
+from app.session.mcap_file import GrowingFile
 from app.session.recorder import EAGER, Recorder
 from app.session.recording import open_recording, read_recording
 from app.session.replay import why_not
@@ -162,9 +162,9 @@ class SmallDisk:
 
     def __init__(self, folder: Path, size: int, monkeypatch: pytest.MonkeyPatch) -> None:
         self.folder, self.size = folder, size
-        self._write, self._aside = growing_file._write, growing_file._set_aside
-        monkeypatch.setattr(growing_file, "_write", self.write)
-        monkeypatch.setattr(growing_file, "_set_aside", self.set_aside)
+        self._write, self._aside = mcap_file._write, mcap_file._set_aside
+        monkeypatch.setattr(mcap_file, "_write", self.write)
+        monkeypatch.setattr(mcap_file, "_set_aside", self.set_aside)
 
     @property
     def free(self) -> int:
@@ -187,7 +187,7 @@ def bench(tmp_path: Path) -> Bench:
 
 
 def test_a_disk_that_fills_loses_no_score(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
-    disk = SmallDisk(bench.folder, growing_file.RESERVE + 60_000, monkeypatch)
+    disk = SmallDisk(bench.folder, mcap_file.RESERVE + 60_000, monkeypatch)
     bench.folder.mkdir(parents=True, exist_ok=True)
     bench.trainer.begin("s")
     depth = 0.0
@@ -211,7 +211,7 @@ def test_a_disk_without_room_for_the_end_is_said_at_the_beginning(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bench.folder.mkdir(parents=True, exist_ok=True)
-    SmallDisk(bench.folder, growing_file.RESERVE // 2, monkeypatch)
+    SmallDisk(bench.folder, mcap_file.RESERVE // 2, monkeypatch)
     bench.trainer.begin("s")
     events = [e.message for e in bench.trainer.events.drain() if e.kind == "recorder"]
     assert "No space left" in events[0]
@@ -223,7 +223,7 @@ def test_a_disk_without_room_for_the_end_is_said_at_the_beginning(
 def test_a_score_without_its_samples_stands_as_written_and_is_not_confirmed(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(growing_file, "RESERVE", 0)
+    monkeypatch.setattr(mcap_file, "RESERVE", 0)
     bench.folder.mkdir(parents=True, exist_ok=True)
     bench.trainer.begin("s")
     bench.run(1.0, 0.05)

@@ -11,7 +11,7 @@ from session_fakes import Bench
 
 from app.core.arrays import read_only
 from app.session.fusion import DISPLAY_LATENCY, FARTHEST, moment, predicted
-from app.session.machine import Event, State
+from app.session.machine import AttemptEvent, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.recording import read_recording
 from app.session.transitions import BACK, LOST, Pauses
@@ -127,7 +127,8 @@ def _paused(source: DepthSource, state: State, status: str = "") -> bool:
     pauses = Pauses()
     pauses.look(state, pose(0.0), "valid")
     return any(
-        pauses.look(state, pose(0.02 * k, source), status) is Event.PAUSE for k in range(1, 200)
+        pauses.look(state, pose(0.02 * k, source), status) is AttemptEvent.PAUSE
+        for k in range(1, 200)
     )
 
 
@@ -147,12 +148,12 @@ def test_a_marker_drawn_into_the_tube_in_a_pause_keeps_it_until_it_is_seen_again
         event = pauses.look(State.INSERTING, pose(0.02 * k, DepthSource.MODEL), "out_of_view")
         if event is not None:
             break
-    assert event is Event.PAUSE
+    assert event is AttemptEvent.PAUSE
     for k in range(100):
         seen = pose(2.0 + 0.02 * k, DepthSource.MODEL)
         assert pauses.look(State.PAUSED, seen, "not_yet_visible") is None
     events = [pauses.look(State.PAUSED, pose(5.0 + 0.02 * k), "valid") for k in range(40)]
-    assert events.index(Event.RESUME) == pytest.approx(BACK / 0.02, abs=1)
+    assert events.index(AttemptEvent.RESUME) == pytest.approx(BACK / 0.02, abs=1)
 
 
 def test_a_flickering_marker_neither_pauses_nor_resumes() -> None:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.session.machine import TABLE, Event, State
+from app.session.machine import TABLE, AttemptEvent, State
 from app.session.needle import DOWN, DepthSource, NeedlePose
 from app.session.transitions import Classifier, classify
 
@@ -22,7 +22,9 @@ STILL = NeedlePose(
 )
 
 
-def play(depths: np.ndarray, state: State, distance: float = 0.001, **pose: object) -> list[Event]:
+def play(
+    depths: np.ndarray, state: State, distance: float = 0.001, **pose: object
+) -> list[AttemptEvent]:
     """Events of a sequence of depths [m] at 50 Hz."""
     memory, events = Classifier(), []
     for k, depth in enumerate(depths):
@@ -36,7 +38,7 @@ def play(depths: np.ndarray, state: State, distance: float = 0.001, **pose: obje
 
 def test_passing_the_skin_by_two_millimetres_is_an_insertion() -> None:
     assert play(np.linspace(-0.02, 0.0019, 50), State.ALIGNING) == []
-    assert play(np.linspace(-0.02, 0.0025, 50), State.ALIGNING) == [Event.INSERT]
+    assert play(np.linspace(-0.02, 0.0025, 50), State.ALIGNING) == [AttemptEvent.INSERT]
 
 
 def test_noise_about_the_skin_does_not_chatter() -> None:
@@ -48,12 +50,12 @@ def test_noise_about_the_skin_does_not_chatter() -> None:
 def test_standing_still_for_a_second_near_the_target_is_a_hold() -> None:
     still = np.full(60, 0.05)
     assert play(still[:50], State.INSERTING) == []
-    assert play(still, State.INSERTING) == [Event.HOLD]
+    assert play(still, State.INSERTING) == [AttemptEvent.HOLD]
 
 
 def test_camera_noise_does_not_prevent_a_hold() -> None:
     noise = np.random.default_rng(5).uniform(-0.0002, 0.0002, 200)
-    assert play(0.05 + noise, State.INSERTING) == [Event.HOLD]
+    assert play(0.05 + noise, State.INSERTING) == [AttemptEvent.HOLD]
 
 
 def test_standing_still_far_from_the_target_is_no_hold() -> None:
@@ -62,18 +64,22 @@ def test_standing_still_far_from_the_target_is_no_hold() -> None:
 
 def test_creeping_faster_than_a_millimetre_a_second_is_no_hold() -> None:
     assert play(0.03 + 0.0011 * np.arange(200) * 0.02, State.INSERTING) == []
-    assert Event.HOLD in play(0.03 + 0.0009 * np.arange(60) * 0.02, State.INSERTING)
+    assert AttemptEvent.HOLD in play(0.03 + 0.0009 * np.arange(60) * 0.02, State.INSERTING)
 
 
 def test_moving_on_ends_the_hold_and_a_new_one_needs_a_new_second() -> None:
     depths = np.concatenate([np.full(60, 0.05), np.full(60, 0.053)])
-    assert play(depths, State.INSERTING) == [Event.HOLD, Event.INSERT, Event.HOLD]
-    assert play(depths[:90], State.INSERTING) == [Event.HOLD, Event.INSERT]
+    assert play(depths, State.INSERTING) == [
+        AttemptEvent.HOLD,
+        AttemptEvent.INSERT,
+        AttemptEvent.HOLD,
+    ]
+    assert play(depths[:90], State.INSERTING) == [AttemptEvent.HOLD, AttemptEvent.INSERT]
 
 
 @pytest.mark.parametrize("state", [State.INSERTING, State.HOLDING])
 def test_pulling_the_tip_out_of_the_skin_is_a_withdrawal(state: State) -> None:
-    assert play(np.array([-0.001]), state) == [Event.WITHDRAW]
+    assert play(np.array([-0.001]), state) == [AttemptEvent.WITHDRAW]
 
 
 @pytest.mark.parametrize("source", [DepthSource.MODEL, DepthSource.NONE])

@@ -207,7 +207,7 @@ def test_a_full_disk_ends_the_record_and_is_said(
     def full(descriptor: int, data: memoryview) -> int:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr("app.session.growing_file._write", full)  # no space set aside helps
+    monkeypatch.setattr("app.session.mcap_file._write", full)  # no space set aside helps
     recorder.event(Event(101.2, "scan", "lost"))
     clock.sleep(1.1)
     recorder.drain()
@@ -226,7 +226,7 @@ def test_a_real_full_device_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     recorder = Recorder(tmp_path, header())
     with Path("/dev/full").open("wb", buffering=0) as device:
         monkeypatch.setattr(
-            "app.session.growing_file._write", lambda _, data: os.write(device.fileno(), data)
+            "app.session.mcap_file._write", lambda _, data: os.write(device.fileno(), data)
         )
         with pytest.raises(RecordingError, match="No space left"):
             recorder.open()

@@ -17,7 +17,7 @@ from app.imaging.volume import Volume
 from app.scoring.errors import TrajectoryError
 from app.scoring.risks import RiskMark
 from app.session.recording import read_recording
-from app.session.replay_contents import contents
+from app.session.replay import contents
 from app.session.risks import Risk, event_of, risk_marks, sentence
 
 ENTRY = np.array([-12.5, -98.0, 310.2])

@@ -5,7 +5,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from app.core.rotation import skew
-from app.tracking.stereo.rays import normalised
+from app.tracking.stereo.epipolar import normalised
 from app.tracking.stereo.triangulation import StereoStatus, Way, triangulate
 
 _ANGLES = 2.0 * np.pi * np.arange(24) / 24

@@ -6,7 +6,7 @@ import numpy as np
 
 from app.core.arrays import unit
 from app.core.transform import RigidTransform
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.optics.calibration import CameraCalibration
 from app.tracking.optics.rig import CameraProfile
 from app.tracking.pen.body import load_pen
@@ -65,7 +65,7 @@ def scene(lean=(0.15, 0.1), depth=0.05, roll=0.4, beside=(0.0, 0.0, 0.0)):
 def picture(draw, what, seed=0, noise=4.0, time=1.0):
     image = draw.render(what).astype(np.float64)
     image += np.random.default_rng(seed).normal(0.0, noise, image.shape[:2])[..., None]
-    return Frame(np.clip(np.rint(image), 0, 255).astype(np.uint8), time)
+    return CameraFrame(np.clip(np.rint(image), 0, 255).astype(np.uint8), time)
 
 
 def step(model, pen=PEN):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.tracking.markers.band_fit import BandFitter
+from app.tracking.band.fit import BandFitter
 
 CENTRE = np.array([0.002, 0.165, 0.055])
 """Of the band [m]; the pictures are drawn here, so that no renderer's change moves the figures."""

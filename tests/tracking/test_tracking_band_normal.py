@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from app.tracking.markers.band_design import BAND, COLUMNS, PARTIALS, SPLINES, _gauss
-from app.tracking.markers.band_ground import CURVE, SIDE
-from app.tracking.markers.band_normal import MOVES, REST, colour_equations, move_equations
+from app.tracking.band.equations import MOVES, REST, colour_sums, move_sums
+from app.tracking.band.model import BAND, COLUMNS, PARTIALS, SPLINES, Rows, _gauss
+from app.tracking.band.pixels import CURVE, SIDE, BandPixels
 
 COUNT = 300
 
@@ -26,7 +26,13 @@ def pixels():
             rows[i, :, k : k + 5] = rng.normal(0.0, 0.1, (PARTIALS, 5))
     first = rng.integers(0, CURVE - 2, COUNT) + SIDE * rng.integers(0, 2, COUNT)
     weights, colours = rng.random((COUNT, 4)), rng.normal(20.0, 9.0, (COUNT, 3))
-    return rows, seen, first, weights, colours, rng.random(COUNT) < 0.9
+    good = rng.random(COUNT) < 0.9
+    nowhere, even = np.zeros((COUNT, 2)), np.zeros(2, dtype=bool)
+    return BandPixels(nowhere, colours, good, first, weights, even), Rows(rows, seen), good
+
+
+def _unpacked(pixels, rows):
+    return rows.values, rows.seen, pixels.first, pixels.weights, pixels.colours
 
 
 def _dense(rows, seen, first, weights):
@@ -48,11 +54,11 @@ def _dense(rows, seen, first, weights):
 
 
 def test_the_equations_of_the_colours_are_those_of_dense_matrices(pixels):
-    rows, seen, first, weights, colours, good = pixels
+    near, model, good = pixels
+    rows, seen, first, weights, colours = _unpacked(near, model)
     band, rest, _ = _dense(rows, seen, first, weights)
-    normal, cross = np.zeros((REST, REST)), np.empty((REST, BAND + 3))
-    shared = np.empty((BAND, BAND + 3))
-    colour_equations(rows, seen, first, weights, colours, good, normal, cross, shared)
+    normal = np.zeros((REST, REST))
+    cross, shared = colour_sums(near, model, good, normal)
     a, right = rest[good, 0], np.hstack([band[good, 0], colours[good]])
     some = good & (rows[:, 0, 0] != 0.0)  # a pixel without a share of the band has no shading
     assert np.tril(normal) == pytest.approx(np.tril(a.T @ a), rel=1e-9, abs=1e-9)
@@ -62,22 +68,18 @@ def test_the_equations_of_the_colours_are_those_of_dense_matrices(pixels):
 
 
 def test_the_equations_of_the_moves_are_those_of_dense_matrices(pixels):
-    rows, seen, first, weights, colours, good = pixels
+    near, model, good = pixels
+    rows, seen, first, weights, colours = _unpacked(near, model)
     rng = np.random.default_rng(6)
     band, rest, free = _dense(rows, seen, first, weights)
     paint, shading = rng.normal(30.0, 9.0, 3), rng.normal(0.0, 0.3, BAND)
     values = rng.normal(10.0, 4.0, (REST, 3))
-    squares, cross = np.empty(COUNT), np.empty((REST, 3 * MOVES))
-    moves, right = np.empty((MOVES, MOVES + BAND)), np.empty(MOVES)
-    move_equations(
-        rows, seen, first, weights, colours, good, paint, shading, values, squares, cross, moves,
-        right,
-    )  # fmt: skip
-    model = (band @ shading)[:, :, None] * paint + rest @ values  # (pixels, PARTIALS, 3)
-    residual = colours - model[:, 0]
+    squares, cross, moves, right = move_sums(near, model, good, paint, shading, values)
+    drawn = (band @ shading)[:, :, None] * paint + rest @ values  # (pixels, PARTIALS, 3)
+    residual = colours - drawn[:, 0]
     assert squares == pytest.approx(np.mean(residual**2, axis=1), rel=1e-9)
     count = seen & good & ~((rows[:, 0, 0] == 0.0) & (free[:, 0] > 0.9999))
-    slopes, residual = model[count, 1:], residual[count]
+    slopes, residual = drawn[count, 1:], residual[count]
     assert right == pytest.approx(np.einsum("imc,ic->m", slopes, residual), rel=1e-9)
     wanted = np.einsum("ia,imc->amc", rest[count, 0], slopes).reshape(REST, -1)
     assert cross == pytest.approx(wanted, rel=1e-9, abs=1e-7)

@@ -8,11 +8,14 @@ import pytest
 
 from app.core.transform import RigidTransform
 from app.tracking.calibration.bundle import adjust, with_free
-from app.tracking.calibration.lens import project, project_with_derivatives
 from app.tracking.calibration.mono import calibrate_mono
-from app.tracking.calibration.poses import board_pose
-from app.tracking.calibration.sightings import Sighting, State
-from app.tracking.calibration.start import first_estimate
+from app.tracking.calibration.poses import board_pose, first_estimate
+from app.tracking.calibration.sightings import (
+    AdjustedState,
+    SeenBoard,
+    project,
+    project_with_derivatives,
+)
 from app.tracking.calibration.validation import triangulated
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
@@ -27,8 +30,8 @@ def truth(rig: Rig) -> np.ndarray:
     return np.concatenate([rig.left.intrinsics, rig.left.distortion])
 
 
-def sightings(views: list[BoardView], side: int = 0) -> list[Sighting]:
-    return [Sighting(i, side, view.points, view.pixels) for i, view in enumerate(views)]
+def sightings(views: list[BoardView], side: int = 0) -> list[SeenBoard]:
+    return [SeenBoard(i, side, view.points, view.pixels) for i, view in enumerate(views)]
 
 
 def test_the_derivatives_are_those_of_the_projection_and_the_projection_the_cameras() -> None:
@@ -64,7 +67,7 @@ def test_the_covariance_of_one_camera_is_that_of_repeated_trials() -> None:
     rig, trials = usual_rig(), 80
     poses = rig.poses(7, 2)
     rng = np.random.default_rng(5)
-    start = State(truth(rig)[None], RigidTransform.identity(), tuple(poses))
+    start = AdjustedState(truth(rig)[None], RigidTransform.identity(), tuple(poses))
     found, distances = [], []
     keep = [PARAMETERS.index(name) for name in PLAIN]
     for _ in range(trials):
@@ -86,11 +89,11 @@ def test_the_covariance_of_two_cameras_pose_is_that_of_repeated_trials() -> None
     cameras = np.array(
         [np.concatenate([m.intrinsics, m.distortion]) for m in (rig.left, rig.right)]
     )
-    start = State(cameras, rig.T_right_left, tuple(poses))
+    start = AdjustedState(cameras, rig.T_right_left, tuple(poses))
     distances = []
     for _ in range(trials):
         seen = [
-            Sighting(i, side, rig.board.points, rig.view(model, T, NOISE, rng).pixels)
+            SeenBoard(i, side, rig.board.points, rig.view(model, T, NOISE, rng).pixels)
             for i, T in enumerate(poses)
             for side, model in enumerate((rig.left, rig.right))
         ]
@@ -170,11 +173,11 @@ def test_lenses_and_pose_err_together_as_the_joint_covariance_says() -> None:
     cameras = np.array(
         [np.concatenate([m.intrinsics, m.distortion]) for m in (rig.left, rig.right)]
     )
-    start = State(cameras, rig.T_right_left, tuple(poses))
+    start = AdjustedState(cameras, rig.T_right_left, tuple(poses))
     points, joint = [], np.zeros((24, 24))
     for _ in range(trials):
         seen = [
-            Sighting(i, side, rig.board.points, rig.view(model, T, NOISE, rng).pixels)
+            SeenBoard(i, side, rig.board.points, rig.view(model, T, NOISE, rng).pixels)
             for i, T in enumerate(poses)
             for side, model in enumerate((rig.left, rig.right))
         ]
@@ -196,12 +199,12 @@ def test_lenses_and_pose_err_together_as_the_joint_covariance_says() -> None:
     assert apart > 2.0 * together  # what independent blocks would say
 
 
-def _moved(state: State, step: np.ndarray) -> State:
+def _moved(state: AdjustedState, step: np.ndarray) -> AdjustedState:
     cameras = state.parameters + step[:18].reshape(2, 9)
-    return State(cameras, RigidTransform.exp(step[18:]) @ state.T_right_left, state.poses)
+    return AdjustedState(cameras, RigidTransform.exp(step[18:]) @ state.T_right_left, state.poses)
 
 
-def _triangulated(rig: Rig, state: State, pixels: list[np.ndarray]) -> np.ndarray:
+def _triangulated(rig: Rig, state: AdjustedState, pixels: list[np.ndarray]) -> np.ndarray:
     left, right = (
         camera("c", tuple(p[:4]), tuple(p[4:]), (640, 480), pose)
         for p, pose in zip(state.parameters, (None, state.T_right_left.inverse()), strict=True)

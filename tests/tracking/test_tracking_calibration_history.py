@@ -7,7 +7,7 @@ import pytest
 from calibration_samples import sample
 
 from app.tracking.calibration.history import CalibrationHistory
-from app.tracking.calibration.history_file import condemned_ids
+from app.tracking.calibration.history_file import rejected_ids
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
 from app.tracking.optics.rig import load_rig
@@ -64,27 +64,27 @@ def test_keeping_after_undo_loses_no_calibration(history: CalibrationHistory) ->
     assert history.undo() == "c"
 
 
-def test_a_condemned_calibration_is_not_used_any_more(history: CalibrationHistory) -> None:
+def test_a_rejected_calibration_is_not_used_any_more(history: CalibrationHistory) -> None:
     for name in ("a", "b", "c"):
         history.keep(made(name))
-    assert history.condemn("c", "  camera was\nbumped ") == "b"
+    assert history.reject("c", "  camera was\nbumped ") == "b"
     assert active_id(history) == "b"
     with pytest.raises(CalibrationError, match=r"found bad.*camera was bumped"):
         history.use("c")
     with pytest.raises(CalibrationError, match="used again"):
         history.redo()
-    history.condemn("a", "wrong board")
+    history.reject("a", "wrong board")
     assert history.undo() is None
-    assert condemned_ids(history.folder) == {"c": "camera was bumped", "a": "wrong board"}
+    assert rejected_ids(history.folder) == {"c": "camera was bumped", "a": "wrong board"}
     assert history.load("c").id == "c"  # still there
 
 
-def test_condemning_needs_a_reason_and_a_known_calibration(history: CalibrationHistory) -> None:
+def test_rejecting_needs_a_reason_and_a_known_calibration(history: CalibrationHistory) -> None:
     history.keep(made("a"))
     with pytest.raises(CalibrationError, match="say why"):
-        history.condemn("a", "  ")
+        history.reject("a", "  ")
     with pytest.raises(CalibrationError, match="no calibration begins with 'x'; there are a"):
-        history.condemn("x", "bad")
+        history.reject("x", "bad")
 
 
 def test_an_id_is_found_by_its_beginning(history: CalibrationHistory) -> None:

@@ -8,8 +8,8 @@ import pytest
 from app.tracking.calibration.boards import parse_board
 from app.tracking.calibration.pairing import Pair, pair_folder
 from app.tracking.calibration.pictures import look_at_all
+from app.tracking.calibration.poses import usual_rms, usual_stereo_rms
 from app.tracking.calibration.run import StereoResult, calibrate_pairs
-from app.tracking.calibration.start import usual_rms, usual_stereo_rms
 from app.tracking.calibration.views import BoardView
 
 BOARD = parse_board("checkerboard:9x6:25mm")

@@ -12,7 +12,7 @@ from app.core.transform import RigidTransform
 from app.tracking.calibration import stereo
 from app.tracking.calibration.boards import parse_board
 from app.tracking.calibration.checks import check_baseline, check_second_board
-from app.tracking.calibration.corner_order import Agreement, PosedPair, agree
+from app.tracking.calibration.corner_order import CornerAgreement, PosedPair, agree
 from app.tracking.calibration.pairing import pair_folder
 from app.tracking.calibration.run import StereoResult, calibrate_pairs, calibrate_stereo
 from app.tracking.calibration.sets import stereo_set
@@ -228,7 +228,7 @@ def test_pairs_that_the_rough_stage_left_out_come_back_when_they_fit(
     right[8] = right[8].reordered(np.arange(rig.board.count)[::-1])
     whole = estimate_stereo(list(zip(left, right, strict=True)))
 
-    def rough(pairs: list[PosedPair], camera: np.ndarray) -> Agreement:
+    def rough(pairs: list[PosedPair], camera: np.ndarray) -> CornerAgreement:
         found = agree(pairs, camera)
         errors = found.errors.copy()
         errors[[1, 4, 8]] = 3.0 * found.near

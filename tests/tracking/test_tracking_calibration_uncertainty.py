@@ -13,9 +13,9 @@ from app.tracking.optics.calibration import (
     PoseCalibration,
     StereoCalibration,
 )
-from app.tracking.solver import FixSolver, Sighting
+from app.tracking.solver import FixSolver, SeenMarker
 from app.tracking.stereo.calibration_uncertainty import CalibrationUncertainty, pixel_by_parameters
-from app.tracking.stereo.rays import normalised
+from app.tracking.stereo.epipolar import normalised
 from app.tracking.stereo.triangulation import triangulate
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
@@ -117,7 +117,7 @@ def test_the_spread_of_points_over_possible_calibrations_is_the_stated_one(wide,
 
 def _sightings(rig, band, axis):
     return tuple(
-        Sighting(m.pixel(band) + centroid_shift(m, rig.needle.shape, band, axis), PIXELS)
+        SeenMarker(m.pixel(band) + centroid_shift(m, rig.needle.shape, band, axis), PIXELS)
         for m in rig.models
     )
 

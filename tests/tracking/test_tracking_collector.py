@@ -11,7 +11,7 @@ from app.tracking.calibration.boards import parse_board
 from app.tracking.calibration.collector import ViewCollector
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.coverage import Attitude, Coverage
-from app.tracking.calibration.views import BoardView, Reason, Rejection
+from app.tracking.calibration.views import BoardView, Rejection, RejectionReason
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.camera_model import CameraModel
 
@@ -23,7 +23,7 @@ CAMERA = CameraModel(
     (640, 480),
     RigidTransform.identity(),
 )
-NOTHING = Rejection(Reason.NO_BOARD, "no board is seen")
+NOTHING = Rejection(RejectionReason.NO_BOARD, "no board is seen")
 
 
 def view(

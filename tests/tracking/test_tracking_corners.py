@@ -10,7 +10,7 @@ from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.tracking.calibration.boards import Board, parse_board
 from app.tracking.calibration.corners import find_corners, half_window
-from app.tracking.calibration.views import BoardView, Reason, Rejection
+from app.tracking.calibration.views import BoardView, Rejection, RejectionReason
 from app.tracking.errors import CalibrationError
 from app.tracking.simulated.board import BoardRenderer
 from tests.tracking.calibration_rig import Rig, small_rig, thesis_rig, usual_rig
@@ -80,7 +80,7 @@ def test_a_mirrored_charuco_picture_is_named() -> None:
     image = BoardRenderer(rig.left, CHARUCO, 2).render(facing(CHARUCO, 0.35, (10, 10, 0)))
     found = find_corners(image[:, ::-1].copy(), CHARUCO)
     assert isinstance(found, Rejection)
-    assert found.reason is Reason.MIRRORED
+    assert found.reason is RejectionReason.MIRRORED
 
 
 def test_a_charuco_board_of_other_counts_is_named() -> None:
@@ -88,7 +88,7 @@ def test_a_charuco_board_of_other_counts_is_named() -> None:
     image = BoardRenderer(rig.left, CHARUCO, 2).render(facing(CHARUCO, 0.35, (10, 10, 0)))
     found = find_corners(image, parse_board("charuco:6x11:20mm:15mm:DICT_5X5_100"))
     assert isinstance(found, Rejection)
-    assert found.reason is Reason.OTHER_BOARD
+    assert found.reason is RejectionReason.OTHER_BOARD
     inner = find_corners(image, parse_board("charuco:8x6:20mm:15mm:DICT_5X5_100"))
     assert isinstance(inner, Rejection)
     assert "fit charuco:9x7" in inner.text
@@ -100,14 +100,19 @@ def test_a_board_larger_than_its_counts_say_is_named() -> None:
     for counts in ("8x6", "7x5"):
         found = find_corners(image, parse_board(f"checkerboard:{counts}:25mm"))
         assert isinstance(found, Rejection), counts
-        assert found.reason in (Reason.OTHER_BOARD, Reason.NO_BOARD)
+        assert found.reason in (RejectionReason.OTHER_BOARD, RejectionReason.NO_BOARD)
 
 
 def test_a_board_on_edge_is_refused_or_not_seen() -> None:
     rig = usual_rig()
     found = seen(rig, facing(rig.board, 0.35, (0, 84, 0)))
     assert isinstance(found, Rejection)
-    assert found.reason in (Reason.EDGE_ON, Reason.TOO_SMALL, Reason.NO_BOARD, Reason.BLURRED)
+    assert found.reason in (
+        RejectionReason.EDGE_ON,
+        RejectionReason.TOO_SMALL,
+        RejectionReason.NO_BOARD,
+        RejectionReason.BLURRED,
+    )
 
 
 def test_the_width_of_the_edges_grows_with_blur_and_a_blurred_picture_is_refused() -> None:
@@ -122,7 +127,7 @@ def test_the_width_of_the_edges_grows_with_blur_and_a_blurred_picture_is_refused
     assert widths[2] == pytest.approx(2.56 * 2.5, rel=0.25)  # 10 to 90 % of a Gaussian's step
     blurred = seen(rig, T, blur_px=7.0)
     assert isinstance(blurred, Rejection)
-    assert blurred.reason in (Reason.BLURRED, Reason.NO_BOARD)
+    assert blurred.reason in (RejectionReason.BLURRED, RejectionReason.NO_BOARD)
 
 
 @pytest.mark.parametrize("grey", [0, 120, 255])
@@ -131,7 +136,7 @@ def test_a_picture_without_a_board_is_a_rejection(grey: int) -> None:
     for board in (usual_rig().board, CHARUCO):
         found = find_corners(image, board)
         assert isinstance(found, Rejection)
-        assert found.reason is Reason.NO_BOARD
+        assert found.reason is RejectionReason.NO_BOARD
 
 
 def test_colour_and_16_bit_pictures_give_the_same_corners() -> None:

@@ -5,7 +5,7 @@ import pytest
 
 from app.core.clock import VirtualClock
 from app.core.transform import RigidTransform
-from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.errors import TrackingError
 from app.tracking.inspection import Inspector
 from app.tracking.optics.camera_model import CameraModel
@@ -75,7 +75,7 @@ class _Still(Camera):
     def open(self) -> None:
         pass
 
-    def read(self) -> Frame:
+    def read(self) -> CameraFrame:
         raise AssertionError
 
     def close(self) -> None:
@@ -88,7 +88,7 @@ def test_an_inspection_shows_marker_curve_mask_and_region(wide, wide_renderers, 
         [_Still(), _Still()], wide, VirtualClock(), lambda _: scene.axis_world,
         np.array([0.0, 0.16056, 0.090]),
     )  # fmt: skip
-    frames = [Frame(renderer.render(scene), 0.0) for renderer in wide_renderers]
+    frames = [CameraFrame(renderer.render(scene), 0.0) for renderer in wide_renderers]
     fix = tracker.process(frames[0], frames[1])
     tracker.latest.publish(fix, 0.0)
     plain, full = Inspector(tracker).look(), Inspector(tracker).look(masks=True)
@@ -117,7 +117,7 @@ def test_a_click_teaches_the_marker_s_colour_and_one_beside_it_is_refused(
     )  # fmt: skip
     with pytest.raises(TrackingError, match="has given no picture"):
         tracker.learn_colour("left", np.zeros(2))
-    frames = [Frame(renderer.render(scene), 0.0) for renderer in wide_renderers]
+    frames = [CameraFrame(renderer.render(scene), 0.0) for renderer in wide_renderers]
     tracker.process(*frames)
     before, pixel = tracker.extractors, tracker.pictures()[0].pixel
     with pytest.raises(TrackingError, match="grey"):
@@ -125,7 +125,7 @@ def test_a_click_teaches_the_marker_s_colour_and_one_beside_it_is_refused(
     assert tracker.extractors is before
     tracker.learn_colour("left", pixel)
     assert tracker.extractors is not before
-    later = [Frame(renderer.render(scene), 0.1) for renderer in wide_renderers]
+    later = [CameraFrame(renderer.render(scene), 0.1) for renderer in wide_renderers]
     assert tracker.process(*later).usable
 
 
@@ -133,7 +133,7 @@ def test_an_inspection_says_why_there_is_no_marker(wide) -> None:
     tracker = Tracker([_Still(), _Still()], wide, VirtualClock(), lambda _: None, np.zeros(3))
     assert Inspector(tracker).look().pictures == ()
     dark = np.zeros((480, 640, 3), dtype=np.uint8)
-    tracker.process(Frame(dark, 0.0), Frame(dark, 0.0))
+    tracker.process(CameraFrame(dark, 0.0), CameraFrame(dark, 0.0))
     found = Inspector(tracker).look(masks=True)
     assert found.radius is None
     assert [one.why for one in found.pictures] == ["nothing in the marker's colour"] * 2

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from app.core.clock import SystemClock, VirtualClock
-from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.checked import CheckedCamera
 from app.tracking.cameras.feed import CameraFeed
 from app.tracking.cameras.files import FolderCamera, VideoCamera
@@ -172,7 +172,7 @@ class _Ticking(Camera):
         self.last = max(self.last + 1, int(50.0 * self.clock.now()))
         self.clock.sleep(self.last / 50.0 + 0.01 - self.clock.now())
         image = np.full((48, 64, 3), self.last % 250, np.uint8)
-        return Frame(image, self.last / 50.0 + self.shift)
+        return CameraFrame(image, self.last / 50.0 + self.shift)
 
     def close(self):
         pass

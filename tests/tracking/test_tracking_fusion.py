@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from app.session.fusion import DIRECTION_SIGMA, fuse_tip, line_covariance
-from app.tracking.discrepancy import Cause, DiscrepancyMonitor, Evidence
+from app.tracking.discrepancy import DiscrepancyCause, DiscrepancyMonitor, Evidence
 from app.tracking.fix import FixStatus
 from app.tracking.health import FixHealth
 from app.tracking.markers.extractor import Centre
 from app.tracking.markers.silhouette import centroid_shift
-from app.tracking.solver import FixSolver, Sighting, systematic_px
+from app.tracking.solver import FixSolver, SeenMarker, systematic_px
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 LINE = (0.2e-3) ** 2
@@ -84,7 +84,9 @@ def test_with_one_camera_lost_the_ellipsoid_holds_the_fused_tip_as_often_as_it_s
         line = wide.line_sd_mm * 1e-3
         band = FULCRUM + depth * axis + across @ rng.normal(0.0, line, 3)
         pair = [
-            Sighting(m.pixel(band) + rng.normal(0.0, picture, 2), 0.05**2 * np.eye(2), Centre.BAND)
+            SeenMarker(
+                m.pixel(band) + rng.normal(0.0, picture, 2), 0.05**2 * np.eye(2), Centre.BAND
+            )
             for m in wide.models
         ]
         pair[lost] = None
@@ -129,53 +131,53 @@ def _story(cause, rng, n=200):
 @pytest.mark.parametrize(
     ("story", "cause"),
     [
-        ("nothing", Cause.NONE),
-        ("bent by a force", Cause.BENT_NEEDLE),
-        ("bent for good", Cause.BENT_NEEDLE),
-        ("camera turned sideways", Cause.BUMPED_CAMERA),
-        ("camera turned upwards", Cause.BUMPED_CAMERA),
+        ("nothing", DiscrepancyCause.NONE),
+        ("bent by a force", DiscrepancyCause.BENT_NEEDLE),
+        ("bent for good", DiscrepancyCause.BENT_NEEDLE),
+        ("camera turned sideways", DiscrepancyCause.BUMPED_CAMERA),
+        ("camera turned upwards", DiscrepancyCause.BUMPED_CAMERA),
     ],
 )
 @pytest.mark.parametrize("seed", range(8))
 def test_each_cause_leaves_its_own_trace(story, cause, seed):
     found = _story(story, np.random.default_rng(seed)).verdict()
     assert found.cause is cause
-    assert bool(found.words) == (cause is not Cause.NONE)
+    assert bool(found.words) == (cause is not DiscrepancyCause.NONE)
 
 
 def test_a_slipped_marker_is_told_by_touches_of_known_places_alone():
     monitor = _story("nothing", np.random.default_rng(0))
     monitor.touch(0.0512, 0.0500)
-    assert monitor.verdict().cause is Cause.NONE
+    assert monitor.verdict().cause is DiscrepancyCause.NONE
     monitor.touch(0.0311, 0.0300)
     found = monitor.verdict()
-    assert found.cause is Cause.SLIPPED_MARKER
+    assert found.cause is DiscrepancyCause.SLIPPED_MARKER
     assert found.size == pytest.approx(1.15e-3)
     assert "towards the tip" in found.words
     for _ in range(10):
         monitor.touch(0.0301, 0.0300)
-    assert monitor.verdict().cause is Cause.NONE
+    assert monitor.verdict().cause is DiscrepancyCause.NONE
 
 
 def test_little_or_broken_evidence_gives_no_verdict():
     monitor = DiscrepancyMonitor()
-    assert monitor.verdict().cause is Cause.NONE
+    assert monitor.verdict().cause is DiscrepancyCause.NONE
     for _ in range(40):
         monitor.add(Evidence(0.05, np.full(3, 2e-3), 0.2e-3, 0.0, np.zeros(3)))
         monitor.add(Evidence(0.05, np.full(3, np.nan), 0.2e-3, 0.0, np.zeros(3)))
         monitor.add(Evidence(np.inf, np.zeros(3), 0.2e-3, 0.0, np.zeros(3)))
-    assert monitor.verdict().cause is Cause.NONE
+    assert monitor.verdict().cause is DiscrepancyCause.NONE
     monitor.touch(np.nan, 0.0)
     for _ in range(10):
         monitor.add(Evidence(0.05, np.full(3, 2e-3), 0.2e-3, 0.0, np.zeros(3)))
-    assert monitor.verdict().cause is Cause.UNCLEAR  # at one depth no cause can be told
+    assert monitor.verdict().cause is DiscrepancyCause.UNCLEAR  # at one depth no cause can be told
     monitor.clear()
-    assert monitor.verdict().cause is Cause.NONE
+    assert monitor.verdict().cause is DiscrepancyCause.NONE
 
 
 def _fix(rig, solver, band, axis, nudge=0.0):
     pair = tuple(
-        Sighting(
+        SeenMarker(
             m.pixel(band) + centroid_shift(m, rig.needle.shape, band, axis) + [0.0, i * nudge],
             2.5e-3 * np.eye(2),
         )
@@ -199,7 +201,7 @@ def test_a_needle_known_to_bend_is_measured_where_the_line_alone_would_refuse_it
     assert FixStatus.INCONSISTENT not in statuses[60:]
     tip = FULCRUM + (depth + 0.01) * axis + 0.4 * (depth + 0.01) ** 2 * side
     assert np.linalg.norm(fix.p_tip_world - tip) < fix.radius()  # it bends beyond the band, too
-    assert fix.discrepancy.cause is Cause.BENT_NEEDLE
+    assert fix.discrepancy.cause is DiscrepancyCause.BENT_NEEDLE
     assert told[0][0] == "tracker"
     assert "bends" in told[0][1]
     assert len(told) == 1
@@ -212,7 +214,7 @@ def test_two_touches_tell_the_tracker_of_a_slipped_marker(wide):
         health.monitor.touch(known + 0.002, known)
     for k in range(15):
         fix = health.look(_fix(wide, solver, FULCRUM + (0.02 + 0.001 * k) * axis, axis), axis)
-    assert fix.discrepancy.cause is Cause.SLIPPED_MARKER
+    assert fix.discrepancy.cause is DiscrepancyCause.SLIPPED_MARKER
 
 
 def test_a_camera_that_is_bumped_while_it_runs_is_named(wide):
@@ -222,5 +224,5 @@ def test_a_camera_that_is_bumped_while_it_runs_is_named(wide):
         axis = _axis(0.2, 0.1 * k)
         band = FULCRUM + (0.02 + 0.001 * k) * axis
         fix = health.look(_fix(wide, solver, band, axis, nudge=1.5), axis)
-    assert fix.discrepancy.cause is Cause.BUMPED_CAMERA
-    assert "morning check" in told[0]
+    assert fix.discrepancy.cause is DiscrepancyCause.BUMPED_CAMERA
+    assert "daily check" in told[0]

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from app.tracking.markers.colour import RED
-from app.tracking.markers.colour_patch import mark_half
+from app.tracking.markers.colour import RED, mark_half
 from app.tracking.markers.extractor import Hint, MarkerFix
 from app.tracking.markers.outline_centroid import OutlineCentroid
 from app.tracking.markers.silhouette import centroid_shift

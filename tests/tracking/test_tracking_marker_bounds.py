@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.studies.references.cramer_rao import joint_bound, position_bound, schur_bound
-from app.tracking.markers.band_fit import BandFitter
+from app.tracking.band.fit import BandFitter
 from app.tracking.markers.choice import ExtractorName, extractors
 from app.tracking.markers.extractor import Hint, MarkerFix
 from app.tracking.markers.silhouette import centroid_shift

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 
+from app.tracking.band.fit import BandFit
+from app.tracking.band.outline import ARCS, Outline
 from app.tracking.confidence import chi_square_quantile
-from app.tracking.markers.band_fit import BandFit, Outline
-from app.tracking.markers.band_outline import ARCS, FRAME
 from app.tracking.markers.choice import extractors
 from tests.bench.hidden_marker import Hidden
 from tests.bench.marker_trials import Trials
@@ -45,7 +45,7 @@ def test_a_band_too_narrow_or_short_costs_what_its_hidden_side_moves_its_centre(
 
     def spread(*stretch):
         paint = np.array(fit.coarse.colour.bgr, dtype=float)
-        outline = Outline(np.zeros((ARCS, 14)), np.zeros(FRAME))
+        outline = Outline(*np.zeros(12).tolist(), np.zeros((ARCS, 14)))
         seen = BandFit(
             np.array([320.0, 240.0]), 1e-4 * np.eye(2), np.array(stretch), 1.0, 0.0, 200.0, paint,
             outline,

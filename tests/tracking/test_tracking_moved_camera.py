@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from app.core.clock import VirtualClock
-from app.tracking.cameras.camera import Camera, Frame
-from app.tracking.discrepancy import Cause
+from app.tracking.cameras.camera import Camera, CameraFrame
+from app.tracking.discrepancy import DiscrepancyCause
 from app.tracking.fix import FixStatus
 from app.tracking.simulated.obstacles import Patch, patch
 from app.tracking.tracker import Tracker
@@ -20,7 +20,7 @@ class _NoCamera(Camera):
     def open(self) -> None:
         raise NotImplementedError
 
-    def read(self) -> Frame:
+    def read(self) -> CameraFrame:
         raise NotImplementedError
 
     def close(self) -> None:
@@ -38,7 +38,7 @@ def _run(wide, renderers, scene_at, spoil, start=0, frames=FRAMES):
         pictures = [renderer.render(scene) for renderer in renderers]
         if k >= start:
             pictures = spoil(pictures)
-        fixes.append(tracker.process(*(Frame(one, k / 30.0) for one in pictures)))
+        fixes.append(tracker.process(*(CameraFrame(one, k / 30.0) for one in pictures)))
     return fixes, [event.message for event in tracker.events.drain()]
 
 
@@ -56,9 +56,9 @@ def test_a_camera_that_was_bumped_by_more_than_a_marker_s_width_is_named(
     assert all(fix.usable for fix in fixes[:start])
     assert not any(fix.usable for fix in fixes[start:])
     assert {fix.status for fix in fixes[start + 1 :]} == {FixStatus.INCONSISTENT}
-    assert fixes[-1].discrepancy.cause is Cause.BUMPED_CAMERA
+    assert fixes[-1].discrepancy.cause is DiscrepancyCause.BUMPED_CAMERA
     assert "a camera was moved" in said[-1]
-    assert "morning check, then calibrate" in said[-1]
+    assert "daily check, then calibrate" in said[-1]
 
 
 def test_cameras_that_are_exchanged_while_they_run_are_named(wide, wide_renderers, scene_at):
@@ -67,7 +67,7 @@ def test_cameras_that_are_exchanged_while_they_run_are_named(wide, wide_renderer
     assert not any(fix.usable for fix in fixes[start:])
     assert {fix.status for fix in fixes[start + 1 :]} == {FixStatus.INCONSISTENT}
     assert "swapped" in fixes[-1].reason
-    assert fixes[-1].discrepancy.cause is Cause.SWAPPED_CAMERAS
+    assert fixes[-1].discrepancy.cause is DiscrepancyCause.SWAPPED_CAMERAS
     assert "swapped" in said[-1]
 
 
@@ -83,7 +83,7 @@ def test_a_red_thing_in_one_picture_while_the_other_shows_the_marker_gives_no_fi
 
     fixes, said = _run(wide, wide_renderers, scene_at, hostile, frames=20)
     assert not any(fix.usable for fix in fixes)
-    assert fixes[-1].discrepancy.cause is Cause.NONE
+    assert fixes[-1].discrepancy.cause is DiscrepancyCause.NONE
     assert said == []
 
 

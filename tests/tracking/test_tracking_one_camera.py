@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from app.tracking.continuity import Continuity
+from app.tracking.agreement import Continuity
 from app.tracking.fix import FixStatus
 from app.tracking.health import NEVER, Hiding
 from app.tracking.markers.silhouette import centroid_shift
+from app.tracking.one_camera_fix import LEAST_ANGLE, RayStatus, point_on_line
 from app.tracking.optics.rig import NeedleProfile, load_rig
-from app.tracking.solver import FixSolver, Sighting
-from app.tracking.stereo.one_camera import LEAST_ANGLE, RayStatus, point_on_line
+from app.tracking.solver import FixSolver, SeenMarker
 
 FULCRUM = np.array([0.0, 0.16056, 0.090])
 NOISE = 0.05  # px
@@ -27,7 +27,7 @@ def _sighting(rig, camera, p_band, axis, rng=None, noise=NOISE):
     model = rig.models[camera]
     uv = model.pixel(p_band) + centroid_shift(model, rig.needle.shape, p_band, axis)
     error = rng.normal(0.0, noise, 2) if rng is not None else np.zeros(2)
-    return Sighting(uv + error, noise**2 * np.eye(2))
+    return SeenMarker(uv + error, noise**2 * np.eye(2))
 
 
 @pytest.mark.parametrize("camera", [0, 1])
@@ -46,7 +46,7 @@ def test_one_ray_and_the_line_give_the_tip_with_a_covariance_that_monte_carlo_co
         band = tips[-1] - rig.needle.marker_offset * axis
         noise = np.hypot(NOISE, rig.systematic_px)
         sighting = _sighting(rig, camera, band, axis, rng, noise)
-        sighting = Sighting(sighting.uv, NOISE**2 * np.eye(2))
+        sighting = SeenMarker(sighting.uv, NOISE**2 * np.eye(2))
         pair = (sighting, None) if camera == 0 else (None, sighting)
         fixes.append(solver.solve(pair, axis, 0.0))
     assert all(fix.status is FixStatus.ONE_CAMERA and fix.usable for fix in fixes)
@@ -73,7 +73,7 @@ def test_a_camera_that_looks_along_the_needle_tells_no_depth(wide):
     axis = model.centre - FULCRUM
     axis = -axis / np.linalg.norm(axis)
     band = FULCRUM + 0.05 * axis
-    sighting = Sighting(model.pixel(band), 1e-3 * np.eye(2))
+    sighting = SeenMarker(model.pixel(band), 1e-3 * np.eye(2))
     fix = FixSolver(wide, FULCRUM).solve((sighting, None), axis, 0.0)
     assert fix.status is FixStatus.ONE_CAMERA
     assert not fix.usable
@@ -128,7 +128,7 @@ def test_one_camera_is_believed_only_where_it_goes_on_with_what_both_saw(wide):
 @given(*[st.floats(-2000.0, 3000.0)] * 2, st.sampled_from([0, 1]), st.booleans())
 def test_any_pixel_of_one_camera_gives_a_finite_fix_with_a_reason(u, v, camera, poor):
     rig = load_rig("thesis" if poor else "wide")
-    sighting = Sighting(np.array([u, v]), np.eye(2) * 1e-3)
+    sighting = SeenMarker(np.array([u, v]), np.eye(2) * 1e-3)
     pair = (sighting, None) if camera == 0 else (None, sighting)
     fix = FixSolver(rig, FULCRUM).solve(pair, _axis(30.0, 50.0), 0.0)
     assert np.isfinite(fix.p_tip_world).all()

@@ -7,7 +7,7 @@ from app.tracking.fix import FixStatus
 from app.tracking.markers.extractor import Centre
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.rig import load_rig
-from app.tracking.solver import FixSolver, Sighting, systematic_px
+from app.tracking.solver import FixSolver, SeenMarker, systematic_px
 from app.tracking.stereo.epipolar import essential_matrix
 from tests.tracking.pair_reference import located_reference, off_line_reference, shift_reference
 
@@ -50,7 +50,7 @@ def test_fixes_are_those_of_the_steps_in_numpy(name, fulcrum):
         spreads = np.array([(a := rng.normal(0.0, 0.1, (2, 2))) @ a.T for _ in range(2)])
         spreads = spreads + 1e-3 * np.eye(2)
         centres = [Centre(name) for name in rng.choice(list(Centre), 2)]
-        pair = [Sighting(*one) for one in zip(pixels, spreads, centres, strict=True)]
+        pair = [SeenMarker(*one) for one in zip(pixels, spreads, centres, strict=True)]
         fix = solver.solve((pair[0], pair[1]), axis, 0.0)
         outlines = [centre is Centre.OUTLINE for centre in centres]
         known = located_reference(
@@ -75,9 +75,9 @@ def test_fixes_are_those_of_the_steps_in_numpy(name, fulcrum):
 
 def test_pixels_that_are_no_numbers_or_lie_beyond_the_fold_give_a_reason(wide, fulcrum):
     solver, axis, spread = FixSolver(wide, fulcrum), np.array([0.0, 0.0, -1.0]), np.eye(2)
-    good = Sighting(wide.models[1].pixel(fulcrum + 0.05 * axis), spread)
+    good = SeenMarker(wide.models[1].pixel(fulcrum + 0.05 * axis), spread)
     for pixel in ([np.nan, 1.0], [np.inf, 0.0], [1e300, -1e300]):
-        fix = solver.solve((Sighting(np.array(pixel), spread), good), axis, 0.0)
+        fix = solver.solve((SeenMarker(np.array(pixel), spread), good), axis, 0.0)
         assert fix.status is FixStatus.INCONSISTENT
         assert not fix.has_point
         assert np.isfinite(fix.p_tip_world).all()

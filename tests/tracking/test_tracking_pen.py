@@ -16,8 +16,7 @@ from app.tracking.pen.body import BodyProfile, PenProfile, load_pen, shipped_pen
 from app.tracking.pen.detector import MarkerDetector
 from app.tracking.pen.locator import BoardLocator
 from app.tracking.pen.needle import PenTip, solve_needle
-from app.tracking.pen.pose import PoseStatus
-from app.tracking.pen.projection import parameter_jacobians, projection_jacobians
+from app.tracking.pen.pose import PoseStatus, parameter_jacobians, projection_jacobians
 from app.tracking.pen.step import PenStep
 from app.tracking.pen.webcam import guessed_webcam
 from tests.tracking.pen_rig import (

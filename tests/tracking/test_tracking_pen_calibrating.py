@@ -7,19 +7,18 @@ import pytest
 from pen_rig import BASE, BODY, DOWN, ENTRY, PEN, TIP, camera, sighting, step, webcam
 
 from app.core.transform import RigidTransform
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.errors import CameraError, PenError
 from app.tracking.pen.calibrating import PoseCollector, relative_pose
 from app.tracking.pen.drawing import draw_observation
-from app.tracking.pen.kept import save_pen
 from app.tracking.pen.locator import BoardLocator
 from app.tracking.pen.pose import PoseStatus
-from app.tracking.pen.settings import PenSettings, load_settings, save_settings
+from app.tracking.pen.settings import PenSettings, load_settings, save_pen, save_settings
 from app.tracking.simulated.pen_scene import body_pose
 
 MODEL = camera()
-BLANK = step(MODEL).look(Frame(np.full((480, 640, 3), 128, np.uint8), 1.0))
+BLANK = step(MODEL).look(CameraFrame(np.full((480, 640, 3), 128, np.uint8), 1.0))
 TRUE_TIP = np.array([0.0015, -0.001, 0.172])
 
 
@@ -74,7 +73,7 @@ def test_a_rocked_pen_is_calibrated_to_its_true_tip():
 
 
 def test_pictures_without_cube_or_sheet_give_no_pose():
-    blank = step(MODEL).look(Frame(np.full((480, 640, 3), 128, np.uint8), 1.0))
+    blank = step(MODEL).look(CameraFrame(np.full((480, 640, 3), 128, np.uint8), 1.0))
     collector = PoseCollector()
     assert not collector.add(blank)
     with pytest.raises(PenError, match="too few"):
@@ -117,7 +116,7 @@ def test_a_lens_is_read_from_its_file_and_a_wrong_name_is_named(tmp_path):
 
 
 def test_what_was_found_is_drawn_and_an_empty_picture_stays_as_it_is():
-    blank = Frame(np.full((480, 640, 3), 128, np.uint8), 1.0)
+    blank = CameraFrame(np.full((480, 640, 3), 128, np.uint8), 1.0)
     seen = step(MODEL).look(blank)
     assert np.array_equal(draw_observation(blank.image, seen), blank.image)
     pose = body_pose(ENTRY, np.array([0.0, 0.0, -1.0]), TIP, DOWN, 1.0)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.fix import FixStatus
-from app.tracking.pen.following import FULL_EVERY, STILL_PX, Stillness
+from app.tracking.pen.step import FULL_EVERY, STILL_PX, Stillness
 from tests.tracking.pen_rig import camera, picture, renderer, scene, step
 
 MODEL = camera()
@@ -82,7 +82,7 @@ def test_a_second_cube_is_named_within_a_third_of_a_second(draw):
         image = frame.image.copy()
         if number >= 2:
             image[20:120, 20:140] = image[75:175, 280:400]
-        look = known.look(Frame(image, frame.time))
+        look = known.look(CameraFrame(image, frame.time))
         if look.fix.status is not FixStatus.VALID:
             break
     assert "twice" in look.fix.reason

@@ -10,12 +10,18 @@ from app.core.errors import ConfigurationError
 from app.core.transform import RigidTransform
 from app.tracking.errors import PenError
 from app.tracking.pen.calibrating import EVERY, WANTED, held_back
-from app.tracking.pen.kept import before_path, calibrated_path, can_undo, save_pen, undo_pen
 from app.tracking.pen.needle import PenTip
 from app.tracking.pen.pivot import FEWEST, MeasuredPose
 from app.tracking.pen.pose import BoardPose, PoseStatus
 from app.tracking.pen.rocking import LEANT, SIDES, Lean, Rocking, lean_of
-from app.tracking.pen.settings import PenSettings
+from app.tracking.pen.settings import (
+    PenSettings,
+    before_path,
+    calibrated_path,
+    can_undo,
+    save_pen,
+    undo_pen,
+)
 from app.tracking.pen.tracker import Motion
 from app.tracking.simulated.pen_scene import rocked
 

@@ -5,7 +5,7 @@ from copy import copy
 import numpy as np
 import pytest
 
-from app.tracking.continuity import Continuity
+from app.tracking.agreement import Continuity
 from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.markers.choice import ExtractorName, extractors
 from app.tracking.markers.extractor import Centre, Hint, MarkerFix, Miss, MissReason

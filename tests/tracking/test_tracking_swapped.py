@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.tracking.stereo.swapped import Order, check_order
+from app.tracking.stereo.epipolar import Order, check_order
 
 
 def _pixels(models, points):

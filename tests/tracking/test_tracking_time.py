@@ -6,12 +6,12 @@ import pytest
 from app.core.clock import VirtualClock
 from app.studies.depth_motion import Hold, OneEuro
 from app.tracking.agreement import EpipolarGate
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.fix import FixStatus
 from app.tracking.follower import MarkerFollower
 from app.tracking.markers.extractor import Centre, Extractor, MarkerFix
 from app.tracking.markers.silhouette import centroid_shift
-from app.tracking.motion.constant_velocity import ConstantVelocity
+from app.tracking.motion.depth_filter import ConstantVelocity
 from app.tracking.solver import FixSolver
 from app.tracking.track import PixelTrack
 from app.tracking.tracker import Tracker
@@ -64,10 +64,10 @@ def _errors(rig, depth, skew, interpolate=True):
         times = (k * PERIOD, k * PERIOD + skew)
         for extractor, time in zip(extractors, times, strict=True):
             extractor.time = time
-        frames = tuple(Frame(BLANK, time) for time in times)
+        frames = tuple(CameraFrame(BLANK, time) for time in times)
         now = times[0]
         markers = follower.find(frames, _axis(now), now)
-        frames = frames if interpolate else (frames[0], Frame(BLANK, now))
+        frames = frames if interpolate else (frames[0], CameraFrame(BLANK, now))
         sightings = follower.sightings(frames, markers, now)
         fix = solver.solve(sightings, _axis(now), now)
         if k:
@@ -112,7 +112,7 @@ def _tracker(rig):
     extractors = tuple(_Exact(rig, i, lambda t: 0.05) for i in (0, 1))
     tracker = Tracker([_Still(), _Still()], rig, VirtualClock(), _axis, FULCRUM,
                       extractors=extractors)  # fmt: skip
-    return tracker, lambda t: tracker.process(Frame(BLANK, t), Frame(BLANK, t))
+    return tracker, lambda t: tracker.process(CameraFrame(BLANK, t), CameraFrame(BLANK, t))
 
 
 def test_pictures_whose_times_run_backwards_are_left_out_and_told_once(wide):

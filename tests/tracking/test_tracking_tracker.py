@@ -8,7 +8,7 @@ import pytest
 
 from app.core.clock import SystemClock, VirtualClock
 from app.tracking.agreement import SIGMAS, EpipolarGate
-from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.errors import CameraError, TrackingError
 from app.tracking.fix import FixStatus
 from app.tracking.follower import MarkerFollower
@@ -86,7 +86,9 @@ def test_the_tip_is_within_its_figure_over_the_whole_range(wide, wide_renderers)
             rng.uniform(0, 6.28),
         )
         tracker, _ = _stepped(wide, wide_renderers, needle)
-        frames = [Frame(noise(r.render(needle.at(0.0)), tile, rng), 0.0) for r in wide_renderers]
+        frames = [
+            CameraFrame(noise(r.render(needle.at(0.0)), tile, rng), 0.0) for r in wide_renderers
+        ]
         fix = tracker.process(*frames)
         valid += fix.status is FixStatus.VALID
         errors.append(np.linalg.norm(fix.p_tip_world - needle.tip(0.0)))
@@ -113,7 +115,7 @@ def test_a_search_fits_the_band_whose_outlines_lie_off_each_others_epipolar_line
     for azimuth in np.linspace(0.0, 5.0, 6):
         needle = _Needle(rig.needle.marker_offset, 0.06, 0.0, 0.6, azimuth)
         tracker, _ = _stepped(rig, renderers, needle)
-        frames = [Frame(noise(r.render(needle.at(0.0)), tile, rng), 0.0) for r in renderers]
+        frames = [CameraFrame(noise(r.render(needle.at(0.0)), tile, rng), 0.0) for r in renderers]
         left, right = (o.search(f.image)[:1] for o, f in zip(outlines, frames, strict=True))
         apart.append(gate.pairings([*left], [*right], 0.0)[0].apart)
         fix = tracker.process(*frames)
@@ -131,7 +133,9 @@ def test_the_stated_radius_is_of_the_size_of_the_error(wide, wide_renderers):
         depth = rng.uniform(-0.03, 0.12)
         needle = _Needle(wide.needle.marker_offset, depth, 0.0, tilt, azimuth)
         tracker, _ = _stepped(wide, wide_renderers, needle)
-        frames = [Frame(noise(r.render(needle.at(0.0)), tile, rng), 0.0) for r in wide_renderers]
+        frames = [
+            CameraFrame(noise(r.render(needle.at(0.0)), tile, rng), 0.0) for r in wide_renderers
+        ]
         fix = tracker.process(*frames)
         if fix.status is FixStatus.VALID:
             errors.append(np.linalg.norm(fix.p_tip_world - needle.tip(0.0)))
@@ -161,7 +165,7 @@ def test_a_needle_out_of_view_is_reported_with_the_camera_that_misses_it(
     fix = tracker.process(gone_left, gone_right)
     assert fix.status is FixStatus.OUT_OF_VIEW
     assert fix.missing == ("left", "right")
-    left, right = (Frame(f.image, gone_right.time) for f in (left, right))
+    left, right = (CameraFrame(f.image, gone_right.time) for f in (left, right))
     fix = tracker.process(left, gone_right)
     assert fix.status is FixStatus.ONE_CAMERA
     assert fix.missing == ("right",)
@@ -188,7 +192,7 @@ def test_of_two_red_things_the_one_on_the_needle_is_taken(wide, wide_renderers, 
     images = [renderer.render(needle.at(0.0)) for renderer in wide_renderers]
     for image in images:
         image[60:85, 500:512] = (40, 25, 190)
-    fix = tracker.process(*(Frame(image, 0.0) for image in images))
+    fix = tracker.process(*(CameraFrame(image, 0.0) for image in images))
     assert fix.status is FixStatus.VALID
     assert np.linalg.norm(fix.p_tip_world - needle.tip(0.0)) < 0.3e-3
 
@@ -200,7 +204,7 @@ def _red(image, top, left):
 def _find(wide, tracker, images, times=(0.0, 0.0), axis=None):
     gate = EpipolarGate(wide)
     follower = MarkerFollower(tracker.extractors, FixSolver(wide, FULCRUM), gate)
-    frames = tuple(Frame(image, time) for image, time in zip(images, times, strict=True))
+    frames = tuple(CameraFrame(image, time) for image, time in zip(images, times, strict=True))
     return follower.find(frames, axis, min(times))
 
 
@@ -228,7 +232,7 @@ def test_red_things_off_each_others_epipolar_line_are_no_marker_and_it_is_said(
     images = [renderer.render(needle.at(0.0)) for renderer in wide_renderers]
     _red(images[0], 60, 500)
     _red(images[1], 400, 80)
-    fix = tracker.process(*(Frame(image, 0.0) for image in images))
+    fix = tracker.process(*(CameraFrame(image, 0.0) for image in images))
     assert fix.status is FixStatus.OUT_OF_VIEW
     for picture in tracker.pictures():
         assert picture.found.reason is MissReason.OFF_EPIPOLAR
@@ -241,11 +245,11 @@ def test_a_followed_marker_goes_on_when_the_other_picture_shows_only_something_e
 ):
     tracker, _ = _stepped(wide, wide_renderers, needle)
     images = [renderer.render(needle.at(0.0)) for renderer in wide_renderers]
-    assert tracker.process(*(Frame(image, 0.0) for image in images)).status is FixStatus.VALID
+    assert tracker.process(*(CameraFrame(image, 0.0) for image in images)).status is FixStatus.VALID
     needle.visible = False
     images[1] = wide_renderers[1].render(needle.at(0.0))
     _red(images[1], 400, 80)
-    fix = tracker.process(*(Frame(image, 0.033) for image in images))
+    fix = tracker.process(*(CameraFrame(image, 0.033) for image in images))
     assert fix.status is FixStatus.ONE_CAMERA
     assert fix.usable
     assert tracker.pictures()[1].found.reason is MissReason.OFF_EPIPOLAR
@@ -328,7 +332,7 @@ class _StillCamera(Camera):
         if self.mode == "live" or self._last is None:
             self._last = self.picture.copy()
             self._last[::16, ::16, 0] ^= self._rng.integers(0, 4, (30, 40)).astype(np.uint8)
-        return Frame(self._last.copy(), real_time.monotonic())
+        return CameraFrame(self._last.copy(), real_time.monotonic())
 
     def close(self):
         self.closed += 1

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 
 from app.core.clock import VirtualClock
-from app.tracking.cameras.camera import Frame
-from app.tracking.discrepancy import Cause
+from app.tracking.cameras.camera import CameraFrame
+from app.tracking.discrepancy import DiscrepancyCause
 from app.tracking.fix import FixStatus
 from app.tracking.health import FixHealth
 from app.tracking.markers.extractor import Miss, MissReason
-from app.tracking.markers.pair import fits, shaft_axis, tell_apart
 from app.tracking.optics.rig import RigProfile
 from app.tracking.simulated.cameras import NeedleRenderer, simulated_cameras
 from app.tracking.simulated.picture_effects import NoiseTile, noise
 from app.tracking.simulated.scene import MarkerScene
 from app.tracking.tracker import Tracker
+from app.tracking.two_bands import fits, shaft_axis, tell_apart
 
 DOWN = np.array([0.0, 0.0, -1.0])
 OFFSET, DISTANCE = 0.010, 0.030
@@ -52,7 +52,7 @@ def pictures(rig, renderers):
             for image, model in zip(images, rig.models, strict=True):
                 u, v = np.rint(model.pixel(cover)).astype(int)
                 image[v - 16 : v + 17, u - 16 : u + 17] = 120
-        return [Frame(noise(image, tile, rng), time) for image in images]
+        return [CameraFrame(noise(image, tile, rng), time) for image in images]
 
     return make
 
@@ -180,7 +180,10 @@ def test_an_axis_that_is_not_the_robots_is_told(rig, pictures):
     fix = _tracker(rig, AXIS).process(*pictures())
     sigma = np.sqrt(0.5 * np.trace(fix.axis_covariance))
     normal = np.cross(AXIS, [1.0, 0.0, 0.0])
-    for turn, cause in ((0.5 * sigma, Cause.NONE), (6.0 * sigma, Cause.TURNED)):
+    for turn, cause in (
+        (0.5 * sigma, DiscrepancyCause.NONE),
+        (6.0 * sigma, DiscrepancyCause.TURNED),
+    ):
         told = []
         health = FixHealth(
             OFFSET, lambda t: None, lambda kind, words, told=told: told.append(words)
@@ -191,4 +194,4 @@ def test_an_axis_that_is_not_the_robots_is_told(rig, pictures):
             found = health.look(seen, AXIS).discrepancy
         assert found.cause is cause
         assert found.turn == pytest.approx(turn, rel=1e-3)
-        assert len(told) == (cause is Cause.TURNED)
+        assert len(told) == (cause is DiscrepancyCause.TURNED)

@@ -11,9 +11,8 @@ from camera_fakes import LEFT, RIGHT, FakeBus
 from app.core.clock import SystemClock
 from app.tracking.cameras.capture import Controls
 from app.tracking.cameras.ports import camera_ports, find_port
-from app.tracking.cameras.pump import CaptureTime
-from app.tracking.cameras.source import Kind, Source, parse_source
-from app.tracking.cameras.usb import UsbCamera
+from app.tracking.cameras.source import CameraSource, SourceKind, parse_source
+from app.tracking.cameras.usb import CaptureTime, UsbCamera
 from app.tracking.cameras.watch import CameraHealth, CameraReader, CameraState
 from app.tracking.errors import CameraError
 
@@ -78,10 +77,14 @@ def test_an_empty_port_is_named_with_what_is_plugged_in():
 
 @pytest.mark.parametrize(
     ("text", "source"),
-    [("usb:1-1.2", Source(Kind.USB, "1-1.2")), ("usb:0", Source(Kind.USB, "0")),
-     ("folder:/a:b", Source(Kind.FOLDER, "/a:b")), (" Video:x.avi ", Source(Kind.VIDEO, "x.avi")),
-     ("simulated", Source(Kind.SIMULATED))],
-)  # fmt: skip
+    [
+        ("usb:1-1.2", CameraSource(SourceKind.USB, "1-1.2")),
+        ("usb:0", CameraSource(SourceKind.USB, "0")),
+        ("folder:/a:b", CameraSource(SourceKind.FOLDER, "/a:b")),
+        (" Video:x.avi ", CameraSource(SourceKind.VIDEO, "x.avi")),
+        ("simulated", CameraSource(SourceKind.SIMULATED)),
+    ],
+)
 def test_a_source_is_read_and_written(text, source):
     assert parse_source(text) == source
     assert parse_source(str(source)) == source
@@ -256,10 +259,13 @@ def test_an_unplugged_camera_is_noticed_and_comes_back_at_its_port(bus, reader):
 
 @pytest.mark.parametrize(
     ("mode", "state", "word"),
-    [("hang", CameraState.FAILED, "no picture"), ("frozen", CameraState.FROZEN, "does not change"),
-     ("same time", CameraState.FROZEN, "does not change"),
-     ("backwards", CameraState.FAILED, "go back")],
-)  # fmt: skip
+    [
+        ("hang", CameraState.FAILED, "no picture"),
+        ("frozen", CameraState.FROZEN, "does not change"),
+        ("same time", CameraState.FROZEN, "does not change"),
+        ("backwards", CameraState.FAILED, "go back"),
+    ],
+)
 def test_a_stream_that_goes_wrong_is_noticed_and_named(bus, reader, mode, state, word):
     reader.open()
     _until(lambda: _state(reader) is CameraState.LIVE)

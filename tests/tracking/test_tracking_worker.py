@@ -2,7 +2,7 @@
 
 import threading
 
-from app.tracking.worker import Worker
+from app.tracking.tracker import Worker
 
 
 def test_a_thread_that_outlives_its_end_is_named_and_publishes_nothing_more():

@@ -8,7 +8,7 @@ from calibration_samples import sample
 
 from app.core.transform import RigidTransform
 from app.tracking.calibration.applies import require_cameras
-from app.tracking.calibration.board_pose import Pair, fit_pose, sights
+from app.tracking.calibration.board_pose import Pair, board_rays, fit_pose
 from app.tracking.calibration.boards import Board, parse_board
 from app.tracking.calibration.placed_board import PlacedBoard, place
 from app.tracking.calibration.views import BoardView
@@ -89,7 +89,7 @@ def test_the_jacobian_is_that_of_finite_differences(
     from app.tracking.calibration.board_pose import _system
 
     T_world_board = laid()
-    found = sights(calibration, [seen(rig, T_world_board, 0.5)])
+    found = board_rays(calibration, [seen(rig, T_world_board, 0.5)])
     pose = rig.models[0].T_camera_world @ T_world_board
     T_right_left = calibration.pose.transform
     system = _system(found, T_right_left, pose, 1.0)
@@ -227,7 +227,7 @@ def test_a_picture_of_another_size_is_refused_by_name(
     with pytest.raises(CalibrationError, match="one picture"):
         find_world(calibration, [])
     with pytest.raises(CalibrationError, match="no picture shows"):
-        fit_pose(calibration, sights(calibration, [(None, None)]))
+        fit_pose(calibration, board_rays(calibration, [(None, None)]))
 
 
 def test_other_swapped_and_resized_cameras_are_refused_by_name(

@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from PySide6.QtGui import QColor, QImage, QPainter
 
 from app.tracking.calibration.board_layout import PAPERS, lay_out, paper_named
-from app.tracking.calibration.boards import DEFAULT_BOARD, parse_board
+from app.tracking.calibration.boards import DEFAULT_BOARD, dark_rectangles, parse_board
 from app.tracking.calibration.corners import find_corners
-from app.tracking.calibration.pattern import dark_rectangles
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.views.cameras.board_page import paint_sheet, write_board

@@ -20,7 +20,7 @@ from app.tracking.calibration.formats.reading import read_calibration
 from app.tracking.calibration.formats.ros import ros_paths, write_ros
 from app.tracking.calibration.job import CalibrationJob, last_board
 from app.tracking.calibration.placed_board import place
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.rig import load_rig
 from app.views.cameras.wizard import CalibrationWizard
@@ -154,7 +154,7 @@ def test_without_anything_to_lose_the_wizard_closes_unasked(wizard, monkeypatch)
     assert not wizard.isVisible()
 
 
-def test_the_history_can_be_undone_and_condemned(wizard, job, settle) -> None:
+def test_the_history_can_be_undone_and_rejected(wizard, job, settle) -> None:
     for name in ("one", "two"):
         job.history.keep(sample(load_rig("wide"), name))
     wizard.show_page(4)
@@ -171,10 +171,10 @@ def test_the_history_can_be_undone_and_condemned(wizard, job, settle) -> None:
     page.use.click()
     assert done("two")
     page.table.selectRow(0)
-    page.condemn_chosen("camera bumped")
+    page.reject_chosen("camera bumped")
     assert done("one")
     assert "camera bumped" in page.table.item(0, 3).text()
-    page.condemn_chosen("  ")
+    page.reject_chosen("  ")
     assert done("one")
     assert "say why" in page.state.text()
 
@@ -253,10 +253,10 @@ class FakeCamera:
         self._reads = 0
         self.closed = False
 
-    def newest(self) -> Frame:
+    def newest(self) -> CameraFrame:
         self._reads += 1
         k = min(self._reads // 3, len(self._images) - 1)
-        return Frame(self._images[k].copy(), float(self._reads))
+        return CameraFrame(self._images[k].copy(), float(self._reads))
 
     def close(self) -> None:
         self.closed = True

@@ -1,4 +1,4 @@
-"""Morning check and registration check in the window; error ellipses on the CT."""
+"""Daily check and registration check in the window; error ellipses on the CT."""
 
 from datetime import UTC, datetime
 from types import SimpleNamespace
@@ -212,15 +212,15 @@ def test_a_large_error_is_not_enlarged_and_that_is_said(sd_mm: float, scale: flo
     assert ("enlarged" in error_note(overlay.scale)) is (scale > 1.0)
 
 
-def test_the_morning_page_shows_every_step_and_keeps_the_day(application, tmp_path, monkeypatch):
+def test_the_daily_page_shows_every_step_and_keeps_the_day(application, tmp_path, monkeypatch):
     from views_exercise_fakes import run as fake_run
 
     from app.session.checks.record import newest_check
-    from app.views.checks.morning_page import MorningPage
+    from app.views.checks.daily_page import DailyPage
 
     monkeypatch.setenv("ACUS_DATA", str(tmp_path))
     run = fake_run(inspect=Around()._inspect)
-    page = MorningPage(lambda: run, PLATE)
+    page = DailyPage(lambda: run, PLATE)
     page.show()
     assert [one.name for one in page.results][:2] == ["homing", "signs"]
     page._touched(Touch(TRUE[5] + [0.2 * MM, 0, 0], COVARIANCE / 9, 30, 0.1 * MM))
@@ -235,10 +235,10 @@ def test_the_morning_page_shows_every_step_and_keeps_the_day(application, tmp_pa
     page.deleteLater()
 
 
-def test_the_morning_page_without_a_run_says_what_to_do(application):
-    from app.views.checks.morning_page import MorningPage
+def test_the_daily_page_without_a_run_says_what_to_do(application):
+    from app.views.checks.daily_page import DailyPage
 
-    page = MorningPage(lambda: None, PLATE)
+    page = DailyPage(lambda: None, PLATE)
     page.show()
     assert "choose an exercise" in page.results[0].todo
     assert not page.touch.isEnabled()
@@ -278,14 +278,14 @@ def test_the_ellipse_round_the_target_is_drawn_where_it_was_checked(application,
 
 def test_the_window_opens_both_checks_without_a_run(window, settle):
     assert window.feature(ChecksFeature).items(None) == ()
-    window.feature(ChecksFeature).open_morning()
+    window.feature(ChecksFeature).open_daily()
     window.feature(ChecksFeature).open_registration()
     settle()
-    assert window.feature(ChecksFeature).morning.isVisible()
+    assert window.feature(ChecksFeature).daily.isVisible()
     assert window.feature(ChecksFeature).registration.isVisible()
     told = []
     window.feature(ChecksFeature).failed.connect(told.append)
     window.feature(ChecksFeature).use_place(RigidTransform.identity())
     assert "plan is needed" in str(told[0])
     window.feature(ChecksFeature).close()
-    assert not window.feature(ChecksFeature).morning.isVisible()
+    assert not window.feature(ChecksFeature).daily.isVisible()

@@ -14,10 +14,15 @@ from app.session.machine import State
 from app.tracking.cameras.settings import CameraSettings, OneCamera
 from app.tracking.cameras.watch import CameraState
 from app.tracking.errors import CameraError
-from app.tracking.pen.kept import calibrated_path, can_undo
 from app.tracking.pen.needle import PenTip
 from app.tracking.pen.rocking import SIDES, Lean
-from app.tracking.pen.settings import PenSettings, load_settings, save_settings
+from app.tracking.pen.settings import (
+    PenSettings,
+    calibrated_path,
+    can_undo,
+    load_settings,
+    save_settings,
+)
 from app.tracking.pen.webcam import guessed_webcam
 from app.tracking.simulated.pen_scene import rocked
 from app.views.exercise.status_items import Verdict

@@ -14,7 +14,7 @@ from app.imaging import scanning
 from app.imaging.series import Listing
 from app.planning.needle_overlay import NeedleOverlay
 from app.planning.plan import Plan
-from app.session.transitions import PAUSED_WORDS, RESUMED_WORDS, Cause
+from app.session.transitions import PAUSED_WORDS, RESUMED_WORDS, PauseCause
 from app.views.exercise.feature import ExerciseFeature
 from app.views.plan.feature import PlanFeature
 from app.views.reading.layouts import FIVE
@@ -153,10 +153,10 @@ def test_a_click_beside_the_patient_in_3d_is_told(window, patient):
 def test_a_pause_is_said_on_every_page_until_the_attempt_goes_on(window):
     seen = window.conductor.controller.event_seen
     seen.emit(Event(1.0, "state", "paused", {}))
-    seen.emit(Event(1.0, "pause", PAUSED_WORDS[Cause.CAMERAS], {"cause": "cameras"}))
-    assert window.message_bar.text == PAUSED_WORDS[Cause.CAMERAS]
+    seen.emit(Event(1.0, "pause", PAUSED_WORDS[PauseCause.CAMERAS], {"cause": "cameras"}))
+    assert window.message_bar.text == PAUSED_WORDS[PauseCause.CAMERAS]
     assert not window.message_bar.isHidden()
-    seen.emit(Event(2.0, "pause", RESUMED_WORDS[Cause.CAMERAS], {"duration_s": 1.0}))
+    seen.emit(Event(2.0, "pause", RESUMED_WORDS[PauseCause.CAMERAS], {"duration_s": 1.0}))
     assert window.message_bar.isHidden()
 
 

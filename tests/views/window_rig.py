@@ -17,7 +17,7 @@ from app.session.machine import State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.shown_views import Shown
 from app.session.snapshot import Snapshot
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 from app.tracking.cameras.watch import CameraHealth, CameraState
 from app.tracking.pen.webcam import guessed_webcam
 from app.tracking.statistics import TrackerMeter
@@ -86,7 +86,7 @@ class FakeLive:
         self.side, self.closed = side, threading.Event()
         self.state, self.patch, self.taken = CameraState.LIVE, None, None
         rng = np.random.default_rng(1)
-        self.frame = Frame(rng.integers(60, 90, (480, 640, 3)).astype(np.uint8), 1.0)
+        self.frame = CameraFrame(rng.integers(60, 90, (480, 640, 3)).astype(np.uint8), 1.0)
 
     def newest(self):
         return self.frame

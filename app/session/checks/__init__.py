@@ -1,1 +1,1 @@
-"""The morning check: what is looked at, what it means, and what to do about it."""
+"""The daily check: what is looked at, what it means, and what to do about it."""

@@ -1,4 +1,4 @@
-"""What the morning check is judged by: plain values, gathered by whoever has the trainer."""
+"""What the daily check is judged by: plain values, gathered by whoever has the trainer."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""From a running trainer to the facts of the morning check."""
+"""From a running trainer to the facts of the daily check."""
 
 from math import inf
 
@@ -21,7 +21,7 @@ _WITH_RESIDUAL = (FixStatus.VALID, FixStatus.INCONSISTENT)
 _QUIET = (Fault.NONE, Fault.NOT_HOMED)  # homing has a step of its own
 
 
-def morning_facts(
+def daily_facts(
     snapshot: Snapshot,
     inspection: Inspection,
     robot: RobotFacts,

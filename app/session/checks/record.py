@@ -1,4 +1,4 @@
-"""The result of the day: one file per morning check."""
+"""The result of the day: one file per daily check."""
 
 from datetime import datetime
 from pathlib import Path
@@ -11,20 +11,20 @@ from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
-from app.session.checks.steps import StepResult, Verdict, overall
+from app.session.checks.steps import CheckVerdict, StepResult, overall
 
 
 class StepRecord(Strict):
     """A step as it came out."""
 
     name: str
-    verdict: Verdict
+    verdict: CheckVerdict
     found: str
     todo: str = ""
 
 
 class DayCheck(Strict):
-    """One morning check.
+    """One daily check.
 
     Attributes:
         created: local time with its offset.
@@ -36,7 +36,7 @@ class DayCheck(Strict):
 
     version: Annotated[int, Field(ge=1, le=1)] = 1
     created: datetime
-    verdict: Verdict
+    verdict: CheckVerdict
     steps: tuple[StepRecord, ...]
     device: str = ""
     simulated: bool = False
@@ -63,10 +63,10 @@ class DayCheck(Strict):
         """Say `checked today 08:12`, or when else, and whether all was well."""
         day = "today" if self.created.date() == now.date() else f"{self.created:%Y-%m-%d}"
         what = {
-            Verdict.GOOD: "checked",
-            Verdict.WARNING: "checked with remarks",
-            Verdict.BAD: "check failed",
-            Verdict.WAITING: "check not finished",
+            CheckVerdict.GOOD: "checked",
+            CheckVerdict.WARNING: "checked with remarks",
+            CheckVerdict.BAD: "check failed",
+            CheckVerdict.WAITING: "check not finished",
         }[self.verdict]
         return f"{what} {day} {self.created:%H:%M}"
 

@@ -1,4 +1,4 @@
-"""The steps of the morning check, each a verdict, what was found, and what to do. Pure."""
+"""The steps of the daily check, each a verdict, what was found, and what to do. Pure."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ GOOD_RESIDUAL: Final = 1.0
 LARGEST_RESIDUAL: Final = 2.0
 
 
-class Verdict(StrEnum):
+class CheckVerdict(StrEnum):
     """How a step came out."""
 
     GOOD = "good"
@@ -43,64 +43,64 @@ class StepResult:
 
     name: str
     title: str
-    verdict: Verdict
+    verdict: CheckVerdict
     found: str
     todo: str = ""
 
 
-def morning_check(facts: MorningFacts) -> tuple[StepResult, ...]:
+def daily_check(facts: MorningFacts) -> tuple[StepResult, ...]:
     """All steps in the order in which they are looked at."""
     return tuple(step(facts) for step in _STEPS)
 
 
-def overall(results: tuple[StepResult, ...]) -> Verdict:
+def overall(results: tuple[StepResult, ...]) -> CheckVerdict:
     """Return the worst of all; waiting while a step waits and none is bad."""
     found = {result.verdict for result in results}
-    for verdict in (Verdict.BAD, Verdict.WAITING, Verdict.WARNING):
+    for verdict in (CheckVerdict.BAD, CheckVerdict.WAITING, CheckVerdict.WARNING):
         if verdict in found:
             return verdict
-    return Verdict.GOOD
+    return CheckVerdict.GOOD
 
 
 def _homing(facts: MorningFacts) -> StepResult:
     robot, title = facts.robot, "Homing"
     if not robot.ticking:
-        return StepResult("homing", title, Verdict.BAD, "the robot's loop does not run",
+        return StepResult("homing", title, CheckVerdict.BAD, "the robot's loop does not run",
                           "wait a moment; if it stays so, check cable and power, start the "
                           "exercise again")  # fmt: skip
     if robot.simulated:
-        return StepResult("homing", title, Verdict.GOOD, "simulated robot: its zero is known")
+        return StepResult("homing", title, CheckVerdict.GOOD, "simulated robot: its zero is known")
     if robot.homed:
-        return StepResult("homing", title, Verdict.GOOD, "homed since it was switched on")
-    return StepResult("homing", title, Verdict.BAD, "not homed since it was switched on",
+        return StepResult("homing", title, CheckVerdict.GOOD, "homed since it was switched on")
+    return StepResult("homing", title, CheckVerdict.BAD, "not homed since it was switched on",
                       "menu Robot, Commissioning, step Homing")  # fmt: skip
 
 
 def _signs(facts: MorningFacts) -> StepResult:
     robot, title = facts.robot, "Signs"
     if robot.simulated:
-        return StepResult("signs", title, Verdict.GOOD, "simulated robot: its signs are known")
+        return StepResult("signs", title, CheckVerdict.GOOD, "simulated robot: its signs are known")
     if robot.signs:
-        return StepResult("signs", title, Verdict.GOOD, "motors and encoders agree")
-    return StepResult("signs", title, Verdict.BAD, "not checked since it was switched on",
+        return StepResult("signs", title, CheckVerdict.GOOD, "motors and encoders agree")
+    return StepResult("signs", title, CheckVerdict.BAD, "not checked since it was switched on",
                       "menu Robot, Commissioning, step Signs")  # fmt: skip
 
 
 def _force(facts: MorningFacts) -> StepResult:
     robot, title = facts.robot, "Force"
     if robot.fault:
-        return StepResult("force", title, Verdict.BAD, robot.fault,
+        return StepResult("force", title, CheckVerdict.BAD, robot.fault,
                           "do what the message says; see the page Robot")  # fmt: skip
     if not robot.encoder_age <= STALE:
-        return StepResult("force", title, Verdict.BAD,
+        return StepResult("force", title, CheckVerdict.BAD,
                           "joint angles come late, so the force is held back",
                           "check the robot's cable; close other programs")  # fmt: skip
     clearance = robot.clearance
     if robot.simulated or (clearance is not None and clearance.full):
-        return StepResult("force", title, Verdict.GOOD, "cleared for its full force")
+        return StepResult("force", title, CheckVerdict.GOOD, "cleared for its full force")
     if clearance is None:
-        return StepResult("force", title, Verdict.WAITING, "the robot has not said yet")
-    verdict = Verdict.WARNING if clearance.force_cap > 0.0 else Verdict.BAD
+        return StepResult("force", title, CheckVerdict.WAITING, "the robot has not said yet")
+    verdict = CheckVerdict.WARNING if clearance.force_cap > 0.0 else CheckVerdict.BAD
     return StepResult("force", title, verdict, f"at most {clearance.force_cap:g} N",
                       clearance.reason)  # fmt: skip
 
@@ -108,47 +108,51 @@ def _force(facts: MorningFacts) -> StepResult:
 def _pictures(facts: MorningFacts) -> StepResult:
     title = "Pictures"
     if len(facts.cameras) < 2:
-        return StepResult("pictures", title, Verdict.BAD, f"{len(facts.cameras)} of 2 cameras",
+        return StepResult("pictures", title, CheckVerdict.BAD, f"{len(facts.cameras)} of 2 cameras",
                           "plug both cameras in; menu Cameras")  # fmt: skip
     worst = [(_picture(camera), camera.name) for camera in facts.cameras]
-    for verdict in (Verdict.BAD, Verdict.WAITING, Verdict.WARNING):
+    for verdict in (CheckVerdict.BAD, CheckVerdict.WAITING, CheckVerdict.WARNING):
         for (found, text, todo), name in worst:
             if found is verdict:
                 return StepResult("pictures", title, verdict, f"{name}: {text}", todo)
     rates = " and ".join(f"{camera.rate:.0f}" for camera in facts.cameras)
-    return StepResult("pictures", title, Verdict.GOOD, f"both bright and sharp, {rates} a second")
+    return StepResult(
+        "pictures", title, CheckVerdict.GOOD, f"both bright and sharp, {rates} a second"
+    )
 
 
-def _picture(camera: CameraFacts) -> tuple[Verdict, str, str]:
+def _picture(camera: CameraFacts) -> tuple[CheckVerdict, str, str]:
     quality = camera.quality
     if camera.trouble:
-        return Verdict.BAD, camera.trouble, "check the camera's cable; menu Cameras"
+        return CheckVerdict.BAD, camera.trouble, "check the camera's cable; menu Cameras"
     if quality is None:
-        return Verdict.WAITING, "no picture yet", "wait a moment"
+        return CheckVerdict.WAITING, "no picture yet", "wait a moment"
     if quality.level < DARKEST or quality.dark > MOST_DARK:
-        return Verdict.BAD, "the picture is dark", "lens cap, light, exposure"
+        return CheckVerdict.BAD, "the picture is dark", "lens cap, light, exposure"
     if quality.bright > MOST_BRIGHT:
-        return (Verdict.WARNING, f"{100 * quality.bright:.0f} % of the picture is overexposed",
+        return (CheckVerdict.WARNING, f"{100 * quality.bright:.0f} % of the picture is overexposed",
                 "less light, or a shorter exposure")  # fmt: skip
     if camera.rate and camera.rate < RATE_SHARE * camera.wanted_rate:
-        return (Verdict.WARNING,
+        return (CheckVerdict.WARNING,
                 f"{camera.rate:.0f} pictures a second instead of {camera.wanted_rate:.0f}",
                 "own USB port for each camera; lock the exposure")  # fmt: skip
     if quality.edge_width is not None and quality.edge_width > WIDEST_EDGE:
-        return (Verdict.WARNING, f"the marker's edge is {quality.edge_width:.1f} px wide",
+        return (CheckVerdict.WARNING, f"the marker's edge is {quality.edge_width:.1f} px wide",
                 "focus the lens on the needle and lock it")  # fmt: skip
-    return Verdict.GOOD, "", ""
+    return CheckVerdict.GOOD, "", ""
 
 
 def _marker(facts: MorningFacts) -> StepResult:
     title = "Marker"
     missed = [(camera.name, camera.miss) for camera in facts.cameras if camera.miss]
     if len(facts.cameras) == 2 and not missed:
-        return StepResult("marker", title, Verdict.GOOD, "found in both pictures")
+        return StepResult("marker", title, CheckVerdict.GOOD, "found in both pictures")
     if not facts.cameras:
-        return StepResult("marker", title, Verdict.WAITING, "no pictures yet", "pictures first")
+        return StepResult(
+            "marker", title, CheckVerdict.WAITING, "no pictures yet", "pictures first"
+        )
     text = "; ".join(f"{name}: {why}" for name, why in missed) or "only one camera"
-    return StepResult("marker", title, Verdict.BAD, text,
+    return StepResult("marker", title, CheckVerdict.BAD, text,
                       "push the needle on until both cameras see the red band; look for other "
                       "red things")  # fmt: skip
 
@@ -156,16 +160,16 @@ def _marker(facts: MorningFacts) -> StepResult:
 def _agreement(facts: MorningFacts) -> StepResult:
     title = "Cameras agree"
     if facts.residual_px is None:
-        return StepResult("residual", title, Verdict.WAITING, facts.status or "no point yet",
+        return StepResult("residual", title, CheckVerdict.WAITING, facts.status or "no point yet",
                           "the marker must be seen by both cameras")  # fmt: skip
     text = f"residual {facts.residual_px:.2f} px"
     if facts.status:
-        return StepResult("residual", title, Verdict.BAD, f"{text}: {facts.status}",
+        return StepResult("residual", title, CheckVerdict.BAD, f"{text}: {facts.status}",
                           "a camera was moved, or robot and cameras differ: "
                           "`acus calibrate world`")  # fmt: skip
     if facts.residual_px <= GOOD_RESIDUAL:
-        return StepResult("residual", title, Verdict.GOOD, text)
-    verdict = Verdict.WARNING if facts.residual_px <= LARGEST_RESIDUAL else Verdict.BAD
+        return StepResult("residual", title, CheckVerdict.GOOD, text)
+    verdict = CheckVerdict.WARNING if facts.residual_px <= LARGEST_RESIDUAL else CheckVerdict.BAD
     return StepResult("residual", title, verdict, text,
                       "a camera was bumped? calibrate again: menu Cameras")  # fmt: skip
 
@@ -174,18 +178,18 @@ def _touch(facts: MorningFacts) -> StepResult:
     title, touch = "Touch one point", facts.touch
     if touch is None:
         found = facts.touch_failure or "not touched yet"
-        return StepResult("touch", title, Verdict.WAITING, found,
+        return StepResult("touch", title, CheckVerdict.WAITING, found,
                           "rest the tip in a known mark and hold still for a second")  # fmt: skip
     distance, radius = touch.distance / MILLIMETRE, touch.radius / MILLIMETRE
     text = f"{touch.name}: {distance:.2f} mm off, measured to ± {radius:.2f} mm (95 %)"
     if touch.radius > max(touch.tolerance, touch.distance):
-        return StepResult("touch", title, Verdict.WARNING, text,
+        return StepResult("touch", title, CheckVerdict.WARNING, text,
                           "the cameras do not measure this point well enough to tell: look at "
                           "their pictures and rate, touch again")  # fmt: skip
     if touch.distance <= touch.tolerance:
-        return StepResult("touch", title, Verdict.GOOD, text)
+        return StepResult("touch", title, CheckVerdict.GOOD, text)
     limit = f"the limit is {touch.tolerance / MILLIMETRE:.1f} mm"
-    return StepResult("touch", title, Verdict.BAD, text,
+    return StepResult("touch", title, CheckVerdict.BAD, text,
                       f"{limit}: touch again; is it {touch.name}, is the plate in its place? then "
                       "check with all fiducials: menu Checks, Registration check")  # fmt: skip
 

@@ -14,7 +14,7 @@ length; these are eliminated by the Schur complement
 
     bound = (F_pp - F_pn F_nn⁻¹ F_np)⁻¹,   p: position, n: all else.
 
-What the fit knows beforehand (see `band_fit`) counts as measured with its standard deviation.
+What the fit knows beforehand (`tracking.band.fit`) counts as measured with its standard deviation.
 """
 
 from collections.abc import Callable
@@ -23,14 +23,13 @@ from typing import NamedTuple
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.tracking.band.equations import REST
+from app.tracking.band.fit import SHADING_PRIOR, STRETCH_SD, rest_prior
+from app.tracking.band.model import BAND, COLUMNS, design, no_rows
+from app.tracking.band.outline import strips, trace
+from app.tracking.band.pixels import CURVE, SIDE, BandPixels, gather
 from app.tracking.cameras.camera import Image
 from app.tracking.errors import TrackingError
-from app.tracking.markers.band_design import BAND, COLUMNS, PARTIALS, design
-from app.tracking.markers.band_fit import SHADING_PRIOR, STRETCH_SD, rest_prior
-from app.tracking.markers.band_ground import CURVE, SIDE, directions, ground_columns
-from app.tracking.markers.band_normal import REST
-from app.tracking.markers.band_outline import ARCS, FRAME, outline, strips
-from app.tracking.markers.band_pixels import gather, surroundings
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
 
@@ -133,7 +132,6 @@ def joint_bound(
 
 
 # --- the unknowns of the band's picture besides its position, as columns of a design matrix -------
-_CLEAR = 4.0
 _SHAFTS = COLUMNS - BAND
 
 
@@ -150,11 +148,9 @@ class Unknowns(NamedTuple):
 
 
 class _Band(NamedTuple):
-    pixels: FloatArray
-    colours: FloatArray
+    pixels: BandPixels
     rows: FloatArray
     ground: FloatArray
-    uneven: tuple[int, int]
     origin: FloatArray
 
 
@@ -182,7 +178,7 @@ def band_unknowns(
         TrackingError: if the band has no picture there.
     """
     at = _places(image, model, shape, blur_px, noise_grey, p_camera, axis_camera)
-    count, colours = len(at.pixels), at.colours / noise_grey
+    count, colours = len(at.rows), at.pixels.colours
     band, rest = at.rows[:, 0, :BAND], np.zeros((count, REST))
     covered = _covered(at.rows[:, 0])
     rest[:, :_SHAFTS] = at.rows[:, 0, BAND:]
@@ -195,13 +191,13 @@ def band_unknowns(
         own = slice(BAND + c * REST, BAND + (c + 1) * REST)
         linear[c * count : (c + 1) * count, :BAND] = paint[c] * band
         linear[c * count : (c + 1) * count, own] = rest
-        prior[own, own] = rest_prior(*at.uneven)
+        prior[own, own] = rest_prior(*at.pixels.uneven)
     values = colours.T.ravel()
     normal = linear.T @ linear + prior[:-2, :-2]
     solved = np.asarray(np.linalg.solve(normal, linear.T @ values), dtype=np.float64)
     sizes = _sizes(at, paint, solved)
     prior[-2:, -2:] = np.eye(2) / STRETCH_SD**2
-    return Unknowns(at.pixels + at.origin, np.column_stack([linear, sizes]), prior)
+    return Unknowns(at.pixels.places + at.origin, np.column_stack([linear, sizes]), prior)
 
 
 def _covered(rows: FloatArray) -> FloatArray:
@@ -234,27 +230,19 @@ def _places(
     axis_camera: FloatArray,
 ) -> _Band:
     """Pixels near the band with their colours and the model's columns."""
-    count = strips(p_camera, shape, model.intrinsics, blur_px)
-    arcs, frame, box = np.empty((ARCS, count)), np.empty(FRAME), np.empty(4, np.int64)
-    height, width = image.shape[:2]
-    if not outline(
-        p_camera, axis_camera, shape, model.intrinsics, model.distortion, arcs, frame
-    ) or not surroundings(frame, arcs, height, width, box):
+    seen, outline = trace(
+        p_camera, axis_camera, shape, model.intrinsics, model.distortion,
+        strips(p_camera, shape, model.intrinsics, blur_px),
+    )  # fmt: skip
+    pixels = gather(image, outline, blur_px, noise_grey)
+    count = len(pixels.places)
+    if not seen or count == 0:
         raise TrackingError(f"camera {model.name} has no picture of a band at {p_camera} m")
-    high, wide = box[3] - box[1], box[2] - box[0]
-    pixels, colours = np.empty((high * wide, 2)), np.empty((high * wide, 3))
-    usable, sides = np.empty(high * wide, np.bool_), np.empty(high * wide, np.int64)
-    clear = np.empty((high, wide), np.int8)
-    count = gather(image, box, frame, arcs, _CLEAR * blur_px, pixels, colours, usable, sides, clear)
-    along, uneven = np.empty((2, 2)), np.empty(2, np.bool_)
-    directions(image[box[1] : box[3], box[0] : box[2]], clear, noise_grey, along, uneven)
-    pixels, colours, sides = pixels[:count], colours[:count], sides[:count]
-    first, weights = np.zeros(count, np.int64), np.empty((count, 4))
-    ground_columns(pixels, sides, along, first, weights)
     ground, every = np.zeros((count, 2 * SIDE)), np.arange(count)
     for k in range(3):
-        ground[every, first + k] += weights[:, k]
-    ground[every, CURVE + np.where(first >= SIDE, SIDE, 0)] = weights[:, 3]
-    rows, seen = np.zeros((count, PARTIALS, COLUMNS)), np.empty(count, np.bool_)
-    design(pixels, np.zeros(2), frame, arcs, shape, blur_px, np.ones(2), rows, seen)
-    return _Band(pixels, colours, rows, ground, (int(uneven[0]), int(uneven[1])), frame[:2])
+        ground[every, pixels.first + k] += pixels.weights[:, k]
+    ground[every, CURVE + np.where(pixels.first >= SIDE, SIDE, 0)] = pixels.weights[:, 3]
+    rows = no_rows(count)
+    design(pixels.places, outline, shape, blur_px, np.zeros(2), np.ones(2), rows)
+    rows.values[~rows.seen] = 0.0
+    return _Band(pixels, rows.values, ground, np.array([outline.u, outline.v]))

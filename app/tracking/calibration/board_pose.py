@@ -30,7 +30,7 @@ _NEAREST: Final = 1e-3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sight:
+class BoardRays:
     """Corners in one camera.
 
     Attributes:
@@ -49,7 +49,7 @@ class Sight:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class BoardPose:
+class FittedBoardPose:
     """Result of a fit.
 
     Attributes:
@@ -69,7 +69,7 @@ class BoardPose:
     scale_sd: float
 
 
-def sights(calibration: StereoCalibration, pairs: Sequence[Pair]) -> list[Sight]:
+def board_rays(calibration: StereoCalibration, pairs: Sequence[Pair]) -> list[BoardRays]:
     """Corners of all pictures as rays; those beyond the distortion's fold are left out.
 
     Raises:
@@ -87,13 +87,13 @@ def sights(calibration: StereoCalibration, pairs: Sequence[Pair]) -> list[Sight]
             if int(exists.sum()) >= 4:
                 name = view.name or calibration.cameras[i].name
                 focal = models[i].intrinsics[:2]
-                found.append(Sight(i, view.points[exists], rays[exists], focal, name))
+                found.append(BoardRays(i, view.points[exists], rays[exists], focal, name))
     if not found:
         raise CalibrationError("no picture shows the board: take one with all of it in view")
     return found
 
 
-def fit_pose(calibration: StereoCalibration, seen: Sequence[Sight]) -> BoardPose:
+def fit_pose(calibration: StereoCalibration, seen: Sequence[BoardRays]) -> FittedBoardPose:
     """Fit the pose of a board that lay still in all these pictures.
 
     Raises:
@@ -114,12 +114,14 @@ def fit_pose(calibration: StereoCalibration, seen: Sequence[Sight]) -> BoardPose
     freedom = max(1, residual.size - 6)
     covariance = np.linalg.inv(jacobian.T @ jacobian) * float(residual @ residual) / freedom
     scale, scale_sd = _scale(seen, T_right_left, pose)
-    return BoardPose(pose, covariance, _rms(residual), _by_picture(seen, residual), scale, scale_sd)
+    return FittedBoardPose(
+        pose, covariance, _rms(residual), _by_picture(seen, residual), scale, scale_sd
+    )
 
 
-def _starts(seen: Sequence[Sight], T_right_left: RigidTransform) -> list[RigidTransform]:
+def _starts(seen: Sequence[BoardRays], T_right_left: RigidTransform) -> list[RigidTransform]:
     """Both poses that a single picture of a plane allows."""
-    first = max(seen, key=lambda sight: len(sight.points))
+    first = max(seen, key=lambda one: len(one.points))
     result = cv2.solvePnPGeneric(
         first.points, first.rays[:, None, :], np.eye(3), None, flags=cv2.SOLVEPNP_IPPE
     )
@@ -136,7 +138,7 @@ _Fit = tuple[RigidTransform, float, FloatArray, FloatArray]
 
 
 def _descend(
-    seen: Sequence[Sight],
+    seen: Sequence[BoardRays],
     T_right_left: RigidTransform,
     pose: RigidTransform,
     scale: float,
@@ -166,34 +168,34 @@ def _descend(
 
 
 def _system(
-    seen: Sequence[Sight], T_right_left: RigidTransform, pose: RigidTransform, scale: float
+    seen: Sequence[BoardRays], T_right_left: RigidTransform, pose: RigidTransform, scale: float
 ) -> tuple[FloatArray, FloatArray] | None:
     """Residual observed minus predicted [px], (2n,), and Jacobian by (ξ, s), (2n, 7)."""
     residuals, jacobians = [], []
-    for sight in seen:
-        turned = pose.rotate(sight.points)
+    for one in seen:
+        turned = pose.rotate(one.points)
         p_left = scale * turned + pose.translation
         by_left = np.zeros((len(p_left), 3, 7))
         by_left[:, :, :3] = np.eye(3)
         by_left[:, :, 3:6] = -np.array([skew(p) for p in p_left])
         by_left[:, :, 6] = turned
         p, by = p_left, by_left
-        if sight.camera == 1:
+        if one.camera == 1:
             p, by = T_right_left @ p_left, T_right_left.rotation @ by_left
         z = p[:, 2]
         if z.min() < _NEAREST or not np.isfinite(p).all():
             return None
         xy = p[:, :2] / z[:, None]
         slope = (by[:, :2] - xy[:, :, None] * by[:, 2:]) / z[:, None, None]
-        residuals.append(((sight.rays - xy) * sight.focal).ravel())
-        jacobians.append((slope * sight.focal[:, None]).reshape(-1, 7))
+        residuals.append(((one.rays - xy) * one.focal).ravel())
+        jacobians.append((slope * one.focal[:, None]).reshape(-1, 7))
     return np.concatenate(residuals), np.concatenate(jacobians)
 
 
 def _scale(
-    seen: Sequence[Sight], T_right_left: RigidTransform, pose: RigidTransform
+    seen: Sequence[BoardRays], T_right_left: RigidTransform, pose: RigidTransform
 ) -> tuple[float | None, float]:
-    if {sight.camera for sight in seen} != {0, 1}:
+    if {one.camera for one in seen} != {0, 1}:
         return None, 0.0
     fit = _descend(seen, T_right_left, pose, 1.0, scaled=True)
     if fit is None:
@@ -208,7 +210,7 @@ def _rms(residual: FloatArray) -> float:
     return float(np.sqrt(2.0 * np.mean(residual**2)))
 
 
-def _by_picture(seen: Sequence[Sight], residual: FloatArray) -> tuple[tuple[str, float], ...]:
-    ends = np.cumsum([2 * len(sight.points) for sight in seen])[:-1]
+def _by_picture(seen: Sequence[BoardRays], residual: FloatArray) -> tuple[tuple[str, float], ...]:
+    ends = np.cumsum([2 * len(one.points) for one in seen])[:-1]
     parts = np.split(residual, ends)
-    return tuple((sight.name, _rms(part)) for sight, part in zip(seen, parts, strict=True))
+    return tuple((one.name, _rms(part)) for one, part in zip(seen, parts, strict=True))

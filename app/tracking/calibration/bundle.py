@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
-from app.tracking.calibration.sightings import Sighting, State, rows
+from app.tracking.calibration.sightings import AdjustedState, SeenBoard, rows
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import PARAMETERS
 
@@ -42,7 +42,7 @@ class Adjusted:
             the views do not determine what was asked.
     """
 
-    state: State
+    state: AdjustedState
     covariance: FloatArray
     residuals: tuple[FloatArray, ...]
     sigma_px: float
@@ -66,8 +66,8 @@ def rms(residuals: FloatArray) -> float:
 
 
 def adjust(
-    sightings: Sequence[Sighting],
-    start: State,
+    sightings: Sequence[SeenBoard],
+    start: AdjustedState,
     free: Flags,
     progress: Progress | None = None,
     rounds: int = _ROUNDS,
@@ -123,7 +123,7 @@ class _System:
 
 class _Problem:
     def __init__(
-        self, sightings: tuple[Sighting, ...], free: Flags, poses: int, relative: bool
+        self, sightings: tuple[SeenBoard, ...], free: Flags, poses: int, relative: bool
     ) -> None:
         self.sightings, self.poses = sightings, poses
         cameras = len(free)
@@ -138,7 +138,7 @@ class _Problem:
             )
         self.dof = self.measured - unknown
 
-    def system(self, state: State) -> _System | None:
+    def system(self, state: AdjustedState) -> _System | None:
         """Linearise; None where a point lies behind its camera or a value is not finite."""
         size = self.free.size
         gg, g = np.zeros((size, size)), np.zeros(size)
@@ -160,7 +160,7 @@ class _Problem:
         keep = self.free
         return _System(cost, gg[np.ix_(keep, keep)], g[keep], bb, b, gb[:, keep], tuple(residuals))
 
-    def moved(self, state: State, system: _System, damping: float) -> State | None:
+    def moved(self, state: AdjustedState, system: _System, damping: float) -> AdjustedState | None:
         """Take one damped step, or None if the system cannot be solved."""
         bb = system.bb.copy()
         diagonal = np.einsum("kii->ki", bb)
@@ -180,7 +180,9 @@ class _Problem:
             return None
         return self._stepped(state, step, boards[..., 0])
 
-    def _stepped(self, state: State, step: FloatArray, boards: FloatArray) -> State | None:
+    def _stepped(
+        self, state: AdjustedState, step: FloatArray, boards: FloatArray
+    ) -> AdjustedState | None:
         full = np.zeros(self.free.size)
         full[self.free] = step
         if (
@@ -200,9 +202,9 @@ class _Problem:
         poses = tuple(
             RigidTransform.exp(twist) @ T for twist, T in zip(boards, state.poses, strict=True)
         )
-        return State(parameters, pose, poses)
+        return AdjustedState(parameters, pose, poses)
 
-    def result(self, state: State, system: _System) -> Adjusted:
+    def result(self, state: AdjustedState, system: _System) -> Adjusted:
         weights = np.linalg.solve(system.bb, np.swapaxes(system.gb, 1, 2))
         reduced = system.gg - np.einsum("kgi,kih->gh", system.gb, weights)
         variance = system.cost / self.dof

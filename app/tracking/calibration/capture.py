@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from app.core.errors import AcusError
 from app.tracking.calibration.collector import Offer, ViewCollector
 from app.tracking.calibration.pairing import pair_folder
-from app.tracking.calibration.views import BoardView, Reason, Rejection
+from app.tracking.calibration.views import BoardView, Rejection, RejectionReason
 from app.tracking.cameras.files import read_picture
 
 if TYPE_CHECKING:
-    from app.tracking.cameras.camera import Frame
+    from app.tracking.cameras.camera import CameraFrame
 
 _APART = 0.1
 """Pictures of two cameras further apart than this [s] are not of one moment."""
@@ -29,7 +29,7 @@ Picture = NDArray[Any]
 class Newest(Protocol):
     """A camera that is open (`views.cameras.live.LiveCamera` is one)."""
 
-    def newest(self) -> Frame | None:
+    def newest(self) -> CameraFrame | None:
         """Return the newest picture, or None before the first."""
         ...
 
@@ -62,7 +62,7 @@ class LiveShots:
         self, cameras: Sequence[Newest], names: Sequence[str], end: float = float("inf")
     ) -> None:
         self._cameras, self._names, self._end = cameras, tuple(names), end
-        self._seen: tuple[Frame | None, ...] = tuple(None for _ in cameras)
+        self._seen: tuple[CameraFrame | None, ...] = tuple(None for _ in cameras)
         self._count = 0
 
     def shots(self, stop: threading.Event) -> Iterator[BoardShot]:
@@ -114,7 +114,7 @@ class FolderShots:
                     images.append(read_picture(path))
                 except AcusError as error:
                     images.append(None)
-                    unreadable.append(Rejection(Reason.UNREADABLE, str(error), path.name))
+                    unreadable.append(Rejection(RejectionReason.UNREADABLE, str(error), path.name))
             names = tuple(path.name if path is not None else "" for path in both)
             yield BoardShot(tuple(images), names, tuple(unreadable))
 
@@ -194,6 +194,6 @@ class Search:
         self._newest = (shot, offer)
 
 
-def _together(frames: Sequence[Frame | None]) -> bool:
+def _together(frames: Sequence[CameraFrame | None]) -> bool:
     times = [frame.time for frame in frames if frame is not None]
     return max(times) - min(times) <= _APART

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.core.transform import RigidTransform
 from app.tracking.calibration.boards import Board, BoardKind
-from app.tracking.calibration.lens import project
-from app.tracking.calibration.rigid_fit import rigid_fit
+from app.tracking.calibration.poses import rigid_fit
+from app.tracking.calibration.sightings import project
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 
@@ -40,7 +40,7 @@ class PosedPair:
 
 
 @dataclass(frozen=True, eq=False)
-class Agreement:
+class CornerAgreement:
     """What the pairs agree on.
 
     Attributes:
@@ -70,7 +70,7 @@ def turns(board: Board) -> tuple[NDArray[np.int64], ...]:
     return tuple(np.rot90(ids, step).ravel() for step in steps)
 
 
-def agree(pairs: Sequence[PosedPair], right_camera: FloatArray) -> Agreement:
+def agree(pairs: Sequence[PosedPair], right_camera: FloatArray) -> CornerAgreement:
     """Find the cameras' relative pose and the corner orders that the pairs agree on.
 
     Raises:
@@ -84,14 +84,14 @@ def agree(pairs: Sequence[PosedPair], right_camera: FloatArray) -> Agreement:
     # Of equally good proposals the one that changes the fewest orders comes first.
     order = np.lexsort([(best_ways > 0).sum(axis=1), scores.round(1)])
     first = int(order[0])
-    found = Agreement(proposals[first], tuple(best_ways[first].tolist()), best[first], near)
+    found = CornerAgreement(proposals[first], tuple(best_ways[first].tolist()), best[first], near)
     if pairs[0].left.board.ambiguous:
         _require_clear(found, best_ways, scores, first)
     return found
 
 
 def _require_clear(
-    found: Agreement, ways: NDArray[np.int64], scores: FloatArray, first: int
+    found: CornerAgreement, ways: NDArray[np.int64], scores: FloatArray, first: int
 ) -> None:
     """Refuse if another answer, with other ways round, is nearly as good."""
     other = (ways != ways[first])[:, found.agreeing].any(axis=1)

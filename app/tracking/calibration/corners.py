@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from app.core.arrays import FloatArray
 from app.tracking.calibration import finders
 from app.tracking.calibration.boards import Board, BoardKind
-from app.tracking.calibration.finders import Found, Grey
+from app.tracking.calibration.finders import Found, Grey, edge_width
 from app.tracking.calibration.grid import (
     extents,
     first_square_is_dark,
@@ -20,8 +20,7 @@ from app.tracking.calibration.grid import (
     mapped,
     plane_map,
 )
-from app.tracking.calibration.sharpness import edge_width
-from app.tracking.calibration.views import BoardView, Reason, Rejection
+from app.tracking.calibration.views import BoardView, Rejection, RejectionReason
 from app.tracking.errors import CalibrationError
 
 WINDOW_SHARE = 1.0 / 3.0
@@ -116,7 +115,7 @@ def _checkerboard(grey: Grey, board: Board, thorough: bool) -> Found | Rejection
     pixels = finders.checkerboard(grey, board, thorough)
     if pixels is None:
         return Rejection(
-            Reason.NO_BOARD,
+            RejectionReason.NO_BOARD,
             f"no board with {board.columns}x{board.rows} inner corners is seen as a whole; show "
             "all of it with a white rim, or check the counts",
         )
@@ -147,20 +146,21 @@ def _charuco(grey: Grey, board: Board, thorough: bool) -> Found | Rejection:
     mirrored, _ = finders.charuco(np.ascontiguousarray(grey[:, ::-1]), board, False)
     if mirrored is not None and mirrored[0].size >= LEAST_CORNERS:
         return Rejection(
-            Reason.MIRRORED, "the picture is mirrored; turn the camera's mirror mode off"
+            RejectionReason.MIRRORED, "the picture is mirrored; turn the camera's mirror mode off"
         )
     if found is not None:
         return Rejection(
-            Reason.PARTLY, f"only {found[0].size} corners are seen; {LEAST_CORNERS} are needed"
+            RejectionReason.PARTLY,
+            f"only {found[0].size} corners are seen; {LEAST_CORNERS} are needed",
         )
     if markers >= 4:
         return Rejection(
-            Reason.OTHER_BOARD,
+            RejectionReason.OTHER_BOARD,
             f"{markers} markers of {board.dictionary} are seen, but they do not lie as on "
             f"{board.spec}; {_counted(grey, board)}",
         )
     return Rejection(
-        Reason.NO_BOARD,
+        RejectionReason.NO_BOARD,
         f"no ChArUco board with markers of {board.dictionary} is seen; check the dictionary",
     )
 
@@ -182,35 +182,38 @@ def _measured(grey: Grey, board: Board, found: Found, window: int | None) -> Boa
     ids, pixels = found
     homography = plane_map(board, ids, pixels)
     if homography is None:
-        return Rejection(Reason.PARTLY, "the corners seen lie on one line; show more of the board")
+        return Rejection(
+            RejectionReason.PARTLY, "the corners seen lie on one line; show more of the board"
+        )
     seen = board.points[ids, :2] / board.square
     short, cosine = extents(local_axes(homography, seen))
     square_px = float(short.min())
     if cosine.min() < LEAST_COSINE:
         return Rejection(
-            Reason.EDGE_ON,
+            RejectionReason.EDGE_ON,
             f"the board is seen on edge ({np.degrees(np.arccos(cosine.min())):.0f}°); turn it to "
             f"the camera, up to {np.degrees(np.arccos(LEAST_COSINE)):.0f}° are possible",
         )
     if square_px < SMALLEST_SQUARE:
         return Rejection(
-            Reason.TOO_SMALL,
+            RejectionReason.TOO_SMALL,
             f"a square is only {square_px:.1f} px across; {SMALLEST_SQUARE:g} px are needed: "
             "bring the board nearer",
         )
     if not _lies_flat(ids, pixels, homography, board, square_px):
         return Rejection(
-            Reason.OTHER_BOARD, "the corners found do not lie on a grid; check the board's counts"
+            RejectionReason.OTHER_BOARD,
+            "the corners found do not lie on a grid; check the board's counts",
         )
     if board.kind is BoardKind.CHECKERBOARD and goes_on(grey, board, homography):
         return Rejection(
-            Reason.OTHER_BOARD,
+            RejectionReason.OTHER_BOARD,
             f"the board has more than {board.columns}x{board.rows} inner corners; count them anew",
         )
     sharpness = edge_width(grey, board, homography, seen)
     if sharpness > max(MOST_BLUR * square_px, min(4.0, 0.55 * square_px)):
         return Rejection(
-            Reason.BLURRED,
+            RejectionReason.BLURRED,
             f"the picture is blurred: edges are {sharpness:.1f} px wide, squares "
             f"{square_px:.0f} px; hold the board still and focus",
         )

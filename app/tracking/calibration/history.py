@@ -16,7 +16,7 @@ from app.core.files import write_atomically
 from app.tracking.calibration.formats.own import load_calibration, save_calibration, text_of
 from app.tracking.calibration.history_file import (
     NAME,
-    Condemned,
+    FoundBad,
     HistoryFile,
     calibrations_folder,
     read_history,
@@ -28,21 +28,21 @@ _LONGEST_REASON: Final = 300
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class KeptCalibration:
     """One calibration of the history.
 
     Attributes:
         id: of the calibration.
         kept: when it came in; None for a file that the history does not know yet.
         active: whether it is the one in use.
-        condemned: when and why it was found bad, or None.
+        rejected: when and why it was found bad, or None.
         path: its file.
     """
 
     id: str
     kept: datetime | None
     active: bool
-    condemned: Condemned | None
+    rejected: FoundBad | None
     path: Path
 
 
@@ -60,7 +60,7 @@ class CalibrationHistory:
         self.folder = folder or calibrations_folder()
         self._now = now
 
-    def entries(self) -> tuple[Entry, ...]:
+    def entries(self) -> tuple[KeptCalibration, ...]:
         """All calibrations, oldest first.
 
         Raises:
@@ -69,10 +69,11 @@ class CalibrationHistory:
         history = self._read()
         active = history.active
         return tuple(
-            Entry(k.id, k.kept, k.id == active, k.condemned, self._path(k.id))
+            KeptCalibration(k.id, k.kept, k.id == active, k.condemned, self._path(k.id))
             for k in history.calibrations
         ) + tuple(
-            Entry(name, None, False, None, self._path(name)) for name in self._strays(history)
+            KeptCalibration(name, None, False, None, self._path(name))
+            for name in self._strays(history)
         )
 
     def active(self) -> StereoCalibration | None:
@@ -99,7 +100,7 @@ class CalibrationHistory:
             )
         return calibration
 
-    def find(self, beginning: str) -> Entry:
+    def find(self, beginning: str) -> KeptCalibration:
         """Return the calibration whose id begins so.
 
         Raises:
@@ -141,9 +142,9 @@ class CalibrationHistory:
             CalibrationError: if it is unknown, unreadable, or was found bad.
         """
         entry = self.find(calibration_id)
-        if entry.condemned is not None:
+        if entry.rejected is not None:
             raise CalibrationError(
-                f"calibration {entry.id} was found bad ({entry.condemned.reason}); calibrate again "
+                f"calibration {entry.id} was found bad ({entry.rejected.reason}); calibrate again "
                 "or use another one"
             )
         self.load(entry.id)
@@ -172,7 +173,7 @@ class CalibrationHistory:
             raise CalibrationError("there is no undone calibration that could be used again")
         return self._write(history.at(position))
 
-    def condemn(self, calibration_id: str, reason: str) -> str | None:
+    def reject(self, calibration_id: str, reason: str) -> str | None:
         """Say that a calibration was found bad; attempts made with it are flagged from now on.
 
         If it is in use, the one before is used again. Returns the id in use then.
@@ -185,7 +186,7 @@ class CalibrationHistory:
             raise CalibrationError("say why the calibration is bad: attempts are flagged with it")
         entry = self.find(calibration_id)
         history = self._read().known(entry.id, self._now())
-        return self._write(history.condemning(entry.id, Condemned(date=self._now(), reason=words)))
+        return self._write(history.rejecting(entry.id, FoundBad(date=self._now(), reason=words)))
 
     def _strays(self, history: HistoryFile) -> list[str]:
         """Files that the history does not know: copied in, or kept as the power went."""

@@ -15,26 +15,26 @@ NAME: Final = "history"
 """Stem of the history's file; no calibration can be called so."""
 
 
-class Condemned(Strict):
+class FoundBad(Strict):
     """That a calibration was found bad: when and why."""
 
     date: datetime
     reason: Annotated[str, Field(min_length=1)]
 
 
-class Known(Strict):
+class CalibrationEntry(Strict):
     """One calibration: when it came in, and whether it was found bad."""
 
     id: str
     kept: datetime
-    condemned: Condemned | None = None
+    condemned: FoundBad | None = None
 
 
 class HistoryFile(Strict):
     """`history.yaml`: calibrations in the order they were kept; ids in the order they were used."""
 
     version: Literal[1] = 1
-    calibrations: tuple[Known, ...] = ()
+    calibrations: tuple[CalibrationEntry, ...] = ()
     used: tuple[str, ...] = ()
     position: Annotated[int, Field(ge=-1)] = -1
 
@@ -55,7 +55,7 @@ class HistoryFile(Strict):
         """Return the history with this calibration in it, come in now if it is new."""
         if any(known.id == calibration_id for known in self.calibrations):
             return self
-        new = Known(id=calibration_id, kept=now)
+        new = CalibrationEntry(id=calibration_id, kept=now)
         return self.model_copy(update={"calibrations": (*self.calibrations, new)})
 
     def using(self, calibration_id: str) -> "HistoryFile":
@@ -65,7 +65,7 @@ class HistoryFile(Strict):
         used = (*self.used[: self.position + 1], calibration_id)
         return self.model_copy(update={"used": used, "position": len(used) - 1})
 
-    def condemning(self, calibration_id: str, bad: Condemned) -> "HistoryFile":
+    def rejecting(self, calibration_id: str, bad: FoundBad) -> "HistoryFile":
         """Return the history with a calibration found bad and not in use."""
         known = tuple(
             k.model_copy(update={"condemned": bad}) if k.id == calibration_id else k
@@ -110,7 +110,7 @@ def read_history(folder: Path) -> HistoryFile:
         raise CalibrationError(f"{error}; mend the file or move it away") from error
 
 
-def condemned_ids(folder: Path | None = None) -> dict[str, str]:
+def rejected_ids(folder: Path | None = None) -> dict[str, str]:
     """Reason by id of every calibration found bad; reads one small file.
 
     Raises:

@@ -7,14 +7,18 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
-from app.tracking.calibration import held_back
 from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
-from app.tracking.calibration.outliers import belongs, limit_px
-from app.tracking.calibration.poses import better_corners, board_pose
+from app.tracking.calibration.poses import better_corners, board_pose, first_estimate, usual_rms
 from app.tracking.calibration.remarks import ViewResidual, mono_remarks, unrefined_remarks
-from app.tracking.calibration.selection import Dropped, smallest_model
-from app.tracking.calibration.sightings import Sighting, State
-from app.tracking.calibration.start import first_estimate, usual_rms
+from app.tracking.calibration.selection import (
+    Dropped,
+    belongs,
+    choose_held_back,
+    held_back_count,
+    limit_px,
+    smallest_model,
+)
+from app.tracking.calibration.sightings import AdjustedState, SeenBoard
 from app.tracking.calibration.views import BoardView, named
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration
@@ -75,8 +79,8 @@ def calibrate_mono(
     _require(views, name)
     views = named(views)
     given = views
-    count = held_back.default_count(len(views)) if hold_back is None else hold_back
-    held = set(held_back.choose(views, min(count, len(views) - LEAST_VIEWS)))
+    count = held_back_count(len(views)) if hold_back is None else hold_back
+    held = set(choose_held_back(views, min(count, len(views) - LEAST_VIEWS)))
     progress.report(0.1, f"{name}: first estimate")
     views = better_corners(views, _first(views, held, progress.part(0.1, 0.2)))
     while True:
@@ -155,14 +159,14 @@ def _require_one_size(views: Sequence[BoardView], name: str) -> None:
 
 
 def _fit(
-    views: Sequence[BoardView], start: State, names: tuple[str, ...], progress: Progress
+    views: Sequence[BoardView], start: AdjustedState, names: tuple[str, ...], progress: Progress
 ) -> Adjusted:
     """Estimate the parameters named; the coefficients that are not are zero."""
     free = with_free(names)
     parameters = np.where(free | (np.arange(9) < 4), start.parameters, 0.0)
-    seen = [Sighting(i, 0, view.points, view.pixels) for i, view in enumerate(views)]
+    seen = [SeenBoard(i, 0, view.points, view.pixels) for i, view in enumerate(views)]
     progress.report(0.0, "adjusting")
-    return adjust(seen, State(parameters, start.T_right_left, start.poses), free)
+    return adjust(seen, AdjustedState(parameters, start.T_right_left, start.poses), free)
 
 
 def _without_outliers(

@@ -9,7 +9,7 @@ from app.core.transform import RigidTransform
 from app.tracking.calibration.bundle import Adjusted, adjust, rms
 from app.tracking.calibration.corner_order import turns
 from app.tracking.calibration.poses import board_pose
-from app.tracking.calibration.sightings import Sighting
+from app.tracking.calibration.sightings import SeenBoard
 from app.tracking.calibration.validation import ViewPair
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
@@ -45,10 +45,10 @@ def _pair_error(
     return found.rms_px
 
 
-def pair_sightings(pairs: Sequence[ViewPair]) -> list[Sighting]:
+def pair_sightings(pairs: Sequence[ViewPair]) -> list[SeenBoard]:
     """List what both cameras saw of the boards of pairs, left and right in turn."""
     return [
-        Sighting(i, side, view.points, view.pixels)
+        SeenBoard(i, side, view.points, view.pixels)
         for i, pair in enumerate(pairs)
         for side, view in enumerate(pair)
     ]

@@ -11,7 +11,7 @@ import numpy as np
 from app.core.progress import Progress
 from app.tracking.calibration.boards import Board
 from app.tracking.calibration.corners import find_corners
-from app.tracking.calibration.views import BoardView, Reason, Rejection
+from app.tracking.calibration.views import BoardView, Rejection, RejectionReason
 from app.tracking.errors import CalibrationError
 
 SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".webp")
@@ -69,13 +69,13 @@ def look(
         data = np.frombuffer(path.read_bytes(), dtype=np.uint8)
         image = cv2.imdecode(data, cv2.IMREAD_COLOR) if data.size else None
     except (OSError, cv2.error) as error:
-        return Rejection(Reason.UNREADABLE, f"cannot be read: {_short(error)}", path.name)
+        return Rejection(RejectionReason.UNREADABLE, f"cannot be read: {_short(error)}", path.name)
     if image is None:
-        return Rejection(Reason.UNREADABLE, "is no picture, or a damaged one", path.name)
+        return Rejection(RejectionReason.UNREADABLE, "is no picture, or a damaged one", path.name)
     try:
         found = find_corners(image, board, thorough, window)
     except (CalibrationError, cv2.error) as error:
-        return Rejection(Reason.UNREADABLE, f"cannot be used: {_short(error)}", path.name)
+        return Rejection(RejectionReason.UNREADABLE, f"cannot be used: {_short(error)}", path.name)
     if isinstance(found, Rejection):
         return Rejection(found.reason, found.text, path.name)
     return found.called(path.name)

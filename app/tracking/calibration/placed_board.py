@@ -9,7 +9,7 @@ from app.core.arrays import FloatArray
 from app.core.rotation import rotation_exp, skew
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
-from app.tracking.calibration.board_pose import BoardPose, Pair
+from app.tracking.calibration.board_pose import FittedBoardPose, Pair
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration
 
@@ -56,7 +56,7 @@ def place(
     return RigidTransform(rotation, np.array([x_mm, y_mm, z_mm]) * MILLIMETRE)
 
 
-def check_fit(calibration: StereoCalibration, fit: BoardPose, board: PlacedBoard) -> None:
+def check_fit(calibration: StereoCalibration, fit: FittedBoardPose, board: PlacedBoard) -> None:
     """Refuse what cannot be.
 
     Raises:

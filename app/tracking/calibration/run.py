@@ -5,13 +5,13 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 
 from app.core.progress import Progress
-from app.tracking.calibration import held_back
 from app.tracking.calibration.bundle import rms
 from app.tracking.calibration.identity import new_id
 from app.tracking.calibration.mono import camera_of
 from app.tracking.calibration.pair_fit import matched, matched_residual
 from app.tracking.calibration.poses import better_corners
 from app.tracking.calibration.remarks import ViewResidual
+from app.tracking.calibration.selection import choose_held_back, held_back_count
 from app.tracking.calibration.stereo import LEAST_PAIRS, StereoEstimate, estimate_stereo
 from app.tracking.calibration.validation import ViewPair, validate
 from app.tracking.calibration.views import BoardView
@@ -111,8 +111,8 @@ def _called(view: MaybeView, name: str) -> MaybeView:
 
 
 def _held(pairs: Sequence[ViewPair], hold_back: int | None) -> list[int]:
-    count = held_back.default_count(len(pairs)) if hold_back is None else hold_back
-    return held_back.choose([left for left, _ in pairs], min(count, len(pairs) - LEAST_PAIRS))
+    count = held_back_count(len(pairs)) if hold_back is None else hold_back
+    return choose_held_back([left for left, _ in pairs], min(count, len(pairs) - LEAST_PAIRS))
 
 
 def _held_row(pair: ViewPair, estimate: StereoEstimate) -> ViewResidual:

@@ -6,11 +6,55 @@ import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.transform import RigidTransform
-from app.tracking.calibration.lens import project_with_derivatives
+
+
+def project(points: FloatArray, p: FloatArray) -> FloatArray:
+    """Pixels of points in the camera's frame, (n, 3) [m] -> (n, 2); as `CameraModel`, unchecked.
+
+    Args:
+        points: in front of the camera.
+        p: parameters in the order of `optics.calibration.PARAMETERS`, shape (9,).
+    """
+    x, y = points[:, 0] / points[:, 2], points[:, 1] / points[:, 2]
+    r2 = x * x + y * y
+    g = 1.0 + r2 * (p[4] + r2 * (p[5] + r2 * p[8]))
+    u = x * g + 2.0 * p[6] * x * y + p[7] * (r2 + 2.0 * x * x)
+    v = y * g + p[6] * (r2 + 2.0 * y * y) + 2.0 * p[7] * x * y
+    return np.column_stack([p[0] * u + p[2], p[1] * v + p[3]])
+
+
+def project_with_derivatives(
+    points: FloatArray, p: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Pixels (n, 2), their derivatives by the point (n, 2, 3) and by the parameters (n, 2, 9)."""
+    z = points[:, 2]
+    x, y = points[:, 0] / z, points[:, 1] / z
+    r2 = x * x + y * y
+    g = 1.0 + r2 * (p[4] + r2 * (p[5] + r2 * p[8]))
+    slope = p[4] + r2 * (2.0 * p[5] + r2 * 3.0 * p[8])  # dg/d(r²)
+    u = x * g + 2.0 * p[6] * x * y + p[7] * (r2 + 2.0 * x * x)
+    v = y * g + p[6] * (r2 + 2.0 * y * y) + 2.0 * p[7] * x * y
+    xx = g + 2.0 * x * x * slope + 2.0 * p[6] * y + 6.0 * p[7] * x
+    xy = 2.0 * x * y * slope + 2.0 * p[6] * x + 2.0 * p[7] * y
+    yy = g + 2.0 * y * y * slope + 6.0 * p[6] * y + 2.0 * p[7] * x
+
+    by_point = np.empty((len(points), 2, 3))
+    by_point[:, 0, 0], by_point[:, 0, 1] = p[0] * xx / z, p[0] * xy / z
+    by_point[:, 1, 0], by_point[:, 1, 1] = p[1] * xy / z, p[1] * yy / z
+    by_point[:, :, 2] = -(by_point[:, :, 0] * x[:, None] + by_point[:, :, 1] * y[:, None])
+
+    by_parameter = np.zeros((len(points), 2, 9))
+    by_parameter[:, 0, 0], by_parameter[:, 1, 1] = u, v
+    by_parameter[:, 0, 2] = by_parameter[:, 1, 3] = 1.0
+    for place, power in ((4, r2), (5, r2 * r2), (8, r2 * r2 * r2)):
+        by_parameter[:, 0, place], by_parameter[:, 1, place] = p[0] * x * power, p[1] * y * power
+    by_parameter[:, 0, 6], by_parameter[:, 1, 6] = 2.0 * p[0] * x * y, p[1] * (r2 + 2.0 * y * y)
+    by_parameter[:, 0, 7], by_parameter[:, 1, 7] = p[0] * (r2 + 2.0 * x * x), 2.0 * p[1] * x * y
+    return np.column_stack([p[0] * u + p[2], p[1] * v + p[3]]), by_point, by_parameter
 
 
 @dataclass(frozen=True, eq=False)
-class Sighting:
+class SeenBoard:
     """A board seen by a camera.
 
     Attributes:
@@ -27,7 +71,7 @@ class Sighting:
 
 
 @dataclass(frozen=True, eq=False)
-class State:
+class AdjustedState:
     """What is estimated.
 
     Attributes:
@@ -42,7 +86,7 @@ class State:
 
 
 def rows(
-    seen: Sighting, state: State, size: int
+    seen: SeenBoard, state: AdjustedState, size: int
 ) -> tuple[FloatArray, FloatArray, FloatArray] | None:
     """Residuals (2n,), and derivatives of the prediction by cameras (2n, size), board (2n, 6)."""
     p_left = state.poses[seen.pose] @ seen.points

@@ -15,20 +15,19 @@ from app.core.arrays import FloatArray
 from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.tracking.calibration.bundle import Adjusted, adjust, rms, with_free
-from app.tracking.calibration.corner_order import Agreement, PosedPair, agree, turns
+from app.tracking.calibration.corner_order import CornerAgreement, PosedPair, agree, turns
 from app.tracking.calibration.fit_together import fit_together, together_remarks
 from app.tracking.calibration.mono import MonoResult, calibrate_mono
-from app.tracking.calibration.outliers import belongs, limit_px
 from app.tracking.calibration.pair_fit import (
     matched,
     matched_residual,
     pair_residuals,
     pair_sightings,
 )
-from app.tracking.calibration.poses import board_pose
+from app.tracking.calibration.poses import board_pose, usual_stereo_rms
 from app.tracking.calibration.remarks import ViewResidual, size_remarks, stereo_remarks
-from app.tracking.calibration.sightings import Sighting, State
-from app.tracking.calibration.start import usual_stereo_rms
+from app.tracking.calibration.selection import belongs, limit_px
+from app.tracking.calibration.sightings import AdjustedState, SeenBoard
 from app.tracking.calibration.validation import ViewPair
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
@@ -213,7 +212,9 @@ def _pose_in(view: BoardView, camera: MonoResult) -> RigidTransform:
     return board_pose(view, camera.adjusted.state.parameters[0])[0]
 
 
-def _require_agreement(agreement: Agreement, posed: list[PosedPair], right: MonoResult) -> None:
+def _require_agreement(
+    agreement: CornerAgreement, posed: list[PosedPair], right: MonoResult
+) -> None:
     if agreement.agreeing.mean() > 0.5 and agreement.agreeing.sum() >= LEAST_PAIRS:
         return
     if one_side_is_mirrored(posed, right.adjusted.state.parameters[0]):
@@ -228,7 +229,7 @@ def _require_agreement(agreement: Agreement, posed: list[PosedPair], right: Mono
     )
 
 
-def _mended(pairs: Sequence[ViewPair], agreement: Agreement) -> list[ViewPair]:
+def _mended(pairs: Sequence[ViewPair], agreement: CornerAgreement) -> list[ViewPair]:
     orders = turns(pairs[0][0].board)
     return [
         (left, right.reordered(orders[way]) if way else right)
@@ -241,7 +242,7 @@ def _adjusted(
     posed: list[PosedPair],
     left: MonoResult,
     right: MonoResult,
-    agreement: Agreement,
+    agreement: CornerAgreement,
     progress: Progress,
 ) -> tuple[Adjusted, list[int]]:
     """Adjust everything together; pairs that do not belong are left out, worst first.
@@ -260,10 +261,10 @@ def _adjusted(
         poses = [posed[i].T_left_board for i in used] + [T for _, _, T in lone]
         seen = pair_sightings([pairs[i] for i in used])
         seen += [
-            Sighting(len(used) + i, side, view.points, view.pixels)
+            SeenBoard(len(used) + i, side, view.points, view.pixels)
             for i, (side, view, _) in enumerate(lone)
         ]
-        adjusted = adjust(seen, State(cameras, T_right_left, tuple(poses)), free, progress)
+        adjusted = adjust(seen, AdjustedState(cameras, T_right_left, tuple(poses)), free, progress)
         each = pair_residuals(adjusted, len(used))
         worst = int(np.argmax(each))
         if each[worst] > limit_px(each) and len(used) > LEAST_PAIRS:

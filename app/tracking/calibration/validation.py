@@ -7,7 +7,7 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
-from app.tracking.calibration.rigid_fit import rigid_fit
+from app.tracking.calibration.poses import rigid_fit
 from app.tracking.calibration.views import BoardView
 from app.tracking.errors import CalibrationError
 from app.tracking.optics.calibration import StereoCalibration, Validation

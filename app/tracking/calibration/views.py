@@ -12,7 +12,7 @@ from app.tracking.calibration.boards import Board
 from app.tracking.errors import CalibrationError
 
 
-class Reason(StrEnum):
+class RejectionReason(StrEnum):
     """Why a picture is not used."""
 
     NO_BOARD = "no_board"
@@ -36,7 +36,7 @@ class Rejection:
         name: of the picture.
     """
 
-    reason: Reason
+    reason: RejectionReason
     text: str
     name: str = ""
 

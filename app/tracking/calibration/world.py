@@ -18,7 +18,7 @@ from app.core.arrays import FloatArray
 from app.core.rotation import skew
 from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
-from app.tracking.calibration.board_pose import BoardPose, Pair, fit_pose, sights
+from app.tracking.calibration.board_pose import FittedBoardPose, Pair, board_rays, fit_pose
 from app.tracking.calibration.identity import new_id
 from app.tracking.calibration.placed_board import PlacedBoard, check_fit, remarks_on
 from app.tracking.calibration.views import BoardView
@@ -135,11 +135,11 @@ def with_world(calibration: StereoCalibration, world: WorldFrame, board: str) ->
 
 def _fit(
     calibration: StereoCalibration, board: PlacedBoard, expected: RigidTransform | None
-) -> BoardPose:
+) -> FittedBoardPose:
     """Fit one place; of the ways round that a board may lie, take the one that is expected."""
     orders = next(view.board.orders for pair in board.pairs for view in pair if view is not None)
     if len(orders) == 1:
-        return fit_pose(calibration, sights(calibration, board.pairs))
+        return fit_pose(calibration, board_rays(calibration, board.pairs))
     if expected is None:
         raise CalibrationError(
             "the board looks the same after half a turn, so the world could be turned by 180°: use "
@@ -147,13 +147,13 @@ def _fit(
             "cameras stand roughly (--rig)"
         )
     fits = [
-        fit_pose(calibration, sights(calibration, pairs))
+        fit_pose(calibration, board_rays(calibration, pairs))
         for pairs in (_turned(board.pairs, *pick) for pick in product(orders, repeat=2))
     ]
     least = min(fit.rms_px for fit in fits)
     good = [fit for fit in fits if fit.rms_px < 2.0 * least + 0.1]
 
-    def away(fit: BoardPose) -> float:
+    def away(fit: FittedBoardPose) -> float:
         found = board.T_world_board @ fit.T_left_board.inverse()
         return float(np.linalg.norm(found.translation - expected.translation))
 
@@ -170,7 +170,7 @@ def _turned(
 
 
 def _spread(
-    fit: BoardPose,
+    fit: FittedBoardPose,
     T_world_board: RigidTransform,
     T_world_left: RigidTransform,
     sd_mm: float,

@@ -13,7 +13,7 @@ Image = NDArray[np.uint8]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Frame:
+class CameraFrame:
     """One picture.
 
     Attributes:
@@ -55,7 +55,7 @@ class Camera(ABC):
         """
 
     @abstractmethod
-    def read(self) -> Frame:
+    def read(self) -> CameraFrame:
         """Wait for the next picture; returns or raises within about half a second.
 
         Raises:

@@ -77,7 +77,7 @@ class Controls:
 
 
 @dataclass(frozen=True, slots=True)
-class Setting:
+class DriverSetting:
     """What became of one thing that was asked of the driver.
 
     Attributes:
@@ -101,7 +101,7 @@ class Setting:
         return f"{self.name}: {'held at ' if self.wanted is None else ''}{self.got:g}"
 
 
-def lock(capture: Capture, controls: Controls) -> tuple[Setting, ...]:
+def lock(capture: Capture, controls: Controls) -> tuple[DriverSetting, ...]:
     """Set size, rate and format, then stop exposure, focus and white balance from regulating.
 
     Raises:
@@ -128,7 +128,7 @@ def lock(capture: Capture, controls: Controls) -> tuple[Setting, ...]:
                 break
     rate = capture.get(cv2.CAP_PROP_FPS)
     return (
-        Setting("rate [Hz]", controls.rate_hz, rate, _near(rate, controls.rate_hz)),
+        DriverSetting("rate [Hz]", controls.rate_hz, rate, _near(rate, controls.rate_hz)),
         _exposure(capture, controls.exposure),
         _held(capture, "focus", cv2.CAP_PROP_AUTOFOCUS, cv2.CAP_PROP_FOCUS, controls.focus),
         _held(
@@ -138,7 +138,7 @@ def lock(capture: Capture, controls: Controls) -> tuple[Setting, ...]:
     )  # fmt: skip
 
 
-def _exposure(capture: Capture, wanted: float | None) -> Setting:
+def _exposure(capture: Capture, wanted: float | None) -> DriverSetting:
     present = capture.get(cv2.CAP_PROP_EXPOSURE)
     manual = bool(capture.set(cv2.CAP_PROP_AUTO_EXPOSURE, _MANUAL))
     value = present if wanted is None else _exposure_number(wanted)
@@ -146,16 +146,18 @@ def _exposure(capture: Capture, wanted: float | None) -> Setting:
     got = capture.get(cv2.CAP_PROP_EXPOSURE)
     accepted = manual and taken and _near(got, value)
     asked = None if wanted is None else wanted / MILLISECOND
-    return Setting("exposure [ms]", asked, _exposure_time(got) / MILLISECOND, accepted)
+    return DriverSetting("exposure [ms]", asked, _exposure_time(got) / MILLISECOND, accepted)
 
 
-def _held(capture: Capture, name: str, automatic: int, prop: int, wanted: float | None) -> Setting:
+def _held(
+    capture: Capture, name: str, automatic: int, prop: int, wanted: float | None
+) -> DriverSetting:
     present = capture.get(prop)
     off = bool(capture.set(automatic, 0.0))
     value = present if wanted is None else wanted
     taken = bool(capture.set(prop, value))
     got = capture.get(prop)
-    return Setting(name, wanted, got, off and taken and _near(got, value))
+    return DriverSetting(name, wanted, got, off and taken and _near(got, value))
 
 
 def _exposure_number(seconds: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.errors import CameraError
 
 
@@ -40,7 +40,7 @@ class CheckedCamera(Camera):
             self.camera.close()
             raise
 
-    def read(self) -> Frame:
+    def read(self) -> CameraFrame:
         """Wait for the next picture.
 
         Raises:

@@ -10,7 +10,7 @@ from app.tracking.cameras.camera import Camera
 from app.tracking.cameras.capture import Controls, Opener, open_capture
 from app.tracking.cameras.files import FolderCamera, VideoCamera
 from app.tracking.cameras.settings import CameraSettings, OneCamera
-from app.tracking.cameras.source import Kind
+from app.tracking.cameras.source import SourceKind
 from app.tracking.cameras.usb import UsbCamera
 from app.tracking.errors import CameraError
 
@@ -24,7 +24,7 @@ def make_camera(
         CameraError: for a simulated one, which needs a scene.
     """
     source = camera.origin
-    if source.kind is Kind.USB:
+    if source.kind is SourceKind.USB:
         controls = Controls(
             settings.size,
             settings.rate_hz,
@@ -34,8 +34,8 @@ def make_camera(
         )
         latency = (camera.latency_ms or 0.0) * MILLISECOND
         return UsbCamera(source.place, controls, clock, latency, opener)
-    if source.kind is Kind.FOLDER:
+    if source.kind is SourceKind.FOLDER:
         return FolderCamera(Path(source.place), settings.rate_hz, clock)
-    if source.kind is Kind.VIDEO:
+    if source.kind is SourceKind.VIDEO:
         return VideoCamera(Path(source.place), clock)
     raise CameraError("a simulated camera needs a needle to look at; choose a real source here")

@@ -1,4 +1,4 @@
-"""Pictures of both cameras, paired as they come, and the news about their health.
+"""Pictures of both cameras, paired as they come, and events about their health.
 
 Keeps pictures whose capture time runs backwards away from the tracks.
 """
@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 
 from app.core.clock import Clock
-from app.tracking.cameras.camera import Camera, Frame
+from app.tracking.cameras.camera import Camera, CameraFrame
 from app.tracking.cameras.watch import STALL, CameraHealth, CameraReader, CameraState
 from app.tracking.fix import FixStatus, NeedleFix
 
@@ -35,7 +35,9 @@ class CaptureTimes:
         self._last: list[float | None] = [None] * len(names)
         self._refused = [0] * len(names)
 
-    def sound(self, frames: tuple[Frame | None, Frame | None]) -> tuple[Frame | None, Frame | None]:
+    def sound(
+        self, frames: tuple[CameraFrame | None, CameraFrame | None]
+    ) -> tuple[CameraFrame | None, CameraFrame | None]:
         """Return the frames without those that cannot be put in order."""
         first, second = (self._sound(i, frame) for i, frame in enumerate(frames))
         return first, second
@@ -45,7 +47,7 @@ class CaptureTimes:
         """Newest time of any picture that was taken [s]; 0 before the first."""
         return max((last for last in self._last if last is not None), default=0.0)
 
-    def _sound(self, i: int, frame: Frame | None) -> Frame | None:
+    def _sound(self, i: int, frame: CameraFrame | None) -> CameraFrame | None:
         if frame is None:
             return None
         last = self._last[i]
@@ -66,7 +68,7 @@ class CaptureTimes:
 
 
 def without_picture(
-    fix: NeedleFix, frames: tuple[Frame | None, Frame | None], names: Sequence[str]
+    fix: NeedleFix, frames: tuple[CameraFrame | None, CameraFrame | None], names: Sequence[str]
 ) -> NeedleFix:
     """Return a fix that says which camera gave no picture, if one did not."""
     absent = [name for name, frame in zip(names, frames, strict=True) if frame is None]
@@ -90,7 +92,7 @@ _TROUBLE = frozenset({CameraState.STALLED, CameraState.FROZEN, CameraState.FAILE
 _SKEWS = 60
 """Pairs over which the skew is taken: two seconds at 30 Hz."""
 
-Pair = tuple[Frame | None, Frame | None]
+Pair = tuple[CameraFrame | None, CameraFrame | None]
 """New pictures of both cameras; None where a camera has none."""
 
 
@@ -132,7 +134,7 @@ class CameraFeed:
             for camera, name in zip(cameras, names, strict=True)
         )
         self._states = [CameraState.WAITING, CameraState.WAITING]
-        self._seen: list[Frame | None] = [None, None]
+        self._seen: list[CameraFrame | None] = [None, None]
         self._stopped = False
         self._apart: deque[float] = deque(maxlen=_SKEWS)
 
@@ -172,7 +174,7 @@ class CameraFeed:
             fresh = self._fresh()
             frames = [reader.newest() for reader in self._readers]
         self._watch()
-        usable: list[Frame | None] = [None, None]
+        usable: list[CameraFrame | None] = [None, None]
         for i in range(2):
             if fresh[i]:
                 self._seen[i] = frames[i]

@@ -11,7 +11,7 @@ import numpy as np
 
 from app.core.clock import Clock, SystemClock
 from app.core.units import MILLISECOND
-from app.tracking.cameras.camera import Camera, Frame, Image
+from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.errors import CameraError
 
 ENDINGS: Final = frozenset({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp"})
@@ -50,7 +50,7 @@ class FolderCamera(Camera):
         self._last = self._due()
         self._first = 0 if self._loops else self._last + 1
 
-    def read(self) -> Frame:
+    def read(self) -> CameraFrame:
         """Wait until the next picture is due.
 
         Raises:
@@ -64,7 +64,9 @@ class FolderCamera(Camera):
         time = number / self._rate
         self._clock.sleep(time - self._clock.now())
         self._last = number
-        return Frame(read_picture(self._files[(number - self._first) % len(self._files)]), time)
+        return CameraFrame(
+            read_picture(self._files[(number - self._first) % len(self._files)]), time
+        )
 
     def close(self) -> None:
         """Forget the folder."""
@@ -170,7 +172,7 @@ class VideoCamera(Camera):
         self._capture, self._start = capture, self._clock.now()
         self._newest = -self._period
 
-    def read(self) -> Frame:
+    def read(self) -> CameraFrame:
         """Wait until the next picture is due; pictures that are long due are left out.
 
         Raises:
@@ -189,7 +191,7 @@ class VideoCamera(Camera):
             raise CameraError(f"a picture of {self.path} is damaged")
         due = self._start + time
         self._clock.sleep(due - self._clock.now())
-        return Frame(np.array(image), due)
+        return CameraFrame(np.array(image), due)
 
     def close(self) -> None:
         """Close the file."""
@@ -207,7 +209,7 @@ class VideoCamera(Camera):
         self._newest = stamp
         return stamp
 
-    def _again(self) -> Frame:
+    def _again(self) -> CameraFrame:
         if not self._loops or self._newest < 0.0:
             self.close()
             raise CameraError(f"the video {self.path} is over")

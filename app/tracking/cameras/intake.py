@@ -14,7 +14,7 @@ from typing import Final
 
 import numpy as np
 
-from app.tracking.cameras.camera import Frame
+from app.tracking.cameras.camera import CameraFrame
 
 AHEAD: Final = 0.1
 """A picture may be stamped so far after its arrival [s]; more is another clock's time."""
@@ -27,7 +27,7 @@ _KEPT: Final = 90
 _UNIFORM: Final = 2
 
 
-class Verdict(StrEnum):
+class IntakeVerdict(StrEnum):
     """What became of a picture."""
 
     NEW = "new"
@@ -76,20 +76,20 @@ class Intake:
 
     def __init__(self, noise_expected: bool) -> None:
         self._noise_expected = noise_expected
-        self._counts = dict.fromkeys(Verdict, 0)
+        self._counts = dict.fromkeys(IntakeVerdict, 0)
         self._times: deque[float] = deque(maxlen=_KEPT)
-        self._before: Frame | None = None
+        self._before: CameraFrame | None = None
 
     def restart(self) -> None:
         """Take the next picture whatever its time: the stream was opened anew."""
         self._before = None
         self._times.clear()
 
-    def judge(self, frame: Frame, now: float) -> Verdict:
+    def judge(self, frame: CameraFrame, now: float) -> IntakeVerdict:
         """Judge a picture that was delivered at `now` [s], and count it."""
         verdict = self._judge(frame, now)
         self._counts[verdict] += 1
-        if verdict is Verdict.NEW:
+        if verdict is IntakeVerdict.NEW:
             self._before = frame
             self._times.append(frame.time)
         return verdict
@@ -101,24 +101,26 @@ class Intake:
         return StreamFigures(
             rate=float(1.0 / steps.mean()) if steps.size else 0.0,
             jitter=float(steps.std()) if steps.size else 0.0,
-            taken=counts[Verdict.NEW],
-            repeated=counts[Verdict.REPEATED],
-            backwards=counts[Verdict.BACKWARDS],
-            impossible=counts[Verdict.IMPOSSIBLE],
+            taken=counts[IntakeVerdict.NEW],
+            repeated=counts[IntakeVerdict.REPEATED],
+            backwards=counts[IntakeVerdict.BACKWARDS],
+            impossible=counts[IntakeVerdict.IMPOSSIBLE],
         )
 
-    def _judge(self, frame: Frame, now: float) -> Verdict:
+    def _judge(self, frame: CameraFrame, now: float) -> IntakeVerdict:
         if not isfinite(frame.time) or not -BEHIND <= frame.time - now <= AHEAD:
-            return Verdict.IMPOSSIBLE
+            return IntakeVerdict.IMPOSSIBLE
         if self._before is None:
-            return Verdict.NEW
+            return IntakeVerdict.NEW
         if frame.time < self._before.time:
-            return Verdict.BACKWARDS
+            return IntakeVerdict.BACKWARDS
         same = self._noise_expected and _same(frame, self._before)
-        return Verdict.REPEATED if same or frame.time == self._before.time else Verdict.NEW
+        return (
+            IntakeVerdict.REPEATED if same or frame.time == self._before.time else IntakeVerdict.NEW
+        )
 
 
-def plain(frame: Frame) -> str:
+def plain(frame: CameraFrame) -> str:
     """Say that a picture shows nothing: `black`, `white`, or empty if it shows something."""
     grid = frame.image[::_STRIDE, ::_STRIDE]
     if int(grid.max()) <= _UNIFORM:
@@ -126,7 +128,7 @@ def plain(frame: Frame) -> str:
     return "white" if int(grid.min()) >= 255 - _UNIFORM else ""
 
 
-def _same(frame: Frame, other: Frame) -> bool:
+def _same(frame: CameraFrame, other: CameraFrame) -> bool:
     """Whether two pictures agree to the last bit; most differ on a grid of their pixels already."""
     grid = np.array_equal(frame.image[::_STRIDE, ::_STRIDE], other.image[::_STRIDE, ::_STRIDE])
     return grid and np.array_equal(frame.image, other.image)

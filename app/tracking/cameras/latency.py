@@ -37,7 +37,7 @@ _PARTS: Final = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Latency:
+class CameraLatency:
     """What was measured.
 
     Attributes:
@@ -61,7 +61,7 @@ class Latency:
         )
 
 
-def estimate_latency(blinks: ArrayLike, times: ArrayLike, brightness: ArrayLike) -> Latency:
+def estimate_latency(blinks: ArrayLike, times: ArrayLike, brightness: ArrayLike) -> CameraLatency:
     """Estimate the latency between a display and the pictures of a camera.
 
     Args:
@@ -132,7 +132,7 @@ def _correlation(shown: FloatArray, level: FloatArray) -> float:
     return float(a @ b) / norm if norm > 0.0 else 0.0
 
 
-def _fit(edges: FloatArray, t: FloatArray, level: FloatArray, coarse: float) -> Latency:
+def _fit(edges: FloatArray, t: FloatArray, level: FloatArray, coarse: float) -> CameraLatency:
     """Fit the curve of the change to all pictures that lie nearer to it than to another one."""
     period = float(np.median(np.diff(t)))
     reach = 0.5 * float(np.diff(edges).min())
@@ -156,7 +156,9 @@ def _fit(edges: FloatArray, t: FloatArray, level: FloatArray, coarse: float) -> 
     spread = float(np.sqrt((_PARTS - 1) * np.var(left_out)))  # the jackknife
     # A curve that is steeper than the pictures are dense is known only to the gap they leave.
     gap = period / np.sqrt(12.0) / seen
-    return Latency(coarse + median, float(widths[chosen]), float(np.hypot(spread, gap)), int(seen))
+    return CameraLatency(
+        coarse + median, float(widths[chosen]), float(np.hypot(spread, gap)), int(seen)
+    )
 
 
 def _misfit(

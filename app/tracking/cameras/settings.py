@@ -12,7 +12,7 @@ from app.core import paths
 from app.core.configuration import Strict, load
 from app.core.files import write_atomically
 from app.core.units import MILLISECOND
-from app.tracking.cameras.source import Kind, Source, parse_source
+from app.tracking.cameras.source import CameraSource, SourceKind, parse_source
 from app.tracking.errors import CameraError
 from app.tracking.markers.colour import ColourModel
 
@@ -35,7 +35,7 @@ class OneCamera(Strict):
         latency_sd_ms: standard deviation of that.
     """
 
-    source: str = Kind.SIMULATED.value
+    source: str = SourceKind.SIMULATED.value
     exposure_ms: Positive | None = None
     focus: float | None = None
     white_balance_k: Positive | None = None
@@ -51,7 +51,7 @@ class OneCamera(Strict):
             raise ValueError(str(error)) from error
 
     @property
-    def origin(self) -> Source:
+    def origin(self) -> CameraSource:
         """The source, read."""
         return parse_source(self.source)
 
@@ -84,7 +84,7 @@ class CameraSettings(Strict):
     @property
     def simulated(self) -> bool:
         """Whether both are simulated."""
-        return all(camera.origin.kind is Kind.SIMULATED for camera in self.cameras)
+        return all(camera.origin.kind is SourceKind.SIMULATED for camera in self.cameras)
 
     def check(self) -> None:
         """Refuse what cannot work.
@@ -93,12 +93,12 @@ class CameraSettings(Strict):
             CameraError: if both sides have one source, or only one is simulated.
         """
         left, right = (camera.origin for camera in self.cameras)
-        if (left.kind is Kind.SIMULATED) != (right.kind is Kind.SIMULATED):
+        if (left.kind is SourceKind.SIMULATED) != (right.kind is SourceKind.SIMULATED):
             raise CameraError(
                 f"one camera is real and one simulated (left {left}, right {right}); give both a "
                 "source, for example --cameras left=usb:1-1.1,right=usb:1-1.2"
             )
-        if left == right and left.kind is not Kind.SIMULATED:
+        if left == right and left.kind is not SourceKind.SIMULATED:
             raise CameraError(
                 f"left and right are the same source, {left}; the depth needs two cameras: "
                 "`acus camera list` shows what is plugged in"
@@ -141,7 +141,7 @@ def parse_cameras(text: str) -> CameraSettings:
         ConfigurationError: if the file cannot be used.
     """
     text = text.strip()
-    if text == Kind.SIMULATED.value:
+    if text == SourceKind.SIMULATED.value:
         return CameraSettings()
     if Path(text).suffix in {".yaml", ".yml"} and "=" not in text:
         settings = load_settings(Path(text))

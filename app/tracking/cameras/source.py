@@ -11,7 +11,7 @@ from app.tracking.errors import CameraError
 FORMS: Final = "usb:PORT (`acus camera list` shows them), usb:0, folder:PATH, video:PATH, simulated"
 
 
-class Kind(StrEnum):
+class SourceKind(StrEnum):
     """What delivers the pictures."""
 
     USB = "usb"
@@ -21,7 +21,7 @@ class Kind(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Source:
+class CameraSource:
     """A source of pictures.
 
     Attributes:
@@ -29,7 +29,7 @@ class Source:
         place: USB port or number, or path; empty for simulated pictures.
     """
 
-    kind: Kind
+    kind: SourceKind
     place: str = ""
 
     def __str__(self) -> str:
@@ -37,7 +37,7 @@ class Source:
         return f"{self.kind.value}:{self.place}" if self.place else self.kind.value
 
 
-def parse_source(text: str) -> Source:
+def parse_source(text: str) -> CameraSource:
     """Read a source.
 
     Raises:
@@ -46,10 +46,10 @@ def parse_source(text: str) -> Source:
     head, _, place = text.strip().partition(":")
     place = place.strip()
     try:
-        kind = Kind(head.strip().lower())
+        kind = SourceKind(head.strip().lower())
     except ValueError as error:
         raise CameraError(f"{text!r} is no source of pictures; valid are: {FORMS}") from error
-    if (kind is Kind.SIMULATED) == bool(place):
+    if (kind is SourceKind.SIMULATED) == bool(place):
         lack = "takes nothing after it" if place else "does not say where"
         raise CameraError(f"the source {text!r} {lack}; valid are: {FORMS}")
-    return Source(kind, place)
+    return CameraSource(kind, place)

@@ -1,22 +1,81 @@
-"""Looking at cameras for a moment: what they deliver, how evenly, how bright."""
+"""Looking at cameras for a moment: what they deliver, how evenly, how bright.
+
+Whether what a source names is there is asked when it is chosen, not only when it is opened;
+pictures go to a folder with the marker's outline drawn in.
+"""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Final
 
+import cv2
 import numpy as np
 
+from app.core.arrays import FloatArray
 from app.core.clock import Clock
-from app.tracking.cameras.camera import Camera, Frame, Image
+from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.cameras.checked import CheckedCamera
 from app.tracking.cameras.files import FolderCamera
 from app.tracking.cameras.intake import StreamFigures
+from app.tracking.cameras.ports import CameraPort, find_port
+from app.tracking.cameras.source import SourceKind, parse_source
 from app.tracking.cameras.usb import UsbCamera
 from app.tracking.cameras.watch import CameraHealth, CameraReader
 from app.tracking.errors import CameraError
+
+_OUTLINE = (80, 220, 80)
+
+
+def write_pictures(folder: Path, images: Mapping[str, Image]) -> None:
+    """Write each picture as `<name>.png`.
+
+    Raises:
+        CameraError: if one cannot be written.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, image in images.items():
+            if not cv2.imwrite(str(folder / f"{name}.png"), image):
+                raise CameraError(f"cannot write {folder / name}.png")
+    except OSError as error:
+        raise CameraError(f"cannot write into {folder}: {error.strerror or error}") from error
+
+
+def with_outline(image: Image, outline: FloatArray) -> Image:
+    """Return a copy with a closed line [px], (m, 2); as it is without points."""
+    drawn = image.copy()
+    if outline.size:
+        points = np.rint(outline).astype(np.int32)
+        cv2.polylines(drawn, [points], True, _OUTLINE, 2, cv2.LINE_AA)
+    return drawn
+
+
+def missing(source: str, ports: Sequence[CameraPort]) -> str:
+    """Say that what a source names is not there now, and what is; empty if it is.
+
+    Args:
+        source: as `parse_source` takes it.
+        ports: cameras that are plugged in.
+
+    Raises:
+        CameraError: if it has another form.
+    """
+    origin = parse_source(source)
+    if origin.kind is SourceKind.USB:
+        try:
+            find_port(origin.place, ports)
+        except CameraError as error:
+            return str(error)
+    if origin.kind is SourceKind.FOLDER and not Path(origin.place).is_dir():
+        return f"there is no folder {origin.place}"
+    if origin.kind is SourceKind.VIDEO and not Path(origin.place).is_file():
+        return f"there is no video {origin.place}"
+    return ""
+
 
 SATURATED: Final = 250
 """Grey value from which a pixel counts as overexposed."""
@@ -78,7 +137,7 @@ def survey(
     names: Sequence[str],
     clock: Clock,
     seconds: float,
-    on_pictures: Callable[[tuple[Frame, ...]], None] | None = None,
+    on_pictures: Callable[[tuple[CameraFrame, ...]], None] | None = None,
 ) -> tuple[CameraReport, ...]:
     """Open the cameras together, look at them for a while and close them.
 
@@ -119,10 +178,10 @@ def _watch(
     clock: Clock,
     seconds: float,
     ages: list[list[float]],
-    on_pictures: Callable[[tuple[Frame, ...]], None] | None,
+    on_pictures: Callable[[tuple[CameraFrame, ...]], None] | None,
 ) -> None:
-    seen: list[Frame | None] = [None] * len(readers)
-    told: list[Frame | None] = list(seen)
+    seen: list[CameraFrame | None] = [None] * len(readers)
+    told: list[CameraFrame | None] = list(seen)
     end = clock.now() + seconds
     while clock.now() < end:
         with arrived:

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from app.core.clock import Clock
-from app.tracking.cameras.camera import Camera, Frame
-from app.tracking.cameras.intake import Intake, StreamFigures, Verdict, plain
+from app.tracking.cameras.camera import Camera, CameraFrame
+from app.tracking.cameras.intake import Intake, IntakeVerdict, StreamFigures, plain
 from app.tracking.errors import CameraError
 
 STALL = 0.4
@@ -87,7 +87,7 @@ class CameraReader:
         clock: Clock,
         arrived: threading.Condition,
         noise_expected: bool,
-        on_frame: Callable[[Frame, float], None] | None = None,
+        on_frame: Callable[[CameraFrame, float], None] | None = None,
     ) -> None:
         self.name = name
         self._on_frame = on_frame
@@ -100,7 +100,7 @@ class CameraReader:
         self._thread: threading.Thread | None = None
         self._stop = threading.Event()
         self._late: threading.Event | None = None
-        self._frame: Frame | None = None
+        self._frame: CameraFrame | None = None
         self._changed = 0.0  # when a picture counted last
         self._received = 0.0  # when one came last, be it the same
         self._error = ""
@@ -130,7 +130,7 @@ class CameraReader:
             self._late = self._stop if thread.is_alive() else None
         self._camera.close()
 
-    def newest(self) -> Frame | None:
+    def newest(self) -> CameraFrame | None:
         """Newest picture, or None before the first."""
         return self._frame
 
@@ -177,21 +177,21 @@ class CameraReader:
         self.reopened += 1
         self._received = self._changed = self._clock.now()
 
-    def _take(self, frame: Frame) -> None:
+    def _take(self, frame: CameraFrame) -> None:
         now = self._clock.now()
         verdict = self._intake.judge(frame, now)
-        if self._on_frame is not None and verdict in (Verdict.NEW, Verdict.REPEATED):
+        if self._on_frame is not None and verdict in (IntakeVerdict.NEW, IntakeVerdict.REPEATED):
             self._on_frame(frame, now)
-        if verdict is Verdict.REPEATED:
+        if verdict is IntakeVerdict.REPEATED:
             self._received = now  # it lives, but shows nothing new
-        elif verdict is Verdict.NEW:
+        elif verdict is IntakeVerdict.NEW:
             self._received = self._changed = now
             self._publish(frame)
         elif now - self._received > STALL:
             raise CameraError(f"its capture times cannot be used: {self._intake.figures().text}")
         self._failures, self._error = 0, ""
 
-    def _publish(self, frame: Frame) -> None:
+    def _publish(self, frame: CameraFrame) -> None:
         with self._arrived:
             self._frame = frame
             self._arrived.notify_all()

@@ -4,6 +4,7 @@ Found from a first estimate of the share that the band covers, without the needl
 camera: an edge is where the share falls through a half. In a frame whose x runs along the needle,
 a flank is a line y = a + b·x, and an end, the picture of half a circle, x = c + q·√(1 - z²) + t·z
 with z from -1 to 1 between the flanks.
+What they enclose has an area and a centroid with its noise; `rim` moves them to where they belong.
 """
 
 import math
@@ -146,3 +147,103 @@ def _flanks(field: Any, edges: Any) -> bool:
         slope = (n * xy - x1 * y1) / (n * x2 - x1 * x1)
         edges[4 + 2 * side], edges[5 + 2 * side] = (y1 - slope * x1) / n, slope
     return True
+
+
+@njit
+def below(z: float) -> float:
+    """Share of a Gaussian below z."""
+    return 0.5 * math.erfc(-z / math.sqrt(2.0))
+
+
+@njit
+def bell(z: float) -> float:
+    """Density of a Gaussian at z."""
+    return math.exp(-0.5 * z * z) / math.sqrt(2.0 * math.pi)
+
+
+@njit
+def mean_colour(
+    window: Any, edges: Any, x: float, y: float, dx: float, dy: float, n: int, out: Any
+) -> None:
+    """Mean colour of n samples from (x, y) on in steps of (dx, dy)."""
+    for k in range(3):
+        out[k] = 0.0
+        for i in range(n):
+            a, b = x + i * dx, y + i * dy
+            out[k] += between(
+                window[:, :, k],
+                edges[0] + a * edges[2] - b * edges[3],
+                edges[1] + a * edges[3] + b * edges[2],
+            )
+        out[k] /= n
+
+
+@njit
+def patch_colour(
+    window: Any, edges: Any, x: float, y: float, dy: float, n: int, low: float, high: float,
+    out: Any, one: Any,
+) -> float:  # fmt: skip
+    """Mean colour over n steps of dy across and 5 px along; returns its scatter², relative."""
+    first, second = 0.0, 0.0
+    out[:] = 0.0
+    for i in range(-2, 3):
+        at = min(high, max(low, x + i))
+        mean_colour(window, edges, at, y, 0.0, dy, n, one)
+        bright = (one[0] + one[1] + one[2]) / 5.0
+        first, second = first + bright, second + 5.0 * bright * bright
+        for k in range(3):
+            out[k] += one[k] / 5.0
+    return max(0.0, second - first * first) / (first + 1.0) ** 2
+
+
+@njit
+def place(edges: Any, u: int, v: int) -> Any:
+    """x, y of a pixel, y of the flanks beside it, and z between them."""
+    du, dv = u - edges[0], v - edges[1]
+    x, y = du * edges[2] + dv * edges[3], dv * edges[2] - du * edges[3]
+    low, high = edges[4] + edges[5] * x, edges[6] + edges[7] * x
+    return x, y, low, high, (2.0 * y - low - high) / (high - low)
+
+
+_STRIPS: Final = 48
+
+
+@njit
+def centroid(edges: Any) -> Any:
+    """Area and centroid u, v of what the edges enclose."""
+    h0, h1 = 0.5 * (edges[6] - edges[4]), 0.5 * (edges[7] - edges[5])
+    m0, m1 = 0.5 * (edges[6] + edges[4]), 0.5 * (edges[7] + edges[5])
+    area, mx, my = 0.0, 0.0, 0.0
+    for k in range(_STRIPS):
+        z = (2.0 * k + 1.0) / _STRIPS - 1.0
+        a, b = arc(edges, 0, z), arc(edges, 1, z)
+        s0, s1, s2 = b - a, 0.5 * (b * b - a * a), (b * b * b - a * a * a) / 3.0
+        y0, y1 = m0 + z * h0, m1 + z * h1
+        area += h0 * s0 + h1 * s1
+        mx += h0 * s1 + h1 * s2
+        my += y0 * h0 * s0 + (y0 * h1 + y1 * h0) * s1 + y1 * h1 * s2
+    if not area > 0.0:
+        return 0.0, 0.0, 0.0
+    x, y = mx / area, my / area
+    u = edges[0] + x * edges[2] - y * edges[3]
+    v = edges[1] + x * edges[3] + y * edges[2]
+    return area * 2.0 / _STRIPS, u, v
+
+
+@njit
+def centroid_noise(edges: Any, covariance: Any, mu: float, mv: float) -> Any:
+    """Covariance of the centroid by those of the edges."""
+    gain, moved, step = np.empty((2, 9)), np.empty(EDGES), 1e-4
+    for k in range(9):
+        moved[:] = edges
+        if k < 2:
+            moved[4 + 2 * k] += step
+        elif k == 2:
+            moved[5] += step
+            moved[7] += step
+        else:
+            moved[5 + k] += step
+        _, u, v = centroid(moved)
+        gain[0, k], gain[1, k] = (u - mu) / step, (v - mv) / step
+    full = gain @ covariance @ gain.T
+    return full[0, 0], full[0, 1], full[1, 1]

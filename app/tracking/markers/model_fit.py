@@ -1,9 +1,9 @@
-"""Marker extraction by fitting the band's whole picture (see `band_fit`).
+"""Marker extraction by fitting the band's whole picture (see `band.fit`).
 
 The centroid of the outline says where to begin; the fit then weighs every pixel as its noise
 deserves. It needs the needle's axis: without one the centroid is handed out. A fit that leaves
 pixels over, or finds another width or length than the band has, is a band partly hidden, lit by a
-highlight, or none at all; one without the bare shaft beside it (see `shaft_evidence`) is another
+highlight, or none at all; one without the bare shaft beside it (see `band.shaft`) is another
 red thing. What little misfit is let pass enlarges the covariance.
 """
 
@@ -14,8 +14,9 @@ from typing import Any, Final
 import numpy as np
 
 from app.core.arrays import FloatArray, unit
+from app.tracking.band.fit import BandFit, BandFitter
+from app.tracking.band.shaft import shaft_evidence
 from app.tracking.cameras.camera import Image
-from app.tracking.markers.band_fit import BandFit, BandFitter
 from app.tracking.markers.extractor import (
     Centre,
     Extractor,
@@ -27,7 +28,6 @@ from app.tracking.markers.extractor import (
     MissReason,
 )
 from app.tracking.markers.outline_centroid import OutlineCentroid, outline_of
-from app.tracking.markers.shaft_evidence import shaft_evidence
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleShape
@@ -165,10 +165,8 @@ class ModelFit(Extractor):
         """Whether the fit is of the band, and the band on a shaft; if so, how far to trust it."""
         if (reason := self._refused(fit)) is not None:
             return Miss(reason, fit.uv)
-        shaft = shaft_evidence(
-            image, fit.outline, self.shape, fit.uv, fit.stretch, fit.paint,
-            self.coarse.colour.weights, self.blur_px, self.coarse.noise_grey,
-        )  # fmt: skip
+        colour, noise = self.coarse.colour, self.coarse.noise_grey
+        shaft = shaft_evidence(image, fit, self.shape, colour.weights, self.blur_px, noise)
         if not shaft.found:
             return Miss(MissReason.NO_SHAFT, fit.uv)
         inflation = max(1.0, fit.misfit)
@@ -191,12 +189,12 @@ class ModelFit(Extractor):
     def _doubt(self, fit: BandFit, start: FloatArray, axis: FloatArray) -> float:
         """Variance of the centre beyond the fit's own, by what the model does not have [px²]."""
         (width, length), (wide, long) = fit.stretch.tolist(), self._half_px(start, axis)
-        amiss = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
+        misfit = (wide * (width - 1.0)) ** 2 + (long * (length - 1.0)) ** 2
         return (
             self.floor_px**2
             + _MISFIT_PX2 * max(0.0, fit.misfit - _USUAL_MISFIT)
             + _OUTLIERS_PX2 * max(0.0, fit.outliers - _USUAL_OUTLIERS)
-            + _STRETCH * max(0.0, amiss - _USUAL_STRETCH_PX**2)
+            + _STRETCH * max(0.0, misfit - _USUAL_STRETCH_PX**2)
         )
 
     def _half_px(self, p_camera: FloatArray, axis: FloatArray) -> tuple[float, float]:

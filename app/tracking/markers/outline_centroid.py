@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray, read_only
 from app.tracking.cameras.camera import Image
-from app.tracking.markers.colour import RED, ColourModel
-from app.tracking.markers.colour_patch import mark_half, nearest_patch
+from app.tracking.markers.colour import RED, ColourModel, mark_half, nearest_patch
 from app.tracking.markers.extractor import (
     Extractor,
     ExtractorSetup,

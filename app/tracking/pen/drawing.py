@@ -10,8 +10,7 @@ from app.core.arrays import FloatArray
 from app.tracking.cameras.camera import Image
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.inspection import InspectedPicture, Inspection
-from app.tracking.pen.pose import BoardPose, PoseStatus
-from app.tracking.pen.projection import projection_jacobians
+from app.tracking.pen.pose import BoardPose, PoseStatus, projection_jacobians
 from app.tracking.pen.step import PenObservation
 from app.tracking.pen.tracker import PenTracker
 from app.tracking.tracked_picture import TrackedPicture

@@ -15,7 +15,7 @@ from app.core.transform import RigidTransform
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.errors import PenError
-from app.tracking.pen.projection import skews
+from app.tracking.pen.pose import skews
 
 FEWEST = 20
 """Poses below which nothing is computed."""

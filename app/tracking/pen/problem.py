@@ -10,7 +10,7 @@ from app.core.arrays import FloatArray
 from app.core.rotation import rotation_exp
 from app.core.transform import RigidTransform
 from app.tracking.optics.camera_model import CameraModel
-from app.tracking.pen.projection import parameter_jacobians, projection_jacobians, skews
+from app.tracking.pen.pose import parameter_jacobians, projection_jacobians, skews
 
 _STEPS = 12
 _ROUNDS = 3

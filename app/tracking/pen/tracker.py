@@ -15,7 +15,7 @@ from app.core.clock import Clock
 from app.core.events import Event, EventQueue
 from app.core.latest import Latest
 from app.core.units import MILLIMETRE
-from app.tracking.cameras.camera import Camera, Frame, Image
+from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.cameras.watch import CameraHealth, CameraReader, CameraState
 from app.tracking.fix import NeedleFix
 from app.tracking.pen.body import PenProfile
@@ -115,7 +115,7 @@ class PenTracker:
         self._state = CameraState.WAITING
         self._meter = TrackerMeter()
         self._picture: PenPicture | None = None
-        self._seen: Frame | None = None
+        self._seen: CameraFrame | None = None
         self._thread: threading.Thread | None = None
         self._stop = threading.Event()
         self._fault = ""
@@ -154,7 +154,7 @@ class PenTracker:
         if thread is not None:
             thread.join(timeout=2.0)
 
-    def process(self, frame: Frame) -> NeedleFix:
+    def process(self, frame: CameraFrame) -> NeedleFix:
         """Fix of one picture; the whole work of a step, and needs no thread.
 
         Raises:

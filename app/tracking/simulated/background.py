@@ -1,6 +1,8 @@
 """What the simulated cameras see behind the needle: the housing, traced once per camera.
 
-Traced backgrounds kept on disk: half a second of work per camera, done once per rig.
+The surroundings are axis-aligned boxes, traced into the picture (compiled): every pixel is the mean
+over rays spread as the lens spreads a point. Half a second of work per camera, done once per rig
+and kept on disk.
 """
 
 import hashlib
@@ -9,23 +11,97 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import ndtri
 
 from app.core import paths
 from app.core.arrays import FloatArray, unit
+from app.core.compiled import njit
 from app.core.files import write_atomically
 from app.tracking.cameras.camera import Image
 from app.tracking.optics.camera_model import CameraModel
-from app.tracking.simulated.box_kernels import trace_boxes
-from app.tracking.simulated.sampling import COARSE, sample_pattern
+
+FINE = 55
+COARSE = 13
+"""Rays of a pixel at the band and elsewhere; Fibonacci numbers."""
+
+_STEPS = {13: 8, 34: 21, 55: 34, 89: 55, 610: 377}
+"""Fibonacci numbers and those before them: lattices without gaps."""
+
+
+def sample_pattern(blur_px: float, samples: int = FINE) -> FloatArray:
+    """Offsets of the rays of one pixel [px], shape (samples, 2), of mean 0 and SD `blur_px`.
+
+    Points of a Fibonacci lattice, of which no two share a row or a column, through the inverse of
+    the Gaussian. `samples` is one of 13, 34, 55, 89, 610.
+    """
+    i = np.arange(samples)
+    levels = ndtri((i + 0.5) / samples)
+    pattern = np.column_stack([levels, levels[(i * _STEPS[samples] + samples // 3) % samples]])
+    scaled: FloatArray = blur_px * pattern / pattern.std(axis=0)
+    return scaled
+
+
+@njit
+def _box_hit(o: Any, d: Any, box: Any) -> Any:
+    """Ray against an axis-aligned box (slab test): (distance, axis of the face), or (inf, 0)."""
+    near, far, axis = -np.inf, np.inf, 0
+    for k in range(3):
+        inverse = 1.0 / (d[k] if abs(d[k]) > 1e-12 else 1e-12)
+        first, second = (box[k] - o[k]) * inverse, (box[k + 3] - o[k]) * inverse
+        if first > second:
+            first, second = second, first
+        if first > near:
+            near, axis = first, k
+        far = min(far, second)
+    return (near, axis) if 0.0 < near <= far else (np.inf, 0)
+
+
+@njit
+def trace_boxes(
+    image: Any, rays: Any, pattern: Any, rotation: Any, o: Any, boxes: Any, colours: Any, light: Any
+) -> None:
+    """Paint axis-aligned boxes of the world into a float picture (H, W, 3), in place.
+
+    `rotation` and `o` are the camera's pose; `boxes` (n, 6) low and high corners [m]; `light` and
+    the shading as in `draw_needle`, but in world. Between boxes the picture stays as it was.
+    """
+    d, one = np.empty(3), np.empty(3)
+    n = pattern.shape[0]
+    for v in range(image.shape[0]):
+        for u in range(image.shape[1]):
+            one[:] = 0.0
+            x, y = rays[v + 1, u + 1, 0], rays[v + 1, u + 1, 1]
+            xu = rays[v + 1, u + 2, 0] - x
+            yv = rays[v + 2, u + 1, 1] - y
+            for i in range(n):
+                dx, dy = x + pattern[i, 0] * xu, y + pattern[i, 1] * yv
+                for k in range(3):
+                    d[k] = rotation[k, 0] * dx + rotation[k, 1] * dy + rotation[k, 2]
+                best, which, face = np.inf, -1, 0
+                for b in range(boxes.shape[0]):
+                    t, axis = _box_hit(o, d, boxes[b])
+                    if t < best:
+                        best, which, face = t, b, axis
+                if which < 0:
+                    for k in range(3):
+                        one[k] += image[v, u, k]
+                    continue
+                facing = -light[face] if d[face] > 0.0 else light[face]
+                haze = 1.0 / (1.0 + (best / 1.2) ** 2)  # less light further back
+                glow = (light[3] + light[4] * max(0.0, facing)) * (0.35 + 0.65 * haze)
+                for k in range(3):
+                    one[k] += colours[which, k] * glow
+            for k in range(3):
+                image[v, u, k] = one[k] / n
+
 
 Traced = NDArray[np.float32]
 
-_SOURCES: Final = ("background.py", "box_kernels.py", "sampling.py")
 _KEPT: Final = 12
 
 _log = logging.getLogger(__name__)
@@ -53,8 +129,7 @@ def kept_or_traced(
 
 def _digest(parts: tuple[bytes, ...]) -> str:
     digest = hashlib.sha256()
-    here = Path(__file__).resolve().parent
-    for part in (*(here.joinpath(name).read_bytes() for name in _SOURCES), *parts):
+    for part in (Path(__file__).read_bytes(), *parts):
         digest.update(len(part).to_bytes(8, "little") + part)
     return digest.hexdigest()[:24]
 
@@ -84,7 +159,7 @@ def _keep(path: Path, picture: Traced) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class HousingBox:
     """An axis-aligned block in world: two corners [m] and its colour (blue, green, red)."""
 
     low: tuple[float, float, float]
@@ -98,18 +173,18 @@ _DARK = (74.0, 70.0, 66.0)
 _PLATE = (128.0, 126.0, 122.0)
 
 HOUSING = (
-    Box((-0.60, -0.30, -0.115), (0.60, 0.34, -0.105), _PLATE),  # ground plate
-    Box(
+    HousingBox((-0.60, -0.30, -0.115), (0.60, 0.34, -0.105), _PLATE),  # ground plate
+    HousingBox(
         (-0.125, -0.02, 0.086), (0.125, 0.118, 0.094), _SKIN
     ),  # fake skin, cut free round the needle
-    Box((-0.128, -0.022, 0.078), (0.128, 0.120, 0.086), _PLASTIC),  # its frame
-    Box((-0.128, 0.00, -0.105), (-0.112, 0.03, 0.078), _PLASTIC),  # posts
-    Box((0.112, 0.00, -0.105), (0.128, 0.03, 0.078), _PLASTIC),
-    Box((-0.062, -0.02, -0.105), (-0.023, 0.02, -0.010), _DARK),  # motors
-    Box((0.023, -0.02, -0.105), (0.062, 0.02, -0.010), _DARK),
-    Box((-0.082, -0.04, -0.010), (-0.003, 0.04, 0.004), _PLASTIC),  # capstan drums
-    Box((0.003, -0.04, -0.010), (0.082, 0.04, 0.004), _PLASTIC),
-    Box((-0.70, -0.36, -0.40), (0.70, -0.34, 0.60), (176.0, 178.0, 180.0)),  # wall behind
+    HousingBox((-0.128, -0.022, 0.078), (0.128, 0.120, 0.086), _PLASTIC),  # its frame
+    HousingBox((-0.128, 0.00, -0.105), (-0.112, 0.03, 0.078), _PLASTIC),  # posts
+    HousingBox((0.112, 0.00, -0.105), (0.128, 0.03, 0.078), _PLASTIC),
+    HousingBox((-0.062, -0.02, -0.105), (-0.023, 0.02, -0.010), _DARK),  # motors
+    HousingBox((0.023, -0.02, -0.105), (0.062, 0.02, -0.010), _DARK),
+    HousingBox((-0.082, -0.04, -0.010), (-0.003, 0.04, 0.004), _PLASTIC),  # capstan drums
+    HousingBox((0.003, -0.04, -0.010), (0.082, 0.04, 0.004), _PLASTIC),
+    HousingBox((-0.70, -0.36, -0.40), (0.70, -0.34, 0.60), (176.0, 178.0, 180.0)),  # wall behind
 )
 
 LIGHT_WORLD: FloatArray = np.array([*unit([0.35, 0.75, 0.85]), 0.45, 0.50])

@@ -9,14 +9,13 @@ import numpy as np
 from app.core.arrays import FloatArray
 from app.core.clock import Clock
 from app.core.units import MILLISECOND
-from app.tracking.cameras.camera import Camera, Frame, Image
+from app.tracking.cameras.camera import Camera, CameraFrame, Image
 from app.tracking.errors import CameraError
 from app.tracking.optics.camera_model import CameraModel
 from app.tracking.optics.rig import NeedleProfile, RigProfile
-from app.tracking.simulated.background import LIGHT_WORLD, paint_background
+from app.tracking.simulated.background import COARSE, LIGHT_WORLD, paint_background, sample_pattern
 from app.tracking.simulated.needle_kernels import draw_needle, row_spans
 from app.tracking.simulated.picture_effects import NoiseTile, PictureEffect, noise
-from app.tracking.simulated.sampling import COARSE, sample_pattern
 from app.tracking.simulated.scene import MarkerScene, Scene
 
 _COLOURS = np.array([[172.0, 170.0, 168.0], [44.0, 26.0, 205.0]])
@@ -158,7 +157,7 @@ class SimulatedCamera(Camera):
         self._rng = np.random.default_rng(self._seed)
         self._last = self._due() - 1
 
-    def read(self) -> Frame:
+    def read(self) -> CameraFrame:
         """Wait for the next picture on the clock."""
         if self._rng is None:
             raise CameraError(f"camera {self._renderer.model.name} is not open; call open() first")
@@ -169,7 +168,7 @@ class SimulatedCamera(Camera):
         image = self._renderer.render(self.scene(time))
         for effect, parameters in self._effects:
             image = effect(image, parameters, self._rng)
-        return Frame(image, time)
+        return CameraFrame(image, time)
 
     def close(self) -> None:
         """End the stream."""

@@ -20,8 +20,7 @@ from app import __version__
 from app.core.files import write_atomically
 from app.core.units import MILLIMETRE
 from app.tracking.calibration.board_layout import EDGE_MM, RULER_MM, BoardSheet, Paper, lay_out
-from app.tracking.calibration.boards import Board
-from app.tracking.calibration.pattern import dark_rectangles
+from app.tracking.calibration.boards import Board, dark_rectangles
 from app.tracking.errors import CalibrationError
 from app.views.kit.text import tr
 

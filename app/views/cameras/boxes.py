@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtWidgets import QComboBox, QWidget
 
-from app.tracking.cameras.source import Kind, parse_source
+from app.tracking.cameras.source import SourceKind, parse_source
 from app.views.kit.text import tr
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ class SourceBox(QComboBox):
         self.setEditable(True)
         for port in sources:
             self.addItem(port.title, port.port)
-        self.addItem(tr("Simulated"), Kind.SIMULATED.value)
+        self.addItem(tr("Simulated"), SourceKind.SIMULATED.value)
         self.setToolTip(tr(
             "A camera that is plugged in, or typed: usb:PORT, folder:PATH, video:PATH"
         ))  # fmt: skip

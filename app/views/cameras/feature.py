@@ -24,7 +24,7 @@ from app.views.shell.feature import Context, Feature
 if TYPE_CHECKING:
     from app.core.progress import Progress
     from app.tracking.calibration.camera_pair import OpenCamera
-    from app.tracking.cameras.latency import Latency
+    from app.tracking.cameras.latency import CameraLatency
     from app.views.cameras.wizard import CalibrationWizard
 
 _BOARD = "cameras/board"
@@ -138,7 +138,7 @@ class CamerasFeature(Feature):
 
         return CalibrationWizard(job, open_both(open_side, SIDES), self._window)
 
-    def _keep_latency(self, side: str, latency: Latency) -> None:
+    def _keep_latency(self, side: str, latency: CameraLatency) -> None:
         self._equipment.keep_cameras(with_latency(self.chosen, side, latency.median, latency.sd))
 
     def _without_real(self) -> bool:

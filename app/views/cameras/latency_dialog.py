@@ -31,7 +31,7 @@ from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import tr
 
 if TYPE_CHECKING:
-    from app.tracking.cameras.latency import Latency
+    from app.tracking.cameras.latency import CameraLatency
     from app.views.shell.services import Services
 
 
@@ -133,7 +133,7 @@ class LatencyDialog(QDialog):
         self.waiting = ProgressStrip(self)
         self.start = QPushButton(tr("Start"))
         self.keep = QPushButton(tr("Keep"))
-        self.latency: Latency | None = None
+        self.latency: CameraLatency | None = None
         self._lay_out()
 
         def operation(progress: Progress) -> LiveCamera:
@@ -189,14 +189,14 @@ class LatencyDialog(QDialog):
         camera.measure_light(False)
         shown = list(self.patch.shown)
 
-        def operation(_: Progress) -> Latency:
+        def operation(_: Progress) -> CameraLatency:
             from app.tracking.cameras.latency import estimate_latency, liveliest
 
             return estimate_latency(shown, times, liveliest(light))
 
         run_in_background(self, operation, self._show, lambda error: self.say(str(error), "bad"))
 
-    def _show(self, latency: Latency) -> None:
+    def _show(self, latency: CameraLatency) -> None:
         self.latency = latency
         self.keep.setEnabled(True)
         self.say(

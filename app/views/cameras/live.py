@@ -20,7 +20,7 @@ from app.views.kit.themes import DARK
 
 if TYPE_CHECKING:
     from app.core.arrays import FloatArray
-    from app.tracking.cameras.camera import Frame, Image
+    from app.tracking.cameras.camera import CameraFrame, Image
     from app.tracking.cameras.watch import CameraHealth
 
 
@@ -117,7 +117,7 @@ POLL_MS = 33
 class ShownCamera(Protocol):
     """A camera that is open, and whose picture is shown."""
 
-    def newest(self) -> Frame | None:
+    def newest(self) -> CameraFrame | None:
         """Return the newest picture, or None before the first."""
         ...
 

@@ -20,7 +20,7 @@ from PySide6.QtWidgets import (
 
 from app.core.errors import AcusError
 from app.tracking.cameras.settings import SIDES, CameraSettings, OneCamera
-from app.tracking.cameras.source import Kind
+from app.tracking.cameras.source import SourceKind
 from app.views.cameras.boxes import SizeBox, SourceBox
 from app.views.cameras.live import LiveCamera, LivePreview
 from app.views.kit import theme
@@ -148,7 +148,7 @@ class CameraSettingsDialog(QDialog):
                     update={side: editor.camera(), "size": self.size_box.size_px(),
                             "rate_hz": self.rate.value()}
                 )  # fmt: skip
-                if editor.camera().origin.kind is Kind.SIMULATED:
+                if editor.camera().origin.kind is SourceKind.SIMULATED:
                     editor.preview.say(tr("simulated: nothing to set up"))
                     continue
             except AcusError as error:

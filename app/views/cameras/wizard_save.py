@@ -24,9 +24,8 @@ from PySide6.QtWidgets import (
 
 from app.core.errors import AcusError
 from app.core.progress import Progress
-from app.tracking.calibration.formats.reading import read_calibration
-from app.tracking.calibration.formats.said import length, picture_size
-from app.tracking.calibration.history import CalibrationHistory, Entry
+from app.tracking.calibration.formats.reading import length, picture_size, read_calibration
+from app.tracking.calibration.history import CalibrationHistory, KeptCalibration
 from app.tracking.calibration.job import CalibrationJob
 from app.tracking.optics.calibration import StereoCalibration
 from app.views.cameras.wizard_parts import button, column, label, table, tell
@@ -155,7 +154,7 @@ Details = tuple[str, str, str]
 """Figures, place and problem of a calibration, in words."""
 
 
-def show_entry(table: QTableWidget, row: int, entry: Entry, shown: Details) -> None:
+def show_entry(table: QTableWidget, row: int, entry: KeptCalibration, shown: Details) -> None:
     """Fill a row; the entry's id is the first cell's data."""
     figures, world, problem = shown
     colour, state = theme.TEXT_DIM, ""
@@ -163,8 +162,8 @@ def show_entry(table: QTableWidget, row: int, entry: Entry, shown: Details) -> N
         colour, state = theme.GOOD, tr("✔ in use")
     if problem:
         colour, state = theme.BAD, tr("✖ unreadable: {why}", why=problem)
-    if entry.condemned is not None:
-        colour, state = theme.BAD, tr("✖ found bad: {why}", why=entry.condemned.reason)
+    if entry.rejected is not None:
+        colour, state = theme.BAD, tr("✖ found bad: {why}", why=entry.rejected.reason)
     for k, text in enumerate((entry.id, figures, world, state)):
         item = QTableWidgetItem(text)
         item.setToolTip(text)
@@ -191,10 +190,10 @@ def details(history: CalibrationHistory, calibration_id: str) -> Details:
 
 
 class SavePage(QWidget):
-    """Keeps, uses, takes back, condemns; nothing is deleted.
+    """Keeps, uses, takes back, rejects; nothing is deleted.
 
     Signals:
-        changed(): another calibration is in use, or one was kept or condemned.
+        changed(): another calibration is in use, or one was kept or rejected.
         began(): files are being written: the page is to stay.
     """
 
@@ -210,7 +209,7 @@ class SavePage(QWidget):
         self.save = button(tr("Save and use it"), "primary")
         self.import_ = button(tr("Import…"))
         self.undo, self.redo = button(tr("Undo")), button(tr("Redo"))
-        self.use, self.condemn = button(tr("Use this one")), button(tr("Found bad…"), "danger")
+        self.use, self.found_bad = button(tr("Use this one")), button(tr("Found bad…"), "danger")
         titles = (tr("Calibration"), tr("Error"), tr("Place"), tr("State"))
         self.table = table(titles, selectable=True)
         self._lay_out()
@@ -255,11 +254,11 @@ class SavePage(QWidget):
         item = self.table.item(rows[0].row(), 0) if rows else None
         return str(item.data(Qt.ItemDataRole.UserRole)) if item is not None else None
 
-    def condemn_chosen(self, reason: str) -> None:
+    def reject_chosen(self, reason: str) -> None:
         """Say that the selected calibration was found bad."""
         chosen = self.chosen()
         if chosen is not None:
-            self._do(lambda: self._job.history.condemn(chosen, reason))
+            self._do(lambda: self._job.history.reject(chosen, reason))
 
     def ask_import(self) -> ImportDialog:
         """Ask for a calibration of another program; what is imported is in use."""
@@ -290,7 +289,7 @@ class SavePage(QWidget):
             self, tr("Found bad"),
             tr("What is wrong with it? Attempts made with it will say so."))  # fmt: skip
         if given:
-            self.condemn_chosen(reason)
+            self.reject_chosen(reason)
 
     @property
     def running(self) -> bool:
@@ -317,7 +316,7 @@ class SavePage(QWidget):
         tell(self.state, Verdict.BAD, str(error))
         self.changed.emit()
 
-    def _read(self, entries: tuple[Entry, ...]) -> None:
+    def _read(self, entries: tuple[KeptCalibration, ...]) -> None:
         """Read what is not known yet of the calibrations, beside the window."""
         history = self._job.history
         missing = [entry.id for entry in entries if entry.id not in self._details]
@@ -349,20 +348,20 @@ class SavePage(QWidget):
         self._fill(entries)
         self._read(entries)
 
-    def _fill(self, entries: tuple[Entry, ...]) -> None:
+    def _fill(self, entries: tuple[KeptCalibration, ...]) -> None:
         self.table.setRowCount(len(entries))
         for row, entry in enumerate(reversed(entries)):
             show_entry(self.table, row, entry, self._details.get(entry.id, ("…", "", "")))
         self._enable(entries)
 
-    def _enable(self, entries: tuple[Entry, ...]) -> None:
+    def _enable(self, entries: tuple[KeptCalibration, ...]) -> None:
         self.undo.setEnabled(any(entry.active for entry in entries))
         self.redo.setEnabled(bool(entries))
         chosen = self.chosen()
         entry = next((one for one in entries if one.id == chosen), None)
-        good = entry is not None and entry.condemned is None
+        good = entry is not None and entry.rejected is None
         self.use.setEnabled(good and entry is not None and not entry.active)
-        self.condemn.setEnabled(good)
+        self.found_bad.setEnabled(good)
 
     def _selected(self) -> None:
         try:
@@ -388,7 +387,7 @@ class SavePage(QWidget):
         for one in (self.undo, self.redo, self.use):
             last.addWidget(one)
         last.addStretch(1)
-        last.addWidget(self.condemn)
+        last.addWidget(self.found_bad)
         rows.addLayout(last)
 
     def _connect(self) -> None:
@@ -398,5 +397,5 @@ class SavePage(QWidget):
         self.undo.clicked.connect(lambda: self._do(history.undo))
         self.redo.clicked.connect(lambda: self._do(history.redo))
         self.use.clicked.connect(self._use)
-        self.condemn.clicked.connect(self._ask_why)
+        self.found_bad.clicked.connect(self._ask_why)
         self.table.itemSelectionChanged.connect(self._selected)

@@ -21,9 +21,8 @@ from app.core.transform import RigidTransform
 from app.tracking.calibration.camera_pair import OpenPair
 from app.tracking.calibration.job import CalibrationJob
 from app.tracking.calibration.placed_board import PlacedBoard, place
-from app.tracking.calibration.take_board import take_board
+from app.tracking.calibration.placed_pictures import placed_boards, take_board
 from app.tracking.calibration.world import WorldFrame
-from app.tracking.calibration.world_set import placed_boards
 from app.tracking.errors import CalibrationError
 from app.views.cameras.wizard_parts import button, column, label, tell
 from app.views.cameras.wizard_words import world_lines

@@ -25,7 +25,7 @@ from app.views.shell.feature import Context, Feature
 if TYPE_CHECKING:
     from app.planning.registration.check import RegistrationCheck
     from app.planning.registration.record import RegistrationRecord
-    from app.views.checks.morning_page import MorningPage
+    from app.views.checks.daily_page import DailyPage
     from app.views.checks.registration_dialog import RegistrationDialog
 
 
@@ -83,7 +83,7 @@ class ChecksFeature(Feature):
         self._conductor, self._runs = context.conductor, context.runs
         self._editor, self._viewing = context.editors.plan, context.views.viewing
         self._window = context.shell.dialog_parent
-        self.morning: MorningPage | None = None
+        self.daily: DailyPage | None = None
         self.registration: RegistrationDialog | None = None
         self.record: RegistrationRecord | None = None
         self._check: RegistrationCheck | None = None
@@ -92,7 +92,7 @@ class ChecksFeature(Feature):
         self._conductor.patient_changed.connect(self.forget)
         self._runs.ready.connect(lambda _: self.forget())
         *_, errors = add_entries(context.shell.menu(tr("&Checks")), [
-            (tr("Morning check…"), "F9", self.open_morning),
+            (tr("Daily check…"), "F9", self.open_daily),
             (tr("Registration check…"), "", self.open_registration),
             None,
             (tr("Draw errors of target and tip"), "", lambda: None),
@@ -119,21 +119,21 @@ class ChecksFeature(Feature):
         return self._viewing.cursor_mm
 
     # --- pages --------------------------------------------------------------------------------
-    def open_morning(self) -> None:
-        """Show the morning check."""
+    def open_daily(self) -> None:
+        """Show the daily check."""
         from app.planning.registration.plate import load_plate, plate_names
-        from app.views.checks.morning_page import MorningPage  # OpenCV: not before the window
+        from app.views.checks.daily_page import DailyPage  # OpenCV: not before the window
 
-        if self.morning is None:
+        if self.daily is None:
             try:
                 plate = load_plate(plate_names()[0])
             except AcusError as error:
                 self.failed.emit(error)
                 return
-            self.morning = MorningPage(self.run, plate, self._window)
-            self.morning.kept.connect(self.noted)
-        self.morning.show()
-        self.morning.raise_()
+            self.daily = DailyPage(self.run, plate, self._window)
+            self.daily.kept.connect(self.noted)
+        self.daily.show()
+        self.daily.raise_()
 
     def open_registration(self) -> None:
         """Show the registration check."""
@@ -152,7 +152,7 @@ class ChecksFeature(Feature):
 
     def close(self) -> None:
         """Close the pages; idempotent."""
-        for page in (self.morning, self.registration):
+        for page in (self.daily, self.registration):
             if page is not None:
                 page.close()
 

@@ -13,9 +13,8 @@ from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QSizePolicy, QVBoxLayou
 
 from app.core.errors import AcusError
 from app.tracking.pen.calibrating import WANTED, PenCalibration
-from app.tracking.pen.kept import can_undo, save_pen, undo_pen
 from app.tracking.pen.rocking import LEANT, SIDES, Lean, Rocking
-from app.tracking.pen.settings import PenSettings
+from app.tracking.pen.settings import PenSettings, can_undo, save_pen, undo_pen
 from app.views.cameras.wizard_parts import button, label, tell
 from app.views.exercise.status_items import Verdict
 from app.views.kit import theme

@@ -1,4 +1,4 @@
-"""The morning check without a window: robot and cameras for two minutes, and one touched point."""
+"""The daily check without a window: robot and cameras for two minutes, and one touched point."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from app.exercises.scene import device_of, placed_plan_of
 from app.planning.registration.errors import RegistrationError
 from app.planning.registration.plate import FiducialPlate
 from app.session.checks.facts import MorningFacts, TouchFacts
-from app.session.checks.gather import morning_facts, robot_facts, touch_facts
+from app.session.checks.gather import daily_facts, robot_facts, touch_facts
 from app.session.touch import TouchCollector, TouchError
 from app.tracking.cameras.settings import CameraSettings
 from app.tracking.inspection import Inspector
@@ -30,7 +30,7 @@ _LOOK: Final = 0.02
 
 
 @dataclass
-class MorningCheck:
+class DailyCheck:
     """Robot and cameras, opened for the check.
 
     Args:
@@ -103,7 +103,7 @@ class MorningCheck:
             robot.readiness if robot is not None else None,
         )
         seen = Inspector(rig.stereo).look(lines=False)
-        return morning_facts(snapshot, seen, facts, self._touch, self._failure)
+        return daily_facts(snapshot, seen, facts, self._touch, self._failure)
 
     def move_to(self, point: FloatArray) -> None:
         """Let the simulated hand bring the tip to a point of the world [m], shape (3,)."""

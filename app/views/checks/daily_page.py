@@ -23,9 +23,9 @@ from PySide6.QtWidgets import (
 from app.core.arrays import FloatArray
 from app.planning.registration.plate import FiducialPlate
 from app.session.checks.facts import RobotFacts, TouchFacts
-from app.session.checks.gather import morning_facts, robot_facts, touch_facts
+from app.session.checks.gather import daily_facts, robot_facts, touch_facts
 from app.session.checks.record import DayCheck, newest_check, save_check
-from app.session.checks.steps import StepResult, Verdict, morning_check, overall
+from app.session.checks.steps import CheckVerdict, StepResult, daily_check, overall
 from app.session.touch import Touch
 from app.tracking.inspection import Inspection
 from app.views.checks.toucher import Toucher, move_there, tell_tracker
@@ -34,10 +34,10 @@ from app.views.kit import theme
 from app.views.kit.text import tr
 
 LOOKS = {
-    Verdict.GOOD: theme.VERDICTS["good"],
-    Verdict.WARNING: theme.VERDICTS["warning"],
-    Verdict.BAD: theme.VERDICTS["bad"],
-    Verdict.WAITING: (theme.TEXT_DIM, "–"),
+    CheckVerdict.GOOD: theme.VERDICTS["good"],
+    CheckVerdict.WARNING: theme.VERDICTS["warning"],
+    CheckVerdict.BAD: theme.VERDICTS["bad"],
+    CheckVerdict.WAITING: (theme.TEXT_DIM, "–"),
 }
 """Colour and symbol of a verdict."""
 
@@ -77,7 +77,7 @@ def line(parent: QWidget) -> QFrame:
 PERIOD_MS = 400
 
 
-class MorningPage(QDialog):
+class DailyPage(QDialog):
     """Looks at the running trainer a few times a second.
 
     Args:
@@ -97,7 +97,7 @@ class MorningPage(QDialog):
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self.setWindowTitle(tr("Morning check"))
+        self.setWindowTitle(tr("Daily check"))
         self.resize(theme.px(720), theme.px(520))
         self._run, self._plate = run, plate
         self._touch: TouchFacts | None = None
@@ -123,15 +123,15 @@ class MorningPage(QDialog):
         run = self._run()
         if run is None or run.inspect is None:
             self._show((StepResult(
-                "run", tr("Start"), Verdict.WAITING, tr("nothing runs yet"),
+                "run", tr("Start"), CheckVerdict.WAITING, tr("nothing runs yet"),
                 tr("choose an exercise and a patient: robot and cameras start with them"),
             ),))  # fmt: skip
             return
         snapshot = run.trainer.snapshot()
         robot: RobotFacts = robot_facts(snapshot, run.board, run.clearance, run.readiness)
         seen: Inspection = run.inspect(False, False)
-        facts = morning_facts(snapshot, seen, robot, self._touch, self._failure)
-        self._show(morning_check(facts))
+        facts = daily_facts(snapshot, seen, robot, self._touch, self._failure)
+        self._show(daily_check(facts))
 
     def keep_result(self) -> None:
         """Write the day's result."""
@@ -187,10 +187,10 @@ class MorningPage(QDialog):
         verdict = overall(results)
         colour, symbol = LOOKS[verdict]
         words = {
-            Verdict.GOOD: tr("Everything is well"),
-            Verdict.WARNING: tr("Usable, with remarks"),
-            Verdict.BAD: tr("Not ready"),
-            Verdict.WAITING: tr("Something is still to be done"),
+            CheckVerdict.GOOD: tr("Everything is well"),
+            CheckVerdict.WARNING: tr("Usable, with remarks"),
+            CheckVerdict.BAD: tr("Not ready"),
+            CheckVerdict.WAITING: tr("Something is still to be done"),
         }[verdict]
         self._verdict.setText(f"{symbol} {words}")
         self._verdict.setStyleSheet(f"color: {colour}; font-size: {theme.TITLE_PX}px;")

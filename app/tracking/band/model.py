@@ -10,16 +10,18 @@ unknowns; a column each, of which the first seven are the paint's shading and co
 
 The derivatives of every entry by where the band is (n, e), how wide and how long, come along. The
 integral over the point spread is exact along the needle and across, but for the strips' width
-(`band_outline.strips`), within which an arc is a step.
+(`outline.strips`), within which an arc is a step. Derivation: docs/band-fit.md.
 """
 
 import math
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from app.core.arrays import FloatArray
 from app.core.compiled import REORDERED, njit
-from app.tracking.markers.band_outline import tapers_at_once
+from app.tracking.band.outline import tapers_at_once
 
 BAND: Final = 7
 SPLINES: Final = 9
@@ -71,81 +73,120 @@ def quadratic_spline(t: float, count: int, weights: Any) -> int:
     return k
 
 
+class Rows(NamedTuple):
+    """The model's columns at m pixels."""
+
+    values: FloatArray
+    """Entry and its derivatives, (m, PARTIALS, COLUMNS); of no meaning where not `seen`."""
+    seen: NDArray[np.bool_]
+    """Whether a pixel sees more than the background, (m,)."""
+
+
+class _Strips(NamedTuple):
+    """What the strips across the band have, whatever pixel looks at them."""
+
+    paint: FloatArray
+    """Harmonics of the shading, (strips, BAND)."""
+    splines: FloatArray
+    """Three B-splines of shaft and point, (strips, 3)."""
+    first: NDArray[np.int64]
+    """Which are these, (strips,)."""
+
+
+@njit
+def no_rows(count: int) -> Any:
+    """Return `Rows` of `count` pixels for `design` to fill."""
+    return Rows(np.empty((count, PARTIALS, COLUMNS)), np.zeros(count, np.bool_))
+
+
 @njit(fastmath=REORDERED)
 def design(
-    pixels: Any,
-    shift: Any,
-    frame: Any,
-    arcs: Any,
-    shape: Any,
-    blur: float,
-    stretch: Any,
-    rows: Any,
-    seen: Any,
+    places: Any, outline: Any, shape: Any, blur: float, shift: Any, stretch: Any, rows: Any
 ) -> None:
     """Fill the rows of the pixels that see more than the background.
 
     Args:
-        pixels: u, v from the frame's origin, (m, 2).
-        shift: how far the band is from there [px], (2,).
-        frame: see `band_outline.outline`.
-        arcs: likewise.
+        places: u, v from the outline's origin, (m, 2).
+        outline: a `band.outline.Outline`.
         shape: a `rig.NeedleShape`.
         blur: standard deviation of the point spread [px].
+        shift: how far the band is from the outline's place [px], (2,).
         stretch: width and length of the band over those of the outline, (2,).
-        rows: out, (m, PARTIALS, COLUMNS); untouched where nothing but background is seen.
-        seen: out, whether the row is filled, (m,).
+        rows: out, `Rows`.
     """
+    arcs = outline.arcs
     cells = arcs.shape[1]
-    profile, splines = np.zeros((cells, BAND)), np.empty((cells, 3))
-    first = np.empty(cells, dtype=np.int64)
-    low, high, inner_low, inner_high = np.inf, -np.inf, -np.inf, np.inf
-    for j in range(cells):
-        x = (2 * j + 1.0) / cells - 1.0
-        depth = math.sqrt(1.0 - x * x)
-        profile[j, 0], profile[j, 1], profile[j, 2] = 1.0, x, depth
-        double_sine, double_cosine = 2.0 * x * depth, 1.0 - 2.0 * x * x
-        profile[j, 3], profile[j, 4] = double_sine, double_cosine
-        profile[j, 5] = 2.0 * double_sine * double_cosine
-        profile[j, 6] = 1.0 - 2.0 * double_sine * double_sine
-        first[j] = quadratic_spline(0.5 * (x + 1.0), SPLINES, splines[j])
-        low, high = min(low, arcs[0, j], arcs[1, j]), max(high, arcs[0, j], arcs[1, j])
-        inner_low, inner_high = max(inner_low, arcs[0, j]), min(inner_high, arcs[1, j])
-    reach = _FAR * blur
-    low, high = stretch[1] * low, stretch[1] * high
-    inner_low, inner_high = stretch[1] * inner_low + reach, stretch[1] * inner_high - reach
-    edges, cone = np.empty((3, cells + 1)), tapers_at_once(shape)
-    for i in range(pixels.shape[0]):
-        row = rows[i]
-        seen[i] = False
-        du, dv = pixels[i, 0] - shift[0], pixels[i, 1] - shift[1]
-        e, n = du * frame[2] + dv * frame[3], dv * frame[2] - du * frame[3]
-        left, right = frame[4] + frame[5] * e, frame[6] + frame[7] * e
-        bow = frame[10] * (e * e - frame[11])
+    strip, reach = _strips(cells), _FAR * blur
+    low, high = stretch[1] * arcs[:2].min(), stretch[1] * arcs[:2].max()
+    inner_low = stretch[1] * arcs[0].max() + reach
+    inner_high = stretch[1] * arcs[1].min() - reach
+    edges, slim = np.empty((3, cells + 1)), shape.shaft / shape.radius
+    for i in range(places.shape[0]):
+        row = rows.values[i]
+        rows.seen[i] = False
+        du, dv = places[i, 0] - shift[0], places[i, 1] - shift[1]
+        e = du * outline.eu + dv * outline.ev
+        n = dv * outline.eu - du * outline.ev
+        left = outline.left + outline.left_slope * e
+        right = outline.right + outline.right_slope * e
+        bow = outline.bow * (e * e - outline.bow_zero)
         middle, width = 0.5 * (left + right) + bow, 0.5 * (right - left)
         if low - reach < e < high + reach:
             a, b = _across(n, middle, width, blur, stretch[0], edges)
             if a < b:
-                row[:], seen[i] = 0.0, True
+                row[:], rows.seen[i] = 0.0, True
             if inner_low < e < inner_high:
-                _within(row, a, b, edges, profile)
+                _within(row, a, b, edges, strip.paint)
             else:
-                _band(row, e, a, b, edges, arcs, blur, stretch[1], profile)
+                _band(row, e, a, b, edges, arcs, blur, stretch[1], strip.paint)
         for tip in range(2):
             if (e < high - reach * 2.0) if tip else (e > low + reach * 2.0):
                 continue
-            slim = shape[0] / shape[1]
+            thick = slim
             if tip:
-                j = int(0.5 * cells * ((n - middle) / (stretch[0] * width) + 1.0))
-                h = (stretch[1] * arcs[1, min(cells - 1, max(0, j))] - e) / blur
-                below, bell = _gauss(h)
-                at = e + blur * bell / max(1.0 - below, 1e-3)  # where it looks, on average
-                taper = max(0.05, (frame[8] - at) / frame[9])
-                slim = taper if cone else min(slim, taper)
-            a, b = _across(n, middle, width * slim, blur, stretch[0], edges)
-            if a < b and not seen[i]:
-                row[:], seen[i] = 0.0, True
-            _shaft(row, e, a, b, edges, arcs, blur, stretch[1], tip, splines, first)
+                at = (n - middle) / (stretch[0] * width)
+                thick = _taper(outline, shape, e, at, blur, stretch[1])
+            a, b = _across(n, middle, width * thick, blur, stretch[0], edges)
+            if a < b and not rows.seen[i]:
+                row[:], rows.seen[i] = 0.0, True
+            _shaft(row, e, a, b, edges, arcs, blur, stretch[1], tip, strip.splines, strip.first)
+
+
+@njit(fastmath=REORDERED)
+def _strips(cells: int) -> Any:
+    paint, splines = np.empty((cells, BAND)), np.empty((cells, 3))
+    first = np.empty(cells, dtype=np.int64)
+    for j in range(cells):
+        x = (2 * j + 1.0) / cells - 1.0
+        depth = math.sqrt(1.0 - x * x)
+        double_sine, double_cosine = 2.0 * x * depth, 1.0 - 2.0 * x * x
+        paint[j, 0], paint[j, 1], paint[j, 2] = 1.0, x, depth
+        paint[j, 3], paint[j, 4] = double_sine, double_cosine
+        paint[j, 5] = 2.0 * double_sine * double_cosine
+        paint[j, 6] = 1.0 - 2.0 * double_sine * double_sine
+        first[j] = quadratic_spline(0.5 * (x + 1.0), SPLINES, splines[j])
+    return _Strips(paint, splines, first)
+
+
+@njit(fastmath=REORDERED, forceinline=True)
+def _taper(outline: Any, shape: Any, e: float, x: float, blur: float, stretch: float) -> float:
+    """Width of the needle before the band, over the band's, where a pixel looks on average.
+
+    Args:
+        outline: see `design`.
+        shape: likewise.
+        e: of the pixel.
+        x: of the pixel, across the band.
+        blur: see `design`.
+        stretch: of the length.
+    """
+    cells = outline.arcs.shape[1]
+    j = int(0.5 * cells * (x + 1.0))
+    h = (stretch * outline.arcs[1, min(cells - 1, max(0, j))] - e) / blur
+    below, bell = _gauss(h)
+    at = e + blur * bell / max(1.0 - below, 1e-3)
+    taper = max(0.05, (outline.apex - at) / outline.taper)
+    return taper if tapers_at_once(shape) else min(shape.shaft / shape.radius, taper)
 
 
 @njit(fastmath=REORDERED, forceinline=True)

@@ -1,20 +1,17 @@
 """Whether a red band is on a shaft: what tells the marker from every other red thing of its size.
 
 A fit of the band alone is satisfied by a red ellipse, and in the middle of a red cloth by nothing
-at all. So a find needs the bare shaft just beyond the band's ends (see `shaft_kernels`).
+at all. So a find needs the bare shaft just beyond the band's ends. There a strip along the needle
+is cut into pieces, and across it into five zones: beside the shaft, a third of the shaft, its
+middle, the other third, beside it again. A shaft makes the same difference between neighbouring
+zones in every piece, for its outline is straight and parallel to the needle and its shading does
+not change along it. Of what stands behind, only an edge that runs along the needle, on one of four
+lines a pixel wide, does that.
 
 Of the eight differences the second largest decides. One edge of the background may lie along the
 needle; two, on two of the lines and nowhere between, is rare (one place in ten before the housing,
 one in a hundred in both pictures). A shaft has two outlines and a shading of its own, at two ends,
 so a hand that hides one end, or a background as grey as the shaft on one side, leaves enough.
-
-How the colours change across a needle just beyond its band's ends (compiled).
-
-Beyond either end a strip along the needle is cut into pieces, and across it into five zones: beside
-the shaft, a third of the shaft, its middle, the other third, beside it again. A shaft makes the
-same difference between neighbouring zones in every piece, for its outline is straight and parallel
-to the needle and its shading does not change along it. Of what stands behind, only an edge that
-runs along the needle, on one of four lines a pixel wide, does that.
 """
 
 import math
@@ -25,8 +22,8 @@ import numpy as np
 
 from app.core.arrays import FloatArray, read_only
 from app.core.compiled import njit
+from app.tracking.band.fit import BandFit
 from app.tracking.cameras.camera import Image
-from app.tracking.markers.band_fit import Outline
 from app.tracking.optics.rig import NeedleShape
 
 ENDS: Final = 2
@@ -71,46 +68,47 @@ def _zone(n: float, half: float, beside: float) -> int:
 
 @njit
 def gather_zones(
-    image: Any, frame: Any, arcs: Any, shape: Any, moved: Any, blur: float, sums: Any, counts: Any
+    image: Any, outline: Any, shape: Any, moved: Any, blur: float, sums: Any, counts: Any
 ) -> None:
     """Add up the colours of every zone of every piece.
 
     Args:
         image: uint8 (H, W, 3).
-        frame: see `band_outline.outline`.
-        arcs: likewise.
+        outline: a `band.outline.Outline`.
         shape: a `rig.NeedleShape`.
-        moved: shift u and v of the band from the frame's origin [px], its width and length over
+        moved: shift u and v of the band from the outline's origin [px], its width and length over
             those of the outline.
         blur: standard deviation of the point spread [px].
         sums: out, (ENDS, PIECES, ZONES, 3).
         counts: out, pixels, (ENDS, PIECES, ZONES).
     """
     sums[:], counts[:] = 0.0, 0.0
-    low, high = moved[3] * arcs[:2].min(), moved[3] * arcs[:2].max()
-    wide = moved[2] * 0.5 * (frame[6] - frame[4])
+    low, high = moved[3] * outline.arcs[:2].min(), moved[3] * outline.arcs[:2].max()
+    wide = moved[2] * 0.5 * (outline.right - outline.left)
     scale = max(1.0, wide / _USUAL_PX)
     gap, length, beside = _GAP * blur, _LENGTH_PX * scale, _BESIDE_PX * scale
-    u0, v0 = frame[0] + moved[0], frame[1] + moved[1]
+    u0, v0 = outline.u + moved[0], outline.v + moved[1]
     stride = max(1, int(0.7 * scale))
     along, across = max(high, -low) + gap + length, wide + beside + 2.0
-    reach_u = along * abs(frame[2]) + across * abs(frame[3])
-    reach_v = along * abs(frame[3]) + across * abs(frame[2])
+    reach_u = along * abs(outline.eu) + across * abs(outline.ev)
+    reach_v = along * abs(outline.ev) + across * abs(outline.eu)
     left, right = max(0, math.ceil(u0 - reach_u)), min(image.shape[1], math.floor(u0 + reach_u) + 1)
     top, bottom = max(0, math.ceil(v0 - reach_v)), min(image.shape[0], math.floor(v0 + reach_v) + 1)
     for v in range(top, bottom, stride):
         for u in range(left, right, stride):
             du, dv = u - u0, v - v0
-            e, n = du * frame[2] + dv * frame[3], dv * frame[2] - du * frame[3]
+            e = du * outline.eu + dv * outline.ev
+            n = dv * outline.eu - du * outline.ev
             end = 1 if e > 0.0 else 0
             beyond = (e - high if end else low - e) - gap
             if not 0.0 <= beyond < length:
                 continue
-            first, last = frame[4] + frame[5] * e, frame[6] + frame[7] * e
-            middle = 0.5 * (first + last) + frame[10] * (e * e - frame[11])
-            thick = shape[0] / shape[1]
+            first = outline.left + outline.left_slope * e
+            last = outline.right + outline.right_slope * e
+            middle = 0.5 * (first + last) + outline.bow * (e * e - outline.bow_zero)
+            thick = shape.shaft / shape.radius
             if end:
-                thick = min(thick, max(0.0, (frame[8] - e) / frame[9]))
+                thick = min(thick, max(0.0, (outline.apex - e) / outline.taper))
             half = moved[2] * 0.5 * (last - first) * thick
             if half < _THIN_PX:
                 continue
@@ -145,8 +143,9 @@ def shaft_steps(sums: Any, counts: Any, noise: float, weights: Any, red: float, 
             found, variance = 0, 0.0
             for piece in range(PIECES):
                 inner, outer = counts[end, piece, pair], counts[end, piece, pair + 1]
-                if inner < 2.0 or outer < 2.0 or _is_red(sums[end, piece], counts[end, piece],
-                                                         weights, red):  # fmt: skip
+                if inner < 2.0 or outer < 2.0:
+                    continue
+                if _is_red(sums[end, piece], counts[end, piece], weights, red):
                     continue
                 for c in range(3):
                     difference[found, c] = (
@@ -215,33 +214,23 @@ class ShaftEvidence:
 
 
 def shaft_evidence(
-    image: Image,
-    outline: Outline,
-    shape: NeedleShape,
-    uv: FloatArray,
-    stretch: FloatArray,
-    paint: FloatArray,
-    weights: FloatArray,
-    blur: float,
-    noise: float,
+    image: Image, fit: BandFit, shape: NeedleShape, weights: FloatArray, blur: float, noise: float
 ) -> ShaftEvidence:
     """Look for the shaft that carries a band.
 
     Args:
         image: the picture.
-        outline: of the band where it is about.
+        fit: of the band.
         shape: of the needle.
-        uv: picture of the band's centre as fitted [px], shape (2,).
-        stretch: width and length as fitted, over the expected, shape (2,).
-        paint: mean colour of the band, shape (3,).
         weights: of the colours in the strength of the marker's, shape (3,).
         blur: standard deviation of the point spread [px].
         noise: standard deviation of a grey value.
     """
-    frame = outline.frame
+    outline, red = fit.outline, float(weights @ fit.paint)
     sums, counts = np.empty((ENDS, PIECES, ZONES, 3)), np.empty((ENDS, PIECES, ZONES))
-    moved, steps = np.array([*(uv - frame[:2]), *stretch]), np.empty(STEPS)
-    gather_zones(read_only(image[:]), frame, outline.arcs, shape, moved, blur, sums, counts)
-    shaft_steps(sums, counts, max(noise, 1.0), weights, float(weights @ paint), steps)
+    moved = np.array([fit.uv[0] - outline.u, fit.uv[1] - outline.v, *fit.stretch])
+    steps = np.empty(STEPS)
+    gather_zones(read_only(image[:]), outline, shape, moved, blur, sums, counts)
+    shaft_steps(sums, counts, max(noise, 1.0), weights, red, steps)
     steps.sort()
     return ShaftEvidence(float(steps[-2]), float(steps[-3]))
