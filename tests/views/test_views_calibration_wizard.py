@@ -25,7 +25,7 @@ from app.tracking.errors import CalibrationError
 from app.tracking.optics.rig import load_rig
 from app.views.cameras.wizard import CalibrationWizard
 from app.views.cameras.wizard_words import baseline_sd, verdict_of
-from app.views.exercise.status_items import Verdict
+from app.views.kit.verdict import Verdict
 
 SPEC = "charuco:9x6:11mm:8mm:DICT_5X5_100"
 AT = (-45.0, 185.0, 10.0, 105.0, 0.0, 0.0)

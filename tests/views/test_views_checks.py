@@ -20,7 +20,7 @@ from app.tracking.fix import FixStatus, NeedleFix
 from app.tracking.inspection import Inspection
 from app.views.checks.feature import ChecksFeature, agreement_item
 from app.views.checks.registration_dialog import RegistrationDialog
-from app.views.exercise.status_items import Verdict
+from app.views.kit.verdict import Verdict
 from app.views.scene.words import error_note
 
 MM = 1e-3

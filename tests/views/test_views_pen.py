@@ -25,7 +25,7 @@ from app.tracking.pen.settings import (
 )
 from app.tracking.pen.webcam import guessed_webcam
 from app.tracking.simulated.pen_scene import rocked
-from app.views.exercise.status_items import Verdict
+from app.views.kit.verdict import Verdict
 from app.views.pen.feature import PenFeature
 from app.views.pen.tip_step import DirectionsView, TipStep
 from app.views.pen.words import accuracy_line, status_lines

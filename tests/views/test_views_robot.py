@@ -15,7 +15,7 @@ from app.device.readiness import ForceClearance, Readiness
 from app.device.wire_watch import WireWatch
 from app.mechanisms.profile import load_profile
 from app.views.exercise.energy_gauge import GaugeMode
-from app.views.exercise.status_items import Verdict
+from app.views.kit.verdict import Verdict
 from app.views.robot.feature import KeyDialog, refusal
 from app.views.robot.health import Rates, health, let_go_item, link_item
 from app.views.robot.health_panel import SPAN, HealthPanel, Trace

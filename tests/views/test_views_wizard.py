@@ -6,8 +6,8 @@ import pytest
 from views_robot_fakes import RESULTS, FakeBench
 
 from app.device.commissioning.results import RoutineName
-from app.views.exercise.status_items import Verdict
-from app.views.robot.wizard import Wizard
+from app.views.kit.verdict import Verdict
+from app.views.robot.wizard import CommissioningWizard
 from app.views.robot.wizard_pages import (
     RoutinePage,
     SummaryPage,
@@ -25,7 +25,7 @@ def bench():
 
 @pytest.fixture
 def wizard(application, bench, destroy):
-    dialog = Wizard(bench)
+    dialog = CommissioningWizard(bench)
     destroy(dialog)
     dialog.show()
     dialog.runner._timer.setInterval(10**6)  # looked at by hand
@@ -148,7 +148,9 @@ def test_cancel_ends_the_routine_with_the_forces_off_at_any_time(wizard, bench):
     assert bench.routines[-1].steps == 1
 
 
-@pytest.mark.parametrize("leave", [Wizard.close, Wizard.reject, Wizard.accept])
+@pytest.mark.parametrize(
+    "leave", [CommissioningWizard.close, CommissioningWizard.reject, CommissioningWizard.accept]
+)
 def test_leaving_the_wizard_cancels_and_lets_the_robot_go(wizard, bench, leave):
     go(wizard, RoutineName.SIGNS)
     leave(wizard)

@@ -24,7 +24,6 @@ from app.views.exercise.readings import figures, problem, status_items, tracker_
 from app.views.exercise.status import StatusStrip
 from app.views.exercise.status_items import (
     LoopFigures,
-    Verdict,
     age_text,
     depth_item,
     encoder_item,
@@ -35,6 +34,7 @@ from app.views.exercise.status_items import (
 )
 from app.views.exercise.tracker_panel import TrackerFigures, _Figures, residual_text
 from app.views.kit import theme
+from app.views.kit.verdict import Verdict
 
 
 @pytest.fixture
@@ -233,7 +233,7 @@ def test_each_health_has_its_verdict():
 
 
 def test_no_verdict_is_told_by_colour_alone():
-    symbols = [verdict.look[1] for verdict in Verdict]
+    symbols = [verdict.colour_and_symbol[1] for verdict in Verdict]
     assert len(set(symbols)) == len(symbols)
 
 

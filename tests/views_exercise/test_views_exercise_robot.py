@@ -31,8 +31,8 @@ from app.views.exercise.felt import felt, force_limit
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.readings import figures
 from app.views.exercise.status import MessageList, StatusStrip
-from app.views.exercise.status_items import Verdict
 from app.views.exercise.tracker_panel import TrackerPanel
+from app.views.kit.verdict import Verdict
 
 ENERGY = {
     "potential": 0.004, "energy_tank": 0.012, "energy_bound": 0.02, "guard_scale": 1.0,

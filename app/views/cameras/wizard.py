@@ -5,34 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from PySide6.QtCore import Signal
-from PySide6.QtGui import QColor
-from PySide6.QtWidgets import (
-    QDialog,
-    QHBoxLayout,
-    QListWidget,
-    QListWidgetItem,
-    QMessageBox,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QMessageBox, QWidget
 
 from app.core.progress import Progress
 from app.tracking.calibration.camera_pair import OpenCamera, OpenPair
 from app.tracking.calibration.job import CalibrationJob
 from app.views.cameras.wizard_board import BoardPage
 from app.views.cameras.wizard_capture import CapturePage
-from app.views.cameras.wizard_parts import button
 from app.views.cameras.wizard_result import ResultPage
 from app.views.cameras.wizard_save import SavePage
 from app.views.cameras.wizard_world import WorldPage
-from app.views.kit import theme
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict
+from app.views.kit.wizard import Wizard
 
 Step = BoardPage | CapturePage | ResultPage | WorldPage | SavePage
 
 
-class CalibrationWizard(QDialog):
+class CalibrationWizard(Wizard):
     """Leads through the calibration of two cameras; nothing in it blocks the window.
 
     Signals:
@@ -49,11 +39,8 @@ class CalibrationWizard(QDialog):
     def __init__(
         self, job: CalibrationJob, open_pair: OpenPair | None = None, parent: QWidget | None = None
     ) -> None:
-        super().__init__(parent)
-        self.setWindowTitle(tr("Calibration of the cameras"))
-        self.resize(theme.px(940), 620)
+        super().__init__(tr("Calibration of the cameras"), (940, 620), 150, parent)
         self.job = job
-        self.list, self.pages = QListWidget(self), QStackedWidget(self)
         self.board_page = BoardPage(job, self)
         self.capture_page = CapturePage(job, open_pair, self)
         self.result_page = ResultPage(job, self)
@@ -66,30 +53,42 @@ class CalibrationWizard(QDialog):
             self.world_page,
             self.save_page,
         )
-        for page in self.steps:
-            self.pages.addWidget(page)
-            self.list.addItem(QListWidgetItem())
-        self.back, self.next = button(tr("Back")), button(tr("Next"))
-        self._lay_out()
+        self.add_pages(self.steps)
         self._connect()
         self.show_page(0)
 
     @property
-    def running(self) -> bool:
+    def busy(self) -> bool:
         """Whether a page works."""
         return any(page.running for page in self.steps if not isinstance(page, BoardPage))
 
-    def show_page(self, number: int) -> None:
-        """Go to a page; one that works keeps it."""
-        if self.running:
-            number = self.pages.currentIndex()
-        number = min(max(number, 0), len(self.steps) - 1)
-        self.pages.setCurrentIndex(number)
-        self.list.setCurrentRow(number)
+    def marks(self) -> tuple[tuple[Verdict, str], ...]:
+        """Return how each page stands, and its title."""
+        return tuple((page.verdict, page.title) for page in self.steps)
+
+    def enter(self, number: int) -> None:
+        """Prepare a page that is shown now."""
         page = self.steps[number]
         if isinstance(page, ResultPage | WorldPage | SavePage):
             page.enter()
-        self._refresh()
+
+    def lacks(self, number: int) -> str:
+        """Say what a page must have before the next one makes sense; empty if it has it."""
+        if not self.board_page.valid:
+            return tr("Choose a board that can be")
+        page = self.steps[number]
+        if page is self.capture_page and not self.job.pairs:
+            return tr(
+                "Take or open pictures first. To place or to import a calibration without any, "
+                "choose the page in the list."
+            )
+        if page is self.result_page and self.job.result is None:
+            return tr("There is no result yet")
+        return ""
+
+    def finish(self) -> None:
+        """Close after the last page, by the way that asks."""
+        self.reject()
 
     def reject(self) -> None:
         """Close by Escape or by the window's cross; what is not kept yet is asked about."""
@@ -120,41 +119,6 @@ class CalibrationWizard(QDialog):
 
         return open_after
 
-    def _refresh(self) -> None:
-        for row, page in enumerate(self.steps):
-            colour, symbol = page.verdict.look
-            item = self.list.item(row)
-            item.setText(f"{symbol} {page.title}")
-            item.setForeground(QColor(colour))
-        here, running = self.pages.currentIndex(), self.running
-        self.back.setEnabled(here > 0 and not running)
-        lacks = self._lacks(here)
-        self.next.setEnabled(not running and not lacks)
-        self.next.setToolTip(lacks)
-        self.next.setText(tr("Close") if here == len(self.steps) - 1 else tr("Next"))
-        self.list.setEnabled(not running)
-
-    def _lacks(self, here: int) -> str:
-        """Say what a page must have before the next one makes sense; empty if it has it."""
-        if not self.board_page.valid:
-            return tr("Choose a board that can be")
-        page = self.steps[here]
-        if page is self.capture_page and not self.job.pairs:
-            return tr(
-                "Take or open pictures first. To place or to import a calibration without any, "
-                "choose the page in the list."
-            )
-        if page is self.result_page and self.job.result is None:
-            return tr("There is no result yet")
-        return ""
-
-    def _go_on(self) -> None:
-        here = self.pages.currentIndex()
-        if here == len(self.steps) - 1:
-            self.reject()
-        else:
-            self.show_page(here + 1)
-
     def _may_go(self) -> bool:
         buttons = QMessageBox.StandardButton
         answer = QMessageBox.question(
@@ -168,32 +132,15 @@ class CalibrationWizard(QDialog):
 
     def _board_changed(self) -> None:
         self.capture_page.forget()
-        self._refresh()
+        self.refresh()
 
     def _saved(self) -> None:
-        self._refresh()
+        self.refresh()
         self.used.emit()
 
-    def _lay_out(self) -> None:
-        self.list.setFixedWidth(150)
-        row = QHBoxLayout()
-        row.addWidget(self.list)
-        row.addWidget(self.pages, 1)
-        buttons = QHBoxLayout()
-        buttons.addStretch(1)
-        for one in (self.back, self.next):
-            buttons.addWidget(one)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(theme.MARGIN, theme.MARGIN, theme.MARGIN, theme.MARGIN)
-        column.addLayout(row, 1)
-        column.addLayout(buttons)
-
     def _connect(self) -> None:
-        self.list.currentRowChanged.connect(self.show_page)
-        self.back.clicked.connect(lambda: self.show_page(self.pages.currentIndex() - 1))
-        self.next.clicked.connect(self._go_on)
         self.board_page.changed.connect(self._board_changed)
         for page in (self.capture_page, self.result_page, self.world_page):
-            page.changed.connect(self._refresh)
-        self.save_page.began.connect(self._refresh)
+            page.changed.connect(self.refresh)
+        self.save_page.began.connect(self.refresh)
         self.save_page.changed.connect(self._saved)

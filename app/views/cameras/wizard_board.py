@@ -25,10 +25,10 @@ from app.tracking.calibration.board_layout import PAPERS, lay_out
 from app.tracking.calibration.boards import Board, BoardKind, dictionary_names
 from app.tracking.calibration.job import CalibrationJob
 from app.views.cameras.board_page import paint_sheet, write_board
-from app.views.cameras.wizard_parts import button, column, label, tell
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
+from app.views.kit.parts import button, column, label
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict, tell
 
 
 class SheetView(QWidget):

@@ -20,12 +20,12 @@ from app.tracking.calibration.corners import to_grey
 from app.tracking.calibration.coverage import COLUMNS, ROWS, Coverage
 from app.tracking.calibration.job import CalibrationJob, Views
 from app.tracking.calibration.views import BoardView
-from app.views.cameras.wizard_parts import button, column, label, tell, thin_bar
 from app.views.cameras.wizard_words import pairs_words
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
+from app.views.kit.parts import button, column, label, thin_bar
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict, tell
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -16,7 +16,6 @@ from PySide6.QtWidgets import (
 from app.tracking.calibration.job import CalibrationJob
 from app.tracking.calibration.run import StereoResult
 from app.tracking.optics.calibration import StereoCalibration
-from app.views.cameras.wizard_parts import button, column, label, table, tell, thin_bar
 from app.views.cameras.wizard_words import (
     figures,
     other_notes,
@@ -25,10 +24,11 @@ from app.views.cameras.wizard_words import (
     verdict_of,
     view_rows,
 )
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.parts import button, column, label, table, thin_bar
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict, tell
 
 
 class ResultPage(QWidget):
@@ -134,7 +134,7 @@ class ResultPage(QWidget):
         rows = view_rows(result)
         self.views.setRowCount(len(rows))
         for i, (name, rms, verdict, remark) in enumerate(rows):
-            colour = verdict.look[0] if remark else theme.TEXT
+            colour = verdict.colour_and_symbol[0] if remark else theme.TEXT
             for k, text in enumerate((name, f"{rms:.2f}", remark)):
                 item = QTableWidgetItem(text)
                 item.setForeground(QColor(colour))

@@ -28,11 +28,11 @@ from app.tracking.calibration.formats.reading import length, picture_size, read_
 from app.tracking.calibration.history import CalibrationHistory, KeptCalibration
 from app.tracking.calibration.job import CalibrationJob
 from app.tracking.optics.calibration import StereoCalibration
-from app.views.cameras.wizard_parts import button, column, label, table, tell
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.parts import button, column, label, table
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict, tell
 
 
 class ImportDialog(QDialog):

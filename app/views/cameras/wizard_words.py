@@ -14,8 +14,8 @@ from app.tracking.calibration.verdict import Grade, Why, judge
 from app.tracking.calibration.views import Rejection
 from app.tracking.calibration.world import WorldFrame
 from app.tracking.optics.calibration import PARAMETERS, CameraCalibration, StereoCalibration
-from app.views.exercise.status_items import Verdict
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict
 
 Line = tuple[Verdict, str]
 

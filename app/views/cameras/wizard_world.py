@@ -24,11 +24,11 @@ from app.tracking.calibration.placed_board import PlacedBoard, place
 from app.tracking.calibration.placed_pictures import placed_boards, take_board
 from app.tracking.calibration.world import WorldFrame
 from app.tracking.errors import CalibrationError
-from app.views.cameras.wizard_parts import button, column, label, tell
 from app.views.cameras.wizard_words import world_lines
-from app.views.exercise.status_items import Verdict
 from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.parts import button, column, label
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict, tell
 
 
 class WorldPage(QWidget):
@@ -110,7 +110,7 @@ class WorldPage(QWidget):
         if world is None:
             self._lines.clear()
             return
-        texts = [f"{verdict.look[1]} {text}" for verdict, text in
+        texts = [f"{verdict.colour_and_symbol[1]} {text}" for verdict, text in
                  world_lines(self._job.base(), world)]  # fmt: skip
         self._lines.setText("\n".join(texts))
 

@@ -17,9 +17,9 @@ from app.planning.error_overlay import ErrorOverlay
 from app.planning.registration.check import RegistrationAgreement
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.status_items import StatusItem, Verdict
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.text import tr
+from app.views.kit.verdict import StatusItem, Verdict
 from app.views.shell.feature import Context, Feature
 
 if TYPE_CHECKING:

@@ -27,9 +27,10 @@ from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.readings import figures, hand_pose, pad_view, status_items, tracker_figures
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.status import MessageList, StatusStrip
-from app.views.exercise.status_items import MISSED_WINDOW, StatusItem
+from app.views.exercise.status_items import MISSED_WINDOW
 from app.views.exercise.tracker_panel import TrackerPanel
 from app.views.kit.background import run_in_background
+from app.views.kit.verdict import StatusItem
 
 STATUS_PERIOD: Final = 0.25
 """The status strip is refreshed this often [s]: words that flicker cannot be read."""

@@ -10,9 +10,9 @@ from app.core import state_vector as sv
 from app.session.machine import RUNNING, State
 from app.session.snapshot import Snapshot
 from app.views.exercise.readings import fault_text
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict
 
 DEFAULT_KEY = Qt.Key.Key_H
 """`H` for hold: F, B, E, T and S have other meanings in the window."""
@@ -229,7 +229,7 @@ class EnableSwitch(QAbstractButton):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         verdict, title, help_text = enable_words(self._now, key_name(self.key.key))
-        colour = QColor(verdict.look[0])
+        colour = QColor(verdict.colour_and_symbol[0])
         box = QRectF(self.rect()).adjusted(1, 1, -1, -1)
         painter.setPen(QPen(colour, 2.0))
         painter.setBrush(QColor(theme.SURFACE))

@@ -15,9 +15,9 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.core import state_vector as sv
 from app.session.snapshot import Snapshot
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict
 
 LITTLE = 0.1
 """Share of the tank from which on there is little left."""
@@ -175,7 +175,7 @@ class EnergyGauge(QWidget):
         """What is written: stored, left, guard, taken out."""
         figures = self._figures
         verdict, words = guard_words(figures)
-        guard = f"{verdict.look[1]} {words}"
+        guard = f"{verdict.colour_and_symbol[1]} {words}"
         if figures is None or not figures.known:
             return tr("stored –"), tr("left –"), guard, tr("taken out by the guard –")
         return (
@@ -204,7 +204,7 @@ class EnergyGauge(QWidget):
         painter.drawText(first, Qt.AlignmentFlag.AlignRight, f"▼ {left}")
         painter.setPen(QColor(theme.TEXT_DIM))
         painter.drawText(self._line(0), Qt.AlignmentFlag.AlignRight, loss)
-        painter.setPen(QColor(verdict.look[0]))
+        painter.setPen(QColor(verdict.colour_and_symbol[0]))
         painter.drawText(second, Qt.AlignmentFlag.AlignLeft, guard)
 
     def _line(self, number: int, below: int = 0) -> QRectF:

@@ -20,7 +20,6 @@ from app.views.exercise.felt import felt, guidance_limit
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.status_items import (
     LoopFigures,
-    StatusItem,
     depth_item,
     encoder_item,
     heartbeat_item,
@@ -30,6 +29,7 @@ from app.views.exercise.status_items import (
 )
 from app.views.exercise.tracker_panel import TrackerFigures
 from app.views.kit.text import tr
+from app.views.kit.verdict import StatusItem
 
 _BAD_STATES = (CameraState.STALLED, CameraState.FROZEN, CameraState.FAILED)
 

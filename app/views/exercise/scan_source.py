@@ -30,7 +30,7 @@ class ScanRange:
 
     def __init__(self, drawing: Drawing) -> None:
         self._order: ScanOrder | None = None
-        self._item = _Lines()
+        self._item = _RangeLines()
         drawing.add(self._item)
 
     def set_order(self, order: ScanOrder | None) -> None:
@@ -78,7 +78,7 @@ def _cut(plane: SlicePlane, index: float, z_mm: float) -> tuple[QPointF, QPointF
     return (ends[0], ends[1]) if len(ends) == 2 else None
 
 
-class _Lines(Shape):
+class _RangeLines(Shape):
     smooth = False
 
     def __init__(self) -> None:

@@ -20,10 +20,10 @@ from PySide6.QtWidgets import (
 
 from app.core.events import Event
 from app.views.exercise.readouts import clock_text
-from app.views.exercise.status_items import StatusItem, Verdict
 from app.views.kit import theme
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
+from app.views.kit.verdict import StatusItem, Verdict
 
 LONGEST: Final = 200
 """Lines kept; older ones are in the record."""
@@ -139,7 +139,7 @@ class StatusCell(QWidget):
         """Show an item; does nothing when it is the one shown."""
         if item == self._item:
             return
-        colour, symbol = item.verdict.look
+        colour, symbol = item.verdict.colour_and_symbol
         if self._item is None or self._item.verdict is not item.verdict:
             self._title.setStyleSheet(
                 f"color: {colour}; font-size: {theme.SMALL_PX}px; font-weight: 600;"

@@ -1,7 +1,6 @@
 """Health of every part as words: a verdict, what it is, and what to do about it. Pure."""
 
 from dataclasses import dataclass
-from enum import StrEnum
 from math import inf
 from typing import Final
 
@@ -12,8 +11,8 @@ from app.core.staleness import (
     TRACKER_FRESH,
     TRACKER_HOLD,
 )
-from app.views.kit import theme
 from app.views.kit.text import tr
+from app.views.kit.verdict import StatusItem, Verdict
 
 LATE_WARNING: Final = 0.2e-3
 """Median lateness [s] from which the loop is called late: the figure the loop has to keep."""
@@ -22,30 +21,6 @@ MISSED_WINDOW: Final = 10.0
 MISSED_WARNING: Final = 0.001
 MISSED_BAD: Final = 0.05
 SHARE_WARNING: Final = 0.9
-
-
-class Verdict(StrEnum):
-    """How a part is."""
-
-    GOOD = "good"
-    WARNING = "warning"
-    BAD = "bad"
-    IDLE = "idle"
-
-    @property
-    def look(self) -> tuple[str, str]:
-        """Colour and symbol."""
-        return theme.VERDICTS.get(self.value, (theme.TEXT_DIM, "–"))
-
-
-@dataclass(frozen=True, slots=True)
-class StatusItem:
-    """One line of the status strip: verdict, title, value in words, and help."""
-
-    verdict: Verdict
-    title: str
-    text: str
-    help: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,9 +9,9 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
 from app.views.exercise.camera_view import CameraView, Overlays
-from app.views.exercise.status_items import StatusItem
 from app.views.kit import theme
 from app.views.kit.text import tr
+from app.views.kit.verdict import StatusItem
 
 if TYPE_CHECKING:
     from app.tracking.inspection import Inspection
@@ -113,7 +113,7 @@ class TrackerPanel(QWidget):
         for i, camera in enumerate(self.cameras):
             camera.show_picture(pictures[i] if i < len(pictures) else None, self.off)
         self.learn.setEnabled(not self.off)
-        colour, symbol = figures.item.verdict.look
+        colour, symbol = figures.item.verdict.colour_and_symbol
         self._verdict.setStyleSheet(f"color: {colour};")
         self._verdict.setText(f"{symbol} {figures.item.text}")
         self._verdict.setToolTip(figures.item.help)

@@ -52,7 +52,7 @@ class BackgroundTask(QObject):
     ) -> None:
         super().__init__(parent)
         self._callbacks = (on_success, on_error, on_cancel)
-        self._box = _Box(operation)
+        self._box = _Outcome(operation)
         self._reported: tuple[float, str] | None = None
         self._is_running = False
         self._timer = QTimer(self, interval=POLL_MS)
@@ -116,7 +116,7 @@ class BackgroundTask(QObject):
             self.deleteLater()
 
 
-class _Box:
+class _Outcome:
     """What worker and window share: each attribute is written by the worker only."""
 
     def __init__(self, operation: Callable[[Progress], Any]) -> None:

@@ -23,10 +23,10 @@ from app.tracking.calibration.board_layout import PAPERS
 from app.tracking.pen.body import load_pen, shipped_pens
 from app.tracking.pen.settings import PenSettings
 from app.views.cameras.boxes import SizeBox, SourceBox
-from app.views.cameras.wizard_parts import button, label, tell
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
+from app.views.kit.parts import button, label
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict, tell
 from app.views.pen.net_page import write_pen
 
 if TYPE_CHECKING:

@@ -12,10 +12,10 @@ from app.core.errors import AcusError
 from app.tracking.pen.settings import PenSettings
 from app.views.cameras.live import LivePreview
 from app.views.cameras.settings_dialog import QUIET_MS
-from app.views.cameras.wizard_parts import button
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
+from app.views.kit.parts import button
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict
 from app.views.pen.choice import PenChoice
 from app.views.pen.status import PenStatus
 from app.views.pen.tip_step import TipStep

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from app.views.cameras.wizard_parts import label, tell
 from app.views.kit import theme
+from app.views.kit.parts import label
 from app.views.kit.text import tr
+from app.views.kit.verdict import tell
 from app.views.pen.words import Line
 
 
@@ -64,7 +65,7 @@ class PenStatus(QWidget):
 
     def show_status(self, accuracy: Line, lines: Sequence[Line]) -> None:
         """Show the sentence and the lines."""
-        colour, symbol = accuracy.verdict.look
+        colour, symbol = accuracy.verdict.colour_and_symbol
         text = f"{symbol} {accuracy.text}"
         if text != self.accuracy.text():
             self.accuracy.setText(text)

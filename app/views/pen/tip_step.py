@@ -15,11 +15,11 @@ from app.core.errors import AcusError
 from app.tracking.pen.calibrating import WANTED, PenCalibration
 from app.tracking.pen.rocking import LEANT, SIDES, Lean, Rocking
 from app.tracking.pen.settings import PenSettings, can_undo, save_pen, undo_pen
-from app.views.cameras.wizard_parts import button, label, tell
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.parts import button, label
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict, tell
 from app.views.pen.status import Lines
 from app.views.pen.words import Line, result_lines, tip_line
 

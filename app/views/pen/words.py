@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Final
 
 from app.core.units import DEGREE, MILLIMETRE
 from app.tracking.fix import FixStatus
-from app.views.exercise.status_items import Verdict
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict
 
 if TYPE_CHECKING:
     from app.tracking.pen.body import PenProfile

@@ -29,7 +29,7 @@ from app.views.kit.background import run_in_background
 from app.views.kit.text import tr
 from app.views.robot.health_panel import HealthPanel
 from app.views.robot.settings import RobotSettings
-from app.views.robot.wizard import Wizard
+from app.views.robot.wizard import CommissioningWizard
 from app.views.shell.feature import Context, Feature
 from app.views.shell.services import RobotPort
 
@@ -136,7 +136,7 @@ class RobotFeature(Feature):
         self._runs, self._attempt = context.runs, context.conductor.views
         self._window = context.shell.dialog_parent
         self._opening = False
-        self.wizard: Wizard | None = None
+        self.wizard: CommissioningWizard | None = None
         self.panel = HealthPanel()
         context.shell.add_panel(self.panel, tr("Robot"), scrolls=False)
         self._connect()
@@ -253,7 +253,7 @@ class RobotFeature(Feature):
 
     def _commission(self, bench: Bench) -> None:
         self._opening = False
-        self.wizard = Wizard(bench, self._window)
+        self.wizard = CommissioningWizard(bench, self._window)
         self.wizard.finished.connect(self._commissioned)
         self.wizard.open()
 

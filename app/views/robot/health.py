@@ -17,14 +17,9 @@ from app.views.exercise.energy_gauge import energy_figures, gauge_help, guard_wo
 from app.views.exercise.felt import force_limit, origin_help, origin_word
 from app.views.exercise.readings import fault_text
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.status_items import (
-    LoopFigures,
-    StatusItem,
-    Verdict,
-    encoder_item,
-    loop_item,
-)
+from app.views.exercise.status_items import LoopFigures, encoder_item, loop_item
 from app.views.kit.text import tr
+from app.views.kit.verdict import StatusItem, Verdict
 
 NONE = "–"
 

@@ -25,9 +25,9 @@ from app import __version__
 from app.device.wire_watch import WireWatch
 from app.session.snapshot import Snapshot
 from app.views.exercise.run import ExerciseRun
-from app.views.exercise.status_items import StatusItem
 from app.views.kit import theme
 from app.views.kit.text import tr
+from app.views.kit.verdict import StatusItem
 from app.views.robot.health import HealthGroup, Rates, health
 
 SPAN: Final = 10.0
@@ -186,7 +186,9 @@ class HealthPanel(QWidget):
                  when.isoformat(timespec="seconds")]  # fmt: skip
         for group in self.groups:
             lines += ["", group.title]
-            lines += [f"  {i.verdict.look[1]} {i.title}: {i.text}" for i in group.items]
+            lines += [
+                f"  {i.verdict.colour_and_symbol[1]} {i.title}: {i.text}" for i in group.items
+            ]
         return "\n".join(lines) + "\n"
 
     def copy_report(self) -> None:
@@ -306,7 +308,7 @@ class _Line(QWidget):
         if item == self._item:
             return
         self._item = item
-        colour, symbol = item.verdict.look
+        colour, symbol = item.verdict.colour_and_symbol
         self._title.setText(f"{symbol} {item.title}")
         self._title.setStyleSheet(f"color: {colour}; font-size: {theme.SMALL_PX}px;")
         self._text.setText(item.text)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from PySide6.QtCore import QLocale, Qt, Signal
+from PySide6.QtCore import QLocale, Signal
 from PySide6.QtGui import QDoubleValidator
 from PySide6.QtWidgets import (
     QGridLayout,
@@ -14,14 +14,14 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QProgressBar,
     QPushButton,
-    QVBoxLayout,
     QWidget,
 )
 
 from app.device.commissioning.results import RoutineName
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
+from app.views.kit.parts import column, label
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict, tell
 
 if TYPE_CHECKING:
     from app.device.commissioning.bench import Bench
@@ -144,30 +144,30 @@ class ConnectionPage(QWidget):
     def __init__(self, bench: Bench, parent: QWidget) -> None:
         super().__init__(parent)
         self._bench = bench
-        self._clearance = _label()
-        column = _column(self, tr("Connected"))
+        self._clearance = label()
+        rows = column(self, tr("Connected"), theme.MARGIN)
         grid = QGridLayout()
         grid.setColumnStretch(1, 1)
         for row, (name, value) in enumerate(connection_lines(bench)):
-            title = _label("dim")
+            title = label(role="dim")
             title.setText(name)
             grid.addWidget(title, row, 0)
             grid.addWidget(QLabel(value), row, 1)
-        column.addLayout(grid)
-        column.addWidget(self._clearance)
-        note = _label("dim")
+        rows.addLayout(grid)
+        rows.addWidget(self._clearance)
+        note = label(role="dim")
         note.setText(tr(
             "The program's stop is not safety-rated: use a blunt needle, and keep a hand at the "
             "switch of the motor supply (docs/hardware.md). Cancel ends every step at once, with "
             "the forces off."
         ))  # fmt: skip
-        column.addWidget(note)
-        column.addStretch(1)
+        rows.addWidget(note)
+        rows.addStretch(1)
         self.refresh()
 
     def refresh(self) -> None:
         """Show the present state."""
-        _tell(self._clearance, *clearance_words(self._bench))
+        tell(self._clearance, *clearance_words(self._bench))
 
 
 class SummaryPage(QWidget):
@@ -176,31 +176,31 @@ class SummaryPage(QWidget):
     def __init__(self, bench: Bench, parent: QWidget) -> None:
         super().__init__(parent)
         self._bench = bench
-        self._clearance = _label()
-        column = _column(self, tr("Summary"))
+        self._clearance = label()
+        rows = column(self, tr("Summary"), theme.MARGIN)
         grid = QGridLayout()
         grid.setColumnStretch(2, 1)
         grid.setVerticalSpacing(theme.SPACING)
         self._rows: dict[RoutineName, tuple[QLabel, QLabel]] = {}
         for row, step in enumerate(steps_of(bench)):
-            when, found = _label(), _label("dim")
+            when, found = label(), label(role="dim")
             grid.addWidget(QLabel(step_words(step).title), 2 * row, 0)
             grid.addWidget(when, 2 * row, 1, 1, 2)
             grid.addWidget(found, 2 * row + 1, 1, 1, 2)
             self._rows[step] = (when, found)
-        column.addLayout(grid)
-        column.addWidget(self._clearance)
-        column.addStretch(1)
+        rows.addLayout(grid)
+        rows.addWidget(self._clearance)
+        rows.addStretch(1)
         self.refresh()
 
     def refresh(self) -> None:
         """Show the present state."""
         for step, (when, found) in self._rows.items():
             verdict, words, summary = state_of(self._bench, step)
-            _tell(when, verdict, words)
+            tell(when, verdict, words)
             found.setText(summary)
             found.setVisible(bool(summary))
-        _tell(self._clearance, *clearance_words(self._bench))
+        tell(self._clearance, *clearance_words(self._bench))
 
 
 class RoutinePage(QWidget):
@@ -221,7 +221,7 @@ class RoutinePage(QWidget):
         super().__init__(parent)
         self._bench, self.step = bench, step
         words = step_words(step)
-        self._state, self.message, self.question = _label(), _label(), _label()
+        self._state, self.message, self.question = label(), label(), label()
         self.bar = QProgressBar(self)
         self.bar.setRange(0, 1000)
         self.bar.setTextVisible(False)
@@ -230,16 +230,16 @@ class RoutinePage(QWidget):
         self.confirm, self.start = QPushButton(tr("Confirm"), self), QPushButton(self)
         self.cancel = QPushButton(tr("Cancel: forces off"), self)
         self.undo = QPushButton(tr("Undo the last result"), self)
-        column = _column(self, words.title)
+        rows = column(self, words.title, theme.MARGIN)
         for text, role in ((words.purpose, ""), (words.ready, "dim")):
-            line = _label(role)
+            line = label(role=role)
             line.setText(text)
-            column.addWidget(line)
+            rows.addWidget(line)
         for widget in (self._state, self.bar, self.message, self.question):
-            column.addWidget(widget)
-        column.addLayout(self._answer_row())
-        column.addStretch(1)
-        column.addLayout(self._buttons())
+            rows.addWidget(widget)
+        rows.addLayout(self._answer_row())
+        rows.addStretch(1)
+        rows.addLayout(self._buttons())
         self._prepare()
         self.set_idle()
 
@@ -258,7 +258,7 @@ class RoutinePage(QWidget):
 
     def set_running(self) -> None:
         """Be ready for reports."""
-        _tell(self._state, Verdict.WARNING, tr("running"))
+        tell(self._state, Verdict.WARNING, tr("running"))
         self.start.setEnabled(False)
         self.undo.setEnabled(False)
         self.cancel.setEnabled(True)
@@ -266,9 +266,9 @@ class RoutinePage(QWidget):
     def set_idle(self, failure: str = "") -> None:
         """Show what is known of the step, and why it failed if it has."""
         verdict, when, found = state_of(self._bench, self.step)
-        _tell(self._state, verdict, ": ".join(part for part in (when, found) if part))
+        tell(self._state, verdict, ": ".join(part for part in (when, found) if part))
         if failure:
-            _tell(self._state, Verdict.BAD, failure)
+            tell(self._state, Verdict.BAD, failure)
         self.message.clear()
         self.question.clear()
         self.bar.setValue(0)
@@ -282,7 +282,7 @@ class RoutinePage(QWidget):
 
     def show_refusal(self, reason: str) -> None:
         """Say why an answer was not taken; the question stays."""
-        _tell(self._state, Verdict.BAD, reason)
+        tell(self._state, Verdict.BAD, reason)
 
     def _ask_number(self, asked: bool, unit: str) -> None:
         self.reading.setVisible(asked)
@@ -335,28 +335,3 @@ class RoutinePage(QWidget):
         row.addStretch(1)
         row.addWidget(self.undo)
         return row
-
-
-def _tell(label: QLabel, verdict: Verdict, words: str) -> None:
-    colour, symbol = verdict.look
-    label.setText(f"{symbol} {words}")
-    label.setStyleSheet(f"color: {colour};")
-
-
-def _label(role: str = "") -> QLabel:
-    label = QLabel()
-    label.setWordWrap(True)
-    label.setTextFormat(Qt.TextFormat.PlainText)
-    if role:
-        label.setProperty("role", role)
-    return label
-
-
-def _column(page: QWidget, title: str) -> QVBoxLayout:
-    column = QVBoxLayout(page)
-    column.setContentsMargins(theme.MARGIN, 0, 0, 0)
-    column.setSpacing(theme.MARGIN)
-    heading = QLabel(title, page)
-    heading.setProperty("role", "title")
-    column.addWidget(heading)
-    return column

@@ -12,8 +12,8 @@ from app.planning.clearance import Nearness, PathClearance, clearances, worst
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.session.snapshot import Snapshot
-from app.views.exercise.status_items import StatusItem, Verdict
 from app.views.kit.text import tr
+from app.views.kit.verdict import StatusItem, Verdict
 from app.views.structures.book import StructureBook
 
 PERIOD_S = 0.05

@@ -1,4 +1,4 @@
-"""Small parts that the calibration wizard's pages are made of."""
+"""Small parts that pages and dialogs are made of: title, text, button, bar, table."""
 
 from __future__ import annotations
 
@@ -14,15 +14,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.views.exercise.status_items import Verdict
 from app.views.kit import theme
 
 
-def column(page: QWidget, title: str) -> QVBoxLayout:
+def column(page: QWidget, title: str, spacing: int = theme.SPACING) -> QVBoxLayout:
     """Return a page's column, its title on top."""
     rows = QVBoxLayout(page)
     rows.setContentsMargins(theme.MARGIN, 0, 0, 0)
-    rows.setSpacing(theme.SPACING)
+    rows.setSpacing(spacing)
     heading = QLabel(title, page)
     heading.setProperty("role", "title")
     rows.addWidget(heading)
@@ -55,13 +54,6 @@ def thin_bar() -> QProgressBar:
     made.setTextVisible(False)
     made.setFixedHeight(10)
     return made
-
-
-def tell(line: QLabel, verdict: Verdict, words: str) -> None:
-    """Show words in a verdict's colour, with its symbol."""
-    colour, symbol = verdict.look
-    line.setText(f"{symbol} {words}" if words else "")
-    line.setStyleSheet(f"color: {colour};")
 
 
 def table(titles: tuple[str, ...], selectable: bool = False) -> QTableWidget:

@@ -1,0 +1,41 @@
+"""How a part is: a verdict with its colour and symbol, and the words that go with it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from PySide6.QtWidgets import QLabel
+
+from app.views.kit import theme
+
+
+class Verdict(StrEnum):
+    """How a part is."""
+
+    GOOD = "good"
+    WARNING = "warning"
+    BAD = "bad"
+    IDLE = "idle"
+
+    @property
+    def colour_and_symbol(self) -> tuple[str, str]:
+        """Colour and symbol: never the colour alone."""
+        return theme.VERDICTS.get(self.value, (theme.TEXT_DIM, "–"))
+
+
+@dataclass(frozen=True, slots=True)
+class StatusItem:
+    """One line of the status strip: verdict, title, value in words, and help."""
+
+    verdict: Verdict
+    title: str
+    text: str
+    help: str
+
+
+def tell(line: QLabel, verdict: Verdict, words: str) -> None:
+    """Show words in a verdict's colour, with its symbol."""
+    colour, symbol = verdict.colour_and_symbol
+    line.setText(f"{symbol} {words}" if words else "")
+    line.setStyleSheet(f"color: {colour};")
