@@ -20,7 +20,7 @@ from app.tracking.optics.calibration import CameraCalibration, PoseCalibration, 
 from app.tracking.optics.rig import RigProfile, load_rig
 from app.tracking.simulated.cameras import NeedleRenderer
 from app.tracking.simulated.scene import MarkerScene
-from app.views.cameras.aim_dialog import AimDialog
+from app.views.cameras.feature import AimDialog
 from app.views.cameras.latency_dialog import LatencyDialog
 from app.views.cameras.settings_dialog import CameraSettingsDialog
 from app.views.shell.application import start

@@ -11,7 +11,7 @@ from app.imaging.pacs.query import FoundSeries, FoundStudy
 from app.imaging.pacs.settings import PacsSettings, keep
 from app.imaging.scanning import scan_folder
 from app.views.series.browser import SeriesBrowser
-from app.views.series.library_import import ImportReport
+from app.views.series.feature import ImportReport
 from app.views.series.pacs_panel import PacsPanel
 from tools.reading_studio import Studio
 from tools.robot_pictures import pause, wait

@@ -26,7 +26,7 @@ from app.imaging.pacs.settings import keep
 from app.imaging.privacy.burned_in import MaskBox
 from app.imaging.reading import load_ct
 from app.imaging.scanning import scan_folder
-from app.views.series.library_import import LibraryImport
+from app.views.series.feature import LibraryImport
 from app.views.series.pacs_panel import PacsPanel
 
 

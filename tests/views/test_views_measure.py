@@ -10,7 +10,7 @@ from window_rig import plan
 from app.planning.measurements import Angle, Distance, Probe, Region
 from app.views.measure.editor import MeasureEditor, MeasureTool
 from app.views.measure.feature import MeasureFeature
-from app.views.shell.undo import UndoOrder
+from app.views.reading.editors import UndoOrder
 from app.views.slices.viewing import Tool
 
 

@@ -12,18 +12,21 @@ from views_exercise_fakes import FakeTrainer, run, snapshot
 
 from app.views.exercise.bullseye import Bullseye
 from app.views.exercise.hands import chooser
-from app.views.exercise.hands import gamepad as gamepad_module
-from app.views.exercise.hands.gamepad import (
+from app.views.exercise.hands import source as gamepad_module
+from app.views.exercise.hands.source import (
     DEAD_ZONE,
+    FASTEST,
     FASTEST_DEPTH,
     FASTEST_TILT,
+    RESTING_PRESSURE,
+    STEP_MS,
     GamepadError,
     GamepadHand,
     PygamePads,
     Sticks,
     deflection,
+    pressed_speed,
 )
-from app.views.exercise.hands.source import FASTEST, RESTING_PRESSURE, STEP_MS, pressed_speed
 from app.views.exercise.readings import pad_view
 
 LEFT, RIGHT = Qt.MouseButton.LeftButton, Qt.MouseButton.RightButton

@@ -1,23 +1,263 @@
-"""The calibration wizard: board, pictures, result, place, save."""
+"""The calibration wizard: board, pictures, result, place, save; and its first page."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Final
 
-from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QMessageBox, QWidget
+from PySide6.QtCore import QStandardPaths, Qt, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QMessageBox,
+    QSizePolicy,
+    QSpinBox,
+    QWidget,
+)
 
+from app.core.errors import AcusError
 from app.core.progress import Progress
+from app.core.units import MILLIMETRE
+from app.tracking.calibration.board_layout import PAPERS, lay_out
+from app.tracking.calibration.boards import Board, BoardKind, dictionary_names
 from app.tracking.calibration.camera_pair import OpenCamera, OpenPair
 from app.tracking.calibration.job import CalibrationJob
-from app.views.cameras.wizard_board import BoardPage
+from app.views.cameras.board_page import paint_sheet, write_board
 from app.views.cameras.wizard_capture import CapturePage
-from app.views.cameras.wizard_result import ResultPage
+from app.views.cameras.wizard_result import ResultPage, WorldPage
 from app.views.cameras.wizard_save import SavePage
-from app.views.cameras.wizard_world import WorldPage
+from app.views.kit import theme
+from app.views.kit.parts import button, column, label
 from app.views.kit.text import tr
-from app.views.kit.verdict import Verdict
+from app.views.kit.verdict import Verdict, tell
 from app.views.kit.wizard import Wizard
+
+
+class SheetView(QWidget):
+    """The sheet of paper with the board, small."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._board: Board | None = None
+        self._paper, self.fits = "A4", False
+        self.setMinimumSize(260, 220)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+
+    def show_board(self, board: Board | None, paper: str) -> str:
+        """Show a board on paper; returns why it does not fit, empty if it does."""
+        self._board, self._paper, self.fits = board, paper, False
+        self.update()
+        if board is None:
+            return ""
+        try:
+            lay_out(board, PAPERS[paper])
+        except AcusError as error:
+            return str(error)
+        self.fits = True
+        return ""
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the sheet."""
+        if self._board is None or not self.fits:
+            return
+        sheet = lay_out(self._board, PAPERS[self._paper])
+        scale = min(self.width() / sheet.width_mm, self.height() / sheet.height_mm) * 0.97
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.translate(
+            0.5 * (self.width() - scale * sheet.width_mm),
+            0.5 * (self.height() - scale * sheet.height_mm),
+        )
+        painter.fillRect(
+            0, 0, round(scale * sheet.width_mm), round(scale * sheet.height_mm), QColor("white")
+        )
+        painter.setPen(Qt.PenStyle.NoPen)
+        paint_sheet(painter, self._board, sheet, scale)
+
+
+_COMMON: Final = ("DICT_4X4_50", "DICT_4X4_100", "DICT_5X5_50", "DICT_5X5_100", "DICT_6X6_250")
+
+
+class BoardPage(QWidget):
+    """Chooses a board.
+
+    Signals:
+        changed(): another board was chosen, or what is chosen cannot be one.
+        chosen(str): a board that can be, as `parse_board` reads it.
+    """
+
+    changed = Signal()
+    chosen = Signal(str)
+
+    def __init__(self, job: CalibrationJob, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._job, self.valid = job, True
+        self.kind, self.dictionary, self.paper = QComboBox(), QComboBox(), QComboBox()
+        self.columns, self.rows = QSpinBox(), QSpinBox()
+        self.square, self.marker = QDoubleSpinBox(), QDoubleSpinBox()
+        self._titles: dict[str, QLabel] = {}
+        self.state, self._spec = label(), label(role="dim")
+        self.sheet = SheetView(self)
+        self.print = button(tr("Save as PDF to print…"), "primary")
+        self._fill()
+        self._lay_out()
+        self._show(job.board)
+        self._connect()
+        self._changed()
+
+    @property
+    def title(self) -> str:
+        """What stands in the wizard's list."""
+        return tr("Board")
+
+    @property
+    def verdict(self) -> Verdict:
+        """How the page stands."""
+        return Verdict.GOOD if self.valid else Verdict.BAD
+
+    def save(self, path: Path) -> None:
+        """Write the PDF; what is wrong is shown."""
+        try:
+            write_board(path, self._job.board, PAPERS[self.paper.currentText()])
+        except AcusError as error:
+            tell(self.state, Verdict.BAD, str(error))
+            return
+        words = tr("written to {file}: print it at 100 % and measure the line of 100 mm",
+                   file=path)  # fmt: skip
+        tell(self.state, Verdict.GOOD, words)
+
+    def _changed(self) -> None:
+        charuco = self.kind.currentData() == BoardKind.CHARUCO  # Qt hands out a plain text
+        for widget in (self.marker, self.dictionary, self._titles["marker"],
+                       self._titles["dictionary"]):  # fmt: skip
+            widget.setVisible(charuco)
+        self._titles["counts"].setText(tr("Squares") if charuco else tr("Inner corners"))
+        try:
+            board = self._board(charuco)
+        except AcusError as error:
+            self.valid = False
+            self.sheet.show_board(None, "")
+            self._spec.setText("")
+            tell(self.state, Verdict.BAD, str(error))
+        else:
+            self.valid = True
+            self._job.set_board(board)
+            self._spec.setText(board.spec)
+            self._show_sheet(board)
+            self.chosen.emit(board.spec)
+        self.print.setEnabled(self.valid and self.sheet.fits)
+        self.changed.emit()
+
+    def _show_sheet(self, board: Board) -> None:
+        problem = self.sheet.show_board(board, self.paper.currentText())
+        width, height = (side / MILLIMETRE for side in board.size)
+        if problem:
+            words = tr("{why}. A board that you have already can be used all the same.",
+                       why=problem)  # fmt: skip
+            tell(self.state, Verdict.WARNING, words)
+        elif board.ambiguous:
+            tell(self.state, Verdict.WARNING, tr(
+                "This board looks the same after half a turn. The program mends what it can; a "
+                "ChArUco board needs no mending."
+            ))  # fmt: skip
+        else:
+            tell(self.state, Verdict.GOOD, tr("{w:.0f} × {h:.0f} mm", w=width, h=height))
+
+    def _board(self, charuco: bool) -> Board:
+        square = self.square.value() * MILLIMETRE
+        columns, rows = self.columns.value(), self.rows.value()
+        if not charuco:
+            return Board(BoardKind.CHECKERBOARD, columns, rows, square)
+        marker, name = self.marker.value() * MILLIMETRE, self.dictionary.currentText()
+        return Board(BoardKind.CHARUCO, columns - 1, rows - 1, square, marker, name)
+
+    def _show(self, board: Board) -> None:
+        charuco = board.kind is BoardKind.CHARUCO
+        self.kind.setCurrentIndex(self.kind.findData(board.kind))
+        self.columns.setValue(board.columns + charuco)
+        self.rows.setValue(board.rows + charuco)
+        self.square.setValue(board.square / MILLIMETRE)
+        if charuco:
+            self.marker.setValue(board.marker / MILLIMETRE)
+            self.dictionary.setCurrentText(board.dictionary)
+
+    def _ask(self) -> None:
+        folder = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
+        start = str(Path(folder) / "acus-board.pdf")
+        answer, _ = QFileDialog.getSaveFileName(
+            self, tr("Save the board"), start, tr("PDF (*.pdf)")
+        )
+        if answer:
+            path = Path(answer)
+            self.save(path if path.suffix else path.with_suffix(".pdf"))
+
+    def _fill(self) -> None:
+        self.kind.addItem(tr("ChArUco (recommended)"), BoardKind.CHARUCO)
+        self.kind.addItem(tr("Checkerboard"), BoardKind.CHECKERBOARD)
+        names = dictionary_names()
+        self.dictionary.addItems([*_COMMON, *(name for name in names if name not in _COMMON)])
+        self.dictionary.setCurrentText("DICT_5X5_100")
+        self.paper.addItems(list(PAPERS))
+        for count in (self.columns, self.rows):
+            count.setRange(3, 60)
+        for length, default in ((self.square, 20.0), (self.marker, 15.0)):
+            length.setRange(0.5, 500.0)
+            length.setDecimals(2)
+            length.setSuffix(" mm")
+            length.setValue(default)
+
+    def _lay_out(self) -> None:
+        rows = column(self, tr("Which board do you have?"))
+        rows.addWidget(label(tr(
+            "A flat board with squares of a known size. ChArUco may be seen in part and always "
+            "says which way round it lies."
+        ), "dim"))  # fmt: skip
+        rows.addWidget(label(tr(
+            "Measure the line of 100 mm below the board, and type the squares as they are: a print "
+            "at 97 % leaves every residual as good as it was, and makes all that is measured 3 % "
+            "too long."
+        )))  # fmt: skip
+        grid = QGridLayout()
+        grid.setVerticalSpacing(theme.SPACING)
+        counts = QWidget(self)
+        both = QHBoxLayout(counts)
+        both.setContentsMargins(0, 0, 0, 0)
+        for part in (self.columns, QLabel("×"), self.rows):
+            both.addWidget(part)
+        both.addStretch(1)
+        for row, (name, title, widget) in enumerate((
+            ("kind", tr("Kind"), self.kind), ("counts", tr("Squares"), counts),
+            ("square", tr("Side of a square"), self.square),
+            ("marker", tr("Side of a marker"), self.marker),
+            ("dictionary", tr("Markers"), self.dictionary), ("paper", tr("Paper"), self.paper),
+        )):  # fmt: skip
+            self._titles[name] = QLabel(title, self)
+            grid.addWidget(self._titles[name], row, 0)
+            grid.addWidget(widget, row, 1)
+        grid.setRowStretch(6, 1)
+        beside = QHBoxLayout()
+        beside.addLayout(grid)
+        beside.addWidget(self.sheet, 1)
+        rows.addLayout(beside, 1)
+        rows.addWidget(self.state)
+        last = QHBoxLayout()
+        last.addWidget(self.print)
+        last.addWidget(self._spec, 1)
+        rows.addLayout(last)
+
+    def _connect(self) -> None:
+        for combo in (self.kind, self.dictionary, self.paper):
+            combo.currentIndexChanged.connect(self._changed)
+        for spin in (self.columns, self.rows, self.square, self.marker):
+            spin.valueChanged.connect(self._changed)
+        self.print.clicked.connect(self._ask)
+
 
 Step = BoardPage | CapturePage | ResultPage | WorldPage | SavePage
 

@@ -29,7 +29,7 @@ from app.views.exercise.enable_switch import EnableSwitch
 from app.views.exercise.energy_gauge import EnergyGauge
 from app.views.exercise.live import LiveFigures
 from app.views.exercise.readouts import AttemptReadouts
-from app.views.exercise.scan_panel import ScanPanel
+from app.views.exercise.scan_view import ScanPanel
 from app.views.exercise.steps import Steps
 from app.views.kit import theme
 from app.views.kit.text import tr

@@ -1,20 +1,266 @@
-"""The plan in the window: panel, menu, 3D Slicer markups files; nothing lost without a question."""
+"""The plan in the window: its points, the position, whether the robot can follow, its files.
+
+Nothing is lost without a question.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from PySide6.QtCore import SignalInstance
+from PySide6.QtCore import QSignalBlocker, Qt, Signal, SignalInstance
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDoubleSpinBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 
+from app.core.units import DEGREE, MILLIMETRE
+from app.planning.placement import PatientOrientation, Placement
+from app.views.kit import theme
+from app.views.kit.coordinates import lps_words
 from app.views.kit.menu_entries import add_entries, add_recent
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
-from app.views.plan.editor import PlanFiles
-from app.views.plan.panel import PlanPanel
+from app.views.plan.editor import PlanEditor, PlanFiles, Point
 from app.views.shell.feature import Context, Feature
 from app.views.shell.settings import Recents
-from app.views.slices.viewing import Tool
+from app.views.slices.viewing import Tool, Viewing
+
+
+@dataclass(frozen=True, slots=True)
+class VerdictWords:
+    """Kind (a key of `theme.VERDICTS`), sentence, measures, and whether a rotation would help."""
+
+    kind: str
+    text: str
+    measures: str = ""
+    remedy: bool = False
+
+
+def verdict_words(editor: PlanEditor) -> VerdictWords:
+    """Put the editor's verdict into words."""
+    draft, verdict = editor.edit.draft, editor.verdict
+    if verdict.problem:
+        return VerdictWords("bad", verdict.problem)
+    if draft.entry_mm is None:
+        return VerdictWords("warning", tr("Place the entry on the skin: press E, then click."))
+    if draft.target_mm is None:
+        return VerdictWords("warning", tr("Place the target: press T, then click."))
+    reached = verdict.reach
+    if reached is None:
+        return VerdictWords("warning", tr("No device chosen yet."))
+    measures = tr(
+        "Path {length:.1f} mm, tilt {tilt:.1f}° from vertical",
+        length=reached.depth / MILLIMETRE,
+        tilt=reached.tilt / DEGREE,
+    )
+    if reached.reachable:
+        return VerdictWords("good", tr("The robot can follow this path."), measures)
+    reasons = "; ".join(str(reason) for reason in reached.reasons)
+    text = tr("Out of reach: {reasons}.", reasons=reasons)
+    if reached.remedy is None:
+        return VerdictWords("bad", text, measures)
+    text += "\n" + tr("Remedy: {words}", words=reached.remedy.words)
+    return VerdictWords("bad", text, measures, remedy=True)
+
+
+class PlanPanel(QWidget):
+    """Shows the editor's plan and turns clicks into edits.
+
+    Signals:
+        new_wanted(), open_wanted(), save_wanted(), save_as_wanted().
+    """
+
+    new_wanted = Signal()
+    open_wanted = Signal()
+    save_wanted = Signal()
+    save_as_wanted = Signal()
+
+    def __init__(self, editor: PlanEditor, viewing: Viewing, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._editor, self._viewing = editor, viewing
+        self.title = _label("heading")
+        self.entry, self.target, self.length = _label(), _label(), _label("dim")
+        self.place_entry = _button(tr("Place  E"), checkable=True)
+        self.place_target = _button(tr("Place  T"), checkable=True)
+        self.place_entry.setToolTip(tr("Then click near the skin in any view (key E)"))
+        self.place_target.setToolTip(tr("Then click inside the patient in any view (key T)"))
+        self.orientation = _orientation_box()
+        self.turns = tuple(_angle_box(axis) for axis in "xyz")
+        self.verdict = QLabel(self)
+        self.verdict.setWordWrap(True)
+        self.verdict.setTextFormat(Qt.TextFormat.PlainText)
+        self.remedy = _button(tr("Apply suggested rotation"))
+        self._files = tuple(
+            _button(text) for text in (tr("New"), tr("Open…"), tr("Save"), tr("Save as…"))
+        )
+        self._lay_out()
+        self._connect()
+        self.refresh()
+
+    # --- shown --------------------------------------------------------------------------------
+    def refresh(self) -> None:
+        """Show the editor's present state."""
+        editor, draft, placement = (
+            self._editor,
+            self._editor.edit.draft,
+            self._editor.edit.placement,
+        )
+        name = NAMES.shown(editor.path.name if editor.path else draft.name)
+        self.title.setText(f"{name} •" if editor.dirty else name)
+        self.title.setToolTip(tr("• unsaved changes") if editor.dirty else "")
+        self.entry.setText(_point_text(draft.entry_mm))
+        self.target.setText(_point_text(draft.target_mm))
+        self._show_placement(placement)
+        words = verdict_words(editor)
+        self.verdict.setText(f"{theme.VERDICTS[words.kind][1]}  {words.text}")
+        self.verdict.setStyleSheet(f"color: {theme.VERDICTS[words.kind][0]};")
+        self.length.setText(words.measures)
+        self.remedy.setVisible(words.remedy)
+        for widget in (self.place_entry, self.place_target, self.remedy, self.orientation,
+                       *self.turns, *self._files[:2]):  # fmt: skip
+            widget.setEnabled(not editor.locked)
+        self._files[2].setEnabled(draft.complete)
+        self._files[3].setEnabled(draft.complete)
+
+    def _show_placement(self, placement: Placement) -> None:
+        with QSignalBlocker(self.orientation):
+            index = self.orientation.findData(placement.orientation.value)
+            self.orientation.setCurrentIndex(index)
+        for box, angle in zip(self.turns, placement.rotation_deg, strict=True):
+            if not box.hasFocus() or abs(box.value() - angle) > 0.05:
+                with QSignalBlocker(box):
+                    box.setValue(angle)
+
+    def _show_tool(self) -> None:
+        tool = self._viewing.tool
+        self.place_entry.setChecked(tool is Tool.ENTRY)
+        self.place_target.setChecked(tool is Tool.TARGET)
+
+    # --- wanted -------------------------------------------------------------------------------
+    def _placement_wanted(self) -> None:
+        x, y, z = (box.value() for box in self.turns)
+        orientation = PatientOrientation(self.orientation.currentData())
+        self._editor.set_placement(Placement(orientation, (x, y, z)))
+
+    def _tool_wanted(self, tool: Tool, on: bool) -> None:
+        self._viewing.set_tool(tool if on else Tool.NAVIGATE)
+        self._show_tool()
+
+    def _connect(self) -> None:
+        self._editor.changed.connect(self.refresh)
+        self._viewing.tool_changed.connect(self._show_tool)
+        self.place_entry.clicked.connect(lambda on: self._tool_wanted(Tool.ENTRY, on))
+        self.place_target.clicked.connect(lambda on: self._tool_wanted(Tool.TARGET, on))
+        self.orientation.activated.connect(lambda _: self._placement_wanted())
+        for box in self.turns:
+            box.valueChanged.connect(lambda _: self._placement_wanted())
+        self.remedy.clicked.connect(self._editor.apply_remedy)
+        wanted = (self.new_wanted, self.open_wanted, self.save_wanted, self.save_as_wanted)
+        for button, signal in zip(self._files, wanted, strict=True):
+            button.clicked.connect(signal)
+
+    # --- layout -------------------------------------------------------------------------------
+    def _lay_out(self) -> None:
+        column = QVBoxLayout(self)
+        column.setContentsMargins(theme.MARGIN, theme.SPACING, theme.MARGIN, theme.SPACING)
+        column.setSpacing(theme.SPACING)
+        column.addWidget(self.title)
+        files = QHBoxLayout()
+        files.setSpacing(4)
+        for button in self._files:
+            files.addWidget(button)
+        column.addLayout(files)
+        column.addLayout(self._points())
+        column.addWidget(self.length)
+        column.addLayout(self._position())
+        column.addWidget(self.verdict)
+        column.addWidget(self.remedy)
+        column.addStretch(1)
+
+    def _points(self) -> QGridLayout:
+        grid = QGridLayout()
+        grid.setColumnStretch(0, 1)
+        rows = ((theme.ENTRY, "○", tr("Entry"), self.entry, self.place_entry),
+                (theme.TARGET, "◉", tr("Target"), self.target, self.place_target))  # fmt: skip
+        for row, (mark, symbol, name, value, button) in enumerate(rows):
+            head = QLabel(f"{symbol}  {name}")
+            head.setStyleSheet(f"color: {theme.now(mark.colour)}; font-weight: 600;")
+            grid.addWidget(head, 2 * row, 0)
+            grid.addWidget(button, 2 * row, 1)
+            grid.addWidget(value, 2 * row + 1, 0, 1, 2)
+        return grid
+
+    def _position(self) -> QGridLayout:
+        grid = QGridLayout()
+        heading = _label("heading")
+        heading.setText(tr("Patient position"))
+        grid.addWidget(heading, 0, 0, 1, 3)
+        grid.addWidget(self.orientation, 1, 0, 1, 3)
+        for column, box in enumerate(self.turns):
+            grid.addWidget(box, 2, column)
+            grid.setColumnStretch(column, 1)
+        return grid
+
+
+def orientation_names() -> dict[PatientOrientation, str]:
+    """Names of the positions for people."""
+    return {
+        PatientOrientation.SUPINE: tr("Supine (on the back)"),
+        PatientOrientation.PRONE: tr("Prone (on the belly)"),
+        PatientOrientation.LEFT_DOWN: tr("Left side down"),
+        PatientOrientation.RIGHT_DOWN: tr("Right side down"),
+    }
+
+
+def _point_text(point: Point | None) -> str:
+    if point is None:
+        return tr("not placed yet")
+    return lps_words(point)
+
+
+def _orientation_box() -> QComboBox:
+    box = QComboBox()
+    for orientation, name in orientation_names().items():
+        box.addItem(name, orientation.value)
+    box.setAccessibleName(tr("Patient position"))
+    return box
+
+
+def _angle_box(axis: str) -> QDoubleSpinBox:
+    box = QDoubleSpinBox()
+    box.setRange(-180.0, 180.0)
+    box.setDecimals(1)
+    box.setSingleStep(1.0)
+    box.setPrefix(f"{axis} ")
+    box.setSuffix(" °")
+    box.setKeyboardTracking(False)
+    box.setMinimumSize(70, theme.CONTROL_HEIGHT)
+    box.setToolTip(tr("Free rotation about the robot's {axis} axis (rotation vector)", axis=axis))
+    return box
+
+
+def _label(role: str = "") -> QLabel:
+    label = QLabel()
+    label.setProperty("role", role)
+    label.setTextFormat(Qt.TextFormat.PlainText)
+    return label
+
+
+def _button(text: str, checkable: bool = False) -> QPushButton:
+    button = QPushButton(text)
+    button.setCheckable(checkable)
+    button.setStyleSheet("padding: 4px 6px;")
+    button.setMinimumWidth(48)
+    return button
+
 
 SUFFIX = ".mrk.json"
 

@@ -207,9 +207,9 @@ class RoutinePage(QWidget):
     """One routine: what it is for, what it does now, what it asks.
 
     Signals:
-        start_wanted(Step): begin it, or begin it again.
+        start_wanted(RoutineName): begin it, or begin it again.
         answered(float | None): the answer to what it asks.
-        cancel_wanted(), undo_wanted(Step).
+        cancel_wanted(), undo_wanted(RoutineName).
     """
 
     start_wanted = Signal(object)

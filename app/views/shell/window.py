@@ -1,14 +1,28 @@
-"""The main window: builds what its features are made from, then loops over the list of them."""
+"""The main window: builds what its features are made from, then loops over the list of them.
+
+It lets every message stand while its state is true, and asks before a patient is replaced, of
+whom nothing is left.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TypeVar
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QObject, QTimer, SignalInstance
 from PySide6.QtGui import QCloseEvent, QCursor, QDragEnterEvent, QDropEvent, QShowEvent
-from PySide6.QtWidgets import QApplication, QMainWindow, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QApplication,
+    QMainWindow,
+    QMessageBox,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
 
+from app.core.events import Event
+from app.planning.draft import DraftPlan
 from app.planning.patient import Patient
 from app.session.result import AttemptResult
 from app.views.debrief.feature import DebriefFeature
@@ -22,15 +36,13 @@ from app.views.kit.progress_strip import ProgressStrip
 from app.views.kit.text import tr
 from app.views.measure.editor import MeasureEditor
 from app.views.plan.editor import PlanEditor
-from app.views.reading.editors import Editors
+from app.views.reading.editors import Editors, UndoOrder
 from app.views.reading.workspace import WorkspacePage
 from app.views.series.open_ct import OpenCt
-from app.views.shell.change_of_patient import ChangeOfPatient
 from app.views.shell.feature import Context, Feature
 from app.views.shell.features import FEATURES
 from app.views.shell.help import ProblemReport, about, page_of, show_help
-from app.views.shell.message_bar import MessageBar, Notices
-from app.views.shell.message_topics import connect_messages
+from app.views.shell.message_bar import PAUSE, REFUSAL, ROBOT, MessageBar, Notices
 from app.views.shell.projector import Projector
 from app.views.shell.remembered import Remembered
 from app.views.shell.services import Services
@@ -38,9 +50,116 @@ from app.views.shell.settings import Recents, open_settings
 from app.views.shell.shell import Shell
 from app.views.shell.shortcuts import ShortcutSheet
 from app.views.shell.start_page import StartPage
-from app.views.shell.undo import UndoOrder
 from app.views.shell.view_menu import ViewMenu
 from app.views.structures.book import StructureBook
+
+
+def connect_messages(
+    context: Context, features: Sequence[Feature], hand_chosen: SignalInstance
+) -> None:
+    """Let everything that can fail say so at the top of the window.
+
+    Args:
+        context: whose parts speak.
+        features: speak for themselves, until one of `Feature.over` says more.
+        hand_chosen: signal: another hand moves the needle.
+    """
+    bar, runs, conductor = context.shell.messages, context.runs, context.conductor
+    controller, equipment, editor = conductor.controller, context.equipment, context.editors.plan
+    ended = controller.finished
+    attempt = (controller.worked, controller.began, ended, runs.ready, runs.gone, hand_chosen)
+    topics = [(feature.topic, feature.failed, feature.over()) for feature in features]
+    for topic, failed, over in (
+        *topics,
+        ("patient", conductor.failed, ()),
+        ("attempt", controller.failed, attempt),
+        ("equipment", equipment.failed, (equipment.accepted, ended)),
+    ):
+        failed.connect(lambda error, topic=topic: bar.show_until(topic, error))
+        for signal in over:
+            signal.connect(lambda *_, topic=topic: bar.forget(topic))
+    for feature in features:
+        feature.noted.connect(bar.show_note)
+    editor.refused.connect(lambda error: bar.show_until(REFUSAL, error))
+    editor.changed.connect(lambda: bar.forget(REFUSAL))
+    runs.failed.connect(lambda error: bar.show_until(ROBOT, error))
+    runs.unusable.connect(
+        lambda why: bar.show_until("laws", tr("A file of your own cannot be used: {why}", why=why))
+    )
+    for signal in (runs.ready, equipment.accepted):
+        signal.connect(lambda *_: bar.forget(ROBOT))
+    runs.starting.connect(lambda begun: bar.forget(ROBOT) if begun else None)
+    controller.event_seen.connect(lambda event: tell_pause(bar, event))
+
+
+def tell_pause(bar: MessageBar, event: Event) -> None:
+    """Say on every page that the attempt waits, until it goes on or ends."""
+    if event.kind == "pause" and "duration_s" not in event.data:
+        bar.show_until(PAUSE, event.message)
+    elif event.kind == "withdrawal" and "how" not in event.data:
+        bar.show_note(event.message)
+    elif event.kind in ("pause", "state", "abort"):
+        bar.forget(PAUSE)
+
+
+class ChangeOfPatient(QObject):
+    """Asks before a patient is replaced, and lets an attempt wait until the new one is there."""
+
+    def __init__(self, context: Context, features: Sequence[Feature]) -> None:
+        super().__init__(context.shell.dialog_parent)
+        self._context, self._features = context, features
+        self._conductor, self._editor = context.conductor, context.editors.plan
+        self._asked: DraftPlan | None = None
+
+    # --- before -------------------------------------------------------------------------------
+    def at_stake(self) -> list[str]:
+        """Say what another patient would replace: CT, running attempt, unsaved plan."""
+        stake = []
+        patient = self._conductor.patient
+        if patient is not None:
+            stake.append(tr("the CT {name}", name=NAMES.shown(patient.label)))
+        if self._editor.locked:
+            stake.append(tr("the attempt that is running: it ends and is saved, without a score"))
+        return stake + self._unsaved()
+
+    def _unsaved(self) -> list[str]:
+        return [words for feature in self._features if (words := feature.unsaved())]
+
+    def may_replace(self) -> bool:
+        """Ask whether what is at stake may go; True at once where nothing is."""
+        stake = self.at_stake()
+        self._asked = self._editor.edit.draft
+        if not stake:
+            return True
+        lines = "\n".join(f"•  {line}" for line in stake)
+        text = tr("Opening a patient replaces:") + f"\n{lines}"
+        box, dirty = QMessageBox.StandardButton, bool(self._unsaved())
+        if dirty:
+            text += "\n\n" + tr("Save the plan first?")
+        choices = box.Save | box.Discard | box.Cancel if dirty else box.Open | box.Cancel
+        title, default = tr("Open another patient"), box.Save if dirty else box.Open
+        parent = self._context.shell.dialog_parent
+        answer = QMessageBox.question(parent, title, text, choices, default)
+        if answer == box.Save:
+            return all(feature.save() for feature in self._features if feature.unsaved())
+        return answer in (box.Discard, box.Open)
+
+    # --- meanwhile ----------------------------------------------------------------------------
+    def set_loading(self, loading: bool) -> None:
+        """Let Start wait while a patient is loaded: it would run on the one that is to go."""
+        why = tr("Start waits: another patient is being opened.") if loading else ""
+        self._conductor.controller.set_waiting(why)
+
+    # --- after --------------------------------------------------------------------------------
+    def take(self, patient: Patient, show: Callable[[Patient], object]) -> bool:
+        """Show a patient that has been loaded; asks again about a plan that was changed since."""
+        editor = self._editor
+        if editor.dirty and editor.edit.draft != self._asked and not self.may_replace():
+            self._context.patients.given_up.emit()
+            return False
+        show(patient)
+        return True
+
 
 PAINTED_MS = 50
 """This long after it is shown the window is painted, and heavy parts may load."""

@@ -8,8 +8,7 @@ from PySide6.QtWidgets import QBoxLayout, QComboBox, QLabel, QSizePolicy, QWidge
 
 from app.core.errors import AcusError
 from app.session.pad.hand import GAINS
-from app.views.exercise.hands.gamepad import GamepadHand
-from app.views.exercise.hands.source import HandSource, MouseHand, TabletHand
+from app.views.exercise.hands.source import GamepadHand, HandSource, MouseHand, TabletHand
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.kit import theme
 from app.views.kit.text import tr
