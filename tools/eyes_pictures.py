@@ -67,7 +67,7 @@ def daily_check(window: MainWindow, folder: Path) -> None:
     pause(1.0)
     page.keep.click()
     pause(0.3)
-    keep(page, folder / "eyes-morning.png")
+    keep(page, folder / "eyes-daily-check.png")
     page.close()
 
 

@@ -16,7 +16,7 @@ from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of
 from app.planning.registration.errors import RegistrationError
 from app.planning.registration.plate import FiducialPlate
-from app.session.checks.facts import MorningFacts, TouchFacts
+from app.session.checks.facts import DailyFacts, TouchFacts
 from app.session.checks.gather import daily_facts, robot_facts, touch_facts
 from app.session.touch import TouchCollector, TouchError
 from app.tracking.cameras.settings import CameraSettings
@@ -91,7 +91,7 @@ class DailyCheck:
         """Name of the device profile."""
         return self._running.profile.name
 
-    def facts(self) -> MorningFacts:
+    def facts(self) -> DailyFacts:
         """Everything now."""
         rig = self._running
         rig.trainer.heartbeat()

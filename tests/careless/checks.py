@@ -184,7 +184,7 @@ class Checks(QObject):
         if run is None or not run.shown.live:
             return []
         controller._display._figures_time = -1.0  # the panel's figures are due
-        controller.look()
+        controller.poll()
         said = []
         panel, pad = workspace.exercise_panel.readouts, workspace.bullseye
         other_words = {"lateral": pad._lateral.text(), "to_target": pad._remaining.text()}

@@ -1,4 +1,4 @@
-"""`acus check`: what it prints; the whole check runs in tests/test_compose_morning.py."""
+"""`acus check`: what it prints; the whole check runs in tests/test_compose_daily_check.py."""
 
 import json
 from datetime import datetime

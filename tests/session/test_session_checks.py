@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.device.readiness import ForceClearance
-from app.session.checks.facts import CameraFacts, MorningFacts, RobotFacts, TouchFacts
+from app.session.checks.facts import CameraFacts, DailyFacts, RobotFacts, TouchFacts
 from app.session.checks.record import DayCheck, newest_check, save_check
 from app.session.checks.steps import CheckVerdict, StepResult, daily_check, overall
 from app.tracking.picture_quality import PictureQuality, picture_quality
@@ -19,10 +19,10 @@ LEFT = CameraFacts("left", "", 30.0, 30.0, SHARP, "")
 RIGHT = replace(LEFT, name="right")
 ROBOT = RobotFacts(False, True, True, True, ForceClearance(1.0, 5.0), "", 0.001)
 TOUCH = TouchFacts("F", np.zeros(3), np.array([0.4 * MM, 0.0, 0.3 * MM]), 0.3 * MM)
-GOOD = MorningFacts(ROBOT, (LEFT, RIGHT), 0.3, "", 0.4 * MM, TOUCH)
+GOOD = DailyFacts(ROBOT, (LEFT, RIGHT), 0.3, "", 0.4 * MM, TOUCH)
 
 
-def step(facts: MorningFacts, name: str) -> StepResult:
+def step(facts: DailyFacts, name: str) -> StepResult:
     return next(one for one in daily_check(facts) if one.name == name)
 
 
@@ -129,7 +129,7 @@ def test_everything_well_is_green_and_says_nothing_to_do() -> None:
     ],
 )
 def test_what_is_wrong_is_found_and_something_is_to_do(
-    facts: MorningFacts, name: str, verdict: CheckVerdict, text: str
+    facts: DailyFacts, name: str, verdict: CheckVerdict, text: str
 ) -> None:
     found = step(facts, name)
     assert found.verdict is verdict

@@ -161,7 +161,7 @@ def fill(window, settle, live=True):
         controller = window.conductor.controller
         workspace.tracker_panel._shown = window.feature(RobotFeature).panel._shown = -1e9
         controller._display._status_time = controller._display._figures_time = -1.0
-        controller.look()
+        controller.poll()
     assert settle(lambda: not window.conductor.scans.is_busy)
     window.editors.measures.add(Distance((0.0, 0.0, 130.0), (3.0, 2.0, 131.0), "oldnote"))
     volume = window.conductor.patient.volume

@@ -80,7 +80,7 @@ def touch_all(dialog, around, rows=range(6)) -> None:
         dialog.toucher._timer.stop()
         while dialog.toucher._collector.share < 1.0:
             dialog.toucher._collector.add(around._inspect(False, False).fix)
-        dialog.toucher._look()
+        dialog.toucher._poll()
 
 
 def test_touching_every_fiducial_gives_the_students_sentence(dialog):
@@ -212,7 +212,9 @@ def test_a_large_error_is_not_enlarged_and_that_is_said(sd_mm: float, scale: flo
     assert ("enlarged" in error_note(overlay.scale)) is (scale > 1.0)
 
 
-def test_the_daily_page_shows_every_step_and_keeps_the_day(application, tmp_path, monkeypatch):
+def test_the_page_of_the_daily_check_shows_every_step_and_keeps_the_day(
+    application, tmp_path, monkeypatch
+):
     from views_exercise_fakes import run as fake_run
 
     from app.session.checks.record import newest_check
@@ -235,7 +237,7 @@ def test_the_daily_page_shows_every_step_and_keeps_the_day(application, tmp_path
     page.deleteLater()
 
 
-def test_the_daily_page_without_a_run_says_what_to_do(application):
+def test_the_page_of_the_daily_check_without_a_run_says_what_to_do(application):
     from app.views.checks.daily_page import DailyPage
 
     page = DailyPage(lambda: None, PLATE)

@@ -81,7 +81,7 @@ def shown_with(window, trainer, snapshot) -> dict[str, object]:
     controller._display._status_time = -1.0
     window.feature(RobotFeature).panel._shown = -1e9
     window.workspace.tracker_panel._shown = -1e9
-    controller.look()
+    controller.poll()
     return telling(window)
 
 
@@ -121,7 +121,7 @@ def test_structures_are_said_nothing_of_while_scans_guide(guided, settle) -> Non
     window.feature(StructuresFeature).watch.breached.connect(breaches.append)
     for depth in (0.0, 0.01, 0.02):
         trainer.now = snapshot_of(trainer.placed, pose=pose_of(trainer.placed, 0.0, depth))
-        window.conductor.controller.look()
+        window.conductor.controller.poll()
         settle(timeout=0.08)
     assert breaches == []
     assert window.feature(StructuresFeature).watch.needle is None
@@ -176,7 +176,7 @@ def test_states_that_are_read_from_the_needle_are_not_listed(guided) -> None:
     for kind, state in (("state", "aligning"), ("state", "holding"), ("abort", "aborted")):
         trainer.events.put(Event(1.0, kind, f"{state}!", {"state": state}))
     trainer.events.put(Event(1.0, "depth", "depth measured again"))
-    controller.look()
+    controller.poll()
     lines = " ".join(messages.item(i).text() for i in range(messages.count()))
     assert "aligning!" in lines
     assert "aborted!" in lines
@@ -191,7 +191,7 @@ def test_the_pedal_takes_the_slices_that_are_set(guided, settle) -> None:
     assert panel.scan.isVisible()
     assert not panel.readouts.force.isVisible()
     trainer.begin()
-    window.conductor.controller.look()
+    window.conductor.controller.poll()
     panel.scan.table.setValue(141.0)
     panel.scan.head.click()
     panel.scan.slices.setValue(5)
@@ -245,7 +245,7 @@ def test_the_scan_pane_draws_nothing_live(guided, settle) -> None:
     view = window.workspace.scan_view
     trainer.events.put(scan_event())
     assert settle(lambda: view.scan is not None)
-    window.conductor.controller.look()
+    window.conductor.controller.poll()
     assert view.viewing.needle is None
     assert not view.viewing.draft.complete
 
@@ -265,7 +265,7 @@ def test_the_scan_follows_window_and_crosshair_of_the_planning_ct(guided, settle
 def test_the_hand_still_moves_where_nothing_is_drawn(guided) -> None:
     window, trainer = guided
     bullseye = window.workspace.bullseye
-    window.conductor.controller.look()
+    window.conductor.controller.poll()
     from app.session.pad.hand import HandPose
 
     bullseye.take_hand(HandPose(trainer.placed.axis, 0.01, True))

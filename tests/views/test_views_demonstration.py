@@ -57,7 +57,7 @@ def test_without_a_proposed_entry_it_says_what_to_do(window, own, patient) -> No
         show._patient_is_open()
     show.failed.connect(failed.append)
     show._timer.start()
-    show._look()
+    show._poll()
     assert "acus run" in failed[0]
 
 

@@ -71,7 +71,7 @@ def rock(page, services, looks, count=None):
     page.tip.begin.click()
     for one in looks[:count]:
         services.pens[-1].collect(one)
-    page.tip.look()
+    page.tip.poll()
 
 
 # --- words ----------------------------------------------------------------------------------------

@@ -52,7 +52,7 @@ def shows(window, patient, settle):
         settle(timeout=0.05)
         window.workspace.tracker_panel._shown = -1e9
         window.conductor.controller._display._figures_time = -1.0
-        window.conductor.controller.look()
+        window.conductor.controller.poll()
         window.workspace.show_exercise()
         settle(timeout=0.05)
         return window
@@ -104,7 +104,7 @@ def test_the_3d_pane_says_that_it_is_off_and_draws_nothing(shows, settle):
     given = []
     scene._feed._renderer.request = given.append
     scene.set_orbit(scene.orbit.turned(5.0, 5.0))
-    window.conductor.controller.look()
+    window.conductor.controller.poll()
     settle(timeout=0.5)
     assert given == []
     assert scene.is_settled

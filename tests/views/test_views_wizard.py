@@ -44,7 +44,7 @@ def carry_out(wizard, step, reading=""):
     page = go(wizard, step)
     page.reading.setText(reading)
     page.confirm.click()
-    wizard.runner.look()
+    wizard.runner.poll()
     return page
 
 
@@ -72,7 +72,7 @@ def test_a_routine_asks_is_answered_and_its_result_is_kept(wizard, bench):
     assert not page.reading.isEnabled()
     assert not wizard.next.isEnabled()
     page.confirm.click()
-    wizard.runner.look()
+    wizard.runner.poll()
     assert bench.record.newest(RoutineName.HOMING).result == RESULTS[RoutineName.HOMING]
     assert titles(wizard)[1] == "✔ Homing"
     assert "2026-11-21 10:15" in page._state.text()
@@ -93,7 +93,7 @@ def test_a_reading_is_typed_with_its_unit_and_nonsense_is_refused(wizard, bench)
         assert wizard.runner.running
     page.reading.setText("51,5")
     page.confirm.click()
-    wizard.runner.look()
+    wizard.runner.poll()
     assert bench.routines[-1].answers == [51.5]
     assert clearance_words(bench) == (Verdict.GOOD, "cleared for 5 N at the hand")
 
@@ -124,7 +124,7 @@ def test_a_check_that_fails_takes_its_earlier_success_back_and_says_so(wizard, b
         page = go(wizard, step)
         page.reading.setText("51")
         page.confirm.click()
-        wizard.runner.look()
+        wizard.runner.poll()
     else:
         page = carry_out(wizard, step)
     assert "counts no more" in page._state.text()
@@ -144,7 +144,7 @@ def test_cancel_ends_the_routine_with_the_forces_off_at_any_time(wizard, bench):
     page.cancel.click()
     assert bench.routines[-1].cancelled == 1
     assert "forces are off" in page._state.text()
-    wizard.runner.look()
+    wizard.runner.poll()
     assert bench.routines[-1].steps == 1
 
 
@@ -201,7 +201,7 @@ def test_a_fault_of_the_program_leaves_no_force_behind(wizard, bench, monkeypatc
     routine = bench.routines[-1]
     monkeypatch.setattr(routine, "step", lambda now: 1 / 0)
     with pytest.raises(ZeroDivisionError):
-        wizard.runner.look()
+        wizard.runner.poll()
     assert routine.cancelled == 1
 
 

@@ -53,8 +53,8 @@ def until(holds, seconds=30.0):
 def test_every_look_sends_a_heartbeat_and_passes_the_needle_on(desk):
     poses = []
     desk.controller.needle_moved.connect(poses.append)
-    desk.controller.look()
-    desk.controller.look()
+    desk.controller.poll()
+    desk.controller.poll()
     assert len(desk.trainer.told("heartbeat")) == 2
     assert poses == [desk.trainer.now.pose] * 2
 
@@ -64,18 +64,18 @@ def test_a_pose_that_is_not_valid_moves_no_needle_and_keeps_the_pad(desk):
     desk.controller.needle_moved.connect(poses.append)
     broken = pose(placed_plan(), valid=False, reason="the robot gives no needle direction")
     desk.trainer.now = snapshot(pose=broken, device=None, timing=None, tracker=None)
-    desk.controller.look()
+    desk.controller.poll()
     assert poses == []
 
 
 def test_the_attempt_is_begun_with_the_pseudonym_and_buttons_follow_its_state(desk):
     panel = desk.views.panel
-    desk.controller.look()
+    desk.controller.poll()
     assert panel.buttons.start.isEnabled()
     assert not panel.buttons.end.isEnabled()
     panel.set_student("student-07")
     panel.buttons.start.click()
-    desk.controller.look()
+    desk.controller.poll()
     assert desk.trainer.told("begin") == [("begin", "student-07", "mouse")]
     assert not panel.buttons.start.isEnabled()
     assert panel.buttons.end.isEnabled()
@@ -100,7 +100,7 @@ def test_ending_tells_of_the_result_once(desk):
     desk.controller.end()
     for _ in range(50):
         QTest.qWait(10)
-        desk.controller.look()
+        desk.controller.poll()
     assert results == [desk.trainer.result]
     assert len(desk.trainer.told("end")) == 1
 
@@ -110,8 +110,8 @@ def test_an_attempt_that_a_fault_aborted_is_told_of_as_well(desk):
     desk.controller.finished.connect(results.append)
     desk.controller.begin("x")
     desk.trainer.abort("heartbeat lost")
-    desk.controller.look()
-    desk.controller.look()
+    desk.controller.poll()
+    desk.controller.poll()
     assert results == [desk.trainer.result]
 
 
@@ -121,12 +121,12 @@ def test_a_result_from_before_is_not_told_of_again(desk):
     desk.trainer.result = SimpleNamespace(state=State.ENDED)
     desk.controller.attach(run(desk.trainer))
     desk.controller._timer.stop()
-    desk.controller.look()
+    desk.controller.poll()
     assert results == []
 
 
 def test_aborting_disarms_at_once_and_writes_beside_the_window(desk):
-    desk.controller.look()
+    desk.controller.poll()
     desk.controller.begin("x")
     honest, results = desk.trainer.abort, []
     written = threading.Event()
@@ -147,9 +147,9 @@ def test_aborting_disarms_at_once_and_writes_beside_the_window(desk):
 
 
 def test_dial_scan_abort_and_hand_reach_the_trainer(desk):
-    desk.controller.look()
+    desk.controller.poll()
     desk.controller.begin("x")
-    desk.controller.look()
+    desk.controller.poll()
     desk.views.panel.assistance.slider.setValue(40)
     desk.views.panel.buttons.scan.click()
     QTest.qWait(40)
@@ -163,10 +163,10 @@ def test_dial_scan_abort_and_hand_reach_the_trainer(desk):
 
 
 def test_detaching_clears_the_widgets_and_stops_the_looks(desk):
-    desk.controller.look()
+    desk.controller.poll()
     desk.controller.detach()
     before = len(desk.trainer.calls)
-    desk.controller.look()
+    desk.controller.poll()
     assert len(desk.trainer.calls) == before
     assert desk.views.panel.readouts.text("depth") == "–"
     assert not desk.views.panel.buttons.start.isEnabled()
@@ -198,13 +198,13 @@ def test_camera_pictures_are_refreshed_at_most_fifteen_times_a_second(desk, qt):
     clock = desk.controller._clock
     for _ in range(40):
         clock.sleep(0.025)
-        desk.controller.look()
+        desk.controller.poll()
     assert 5 <= len(asked) <= 16
     assert set(asked) == {(False, True)}, "a mask that nobody looks at is not computed"
     for name in ("mask", "region"):
         desk.views.tracker.set_overlay(name, True)
     clock.sleep(0.1)
-    desk.controller.look()
+    desk.controller.poll()
     assert asked[-1] == (True, True)
     assert not desk.views.tracker.grab().isNull()
 

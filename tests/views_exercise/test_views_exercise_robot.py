@@ -334,7 +334,7 @@ def test_a_held_switch_arms_and_letting_go_disarms(desk):
     assert not panel.enable.isHidden()
     assert not panel.enable.isEnabled()
     controller.begin("x")
-    controller.look()
+    controller.poll()
     assert trainer.calls.count(("disarm",)) == 1  # nothing is armed by the beginning itself
     panel.enable.pressed.emit()
     panel.enable.released.emit()
@@ -348,7 +348,7 @@ def test_a_run_that_goes_away_is_disarmed_first(desk):
     trainer = FakeTrainer()
     controller.attach(run(trainer, held_arming=True))
     controller.begin("x")
-    controller.look()
+    controller.poll()
     panel.enable.pressed.emit()
     controller.detach()
     assert trainer.calls[-1] == ("disarm",)
@@ -360,7 +360,7 @@ def test_without_held_arming_the_attempt_arms_by_itself(desk):
     trainer = FakeTrainer()
     controller.attach(run(trainer))
     controller.begin("x")
-    controller.look()
+    controller.poll()
     assert panel.enable.isHidden()
     assert ("disarm",) not in trainer.calls
 

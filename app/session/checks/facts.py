@@ -76,7 +76,7 @@ class TouchFacts:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class MorningFacts:
+class DailyFacts:
     """Everything at one moment.
 
     Attributes:

@@ -8,7 +8,7 @@ from app.core.arrays import FloatArray
 from app.device.faults import Fault
 from app.device.links.link import BoardInfo
 from app.device.readiness import ForceClearance, Readiness
-from app.session.checks.facts import CameraFacts, MorningFacts, RobotFacts, TouchFacts
+from app.session.checks.facts import CameraFacts, DailyFacts, RobotFacts, TouchFacts
 from app.session.snapshot import Snapshot
 from app.session.touch import Touch
 from app.tracking.cameras.watch import CameraHealth, CameraState
@@ -27,7 +27,7 @@ def daily_facts(
     robot: RobotFacts,
     touch: TouchFacts | None = None,
     touch_failure: str = "",
-) -> MorningFacts:
+) -> DailyFacts:
     """Gather what the cameras say beside what the robot says.
 
     Args:
@@ -43,7 +43,7 @@ def daily_facts(
     names = list(dict.fromkeys([*health, *seen]))
     residual = fix.residual_px if fix is not None and fix.status in _WITH_RESIDUAL else None
     good = fix is not None and fix.status is FixStatus.VALID
-    return MorningFacts(
+    return DailyFacts(
         robot,
         tuple(
             _camera(name, health.get(name), seen.get(name), inspection.rate_hz) for name in names

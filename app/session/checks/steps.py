@@ -6,7 +6,7 @@ from enum import StrEnum
 from typing import Final
 
 from app.core.units import MILLIMETRE
-from app.session.checks.facts import CameraFacts, MorningFacts
+from app.session.checks.facts import CameraFacts, DailyFacts
 
 STALE: Final = 0.02
 """Joint angles older than this fade the force [s]."""
@@ -48,7 +48,7 @@ class StepResult:
     todo: str = ""
 
 
-def daily_check(facts: MorningFacts) -> tuple[StepResult, ...]:
+def daily_check(facts: DailyFacts) -> tuple[StepResult, ...]:
     """All steps in the order in which they are looked at."""
     return tuple(step(facts) for step in _STEPS)
 
@@ -62,7 +62,7 @@ def overall(results: tuple[StepResult, ...]) -> CheckVerdict:
     return CheckVerdict.GOOD
 
 
-def _homing(facts: MorningFacts) -> StepResult:
+def _homing(facts: DailyFacts) -> StepResult:
     robot, title = facts.robot, "Homing"
     if not robot.ticking:
         return StepResult("homing", title, CheckVerdict.BAD, "the robot's loop does not run",
@@ -76,7 +76,7 @@ def _homing(facts: MorningFacts) -> StepResult:
                       "menu Robot, Commissioning, step Homing")  # fmt: skip
 
 
-def _signs(facts: MorningFacts) -> StepResult:
+def _signs(facts: DailyFacts) -> StepResult:
     robot, title = facts.robot, "Signs"
     if robot.simulated:
         return StepResult("signs", title, CheckVerdict.GOOD, "simulated robot: its signs are known")
@@ -86,7 +86,7 @@ def _signs(facts: MorningFacts) -> StepResult:
                       "menu Robot, Commissioning, step Signs")  # fmt: skip
 
 
-def _force(facts: MorningFacts) -> StepResult:
+def _force(facts: DailyFacts) -> StepResult:
     robot, title = facts.robot, "Force"
     if robot.fault:
         return StepResult("force", title, CheckVerdict.BAD, robot.fault,
@@ -105,7 +105,7 @@ def _force(facts: MorningFacts) -> StepResult:
                       clearance.reason)  # fmt: skip
 
 
-def _pictures(facts: MorningFacts) -> StepResult:
+def _pictures(facts: DailyFacts) -> StepResult:
     title = "Pictures"
     if len(facts.cameras) < 2:
         return StepResult("pictures", title, CheckVerdict.BAD, f"{len(facts.cameras)} of 2 cameras",
@@ -142,7 +142,7 @@ def _picture(camera: CameraFacts) -> tuple[CheckVerdict, str, str]:
     return CheckVerdict.GOOD, "", ""
 
 
-def _marker(facts: MorningFacts) -> StepResult:
+def _marker(facts: DailyFacts) -> StepResult:
     title = "Marker"
     missed = [(camera.name, camera.miss) for camera in facts.cameras if camera.miss]
     if len(facts.cameras) == 2 and not missed:
@@ -157,7 +157,7 @@ def _marker(facts: MorningFacts) -> StepResult:
                       "red things")  # fmt: skip
 
 
-def _agreement(facts: MorningFacts) -> StepResult:
+def _agreement(facts: DailyFacts) -> StepResult:
     title = "Cameras agree"
     if facts.residual_px is None:
         return StepResult("residual", title, CheckVerdict.WAITING, facts.status or "no point yet",
@@ -174,7 +174,7 @@ def _agreement(facts: MorningFacts) -> StepResult:
                       "a camera was bumped? calibrate again: menu Cameras")  # fmt: skip
 
 
-def _touch(facts: MorningFacts) -> StepResult:
+def _touch(facts: DailyFacts) -> StepResult:
     title, touch = "Touch one point", facts.touch
     if touch is None:
         found = facts.touch_failure or "not touched yet"
@@ -194,6 +194,6 @@ def _touch(facts: MorningFacts) -> StepResult:
                       "check with all fiducials: menu Checks, Registration check")  # fmt: skip
 
 
-_STEPS: Final[tuple[Callable[[MorningFacts], StepResult], ...]] = (
+_STEPS: Final[tuple[Callable[[DailyFacts], StepResult], ...]] = (
     _homing, _signs, _force, _pictures, _marker, _agreement, _touch,
 )  # fmt: skip

@@ -253,7 +253,7 @@ class LivePreview(QWidget):
         self._last: _Opening | None = None
         self._task: BackgroundTask | None = None
         self._timer = QTimer(self, interval=POLL_MS)
-        self._timer.timeout.connect(self._look)
+        self._timer.timeout.connect(self._poll)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self.picture, 1)
@@ -325,7 +325,7 @@ class LivePreview(QWidget):
             self.say(str(error), bad=True)
             self.failed.emit(error)
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         if self.camera is None:
             return
         frame, health = self.camera.newest(), self.camera.health()

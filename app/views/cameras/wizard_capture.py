@@ -162,7 +162,7 @@ class CapturePage(QWidget):
         self.state, self.advice = label(), label()
         self.bar = thin_bar()
         self._timer = QTimer(self, interval=POLL_MS)
-        self._timer.timeout.connect(self.look)
+        self._timer.timeout.connect(self.poll)
         self._lay_out()
         self._connect()
         self.refresh()
@@ -234,7 +234,7 @@ class CapturePage(QWidget):
         pair = self._pair
         return (lambda: None) if pair is None else (lambda: pair.ended.wait(8.0))
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Show what the search has found since."""
         search = self.search
         if search is None:

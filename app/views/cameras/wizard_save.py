@@ -193,7 +193,7 @@ class SavePage(QWidget):
     """Keeps, uses, takes back, rejects; nothing is deleted.
 
     Signals:
-        changed(): another calibration is in use, or one was kept or rejected.
+        changed(): another calibration is in use, or one was kept or found bad.
         began(): files are being written: the page is to stay.
     """
 

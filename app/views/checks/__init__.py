@@ -1,1 +1,1 @@
-"""Checks of the whole set-up: every morning, and of the registration with a fiducial plate."""
+"""Checks of the whole set-up: every day, and of the registration with a fiducial plate."""

@@ -78,7 +78,7 @@ PERIOD_MS = 400
 
 
 class DailyPage(QDialog):
-    """Looks at the running trainer a few times a second.
+    """Polls the running trainer a few times a second.
 
     Args:
         run: what runs now; None where nothing does.
@@ -115,10 +115,10 @@ class DailyPage(QDialog):
         )
         self._lay_out()
         self._timer = QTimer(self, interval=PERIOD_MS)
-        self._timer.timeout.connect(self.look)
+        self._timer.timeout.connect(self.poll)
         self._connect()
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Judge what runs now."""
         run = self._run()
         if run is None or run.inspect is None:
@@ -166,11 +166,11 @@ class DailyPage(QDialog):
         if known is not None:
             self._touch = touch_facts(*known, touch)
             tell_tracker(self._run(), self._touch)
-        self.look()
+        self.poll()
 
     def _failed(self, reason: str) -> None:
         self._failure = reason
-        self.look()
+        self.poll()
 
     def _move(self) -> None:
         run, known = self._run(), self._known()
@@ -246,10 +246,10 @@ class DailyPage(QDialog):
         self.toucher.failed.connect(self._failed)
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Begin to look."""
+        """Begin to poll."""
         super().showEvent(event)
         self._show_day()
-        self.look()
+        self.poll()
         self._timer.start()
 
     def closeEvent(self, event: QCloseEvent) -> None:

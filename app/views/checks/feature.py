@@ -158,7 +158,7 @@ class ChecksFeature(Feature):
 
     # --- the check in force -------------------------------------------------------------------
     def forget(self) -> None:
-        """Look for the check anew at the next look: patient or cameras are others."""
+        """Find the check anew at the next poll: patient or cameras are others."""
         self._looked, self.record, self._check = False, None, None
         self._viewing.set_target_error(None)
 
@@ -168,7 +168,7 @@ class ChecksFeature(Feature):
         if run is None:
             return ()
         if not self._looked:
-            self._look(run)
+            self._find_check(run)
         check, record = self._check, self.record
         if check is None or record is None:
             return (agreement_item(None),)
@@ -208,7 +208,7 @@ class ChecksFeature(Feature):
         self._editor.take(DraftPlan.of(plan), placement)
         self.noted.emit(tr("The measured place is used; the entry moved by {mm:.1f} mm", mm=moved))
 
-    def _look(self, run: ExerciseRun) -> None:
+    def _find_check(self, run: ExerciseRun) -> None:
         from app.planning.registration.record import Registrations
 
         seen = run.inspect(False, False) if run.inspect is not None else None

@@ -35,7 +35,7 @@ class Toucher(QObject):
         self._collector = TouchCollector()
         self._left = 0
         self._timer = QTimer(self, interval=PERIOD_MS)
-        self._timer.timeout.connect(self._look)
+        self._timer.timeout.connect(self._poll)
 
     @property
     def active(self) -> bool:
@@ -57,7 +57,7 @@ class Toucher(QObject):
         """Give up; idempotent."""
         self._timer.stop()
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         run = self._run()
         fix = run.inspect(False, False).fix if run is not None and run.inspect else None
         if fix is not None:

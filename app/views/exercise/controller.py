@@ -55,7 +55,7 @@ class ExerciseDisplay:
     """Fills the widgets.
 
     Attributes:
-        rates: of the loop [Hz], and the share of deadlines it missed of late, at the last look.
+        rates: of the loop [Hz], and the share of deadlines it missed of late, at the last poll.
         extra_items: further lines of the status strip, by whoever else watches; none by default.
     """
 
@@ -97,8 +97,8 @@ class ExerciseDisplay:
         Args:
             run: whose it is.
             snapshot: of its trainer.
-            now: time of the look [s].
-            late: since the look before [s].
+            now: time of the poll [s].
+            late: since the poll before [s].
         """
         limit = force_limit(snapshot, run.profile.limits.hand_force)
         self._show_panel(snapshot, limit, not run.shown.live, now)
@@ -141,7 +141,7 @@ class ExerciseDisplay:
 
 
 class LoopRates:
-    """Reads a snapshot at every look."""
+    """Reads a snapshot at every poll."""
 
     def __init__(self) -> None:
         self._rate = RateMeter()
@@ -161,15 +161,15 @@ class LoopRates:
 __all__ = ["PERIOD_MS", "ExerciseController", "ExerciseViews"]
 
 PERIOD_MS: Final = 16
-"""The window looks at the trainer this often: 60 Hz, as screens do."""
+"""The window polls the trainer this often: 60 Hz, as screens do."""
 
 
 class ExerciseController(QObject):
     """Feeds the exercise's widgets from a trainer, and the trainer from them.
 
     Signals:
-        needle_moved(NeedlePose): at every look, while the pose is valid.
-        snapshot_taken(Snapshot): at every look.
+        needle_moved(NeedlePose): at every poll, while the pose is valid.
+        snapshot_taken(Snapshot): at every poll.
         event_seen(Event): each event of the trainer, once.
         attached(): another run, or none, is served.
         beginning(): an attempt is about to begin; everything is to be as the exercise has it.
@@ -201,12 +201,12 @@ class ExerciseController(QObject):
         self._beat, self._unreadable, self._waiting = 0.0, "", ""
         self._display = ExerciseDisplay(views)
         self._timer = QTimer(self, interval=PERIOD_MS)
-        self._timer.timeout.connect(self.look)
+        self._timer.timeout.connect(self.poll)
         self._connect()
 
     # --- life -------------------------------------------------------------------------------------
     def attach(self, run: ExerciseRun) -> None:
-        """Serve a running trainer; begins to look at it and to send heartbeats."""
+        """Serve a running trainer; begins to poll it and to send heartbeats."""
         self.detach()
         self._run, self._seen = run, run.trainer.result
         self._beat = self._clock.now()
@@ -247,15 +247,15 @@ class ExerciseController(QObject):
 
     @property
     def rates(self) -> tuple[float, float]:
-        """Rate of the loop [Hz], and the share of deadlines it missed of late, at the last look."""
+        """Rate of the loop [Hz], and the share of deadlines it missed of late, at the last poll."""
         return self._display.rates
 
     def add_items(self, items: Callable[[Snapshot], tuple[StatusItem, ...]]) -> None:
         """Let somebody else who watches put further lines into the status strip."""
         self._display.extra_items.append(items)
 
-    # --- one look ---------------------------------------------------------------------------------
-    def look(self) -> None:
+    # --- one poll ---------------------------------------------------------------------------------
+    def poll(self) -> None:
         """Send a heartbeat, take the newest snapshot, show it, pass it on."""
         run = self._run
         if run is None:
@@ -279,10 +279,10 @@ class ExerciseController(QObject):
         self.snapshot_taken.emit(shown)
         if shown.pose.valid:
             self.needle_moved.emit(shown.pose)
-        self._look_for_result(run)
+        self._take_result(run)
 
     def _tell_unreadable(self, why: str) -> None:
-        """Say once why there is no snapshot; the next look tries again."""
+        """Say once why there is no snapshot; the next poll tries again."""
         if why != self._unreadable:
             self._unreadable = why
             self._fail(why)
@@ -293,7 +293,7 @@ class ExerciseController(QObject):
                 self._views.messages.add_event(event)
             self.event_seen.emit(event)
 
-    def _look_for_result(self, run: ExerciseRun) -> None:
+    def _take_result(self, run: ExerciseRun) -> None:
         """Tell of a result once, whoever finished the attempt: the user, or a fault."""
         result = run.trainer.result
         if result is not None and result is not self._seen and not self._ending:
@@ -379,7 +379,7 @@ class ExerciseController(QObject):
 
     def _ended(self, result: AttemptResult | None) -> None:
         self._ending = False
-        self.look()
+        self.poll()
 
     def _end_failed(self, error: Exception) -> None:
         self._ending = False

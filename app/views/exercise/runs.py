@@ -71,7 +71,7 @@ class Runs(QObject):
         """Have a trainer for this setup; None wants none."""
         self._wanted = setup
         if self._task is not None:
-            return  # `_built` looks again
+            return  # `_built` asks again
         if setup is None:
             self._drop()
         elif self._open is not None and self._setup is not None and setup.same_run(self._setup):

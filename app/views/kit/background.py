@@ -1,4 +1,4 @@
-"""Long work beside the window: a plain thread works, the window's own timer looks at it.
+"""Long work beside the window: a plain thread works, the window's own timer polls it.
 
 The worker touches no Qt object, so nothing can be destroyed under it and every callback runs on the
 window's thread.
@@ -56,7 +56,7 @@ class BackgroundTask(QObject):
         self._reported: tuple[float, str] | None = None
         self._is_running = False
         self._timer = QTimer(self, interval=POLL_MS)
-        self._timer.timeout.connect(self._look)
+        self._timer.timeout.connect(self._poll)
         box = self._box  # not self: the worker must not keep the Qt object alive
         self.destroyed.connect(lambda: box.progress.cancel())
         self._thread = threading.Thread(target=self._box.run, name="acus-background", daemon=True)
@@ -90,7 +90,7 @@ class BackgroundTask(QObject):
         if self._thread.is_alive():
             self._thread.join(timeout)
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         done = self._box.done.is_set()
         report = self._box.report
         if report is not None and report != self._reported:

@@ -72,7 +72,7 @@ class PenDialog(QDialog):
         self._quiet = QTimer(self, interval=QUIET_MS, singleShot=True)
         self._quiet.timeout.connect(self.reopen)
         self._timer = QTimer(self, interval=LOOK_MS)
-        self._timer.timeout.connect(self.look)
+        self._timer.timeout.connect(self.poll)
         self._lay_out()
         self._connect()
         self.reopen()
@@ -102,9 +102,9 @@ class PenDialog(QDialog):
             return services.open_pen(settings, progress)
 
         self.preview.open(operation)
-        self.look()
+        self.poll()
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Show how the pen is."""
         live, pen = self._live, self._pen
         if pen is None:
@@ -172,11 +172,11 @@ class PenDialog(QDialog):
     def _take(self, live: PenPort) -> None:
         self._live = live
         self.tip.set_pen(self._opened, live)
-        self.look()
+        self.poll()
 
     def _refuse(self) -> None:
         self._refused = True
-        self.look()
+        self.poll()
 
     def _lay_out(self) -> None:
         self.use.setToolTip(tr("The next attempts are made with the pen, without a robot"))

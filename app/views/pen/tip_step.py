@@ -125,7 +125,7 @@ class TipStep(QWidget):
         self.save = button(tr("&Save"), "primary")
         self.undo = button(tr("Undo"))
         self._timer = QTimer(self, interval=POLL_MS)
-        self._timer.timeout.connect(self.look)
+        self._timer.timeout.connect(self.poll)
         self._lay_out()
         self._connect()
         self.refresh()
@@ -153,7 +153,7 @@ class TipStep(QWidget):
         self._live.listen(self.rocking.add)
         self._timer.start()
         self.refresh()
-        self.look()
+        self.poll()
 
     def end(self, why: str = "") -> None:
         """Stop and drop what was collected; idempotent."""
@@ -164,7 +164,7 @@ class TipStep(QWidget):
         if why:
             tell(self.state, Verdict.IDLE, why)
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Show how far it is; compute once there is enough."""
         rocking = self.rocking
         if rocking is None:

@@ -72,7 +72,7 @@ class PathsPanel(QWidget):
         self.make.clicked.connect(self.map_wanted)
         self.clear.clicked.connect(self.clear_wanted)
         self.take.clicked.connect(self._take)
-        self.table.itemSelectionChanged.connect(self._look)
+        self.table.itemSelectionChanged.connect(self._poll)
         self.suit_text()
         self.show_scores(None, ())
 
@@ -122,7 +122,7 @@ class PathsPanel(QWidget):
             item.setToolTip(text)
             self.table.setItem(row, column, item)
 
-    def _look(self) -> None:
+    def _poll(self) -> None:
         row = self.table.currentRow() if self.table.selectedItems() else -1
         self.take.setEnabled(0 <= row < len(self._numbers))
         if 0 <= row < len(self._numbers):
@@ -202,7 +202,7 @@ class PathsFeature(Feature):
             self._layers.append(layer)
         self.panel.map_wanted.connect(self.make)
         self.panel.clear_wanted.connect(self.clear)
-        self.panel.shown.connect(self._look_at)
+        self.panel.shown.connect(self._preview)
         self.panel.taken.connect(self._take)
         self._editor.changed.connect(self._check)
         self._conductor.patient_changed.connect(self.clear)
@@ -289,7 +289,7 @@ class PathsFeature(Feature):
         self._task = None
         self._check()
 
-    def _look_at(self, number: int) -> None:
+    def _preview(self, number: int) -> None:
         if self.scores is not None:
             self._views.viewing.set_cursor(self.scores.entries_mm[number])
 

@@ -41,7 +41,7 @@ class Layout:
         return max(row + height for _, (row, _, height, _) in self.cells)
 
     def mirrored(self) -> Layout:
-        """Left and right exchanged, for a left-handed desk."""
+        """Left and right exchanged, for the left-handed."""
         cells = [
             (pane, (row, COLUMNS - column - width, height, width))
             for pane, (row, column, height, width) in self.cells

@@ -26,7 +26,7 @@ NONE = "–"
 
 @dataclass(frozen=True, slots=True)
 class Rates:
-    """What is measured over several looks.
+    """What is measured over several polls.
 
     Attributes:
         loop: ticks a second [Hz].

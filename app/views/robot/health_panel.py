@@ -115,13 +115,13 @@ class Trace(QWidget):
 
 
 PERIOD = 0.25
-"""Words are refreshed this often [s]; curves at every look."""
+"""Words are refreshed this often [s]; curves at every poll."""
 
 TITLE_WIDTH = 134
 
 
 class HealthPanel(QWidget):
-    """Shows nothing by itself: `show_snapshot` is called at every look.
+    """Shows nothing by itself: `show_snapshot` is called at every poll.
 
     Signals:
         commissioning_wanted(): the technician asks for the wizard.

@@ -53,7 +53,7 @@ class Runner(QObject):
         self._step: RoutineName | None = None
         self._said: RoutineReport | None = None
         self._timer = QTimer(self, interval=PERIOD_MS)
-        self._timer.timeout.connect(self.look)
+        self._timer.timeout.connect(self.poll)
 
     @property
     def running(self) -> bool:
@@ -70,7 +70,7 @@ class Runner(QObject):
             return
         self._step, self._said = step, None
         self._timer.start()
-        self.look()
+        self.poll()
 
     def answer(self, value: float | None = None) -> None:
         """Give what the routine asks for; a refused answer is told and the question stays."""
@@ -88,7 +88,7 @@ class Runner(QObject):
         if routine is not None:
             routine.cancel()
 
-    def look(self) -> None:
+    def poll(self) -> None:
         """Step the routine once."""
         routine = self._routine
         if routine is None:

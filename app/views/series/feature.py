@@ -72,11 +72,11 @@ class SeriesIntake(QObject):
         """Read the pictures of a candidate and show them."""
         self._work(
             lambda progress: _read(candidate.series, progress),
-            lambda pictures: self._look(replace(candidate, pictures=pictures), pictures),
+            lambda pictures: self._review(replace(candidate, pictures=pictures), pictures),
             candidate, tr("Reading the pictures"),
         )  # fmt: skip
 
-    def _look(
+    def _review(
         self, candidate: Candidate, pictures: Pictures, boxes: Boxes = (), note: str = ""
     ) -> None:
         dialog = MaskDialog(pictures, boxes, note, self._window)
@@ -114,7 +114,7 @@ class SeriesIntake(QObject):
         if isinstance(error, AnnotatedError) and candidate.pictures is not None:
             note = tr("The files say that there is writing in their pictures: every picture that "
                       "says so needs a box over it.")  # fmt: skip
-            self._look(candidate, candidate.pictures, boxes, note)
+            self._review(candidate, candidate.pictures, boxes, note)
             return
         candidate.give_up()
         self.failed.emit(error)

@@ -71,14 +71,14 @@ class PacsPanel(QDialog):
         self.tree = self._make_tree()
         self._lay_out()
         self.fill_servers()
-        self.search.clicked.connect(self.look)
+        self.search.clicked.connect(self.query)
         self.take.clicked.connect(self._want)
         self.configure.clicked.connect(self.configure_wanted)
         self.tree.itemSelectionChanged.connect(self._enable)
         self.finished.connect(lambda _: self._stop())
         self._enable()
 
-    def look(self) -> None:
+    def query(self) -> None:
         """Search for what the fields say."""
         from app.imaging.pacs.query import Query
 

@@ -146,7 +146,7 @@ class Demonstration(QObject):
         super().__init__(parent)
         self._window, self._script = window, script
         self._timer = QTimer(self, interval=PERIOD_MS)
-        self._timer.timeout.connect(self._look)
+        self._timer.timeout.connect(self._poll)
         self._step: Callable[[], bool] = self._patient_is_open
         self._waited = self._settled_at = 0.0
         self._pictures = StillPictures(window, script.pictures)
@@ -294,7 +294,7 @@ class Demonstration(QObject):
         self._pictures.take("3-cameras")
 
     # --- around the steps -----------------------------------------------------------------------
-    def _look(self) -> None:
+    def _poll(self) -> None:
         self._waited += PERIOD_MS * 1e-3
         try:
             if not self._step() and self._waited > PATIENCE_S:

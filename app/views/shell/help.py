@@ -227,7 +227,7 @@ _MARGIN_PX: Final = 40
 HOME: Final = "index.md"
 PAGES: Final = {
     "cameras": "cameras.md#in-the-trainer",
-    "checks": "user-guide.md#every-morning",
+    "checks": "user-guide.md#every-day",
     "debrief": "user-guide.md#4-debrief",
     "exercise": "user-guide.md#the-students-path",
     "measure": "planning.md#measuring",

@@ -40,7 +40,7 @@ class Projector(QObject):
         return self.is_light and self.is_large and self.hides_names
 
     def set_all(self, on: bool) -> None:
-        """Light, large and without names; or as at a desk."""
+        """Light, large and without names; or as for one user."""
         self.set(light=on, large=on, names_hidden=on)
 
     def set_light(self, light: bool) -> None:

@@ -52,7 +52,7 @@ SIGNS = {
     StructureKind.OTHER: "□",
 }
 
-LOOKS = {
+NEARNESS_STYLES = {
     Nearness.FREE: (theme.TEXT, "✔"),
     Nearness.NEAR: (theme.WARNING, "▲"),
     Nearness.HIT: (theme.BAD, "✖"),
@@ -122,7 +122,7 @@ class StructureOutline(Shape):
         self.setVisible(bool(len(lines)))
         self.touch()
 
-    def set_look(self, structure: Structure, scale: float, bold: bool) -> None:
+    def set_style(self, structure: Structure, scale: float, bold: bool) -> None:
         """Take the colours of `structure` and the zoom [px/mm]."""
         if (structure, scale, bold) != (self._structure, self._scale, self._bold):
             self._structure, self._scale, self._bold = structure, scale, bold
@@ -215,7 +215,7 @@ class StructureLayer:
                             plane.lps_mm(0.0, 1.0, index) - origin)  # fmt: skip
                 item.set_lines(structure, contours(structure, *axes))
                 self._shown[structure.name] = (structure.mask, plane, index)
-            item.set_look(structure, scale, structure.name == self._book.chosen)
+            item.set_style(structure, scale, structure.name == self._book.chosen)
 
     def hide(self) -> None:
         """Show nothing."""

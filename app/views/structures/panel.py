@@ -27,7 +27,7 @@ from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, Mode
-from app.views.structures.layer import LOOKS, SIGNS, kind_names
+from app.views.structures.layer import NEARNESS_STYLES, SIGNS, kind_names
 from app.views.structures.watch import StructureWatch
 
 NAME, KIND, WARN, PATH = range(4)
@@ -95,9 +95,9 @@ class StructureTable(QTableWidget):
     def _show_path(self, row: int, clearance: PathClearance | None) -> None:
         item = QTableWidgetItem("–")
         if clearance is not None:
-            look, sign = LOOKS[clearance.nearness]
+            colour, sign = NEARNESS_STYLES[clearance.nearness]
             item.setText(f"{sign} {clearance.distance_mm:z.1f}")
-            item.setForeground(QColor(theme.now(look)))
+            item.setForeground(QColor(theme.now(colour)))
             item.setToolTip(tr("The path comes nearest {depth:.0f} mm behind its entry",
                                depth=clearance.depth_mm))  # fmt: skip
         item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
@@ -221,9 +221,10 @@ class StructurePanel(QWidget):
 
     def show_needle(self, clearance: PathClearance | None, text: str) -> None:
         """Show what the live needle is too near to."""
-        look, sign = LOOKS[clearance.nearness if clearance is not None else Nearness.FREE]
+        nearness = clearance.nearness if clearance is not None else Nearness.FREE
+        colour, sign = NEARNESS_STYLES[nearness]
         self.live.setText(f"{sign}  {text}" if text else "")
-        self.live.setStyleSheet(f"color: {look}; font-weight: 600;")
+        self.live.setStyleSheet(f"color: {colour}; font-weight: 600;")
 
     # --- wanted -------------------------------------------------------------------------------
     def _mode_wanted(self, mode: Mode, on: bool) -> None:

@@ -125,7 +125,7 @@ def deflection(x: float, y: float = 0.0) -> tuple[float, float]:
 
 
 class GamepadHand(HandSource):
-    """Looks at the gamepad fifty times a second, and for one while none is plugged in."""
+    """Polls the gamepad fifty times a second, and for one while none is plugged in."""
 
     name: ClassVar[str] = "gamepad"
 
