@@ -81,6 +81,11 @@ def main() -> None:
 
     debrief = window.feature(DebriefFeature)
     pages, controller = window.pages, window.conductor.controller
+
+    def began() -> bool:
+        run = controller.run
+        return run is not None and run.trainer.snapshot().recording is not None
+
     print(f"{'longest hold [ms]':34}{'wall':>9}{'computing':>11}{'> 50':>7}{'all [s]':>9}")
     for turn in ("first", "second"):
         run(
@@ -90,7 +95,7 @@ def main() -> None:
         run(
             f"attempt begins, {turn}",
             lambda: controller.begin(""),
-            lambda: controller.is_busy,
+            began,
             20.0,
         )
         pump(lambda: False, 2.0)

@@ -150,7 +150,7 @@ def test_the_settings_take_what_is_chosen_and_refuse_what_cannot_work(window, se
     assert settle(lambda: "did not accept" in left.preview.note.text())
     dialog.swap.click()
     assert dialog.settings().left.source == "folder:/pictures"
-    dialog._take()
+    dialog.save()
     saved = load_settings()
     assert saved.size == (1280, 720)
     assert saved.left.exposure_ms == 5.0

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import (
-    QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
     QFormLayout,
@@ -24,6 +23,7 @@ from app.tracking.cameras.source import SourceKind
 from app.views.cameras.boxes import SizeBox, SourceBox
 from app.views.cameras.live import LiveCamera, LivePreview
 from app.views.kit import theme
+from app.views.kit.settings_dialog import SettingsDialog
 from app.views.kit.text import tr
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ QUIET_MS = 500
 """This long after the last change the cameras are opened anew."""
 
 
-class CameraSettingsDialog(QDialog):
+class CameraSettingsDialog(SettingsDialog):
     """Chooses both cameras.
 
     Args:
@@ -108,8 +108,8 @@ class CameraSettingsDialog(QDialog):
         free: Callable[[], object],
         parent: QWidget | None = None,
     ) -> None:
-        super().__init__(parent)
-        self.setWindowTitle(tr("Cameras"))
+        confirm = QDialogButtonBox.StandardButton.Ok
+        super().__init__(tr("Cameras"), (980, 640), confirm, parent)
         self._settings, self._services, self._free = settings, services, free
         sources = services.camera_sources()
         titles = (tr("Left camera"), tr("Right camera"))
@@ -118,7 +118,6 @@ class CameraSettingsDialog(QDialog):
             for title, camera in zip(titles, settings.cameras, strict=True)
         )
         self.size_box, self.rate = SizeBox(settings.size, self), QDoubleSpinBox(self)
-        self.note = QLabel(self)
         self.swap = QPushButton(tr("Exchange left and right"))
         self._quiet = QTimer(self, interval=QUIET_MS, singleShot=True)
         self._quiet.timeout.connect(self.reopen)
@@ -155,7 +154,7 @@ class CameraSettingsDialog(QDialog):
                 editor.preview.say(str(error), bad=True)
                 continue
             self._open(editor, settings, side)
-        self._check()
+        self.show_check()
 
     def closed(self) -> Callable[[], object]:
         """Return what waits until the cameras are closed; for other threads."""
@@ -178,28 +177,20 @@ class CameraSettingsDialog(QDialog):
 
         editor.preview.open(operation)
 
-    def _check(self) -> bool:
-        try:
-            self.settings()
-        except AcusError as error:
-            colour, symbol = theme.VERDICTS["bad"]
-            self.note.setStyleSheet(f"color: {colour};")
-            self.note.setText(f"{symbol} {error}")
-            return False
-        self.note.setText("")
-        return True
+    def check(self) -> None:
+        """Do nothing where the cameras can be used; else say why not (`CameraError`)."""
+        self.settings()
 
-    def _take(self) -> None:
-        if self._check():
-            settings = self.settings()
-            self.accept()
-            self.chosen.emit(settings)
+    def keep(self) -> None:
+        """Tell which cameras are chosen, once their pictures have been let go."""
+        settings = self.settings()
+        self.accepted.connect(lambda: self.chosen.emit(settings))
 
     def _exchange(self) -> None:
         try:
             left, right = (side.camera() for side in self.sides)
         except AcusError:
-            self._check()
+            self.show_check()
             return
         for side in self.sides:
             side.preview.stop()
@@ -223,7 +214,6 @@ class CameraSettingsDialog(QDialog):
             )
         explanation = QLabel(words)
         explanation.setWordWrap(True)
-        self.note.setWordWrap(True)
         common = QHBoxLayout()
         for title, widget in ((tr("Size"), self.size_box), (tr("Pictures"), self.rate)):
             common.addWidget(QLabel(title))
@@ -235,10 +225,6 @@ class CameraSettingsDialog(QDialog):
         for side in self.sides:
             pair.addWidget(side, 1)
             side.changed.connect(self._quiet.start)
-        kinds = QDialogButtonBox.StandardButton
-        buttons = QDialogButtonBox(kinds.Ok | kinds.Cancel, parent=self)
-        buttons.accepted.connect(self._take)
-        buttons.rejected.connect(self.reject)
         self.swap.clicked.connect(lambda _=False: self._exchange())
         self.size_box.currentTextChanged.connect(lambda _: self._quiet.start())
         self.rate.valueChanged.connect(lambda _: self._quiet.start())
@@ -248,5 +234,4 @@ class CameraSettingsDialog(QDialog):
         column.addLayout(common)
         column.addLayout(pair, 1)
         column.addWidget(self.note)
-        column.addWidget(buttons)
-        self.resize(980, 640)
+        column.addWidget(self.buttons)

@@ -210,6 +210,9 @@ class Equipment(QObject):
     def _ended(self, dialog: QDialog) -> None:
         self.dialog = None
         wait = getattr(dialog, "closed", lambda: lambda: None)()
+        owner = dialog.parentWidget()
+        if owner is not None:  # not every window manager gives the keys back
+            owner.activateWindow()
         dialog.deleteLater()
         again = self._conductor.take_again
         run_in_background(

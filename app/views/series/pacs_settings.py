@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
     QFileDialog,
@@ -26,13 +25,15 @@ from PySide6.QtWidgets import (
 )
 
 from app.core.configuration import parse
-from app.core.errors import AcusError
+from app.core.errors import AcusError, ConfigurationError
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.progress_strip import ProgressStrip
+from app.views.kit.settings_dialog import SettingsDialog
 from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict
 
 if TYPE_CHECKING:
     from app.imaging.pacs.settings import PacsSettings
@@ -181,7 +182,7 @@ def _port(parent: QWidget) -> QSpinBox:
     return box
 
 
-class PacsSettingsDialog(QDialog):
+class PacsSettingsDialog(SettingsDialog):
     """A list of PACS and a form for the chosen one; nothing is written before Save.
 
     Signals:
@@ -191,20 +192,16 @@ class PacsSettingsDialog(QDialog):
     kept = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.setWindowTitle(tr("PACS: configuration"))
-        self.resize(860, 640)
+        confirm = QDialogButtonBox.StandardButton.Save
+        super().__init__(tr("PACS: configuration"), (860, 640), confirm, parent)
         self._task: BackgroundTask | None = None
         self._shown = -1
         self._forms: list[dict[str, object]] = []
         self._as_read: list[dict[str, object]] = []
         self.list, self.form, self.strip = QListWidget(self), PacsForm(self), ProgressStrip(self)
-        self.note = QLabel(self)
         self.add_button = QPushButton(tr("Add"), self)
         self.remove_button = QPushButton(tr("Remove"), self)
         self.test_button = QPushButton(tr("Test (C-ECHO)"), self)
-        kinds = QDialogButtonBox.StandardButton
-        self.buttons = QDialogButtonBox(kinds.Save | kinds.Cancel, parent=self)
         self._lay_out()
         self._connect()
         self._read()
@@ -231,49 +228,47 @@ class PacsSettingsDialog(QDialog):
         try:
             settings = _parsed(self.form.values())
         except AcusError as error:
-            self._say("bad", str(error))
+            self.say(str(error), Verdict.BAD)
             return
         self._stop()
-        self._say("", tr("Asking {name}…", name=settings.name))
+        self.say(tr("Asking {name}…", name=settings.name))
         self.test_button.setEnabled(False)
         self._task = run_in_background(
             self, lambda progress: _echo(settings, progress),
-            lambda seconds: self._say(
-                "good", tr("{name} answers in {time} ms", name=settings.name,
-                           time=f"{1e3 * seconds:.1f}")
+            lambda seconds: self.say(
+                tr("{name} answers in {time} ms", name=settings.name, time=f"{1e3 * seconds:.1f}"),
+                Verdict.GOOD,
             ),
-            lambda error: self._say("bad", str(error)), lambda: self._say("", tr("Cancelled")),
+            lambda error: self.say(str(error), Verdict.BAD), lambda: self.say(tr("Cancelled")),
             title=tr("Asking {name}", name=settings.name), indicator=self.strip,
         )  # fmt: skip
         self._task.finished.connect(self._enable)
 
-    def save(self) -> bool:
-        """Check everything, write it, close; return whether that was done."""
-        from app.imaging.pacs.settings import keep
-
+    def check(self) -> None:
+        """Do nothing where every PACS can be used; else show the one that cannot, and say why."""
         self._take_form()
-        servers = []
+        names = []
         for row, form in enumerate(self._forms):
             try:
-                servers.append(_parsed(form))
-            except AcusError as error:
+                names.append(_parsed(form).name)
+            except AcusError:
                 self._show_list(row)
-                self._say("bad", str(error))
-                return False
-        names = [one.name for one in servers]
+                raise
         twice = next((name for name in names if names.count(name) > 1), "")
         if twice:
-            self._say("bad", tr("The name {name} is given twice", name=twice))
-            return False
+            raise ConfigurationError(tr("The name {name} is given twice", name=twice))
+
+    def keep(self) -> None:
+        """Write the configuration."""
+        from app.imaging.pacs.settings import keep
+
         try:
-            keep(tuple(servers))
+            keep(tuple(_parsed(form) for form in self._forms))
         except OSError as error:
-            self._say("bad", tr("It cannot be written: {why}", why=error.strerror or str(error)))
-            return False
+            why = error.strerror or str(error)
+            raise ConfigurationError(tr("It cannot be written: {why}", why=why)) from error
         self._as_read = list(self._forms)
         self.kept.emit()
-        self.accept()
-        return True
 
     def reject(self) -> None:
         """Close, after a question if something was changed."""
@@ -301,7 +296,7 @@ class PacsSettingsDialog(QDialog):
             found = [one.model_dump(exclude_none=True) for one in configured()]
         except AcusError as error:
             found = []
-            self._say("bad", str(error) + "\n" + tr("Save replaces the file."))
+            self.say(str(error) + "\n" + tr("Save replaces the file."), Verdict.BAD)
         self._forms = [self.form.complete(one) for one in found]
         self._as_read = list(self._forms)
         self._show_list(0 if found else -1)
@@ -337,11 +332,6 @@ class PacsSettingsDialog(QDialog):
         running = self._task is not None and self.strip.count > 0
         self.test_button.setEnabled(chosen and not running)
 
-    def _say(self, kind: str, text: str) -> None:
-        colour, sign = theme.VERDICTS.get(kind, (theme.TEXT, ""))
-        self.note.setStyleSheet(f"color: {colour};")
-        self.note.setText(f"{sign}  {text}".strip())
-
     def _stop(self) -> None:
         if self._task is not None and self.strip.count:
             self._task.cancel()
@@ -356,8 +346,6 @@ class PacsSettingsDialog(QDialog):
         ):  # fmt: skip
             button.setAutoDefault(False)
             button.clicked.connect(lambda _=False, command=command: command())
-        self.buttons.accepted.connect(self.save)
-        self.buttons.rejected.connect(self.reject)
         self.finished.connect(lambda _: self._stop())
 
     def _lay_out(self) -> None:
@@ -373,9 +361,6 @@ class PacsSettingsDialog(QDialog):
         both.setSpacing(theme.MARGIN)
         both.addLayout(left)
         both.addWidget(self.form, 1)
-        self.note.setWordWrap(True)
-        self.note.setTextFormat(Qt.TextFormat.PlainText)
-        self.note.setMinimumHeight(3 * theme.FONT_PX)
         foot = QHBoxLayout()
         foot.addWidget(self.test_button)
         foot.addStretch()

@@ -77,6 +77,10 @@ class StartPage(QWidget):
             item.setToolTip(NAMES.shown(str(path)))
             item.setData(Qt.ItemDataRole.UserRole, path)
             self.recents.addItem(item)
+        if not paths:
+            hint = QListWidgetItem(tr("CTs that you open are listed here."))
+            hint.setFlags(Qt.ItemFlag.NoItemFlags)
+            self.recents.addItem(hint)
 
     def _begin(self) -> None:
         item = self.exercises.currentItem()

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TypeVar
 
-from PySide6.QtCore import QObject, QTimer, SignalInstance
+from PySide6.QtCore import QObject, Qt, QTimer, SignalInstance
 from PySide6.QtGui import QCloseEvent, QCursor, QDragEnterEvent, QDropEvent, QShowEvent
 from PySide6.QtWidgets import (
     QApplication,
@@ -305,7 +305,8 @@ class MainWindow(QMainWindow):
 
     def _end_menus(self, shell: Shell) -> None:
         """Add what stands below the entries of features."""
-        add_entries(shell.menu(tr("&File")), [None, (tr("Quit"), "Ctrl+Q", self.close)])
+        (leave,) = add_entries(shell.menu(tr("&File")), [None, (tr("Quit"), "Ctrl+Q", self.close)])
+        leave.setShortcutContext(Qt.ShortcutContext.ApplicationShortcut)  # from a page of its own
         self.view_menu = ViewMenu(
             shell.menu(tr("&View")), self.workspace, self.conductor, self.editor, self.projector
         )
