@@ -74,6 +74,7 @@ def main() -> None:
     own_settings("tools.eyes_pictures")
     own_settings("tools.pen_pictures")
     own_settings("tools.reading_pictures")
+    own_settings("tools.scene_pictures")
     studies()
 
 

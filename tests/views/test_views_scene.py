@@ -29,6 +29,7 @@ from app.views.scene import mesh as meshes
 from app.views.scene import surfaces as extraction
 from app.views.scene.display import LIGHT_BACKGROUND, ORGAN_COLOURS, Display, Section
 from app.views.scene.feature import SceneFeature
+from app.views.scene.feed import moving_size
 from app.views.scene.mesh import coarser, isosurface, structure_mesh
 from app.views.scene.orbit import Orbit
 from app.views.scene.renderer import SceneRenderer, Shot
@@ -502,7 +503,7 @@ def test_what_is_nearer_lies_over_what_is_farther_in_whatever_order_it_came(stag
 
     red, blue = (220, 20, 20), (20, 20, 220)
     orbit = Orbit.look_from("A", np.full(3, 14.5), 20.0)
-    stage._peels = peels
+    stage.peels = peels
     seen = []
     for shown in (((red, sheet(0)), (blue, sheet(40))), ((blue, sheet(40)), (red, sheet(0)))):
         stage.set_structures(shown)
@@ -663,3 +664,16 @@ def test_the_menu_of_the_3d_view_says_what_each_entry_does_and_is_remembered(
         assert "graphics card" in menu.presets["bone"].toolTip()
     feature.forget()
     scene.set_display(Display())
+
+
+def test_pictures_of_a_turn_get_as_small_as_the_machine_needs_and_grow_again():
+    size, taken = 1.0, []
+    for _ in range(12):
+        taken.append(0.24 * size**2 + 0.02)  # 260 ms at full size
+        size = moving_size(size, taken[-1])
+    assert taken[-1] <= 0.1
+    assert 0.4 <= size < 0.6
+    for _ in range(20):
+        size = moving_size(size, 0.02)
+    assert size == 1.0
+    assert moving_size(0.7, 0.0) == 0.7

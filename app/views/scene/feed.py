@@ -16,6 +16,10 @@ POLL_MS = 25
 SETTLE_S = 0.3
 """How long the view must not be turned before it is drawn fine."""
 
+MOVING_S, LEAST_SIZE = 0.08, 0.4
+"""What a picture may take while the view is turned, and how small it is made for that at most, as
+a share of the pane's width and height."""
+
 SHORTEST_PAUSE_S, SHARE = 0.1, 0.25
 """Fine pictures come at most this often, and take at most this share of the time."""
 
@@ -39,6 +43,7 @@ class SceneFeed(QObject):
         self.orbit, self.image = orbit, QImage()
         self._turned_at = self._fine_at = -SETTLE_S
         self._fine, self._pending, self._paused = False, False, False
+        self._moving_size = 1.0
         self._timer = QTimer(self, interval=POLL_MS)
         self._timer.timeout.connect(self._look)
         self._timer.start()
@@ -113,6 +118,23 @@ class SceneFeed(QObject):
 
     def _request(self, moving: bool) -> None:
         ratio, pane = self._pane.devicePixelRatioF(), self._pane
+        if moving:
+            self._moving_size = moving_size(self._moving_size, self._renderer.moving_seconds)
+            ratio *= self._moving_size
         size = (max(1, int(pane.width() * ratio)), max(1, int(pane.height() * ratio)))
         self._pending = False
         self._renderer.request(Shot(self.orbit, size, moving))
+
+
+def moving_size(size: float, seconds: float) -> float:
+    """Size of the next picture of a turn, as a share of the pane's width and height.
+
+    A picture's time falls with its pixels, the square of the size; the next one is to take
+    `MOVING_S`. It grows by a tenth at most, so that it does not flicker.
+
+    Args:
+        size: of the last one.
+        seconds: that the last one took; 0 before the first.
+    """
+    wanted = size * (MOVING_S / seconds) ** 0.5 if seconds > 0.0 else size
+    return min(1.0, max(LEAST_SIZE, min(wanted, 1.1 * size)))

@@ -38,13 +38,14 @@ class SceneRenderer:
     Attributes:
         error: why no pictures come, one line; empty while all is well.
         seconds: what the newest fine picture took [s].
+        moving_seconds: what the newest one of a turn took [s].
         driver: what draws, in the driver's own words; empty before the first picture.
         has_volume: whether it renders volumes in good time.
     """
 
     def __init__(self) -> None:
         self.error = ""
-        self.seconds = 0.0
+        self.seconds = self.moving_seconds = 0.0
         self.driver, self.has_volume = "", False
         self._changes: dict[str, Change] = {}
         self._shot: Shot | None = None
@@ -135,7 +136,9 @@ class SceneRenderer:
         picture = stage.render(shot.orbit, shot.size_px, shot.moving)
         with self._wake:
             self._picture = picture
-            if not shot.moving:
+            if shot.moving:
+                self.moving_seconds = monotonic() - start
+            else:
                 self.seconds = monotonic() - start
 
 

@@ -66,6 +66,7 @@ class Stage:
 
     Attributes:
         driver: what draws, in the driver's own words; empty before `open`.
+        peels: whether translucent surfaces are peeled while the picture stands still.
     """
 
     def __init__(self) -> None:
@@ -104,7 +105,7 @@ class Stage:
         self._entry = Ball(scene, theme.ENTRY, POINT_RADIUS_MM, POINT_PX, over)
         self._target = Ball(scene, theme.TARGET, POINT_RADIUS_MM, POINT_PX, over)
         self._rings: list[Ring] = []
-        self._peels = True
+        self.peels = True
         self._draft = DraftPlan()
         self._tolerances_mm: tuple[float, ...] = ()
         self.set_display(self._display)
@@ -318,10 +319,10 @@ class Stage:
         self._aim(orbit, size_px)
         width, height = size_px
         window.SetSize(width, height)
-        self._draw(window, moving, self._peels and not moving)
+        self._draw(window, moving, self.peels and not moving)
         peeled = self._renderer.GetLastRenderingUsedDepthPeeling()
-        if self._peels and not moving and not peeled and self._skin.is_seen_through:
-            self._peels = False  # not with this driver
+        if self.peels and not moving and not peeled and self._skin.is_seen_through:
+            self.peels = False  # not with this driver
             self._draw(window, moving, peels=False)
         pixels = vtkUnsignedCharArray()
         window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels, 0)
