@@ -12,7 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtGui import QImage, QPixmap
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QImage
 
 from app.core.arrays import FloatArray
 from app.core.progress import Progress
@@ -33,11 +34,10 @@ from app.views.scene.surfaces import extract_surfaces
 from app.views.scene.view import CUT_TURN_PX, HOME_TURN_PX, NEEDLE_HALF_MM
 from app.views.shell.application import start
 from tools.docs_pictures import CHEST
-from tools.palette import small_png
 from tools.reading_studio import LIVER, chest_of
 
 SIZE = (900, 700)
-SHOWN_PX = 620
+SHOWN_PX = 560
 NEEDLE_MM, DEPTH_SHARE = 200.0, 0.55
 SOFT = WindowLevel(400.0, 40.0)
 
@@ -72,7 +72,9 @@ class Sitting:
         picture = np.ascontiguousarray(self._stage.render(orbit, SIZE, moving=False))
         image = QImage(picture.data, *SIZE, QImage.Format.Format_RGBX8888)
         words = "-".join(filter(None, ("scene", self._name, name)))
-        small_png(QPixmap.fromImage(image).scaledToWidth(SHOWN_PX), self._folder / f"{words}.png")
+        smooth = Qt.TransformationMode.SmoothTransformation
+        shown = image.convertToFormat(QImage.Format.Format_RGB888).scaledToWidth(SHOWN_PX, smooth)
+        shown.save(str(self._folder / f"{words}.png"))  # a palette has too few shades of skin
 
     def as_before(self) -> None:
         """Make the three views that there are of before."""
@@ -91,7 +93,7 @@ class Sitting:
         x, y, z = np.eye(3)
         frames = (Frame(self.target, x, y), Frame(self.target, y, -z), Frame(self.target, x, -z))
         self._stage.set_sections(tuple(Section(self._patient, one, SOFT) for one in frames))
-        self.keep("slices", self.front)
+        self.keep("slices", self.front, Display(slices=True))
         self._stage.set_sections(())
         cut = Section(self._patient, in_plane(frame_of(self.tip, self.axis)), SOFT)
         self._stage.set_cut(cut)

@@ -17,8 +17,8 @@ from app.imaging.phantom import anatomy, phantom_series
 from app.imaging.reading import load_ct
 from app.planning.draft import DraftPlan
 from app.views.scene.display import Display
-from app.views.scene.feed import moving_size
 from app.views.scene.orbit import Orbit
+from app.views.scene.renderer import moving_size
 from app.views.scene.stage import Stage
 from app.views.scene.surfaces import extract_surfaces
 

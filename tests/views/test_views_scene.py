@@ -29,10 +29,9 @@ from app.views.scene import mesh as meshes
 from app.views.scene import surfaces as extraction
 from app.views.scene.display import LIGHT_BACKGROUND, ORGAN_COLOURS, Display, Section
 from app.views.scene.feature import SceneFeature
-from app.views.scene.feed import moving_size
 from app.views.scene.mesh import coarser, isosurface, structure_mesh
 from app.views.scene.orbit import Orbit
-from app.views.scene.renderer import SceneRenderer, Shot
+from app.views.scene.renderer import SceneRenderer, Shot, moving_size
 from app.views.scene.robot import RobotShape
 from app.views.scene.stage import SceneError, Stage
 from app.views.scene.surfaces import BONE_HU, Surfaces, extract_surfaces, reduced, without_marrow

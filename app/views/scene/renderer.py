@@ -1,4 +1,4 @@
-"""The thread that renders: takes changes and the newest eye, hands out the newest picture."""
+"""The thread that renders the 3D view, and when it is asked: coarsely while the view is turned."""
 
 from __future__ import annotations
 
@@ -11,8 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QWidget
 
 from app.core.loading import ONE_AT_A_TIME
+from app.views.kit.text import tr
 from app.views.scene.orbit import Orbit
 
 if TYPE_CHECKING:
@@ -21,6 +25,17 @@ if TYPE_CHECKING:
 Change = Callable[["Stage"], None]
 
 _log = logging.getLogger(__name__)
+
+POLL_MS = 25
+SETTLE_S = 0.3
+"""How long the view must not be turned before it is drawn fine."""
+
+MOVING_S, LEAST_SIZE = 0.08, 0.4
+"""What a picture may take while the view is turned, and how small it is made for that at most, as
+a share of the pane's width and height."""
+
+SHORTEST_PAUSE_S, SHARE = 0.1, 0.25
+"""Fine pictures come at most this often, and take at most this share of the time."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -146,3 +161,119 @@ def _new_stage() -> Stage:
     with ONE_AT_A_TIME:
         from app.views.scene.stage import Stage
     return Stage()
+
+
+class SceneFeed(QObject):
+    """Gets the pictures of one widget from the render thread.
+
+    Attributes:
+        orbit: from where the pictures are taken.
+        image: the newest picture.
+
+    Signals:
+        arrived(): there is a newer picture.
+    """
+
+    arrived = Signal()
+
+    def __init__(self, renderer: SceneRenderer, orbit: Orbit, pane: QWidget) -> None:
+        super().__init__(pane)
+        self._renderer, self._pane = renderer, pane
+        self.orbit, self.image = orbit, QImage()
+        self._turned_at = self._fine_at = -SETTLE_S
+        self._fine, self._pending, self._paused = False, False, False
+        self._moving_size = 1.0
+        self._timer = QTimer(self, interval=POLL_MS)
+        self._timer.timeout.connect(self._poll)
+        self._timer.start()
+        renderer.open()
+
+    @property
+    def error(self) -> str:
+        """Why no pictures come, one line; empty while all is well."""
+        return self._renderer.error
+
+    @property
+    def why_no_volume(self) -> str:
+        """Say why the volume cannot be rendered here; empty where it can."""
+        renderer = self._renderer
+        if renderer.has_volume:
+            return ""
+        return tr("Volume rendering needs a graphics card; here {driver} draws.",
+                  driver=renderer.driver or tr("nothing yet"))  # fmt: skip
+
+    def set_paused(self, paused: bool) -> None:
+        """Ask for no pictures while nobody may see them."""
+        self._paused = paused
+        self._pending = True
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether the picture is the fine one of what there is to be seen."""
+        if self._paused:
+            return True
+        return self._fine and not self._pending and self._renderer.idle
+
+    def change(self, kind: str, change: Change) -> None:
+        """Change what is seen; the newest of a kind wins."""
+        self._renderer.change(kind, change)
+        self._pending = True
+
+    def turn(self, orbit: Orbit) -> None:
+        """Look from somewhere else."""
+        self.orbit, self._turned_at = orbit, monotonic()
+        self._pending = True
+
+    def refresh(self) -> None:
+        """Ask for another picture, as after a change of the size."""
+        self._pending = True
+
+    def close(self) -> None:
+        """Stop looking and stop the thread; idempotent."""
+        self._timer.stop()
+        self._renderer.close()
+
+    def _poll(self) -> None:
+        picture = self._renderer.take()
+        if picture is not None:
+            height, width, _ = picture.shape
+            borrowed = QImage(picture.data, width, height, QImage.Format.Format_RGBX8888)
+            self.image = borrowed.convertToFormat(QImage.Format.Format_RGB32)
+            self.arrived.emit()
+        if self._paused or not self._pane.isVisible() or not self._renderer.idle:
+            return
+        now = monotonic()
+        if now - self._turned_at < SETTLE_S:
+            if self._pending:
+                self._request(moving=True)
+                self._fine = False
+        elif (self._pending or not self._fine) and now - self._fine_at >= self._pause():
+            self._request(moving=False)
+            self._fine, self._fine_at = True, now
+
+    def _pause(self) -> float:
+        """Shortest time between fine pictures [s]: a live needle must not take a whole core."""
+        return max(SHORTEST_PAUSE_S, self._renderer.seconds / SHARE)
+
+    def _request(self, moving: bool) -> None:
+        ratio, pane = self._pane.devicePixelRatioF(), self._pane
+        if moving:
+            self._moving_size = moving_size(self._moving_size, self._renderer.moving_seconds)
+            ratio *= self._moving_size
+        size = (max(1, int(pane.width() * ratio)), max(1, int(pane.height() * ratio)))
+        self._pending = False
+        self._renderer.request(Shot(self.orbit, size, moving))
+
+
+def moving_size(size: float, seconds: float) -> float:
+    """Size of the next picture of a turn, as a share of the pane's width and height.
+
+    A picture's time falls with its pixels, the square of the size; the next one is to take
+    `MOVING_S`. It grows by a tenth at most, so that it does not flicker.
+
+    Args:
+        size: of the last one.
+        seconds: that the last one took; 0 before the first.
+    """
+    wanted = size * (MOVING_S / seconds) ** 0.5 if seconds > 0.0 else size
+    return min(1.0, max(LEAST_SIZE, min(wanted, 1.1 * size)))

@@ -47,7 +47,7 @@ NEEDLE_PX, PATH_PX, POINT_PX, BEAD_PX, RING_PX = 4.0, 2.0, 9.0, 4.5, 1.6
 BEADS_MM, MOST_BEADS = 10.0, 30
 """Beads on the path stand so far apart: one counts the depth along it."""
 
-SKIN_OPACITY = 0.4
+SKIN_OPACITY, AROUND_SLICES = 0.4, 0.14
 XRAY_OPACITY = {"skin": 0.14, "bone": 0.38, "organ": 0.16}
 
 PEELS, LEFT_OUT = 8, 0.005
@@ -198,6 +198,8 @@ class Stage:
             actor.set_opacity(min(usual, XRAY_OPACITY[part]) if display.xray else usual)
         if self._cut_frame is not None and not display.xray:  # one looks in through the cut
             self._skin.set_opacity(1.0)
+        elif display.slices:
+            self._skin.set_opacity(min(self._skin.usual_opacity, AROUND_SLICES))
         self._show_volume()
 
     def _show_volume(self) -> None:

@@ -34,9 +34,8 @@ from app.planning.placement import Placement
 from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.scene.display import ORGAN_COLOURS, Display, Section, organ_title
-from app.views.scene.feed import SceneFeed
 from app.views.scene.orbit import Orbit
-from app.views.scene.renderer import SceneRenderer
+from app.views.scene.renderer import SceneFeed, SceneRenderer
 from app.views.scene.robot import RobotShape
 from app.views.scene.words import Entry, draw_compass, draw_words
 
