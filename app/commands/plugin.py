@@ -4,7 +4,7 @@ import typer
 
 from app.commands.answer import Answer, Commands
 
-app = Commands(help="Your own laws, effects, metrics, marker extractors and studies.")
+app = Commands(help="Your own laws, effects, metrics, extractors, studies.")
 
 
 def register(root: typer.Typer) -> None:
@@ -14,10 +14,10 @@ def register(root: typer.Typer) -> None:
 
 @app.command("list")
 def list_plugins() -> Answer:
-    """List your own files of every kind, and why one is refused, with file and line.
+    """List your own files of every kind, and why one is refused.
 
-    Ends with code 3 if one is refused. Nothing is run or deleted; `acus law list --try` also tries
-    force laws.
+    File and line of what is wrong are told. Ends with code 3 if one is refused. Nothing is run or
+    deleted; `acus law list --try` also tries force laws.
     """
     from app.compose.plugins import plugin_files
 

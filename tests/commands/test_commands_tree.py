@@ -111,6 +111,7 @@ EXAMPLES = {
     "pen list": (),
     "pen print": ("--out", "pen.pdf"),
     "plate list": (),
+    "plugin list": (),
     "registration list": (),
     "session export": ("--out", "all.csv"),
     "session list": (),

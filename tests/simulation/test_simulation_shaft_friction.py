@@ -78,8 +78,8 @@ def test_a_cycle_dissipates_all_but_the_presliding_energy() -> None:
 def test_a_measured_depth_has_its_speed_smoothed() -> None:
     scene = Scene(layers=LAYERS)
     memory = memory_of("shaft_friction", {}, Binding(scene))
-    assert memory[effect.SMOOTHING] == pytest.approx(0.03)
-    assert friction()[effect.SMOOTHING] == 0.0
+    assert memory[effect._AT.smoothing] == pytest.approx(0.03)
+    assert friction()[effect._AT.smoothing] == 0.0
 
 
 def test_outside_the_skin_there_is_none() -> None:

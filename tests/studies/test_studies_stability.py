@@ -115,10 +115,10 @@ def test_the_edge_of_a_map_is_below_the_first_oscillation():
 
 
 def test_the_study_says_when_something_oscillates(monkeypatch):
-    monkeypatch.setattr("app.studies.rendering.sweep.RATES", (1000.0,))
-    monkeypatch.setattr("app.studies.rendering.sweep.DELAYS", (1,))
-    monkeypatch.setattr("app.studies.rendering.sweep.STIFFNESS", np.array([100.0, 5000.0]))
-    monkeypatch.setattr("app.studies.rendering.sweep.DAMPING", np.array([0.0, 0.1, 0.3, 1.0]))
+    monkeypatch.setattr("app.studies.stability.RATES", (1000.0,))
+    monkeypatch.setattr("app.studies.stability.DELAYS", (1,))
+    monkeypatch.setattr("app.studies.stability.STIFFNESS", np.array([100.0, 5000.0]))
+    monkeypatch.setattr("app.studies.stability.DAMPING", np.array([0.0, 0.1, 0.3, 1.0]))
     findings = STUDY.measure(None)
     assert findings.lines[0].startswith("Oscillates: let go 0.25 mm")
     assert len(findings.sheets[1].rows) == 4

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from app.tracking.markers.colour import RED, mark_half
+from app.tracking.markers.colour import RED
 from app.tracking.markers.extractor import Hint, MarkerFix
-from app.tracking.markers.outline_centroid import OutlineCentroid
+from app.tracking.markers.outline_centroid import OutlineCentroid, mark_half
 from app.tracking.markers.silhouette import centroid_shift
 from app.tracking.markers.thesis import ThesisMarker
 from app.tracking.simulated.picture_effects import NoiseTile, blur, lighting, noise

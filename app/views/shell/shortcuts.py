@@ -35,7 +35,7 @@ def groups(scheme: Scheme) -> list[Group]:
         (
             tr("Plan"),
             [
-                ("E, T", tr("place entry, place target: then click in any view")),
+                ("E, T", tr("place entry, place target: then click in any view, 3D too")),
                 (tr("Drag a mark"), tr("move it")),
                 (tr("Esc"), tr("stop placing")),
                 ("Ctrl+Z, Ctrl+Y", tr("undo, redo")),
@@ -51,12 +51,10 @@ def groups(scheme: Scheme) -> list[Group]:
                 (tr("Left, middle, right drag"), tr("turn, pan, zoom")),
                 ("A P L Shift+R S I", tr("look from that side")),
                 ("N, W", tr("look along the needle, as the operator")),
-                ("r, " + tr("Space"), tr("whole patient")),
-                (tr("Backspace"), tr("look from where one looked before")),
+                (tr("Space, r; Backspace"), tr("whole patient; from where one looked before")),
                 ("X, C", tr("x-ray; cut along the needle")),
                 ("M, Y", tr("slices as planes; organs")),
                 ("V, Q", tr("volume rendering; light background")),
-                (tr("Click with E pressed before"), tr("entry on the skin")),
             ],
         ),
         (
