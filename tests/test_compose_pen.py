@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from app.compose.pen import Pen, joint_angles, without_force
-from app.compose.replay import replay_recording
-from app.compose.trainer import TrainerSetup, build_rig
+from app.compose.trainer import TrainerSetup, build_rig, replay_recording
 from app.core import state_vector as sv
 from app.core.arrays import unit
 from app.core.clock import VirtualClock

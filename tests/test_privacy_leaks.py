@@ -19,7 +19,7 @@ import pytest
 from mcap.reader import make_reader
 from pydicom.dataset import Dataset
 
-from app.imaging.phantom import phantom_series
+from app.imaging.phantom.series import phantom_series
 
 TEXTS = {
     "PatientName": "Zqmustermann^Hanspeter", "PatientID": "ZQ-4711-0815",

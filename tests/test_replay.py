@@ -16,8 +16,7 @@ from typer.testing import CliRunner
 
 from app.commands import build as command_line
 from app.compose.cameras import AttachedCameras
-from app.compose.replay import replay_recording
-from app.compose.trainer import TrainerSetup, _context, build_loop, device_of
+from app.compose.trainer import TrainerSetup, _context, build_loop, device_of, replay_recording
 from app.core import state_vector as sv
 from app.core.build import BUILD
 from app.core.clock import Clock, SystemClock, VirtualClock

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from app.compose.replay import replay_recording
+from app.compose.trainer import replay_recording
 from app.session.recording import read_recording
 
 FOLDER = Path(__file__).parent / "data" / "records-kept"

@@ -10,7 +10,7 @@ from app.core.clock import VirtualClock
 from app.exercises.guidance import GuidanceMode
 from app.exercises.library import load_exercise
 from app.exercises.scene import placed_plan_of
-from app.imaging.phantom import phantom_series
+from app.imaging.phantom.series import phantom_series
 from app.imaging.reading import load_ct
 from app.imaging.scan_order import ScanOrder, Seen
 from app.imaging.scanned import scan_image

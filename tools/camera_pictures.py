@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from PySide6.QtWidgets import QApplication
 
-from app.compose import Desktop
+from app.compose.desktop import Desktop
 from app.tracking.calibration.history import CalibrationHistory
 from app.tracking.cameras.settings import CameraSettings, parse_cameras, save_settings
 from app.tracking.optics.calibration import CameraCalibration, PoseCalibration, StereoCalibration

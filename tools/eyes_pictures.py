@@ -8,7 +8,7 @@ import tempfile
 from math import radians
 from pathlib import Path
 
-from app.compose import Desktop
+from app.compose.desktop import Desktop
 from app.views.checks.feature import ChecksFeature
 from app.views.shell.application import start
 from app.views.shell.window import MainWindow

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from PySide6.QtWidgets import QApplication
 
-from app.compose import Desktop
+from app.compose.desktop import Desktop
 from app.compose.live_pen import SIMULATED_WEBCAM, simulated_lens
 from app.core.units import MILLIMETRE
 from app.mechanisms.profile import load_profile
@@ -22,7 +22,7 @@ from app.tracking.pen.needle import PenTip
 from app.tracking.pen.settings import PenSettings
 from app.tracking.simulated.pen import PenRenderer
 from app.tracking.simulated.pen_scene import rocked
-from app.views.pen.dialog import PenDialog
+from app.views.pen.feature import PenDialog
 from app.views.shell.application import start
 from tools.robot_pictures import keep, pause, wait
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QApplication, QWidget
 
-from app.compose import Desktop
+from app.compose.desktop import Desktop
 from app.core.progress import Progress
 from app.mechanisms.profile import load_profile
 from app.views.exercise.energy_gauge import GaugeMode

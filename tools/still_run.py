@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.compose import Desktop
+from app.compose.desktop import Desktop
 from app.compose.trainer import Rig, TrainerSetup, build_rig
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock

@@ -232,7 +232,7 @@ def _measure(side: str) -> None:
     """
     import os
 
-    from app.compose import Desktop
+    from app.compose.desktop import Desktop
     from app.tracking.cameras.settings import SIDES, load_settings, save_settings, with_latency
     from app.tracking.errors import CameraError
     from app.views.cameras.latency_dialog import LatencyDialog

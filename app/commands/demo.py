@@ -76,7 +76,7 @@ def _show(
     cameras: str,
     pen: bool,
 ) -> None:
-    from app.compose import Desktop
+    from app.compose.desktop import Desktop
     from app.core.errors import AcusError
     from app.exercises.errors import UnknownExerciseError
     from app.exercises.library import library

@@ -87,7 +87,7 @@ def calibrate(
     With --roll the shaft's direction is measured too: lay the pen into a groove and roll it by a
     quarter turn or more. Without, the shaft is taken to run through the middle of the cube.
     """
-    from app.compose.pen_calibration import calibrate_pen, measure_shaft
+    from app.compose.pen import calibrate_pen, measure_shaft
     from app.tracking.pen.settings import load_settings, save_pen, save_settings, with_source
 
     settings = load_settings().model_copy(update={"pen": pen, "edge_mm": edge})

@@ -43,7 +43,7 @@ def run(
 ) -> None:
     """Open the trainer. The mouse moves a simulated hand, or a real robot its own needle."""
     _check(ct, device, exercise)
-    from app.compose import Desktop
+    from app.compose.desktop import Desktop
     from app.tracking.cameras.settings import parse_cameras
     from app.tracking.cameras.source import parse_source
     from app.views.shell.application import start

@@ -80,7 +80,7 @@ def replay(
     if not check:
         held = contents(recording)
         return Answer(held.document(), list(held.sentences()))
-    from app.compose.replay import replay_recording  # loads kernels
+    from app.compose.trainer import replay_recording  # loads kernels
     from app.session.verify import verify as verified
 
     report, found = replay_recording(recording), verified(recording)

@@ -73,7 +73,7 @@ HEAVY_MODULES: Final = (
     "app.core.compiled",
     "app.mechanisms.pantograph",
     "app.device.control.loop",
-    "app.simulation.clearing",
+    "app.simulation.plan",
     "app.tracking.simulated.cameras",
     "app.tracking.tracker",
     "app.compose.trainer",

@@ -1,4 +1,7 @@
-"""Builds a running trainer from a configuration: the only file that names concrete drivers."""
+"""Builds a running trainer from a configuration: the only file that names concrete drivers.
+
+A recorded attempt's trainer is built again from what its record has attached, to be recomputed.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +15,12 @@ from typing import Any, Final
 from app.compose.cameras import AttachedCameras, real_cameras, simulated_on
 from app.compose.declared_views import declared_views
 from app.compose.needle import UPRIGHT, felt_force, measured_axis, needle_scene
-from app.compose.pen import Pen
+from app.compose.pen import Pen, pen_table
 from app.compose.robot import Robot, connect
 from app.core import paths
 from app.core.build import BUILD, build
 from app.core.clock import Clock, SystemClock
+from app.core.configuration import parse
 from app.core.errors import AcusError
 from app.device.control import Loop, Table, laws, pantograph_stages
 from app.device.links.link import Link
@@ -30,8 +34,11 @@ from app.planning.registration.record import Registrations
 from app.session.conditions import CONDITIONS, TRAINEE
 from app.session.context import RunContext
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
+from app.session.errors import ReplayError
 from app.session.fixes import DepthTrust
 from app.session.header import Attachment
+from app.session.recording import Recording
+from app.session.replay import ReplayReport, is_simulated, replay
 from app.session.risks import Risk
 from app.session.trainer import Trainer
 from app.session.withdrawal import Start
@@ -372,3 +379,61 @@ def _context(
     calibration, rig = cameras.metadata.get("calibration", ""), cameras.rig.name
     agreement = agreement_of(calibration, rig, robot is None, setup.ct)
     return run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents, agreement)
+
+
+def replay_recording(recording: Recording) -> ReplayReport:
+    """Recompute an attempt and compare it with its record; see `session.replay.replay`."""
+    return replay(recording, replay_table)
+
+
+def replay_table(recording: Recording) -> Table:
+    """Build the table of a record's loop; its numbers are taken from the checkpoint later.
+
+    Of a real robot the stages of its link are left out: what they read is given from the record,
+    and nothing is sent.
+
+    Raises:
+        ReplayError: if an attachment is missing; names it.
+        AcusError: if one cannot be used by this version.
+    """
+    exercise = parse(_exercise(recording), Exercise, "the record's exercise")
+    profile = parse(_attached(recording, "device.json"), DeviceProfile, "the record's device")
+    setup = TrainerSetup(
+        exercise,
+        recording.placed_plan(),
+        skill=recording.metadata.get("trainee", {}).get("scripted") or None,
+        seed=_seed(recording),
+    )
+    pen = recording.metadata.get("device", {}).get("pen")
+    if pen:
+        simulated = pen == "yes"
+        return pen_table(
+            exercise, setup.placed, profile, [], setup.skill, setup.seed, simulated=simulated
+        )
+    return loop_table(setup, profile, simulated=is_simulated(recording))
+
+
+def _exercise(recording: Recording) -> Any:
+    """Return the recorded exercise; a CT whose folder was left out is no part of the loop."""
+    document = _attached(recording, "exercise.json")
+    ct = document.get("ct") if isinstance(document, dict) else None
+    if isinstance(ct, dict) and ct.get("phantom") is None and ct.get("folder") is None:
+        return document | {"ct": ct | {"folder": "left-out"}}
+    return document
+
+
+def _attached(recording: Recording, name: str) -> Any:
+    try:
+        return json.loads(recording.attachments[name])
+    except KeyError as error:
+        raise ReplayError(f"this record cannot be replayed: it has no {name}") from error
+    except (ValueError, RecursionError) as error:
+        raise ReplayError(f"this record cannot be replayed: {name} is damaged: {error}") from error
+
+
+def _seed(recording: Recording) -> int:
+    text = recording.metadata.get("session", {}).get("seed", "")
+    try:
+        return int(text)
+    except ValueError as error:
+        raise ReplayError(f"this record cannot be replayed: its seed is {text!r}") from error

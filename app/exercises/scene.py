@@ -57,7 +57,9 @@ def draft_of(exercise: Exercise) -> DraftPlan:
 
 
 def _phantom_of(exercise: Exercise) -> Anatomy:
-    from app.imaging.phantom import anatomy  # only for this plan: placing the lesion takes a second
+    from app.imaging.phantom.anatomy import (
+        anatomy,  # only for this plan: placing the lesion takes a second
+    )
 
     return anatomy(exercise.ct.phantom.seed if exercise.ct.phantom else 1)
 

@@ -56,7 +56,8 @@ def load_phantom(seed: int, progress: Progress) -> Patient:
     """
     with ONE_AT_A_TIME:  # pydicom and scipy: behind the window, not before it
         from app.imaging.body import find_body
-        from app.imaging.phantom import anatomy, phantom_series
+        from app.imaging.phantom.anatomy import anatomy
+        from app.imaging.phantom.series import phantom_series
         from app.imaging.reading import load_ct
 
     folder = phantom_series(seed, progress.part(0.0, 0.6))

@@ -13,7 +13,7 @@ import pydicom
 from pydicom.uid import JPEG2000Lossless, JPEGLSLossless, RLELossless
 
 from app.core import paths
-from app.imaging.phantom import phantom_series
+from app.imaging.phantom.series import phantom_series
 from tests.bench.bench_ct_loading import compare
 
 SLICES = 100

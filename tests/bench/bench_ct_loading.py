@@ -66,7 +66,9 @@ def main() -> None:
     """Print medians, p99 and ratios for the phantom and the real chest."""
     root = Path(__file__).resolve().parents[2]
     data = Path(os.environ.get("ACUS_TEST_DATA") or root.parent / "shared" / "data")
-    phantom = _python("from app.imaging.phantom import *; print(phantom_series(1))")
+    phantom = _python(
+        "from app.imaging.phantom.series import phantom_series; print(phantom_series(1))"
+    )
     folders = {"phantom, 300 slices": Path(phantom.strip())}
     if (chest := data / "ct_chest_lidc0314").is_dir():
         folders["real chest, 275 slices"] = chest

@@ -15,8 +15,7 @@ from time import perf_counter
 import numpy as np
 import zstandard
 
-from app.compose.replay import replay_recording
-from app.compose.trainer import Rig, TrainerSetup, build_rig
+from app.compose.trainer import Rig, TrainerSetup, build_rig, replay_recording
 from app.core.clock import Clock, SystemClock, VirtualClock
 from app.exercises.library import load_exercise
 from app.exercises.scene import device_of, placed_plan_of

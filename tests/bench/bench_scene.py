@@ -13,7 +13,8 @@ import numpy as np
 
 from app.core.progress import Progress
 from app.imaging.body import find_body
-from app.imaging.phantom import anatomy, phantom_series
+from app.imaging.phantom.anatomy import anatomy
+from app.imaging.phantom.series import phantom_series
 from app.imaging.reading import load_ct
 from app.planning.draft import DraftPlan
 from app.views.scene.display import Display

@@ -12,7 +12,7 @@ from statistics import median
 
 from app.core.progress import Cancelled, Progress
 from app.imaging.body import Body, find_body
-from app.imaging.phantom import phantom_series
+from app.imaging.phantom.series import phantom_series
 from app.imaging.reading import load_ct
 from app.imaging.volume import Volume
 from app.views.scene.surfaces import extract_surfaces

@@ -27,7 +27,7 @@ from app.session.needle import DepthSource
 from tests.bench.window_load import Session, pump
 
 PARTS = {
-    "planes": ("app.views.slices.planes:Planes.lay",),
+    "planes": ("app.views.slices.planes:Planes.lay", "app.views.slices.viewing:Planes.lay"),
     "placing": (
         "app.views.slices.layer_stack:LayerStack.place",
         "app.views.slices.layers:LayerStack.place",

@@ -9,7 +9,7 @@ os.environ["QT_QPA_PLATFORM"] = "offscreen"
 from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 
-from app.compose import Desktop
+from app.compose.desktop import Desktop
 from app.session.needle import DepthSource
 from app.views.shell.application import start
 from app.views.shell.window import MainWindow

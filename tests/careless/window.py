@@ -23,7 +23,7 @@ from typing import TypeVar
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 from PySide6.QtWidgets import QApplication, QFileDialog, QMenu
 
-from app.compose import Desktop
+from app.compose.desktop import Desktop
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
 from app.views.shell.application import start

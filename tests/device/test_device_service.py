@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from app.core import state_vector as sv
-from app.device.commissioning.service import LARGEST_FORCE, LARGEST_TORQUE, Service
+from app.device.commissioning.bench import LARGEST_FORCE, LARGEST_TORQUE, Service
 from app.device.control.corrections import Corrections
 from app.device.errors import DeviceError
 

@@ -15,7 +15,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, Qt, QTimer
 from PySide6.QtWidgets import QPushButton, QWidget
 
-from app.compose import Desktop
+from app.compose.desktop import Desktop
 from app.core.files import write_atomically
 from app.views.debrief.feature import DebriefFeature
 from app.views.shell.application import start

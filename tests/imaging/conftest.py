@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from app.imaging.phantom import phantom_series
+from app.imaging.phantom.series import phantom_series
 from app.imaging.reading import load_ct
 from app.imaging.volume import Volume
 

@@ -7,8 +7,10 @@ import pytest
 from app.core.errors import ConfigurationError
 from app.core.progress import Cancelled, Progress
 from app.imaging.body import find_body, is_inside, skin_entry
-from app.imaging.phantom import anatomy, organs, phantom_series, skeleton
+from app.imaging.phantom import organs, skeleton
+from app.imaging.phantom.anatomy import anatomy
 from app.imaging.phantom.lesion import planned_patient
+from app.imaging.phantom.series import phantom_series
 from app.imaging.scanning import scan_folder
 
 SEEDS = range(1, 6)

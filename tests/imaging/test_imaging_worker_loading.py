@@ -57,7 +57,7 @@ def test_a_file_that_needs_pydicom_is_not_charged_for_loading_it(tmp_path, monke
     """The program counts a file's processor time anew from each sign of progress."""
     file = tmp_path / "file"
     file.write_bytes(bytes(128) + b"DICM" + bytes(300))
-    monkeypatch.delitem(sys.modules, "app.imaging.enhanced", raising=False)
+    monkeypatch.delitem(sys.modules, "app.imaging.header_reading", raising=False)
     told = []
     headers_in(file, tmp_path, Progress(lambda fraction, text: told.append(text)))
     assert told == ["pydicom is loaded"]

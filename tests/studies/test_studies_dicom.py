@@ -8,9 +8,8 @@ import pytest
 from app.core.progress import Progress
 from app.imaging.reading import load_ct
 from app.imaging.scanning import scan_folder
-from app.studies.dicom import file_cases, folder_cases, pydicom_files
+from app.studies.dicom import file_cases, folder_cases, justified, meaning, pydicom_files
 from app.studies.dicom_cases.comparison import ROUNDED, UNEXPLAINED, Peer, PeerImage, compare, read
-from app.studies.dicom_cases.reasons import justified, meaning
 from app.studies.errors import StudyError
 from app.studies.runner import examine
 from tests.imaging.dicom_factory import Slices

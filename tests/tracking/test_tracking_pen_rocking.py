@@ -9,11 +9,19 @@ from pen_rig import ENTRY, PEN, TIP, camera, picture, renderer, step
 from app.core.errors import ConfigurationError
 from app.core.transform import RigidTransform
 from app.tracking.errors import PenError
-from app.tracking.pen.calibrating import EVERY, WANTED, held_back
+from app.tracking.pen.calibrating import (
+    EVERY,
+    LEANT,
+    SIDES,
+    WANTED,
+    Lean,
+    Rocking,
+    held_back,
+    lean_of,
+)
 from app.tracking.pen.needle import PenTip
 from app.tracking.pen.pivot import FEWEST, MeasuredPose
 from app.tracking.pen.pose import BoardPose, PoseStatus
-from app.tracking.pen.rocking import LEANT, SIDES, Lean, Rocking, lean_of
 from app.tracking.pen.settings import (
     PenSettings,
     before_path,

@@ -7,13 +7,12 @@ from PySide6.QtGui import QAction, QDesktopServices
 from PySide6.QtWidgets import QApplication, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from app import __version__
-from app.core.parts import parts
 from app.views.kit.text import disclaimer
 from app.views.robot.health_panel import HealthPanel
 from app.views.shell import help as user_guide
 from app.views.shell import window as shell_window
 from app.views.shell.application import icon
-from app.views.shell.help import AboutDialog
+from app.views.shell.help import AboutDialog, parts
 
 
 @pytest.fixture

@@ -14,8 +14,8 @@ from app.session.machine import State
 from app.tracking.cameras.settings import CameraSettings, OneCamera
 from app.tracking.cameras.watch import CameraState
 from app.tracking.errors import CameraError
+from app.tracking.pen.calibrating import SIDES, Lean
 from app.tracking.pen.needle import PenTip
-from app.tracking.pen.rocking import SIDES, Lean
 from app.tracking.pen.settings import (
     PenSettings,
     calibrated_path,

@@ -13,7 +13,7 @@ HEAVY = ("numba", "llvmlite", "vtkmodules", "scipy", "pydicom", "cv2")
 
 START = """
 import sys
-from app.compose import Desktop
+from app.compose.desktop import Desktop
 from app.views.shell.application import start
 from app.views.shell.window import MainWindow
 application = start(offscreen=True)
@@ -64,7 +64,9 @@ def run(code, tmp_path):
     return set(out.stdout.split())
 
 
-@pytest.mark.parametrize("code", [START, "import sys, app.views.shell.window, app.compose\n"])
+@pytest.mark.parametrize(
+    "code", [START, "import sys, app.views.shell.window, app.compose.desktop\n"]
+)
 def test_the_start_page_loads_nothing_heavy(code, tmp_path):
     assert not run(code + LOADED, tmp_path) & set(HEAVY)
 

@@ -1,9 +1,8 @@
 """Side stiffness of layered tissue about the fulcrum: a needle in a Winkler foundation.
 
 Tissue is pierced where the tip passes and from then on resists the needle's sideways displacement
-there with k(s) [N/m²]; the needle bends, held along d̂ at the fulcrum. `simulation.buried_needle`
-solves that: the stored energy is U = ½ a - n · m + c, and virtual work gives the force at the hub
-point P_u = P_I - L_out n,
+there with k(s) [N/m²]; the needle bends, held along d̂ at the fulcrum. The stored energy is
+U = ½ a - n · m + c (below), and virtual work gives the force at the hub point P_u = P_I - L_out n,
 
     F = -(m - n (n · m)) / L_out,
 
@@ -26,29 +25,320 @@ counted; with it the lateral port alone is passive, so this effect has no axial 
 
 Withdrawing forgets. A depth that nobody measured (DEPTH_SOURCE 0, the model's) moves nothing: the
 tissue stays as it was last known, and before the first measurement there is none.
+
+Force and bent shape at once. The needle leaves the fulcrum (s = 0) along the unit vector n, as its
+tube holds it there, and ends free at s = d. Tissue of side stiffness k(s) [N/m²] holds it where the
+tip once passed, at u(s). With p(s) the needle's place from the fulcrum, each coordinate by itself,
+the stored energy is
+
+    U(n) = min over p of  ½ ∫_0^d EI |p''|² + k |p - u|² ds,   p(0) = 0, p'(0) = n,
+
+a quadratic ½ a - n · m + c for |n| = 1. Its slope gives the moment about the fulcrum, m across n,
+hence the force at the hub point and the curvature m / EI at the fulcrum; the p that attains it is
+where the needle is, tip included. So force and shape are one solution and cannot disagree.
+
+Solved from the fulcrum inwards, bin by bin, as a filter does: the state (p, p') at an edge has the
+compliance S against what lies above it and the free place G n + y. A bin adds its tissue, F and q,
+
+    (p, p') <- (1 + S F)⁻¹ (p, p' + S q),   S <- (1 + S F)⁻¹ S,
+
+then the beam leads on to the next edge, T = [[1, h], [0, 1]], S <- T S Tᵀ + [[h³/3, h²/2],
+[h²/2, h]] / EI. All terms are positive, nothing cancels, and 1 / EI = 0 is the rigid needle. What
+lies above an edge does not change while the needle goes deeper, so a tick costs the same at every
+depth. Inside its bin the tissue is taken at the tangent of the upper edge: an error of the second
+order in the bin, 2e-4 of the displacement for an 18 G needle (tested).
+
+The tip goes straight ahead through new tissue, which is laid down where the needle already is:
+advancing adds no energy at all. Withdrawing frees tissue; what is left of the last bin is the
+straight line nearest to what was laid there. Energy falls by both, so the lateral port is passive.
+
+Array: heads, layers (end, k), then per edge: S, G and a, which no history changes; y, m, c; and the
+q of the bin below the edge.
 """
 
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
 from app.core import state_vector as sv
 from app.core.arrays import FloatArray
-from app.core.compiled import stage
-from app.simulation.buried_needle import (
-    AT,
-    BIN,
-    advance,
-    at_tip,
-    empty,
-    retreat,
-    rotational_stiffness,
-    stored,
-)
+from app.core.compiled import njit, stage
+from app.core.parameters import numbered, packed
 from app.simulation.errors import SimulationError
 from app.simulation.needles import bending_stiffness
 from app.simulation.scene import Binding
+
+BIN: Final = 2.0**-10  # [m] depth resolution of the memory; a power of two, so that edges are exact
+
+
+class _BuriedPlaces(NamedTuple):
+    """Sizes, 1 / EI, depth, and of the bin at the tip q0, q1 (vectors) and ∫ k u²."""
+
+    layers: int
+    bins: int
+    lever: int
+    flexibility: int
+    depth: int = 0
+    q0: int = 0
+    q0_y: int = 0
+    q0_z: int = 0
+    q1: int = 0
+    q1_y: int = 0
+    q1_z: int = 0
+    square: int = 0
+
+
+class _EdgePlaces(NamedTuple):
+    """Of an edge: S, G, a; y0, y1, m (vectors), c; and q0, q1 (vectors) of the bin below it."""
+
+    s11: int
+    s12: int
+    s22: int
+    g0: int
+    g1: int
+    a: int
+    y0: int
+    y0_y: int
+    y0_z: int
+    y1: int
+    y1_y: int
+    y1_z: int
+    m: int
+    m_y: int
+    m_z: int
+    c: int
+    q0: int
+    q0_y: int
+    q0_z: int
+    q1: int
+    q1_y: int
+    q1_z: int
+
+
+AT: Final = numbered(_BuriedPlaces)
+_EDGE: Final = numbered(_EdgePlaces)
+
+
+def empty(ends: FloatArray, stiffness: FloatArray, flexibility: float, lever: float) -> FloatArray:
+    """Return the array of tissue not yet pierced.
+
+    Args:
+        ends: where the layers end [m], rising, shape (n,).
+        stiffness: side stiffness of each [N/m²], shape (n,).
+        flexibility: 1 / EI of the needle [1/(N·m²)]; 0 for a rigid one.
+        lever: shortest L_out [m].
+    """
+    bins = int(np.ceil(ends[-1] / BIN)) + 1
+    pairs = np.column_stack([ends, stiffness]).ravel()
+    edges = np.zeros(len(_EDGE) * (bins + 1))
+    p = packed(AT, pairs, edges, layers=len(ends), bins=bins, lever=lever, flexibility=flexibility)
+    _tabulate(p)
+    return p
+
+
+@njit
+def _edge(p: FloatArray, j: int) -> int:
+    return len(AT) + 2 * int(p[AT.layers]) + len(_EDGE) * j
+
+
+@njit
+def _tissue(p: FloatArray, j: int, begin: float, end: float) -> Any:
+    """∫ k, ∫ k t and ∫ k t² over the part of bin j from `begin` to `end`, t from its upper edge."""
+    f0 = f1 = f2 = 0.0
+    upper = j * BIN
+    start = 0.0
+    for i in range(int(p[AT.layers])):
+        low, high = max(start - upper, begin), min(p[len(AT) + 2 * i] - upper, end)
+        if high > low:
+            k = p[len(AT) + 2 * i + 1]
+            f0 += k * (high - low)
+            f1 += k * (high * high - low * low) / 2.0
+            f2 += k * (high * high * high - low * low * low) / 3.0
+        start = p[len(AT) + 2 * i]
+    return f0, f1, f2
+
+
+@njit
+def _held(p: FloatArray, e: int, f0: float, f1: float, f2: float) -> Any:
+    """(1 + S F)⁻¹ and the compliance after the tissue F has been added to the edge at `e`."""
+    s11, s12, s22 = p[e + _EDGE.s11], p[e + _EDGE.s12], p[e + _EDGE.s22]
+    n11, n12 = 1.0 + s11 * f0 + s12 * f1, s11 * f1 + s12 * f2
+    n21, n22 = s12 * f0 + s22 * f1, 1.0 + s12 * f1 + s22 * f2
+    # The determinant written so that every term is positive.
+    det = (
+        1.0
+        + s11 * f0
+        + 2.0 * s12 * f1
+        + s22 * f2
+        + max(s11 * s22 - s12 * s12, 0.0) * max(f0 * f2 - f1 * f1, 0.0)
+    )
+    i11, i12, i21, i22 = n22 / det, -n12 / det, -n21 / det, n11 / det
+    c11, c12 = i11 * s11 + i12 * s12, i11 * s12 + i12 * s22
+    c22 = i21 * s12 + i22 * s22
+    return i11, i12, i21, i22, c11, c12, c22
+
+
+@njit
+def _unit_moment(p: FloatArray, e: int, f: Any, c: Any) -> float:
+    """Return `a`, the moment per unit of n, with the tissue F below the edge at `e`."""
+    g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
+    r0, r1 = f[0] * g0 + f[1] * g1, f[1] * g0 + f[2] * g1
+    lost = c[0] * r0 * r0 + 2.0 * c[1] * r0 * r1 + c[2] * r1 * r1
+    return p[e + _EDGE.a] + max(g0 * r0 + g1 * r1 - lost, 0.0)
+
+
+@njit
+def _tabulate(p: FloatArray) -> None:
+    """Fill what depends on layers and needle alone: S, G and a at every edge."""
+    p[_edge(p, 0) + _EDGE.g1] = 1.0
+    for j in range(int(p[AT.bins])):
+        e, below = _edge(p, j), _edge(p, j + 1)
+        f0, f1, f2 = _tissue(p, j, 0.0, BIN)
+        i11, i12, i21, i22, c11, c12, c22 = _held(p, e, f0, f1, f2)
+        p[below + _EDGE.a] = _unit_moment(p, e, (f0, f1, f2), (c11, c12, c22))
+        g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
+        turn = i21 * g0 + i22 * g1
+        p[below + _EDGE.g0], p[below + _EDGE.g1] = i11 * g0 + i12 * g1 + BIN * turn, turn
+        flexibility = p[AT.flexibility]
+        p[below + _EDGE.s11] = (
+            c11 + 2.0 * BIN * c12 + BIN * BIN * c22 + flexibility * BIN * BIN * BIN / 3.0
+        )
+        p[below + _EDGE.s12] = c12 + BIN * c22 + flexibility * BIN * BIN / 2.0
+        p[below + _EDGE.s22] = c22 + flexibility * BIN
+
+
+@njit
+def rotational_stiffness(p: FloatArray, depth: float) -> float:
+    """Moment about the fulcrum per angle for a needle inserted straight [N·m/rad]; 0 outside."""
+    if depth <= 0.0:
+        return 0.0
+    j = min(int(depth / BIN), int(p[AT.bins]) - 1)
+    e = _edge(p, j)
+    f = _tissue(p, j, 0.0, depth - j * BIN)
+    return _unit_moment(p, e, f, _held(p, e, f[0], f[1], f[2])[4:])
+
+
+@njit
+def at_tip(p: FloatArray, axis: int, n: float) -> Any:
+    """One coordinate of the solution: (place of the tip [m], its slope, m, its share of U - ½ a).
+
+    Args:
+        p: the array.
+        axis: which coordinate, 0 to 2.
+        n: that coordinate of the needle's direction at the fulcrum.
+    """
+    j = min(int(p[AT.depth] / BIN), int(p[AT.bins]) - 1)
+    e, length = _edge(p, j), p[AT.depth] - j * BIN
+    f0, f1, f2 = _tissue(p, j, 0.0, length)
+    i11, i12, i21, i22, c11, c12, c22 = _held(p, e, f0, f1, f2)
+    q0, q1 = p[AT.q0 + axis], p[AT.q1 + axis]
+    y0, y1 = p[e + _EDGE.y0 + axis], p[e + _EDGE.y1 + axis]
+    g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
+    s11, s12, s22 = p[e + _EDGE.s11], p[e + _EDGE.s12], p[e + _EDGE.s22]
+    b0 = g0 * n + y0 + s11 * q0 + s12 * q1
+    b1 = g1 * n + y1 + s12 * q0 + s22 * q1
+    place, slope = i11 * b0 + i12 * b1, i21 * b0 + i22 * b1
+    r0, r1 = q0 - f0 * y0 - f1 * y1, q1 - f1 * y0 - f2 * y1
+    v0, v1 = c11 * r0 + c12 * r1, c12 * r0 + c22 * r1
+    m = p[e + _EDGE.m + axis] + g0 * (r0 - f0 * v0 - f1 * v1) + g1 * (r1 - f1 * v0 - f2 * v1)
+    rest = 0.5 * (
+        y0 * (f0 * y0 + f1 * y1) + y1 * (f1 * y0 + f2 * y1) - 2.0 * (y0 * q0 + y1 * q1)
+        - r0 * v0 - r1 * v1
+    )  # fmt: skip
+    return place + slope * length, slope, m, rest - n * m
+
+
+@njit
+def stored(p: FloatArray, x: float, y: float, z: float) -> float:
+    """U [J] with the needle along (x, y, z), never below 0 for rounding."""
+    if p[AT.depth] <= 0.0:
+        return 0.0
+    j = min(int(p[AT.depth] / BIN), int(p[AT.bins]) - 1)
+    total = (
+        0.5 * rotational_stiffness(p, p[AT.depth]) + p[_edge(p, j) + _EDGE.c] + 0.5 * p[AT.square]
+    )
+    total += at_tip(p, 0, x)[3] + at_tip(p, 1, y)[3] + at_tip(p, 2, z)[3]
+    return max(total, 0.0)
+
+
+@njit
+def _finish_bin(p: FloatArray, j: int) -> None:
+    """Lead the solution of the full bin j on to the next edge, and begin the next bin."""
+    e, below = _edge(p, j), _edge(p, j + 1)
+    f0, f1, f2 = _tissue(p, j, 0.0, BIN)
+    i11, i12, i21, i22, c11, c12, c22 = _held(p, e, f0, f1, f2)
+    s11, s12, s22 = p[e + _EDGE.s11], p[e + _EDGE.s12], p[e + _EDGE.s22]
+    g0, g1 = p[e + _EDGE.g0], p[e + _EDGE.g1]
+    total = p[e + _EDGE.c] + 0.5 * p[AT.square]
+    for axis in range(3):
+        q0, q1 = p[AT.q0 + axis], p[AT.q1 + axis]
+        y0, y1 = p[e + _EDGE.y0 + axis], p[e + _EDGE.y1 + axis]
+        r0, r1 = q0 - f0 * y0 - f1 * y1, q1 - f1 * y0 - f2 * y1
+        v0, v1 = c11 * r0 + c12 * r1, c12 * r0 + c22 * r1
+        p[below + _EDGE.m + axis] = (
+            p[e + _EDGE.m + axis] + g0 * (r0 - f0 * v0 - f1 * v1) + g1 * (r1 - f1 * v0 - f2 * v1)
+        )
+        total += 0.5 * (
+            y0 * (f0 * y0 + f1 * y1) + y1 * (f1 * y0 + f2 * y1) - 2.0 * (y0 * q0 + y1 * q1)
+            - r0 * v0 - r1 * v1
+        )  # fmt: skip
+        b0, b1 = y0 + s11 * q0 + s12 * q1, y1 + s12 * q0 + s22 * q1
+        turn = i21 * b0 + i22 * b1
+        p[below + _EDGE.y0 + axis] = i11 * b0 + i12 * b1 + BIN * turn
+        p[below + _EDGE.y1 + axis] = turn
+        p[e + _EDGE.q0 + axis], p[e + _EDGE.q1 + axis] = q0, q1
+        p[AT.q0 + axis] = p[AT.q1 + axis] = 0.0
+    p[below + _EDGE.c] = total
+    p[AT.square] = 0.0
+
+
+@njit
+def _lay(p: FloatArray, j: int, begin: float, end: float, axis: int, at: float, on: float) -> None:
+    """Lay one coordinate of the tissue of bin j down on the line at + on t."""
+    f0, f1, f2 = _tissue(p, j, begin, end)
+    p[AT.q0 + axis] += at * f0 + on * f1
+    p[AT.q1 + axis] += at * f1 + on * f2
+    p[AT.square] += at * at * f0 + 2.0 * at * on * f1 + on * on * f2
+
+
+@njit
+def advance(p: FloatArray, depth: float, x: float, y: float, z: float) -> None:
+    """Go on to `depth`, straight ahead from the tip of the needle along (x, y, z)."""
+    tip = (at_tip(p, 0, x), at_tip(p, 1, y), at_tip(p, 2, z))
+    old = p[AT.depth]
+    for j in range(int(old / BIN), int(p[AT.bins])):
+        upper = j * BIN
+        begin, end = max(old - upper, 0.0), min(depth - upper, BIN)
+        for axis in range(3):
+            place, slope = tip[axis][0], tip[axis][1]
+            _lay(p, j, begin, end, axis, place + slope * (upper - old), slope)
+        if upper + BIN > depth:
+            break
+        _finish_bin(p, j)
+    p[AT.depth] = depth
+
+
+@njit
+def retreat(p: FloatArray, depth: float) -> None:
+    """Forget what lies deeper than `depth`; of its bin the nearest straight line stays."""
+    old, new = int(p[AT.depth] / BIN), int(depth / BIN)
+    whole = p[AT.depth] - old * BIN if new == old else BIN
+    e, left = _edge(p, new), depth - new * BIN
+    f0, f1, f2 = _tissue(p, new, 0.0, whole)
+    k0, k1, k2 = _tissue(p, new, 0.0, left)
+    det = f0 * f2 - f1 * f1
+    p[AT.square] = 0.0
+    for axis in range(3):
+        q0 = p[AT.q0 + axis] if new == old else p[e + _EDGE.q0 + axis]
+        q1 = p[AT.q1 + axis] if new == old else p[e + _EDGE.q1 + axis]
+        at, on = (q0 / f0 if f0 > 0.0 else 0.0), 0.0
+        if det > 1e-9 * f0 * f2:
+            at, on = (f2 * q0 - f1 * q1) / det, (f0 * q1 - f1 * q0) / det
+        p[AT.q0 + axis], p[AT.q1 + axis] = at * k0 + on * k1, at * k1 + on * k2
+        p[AT.square] += at * at * k0 + 2.0 * at * on * k1 + on * on * k2
+    p[AT.depth] = depth
+
 
 __all__ = ["AT", "BIN", "energy_bound", "parameters", "rotational_stiffness", "step"]
 

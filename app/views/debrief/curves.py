@@ -16,7 +16,7 @@ from app.core.arrays import FloatArray
 from app.session.review import Review
 from app.session.timeline import Span, TimeMark
 from app.views.exercise.felt import origin_word
-from app.views.exercise.state_words import state_word
+from app.views.exercise.steps import state_word
 from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.kit.themes import DARK

@@ -36,7 +36,7 @@ from app.views.debrief.score_words import (
     verdict,
 )
 from app.views.exercise.readouts import clock_text
-from app.views.exercise.state_words import state_word
+from app.views.exercise.steps import state_word
 from app.views.kit import theme
 from app.views.kit.coordinates import axis_words
 from app.views.kit.names import NAMES

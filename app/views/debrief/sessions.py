@@ -33,7 +33,7 @@ from app.session.summary import BROKEN, Summary
 from app.views.debrief.page import date_text
 from app.views.debrief.score_words import facts_of, short_words
 from app.views.exercise.readouts import clock_text
-from app.views.exercise.state_words import state_word
+from app.views.exercise.steps import state_word
 from app.views.kit import theme
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES

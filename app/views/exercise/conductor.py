@@ -38,8 +38,8 @@ from app.views.plan.editor import PlanEditor
 from app.views.reading.fixed_reading import apply as apply_reading
 from app.views.reading.lock_words import why_locked
 from app.views.reading.workspace import WorkspacePage
-from app.views.scene.extraction import SurfaceExtraction
 from app.views.scene.robot import RobotShape
+from app.views.scene.view import SurfaceExtraction
 from app.views.shell.services import RobotChoice, RunSetup
 from app.views.slices.slab import as_point
 from app.views.slices.viewing import Tool, Viewing

@@ -1,4 +1,4 @@
-"""The attempt's states as a row of steps: done, present, to come."""
+"""The attempt's states for people: their names, and a row of steps: done, present, to come."""
 
 from typing import Final
 
@@ -7,9 +7,25 @@ from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from app.session.machine import State
-from app.views.exercise.state_words import state_word
 from app.views.kit import theme
 from app.views.kit.text import tr
+
+
+def state_word(state: str) -> str:
+    """Name of a recorded state; unknown ones as they stand."""
+    return {
+        "ready": tr("Ready"),
+        "withdrawing": tr("Withdrawing"),
+        "aligning": tr("Aligning"),
+        "inserting": tr("Inserting"),
+        "holding": tr("Holding"),
+        "paused": tr("Paused"),
+        "ended": tr("Ended"),
+        "aborted": tr("Aborted"),
+        "unfinished": tr("Unfinished"),
+        "broken": tr("Broken"),
+    }.get(state, state)
+
 
 ORDER: Final[tuple[State, ...]] = (
     State.READY,

@@ -12,8 +12,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QSizePolicy, QVBoxLayout, QWidget
 
 from app.core.errors import AcusError
-from app.tracking.pen.calibrating import WANTED, PenCalibration
-from app.tracking.pen.rocking import LEANT, SIDES, Lean, Rocking
+from app.tracking.pen.calibrating import LEANT, SIDES, WANTED, Lean, PenCalibration, Rocking
 from app.tracking.pen.settings import PenSettings, can_undo, save_pen, undo_pen
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, run_in_background

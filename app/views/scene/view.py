@@ -1,4 +1,7 @@
-"""The view `three_d`: shows the newest picture of the render thread; mouse and keys turn it."""
+"""The view `three_d`: shows the newest picture of the render thread; mouse and keys turn it.
+
+A patient's surfaces are extracted beside the window and shown when they are there.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtCore import QObject, QPointF, Qt, Signal
 from PySide6.QtGui import (
     QCloseEvent,
     QColor,
@@ -23,6 +26,8 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QMenu, QToolButton, QWidget
 
 from app.core.arrays import FloatArray
+from app.core.loading import ONE_AT_A_TIME
+from app.core.progress import Progress
 from app.core.transform import RigidTransform
 from app.core.units import MILLIMETRE
 from app.imaging.volume import Volume
@@ -32,6 +37,7 @@ from app.planning.needle_overlay import NeedleOverlay
 from app.planning.patient import Patient
 from app.planning.placement import Placement
 from app.views.kit import theme
+from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.text import tr
 from app.views.scene.display import ORGAN_COLOURS, Display, Section, organ_title
 from app.views.scene.orbit import Orbit
@@ -44,6 +50,7 @@ if TYPE_CHECKING:
     from app.views.plan.entry_map import EntryMap
     from app.views.scene.mesh import Mesh
     from app.views.scene.surfaces import Surfaces
+
 
 DECLARATION: Final[dict[str, Any]] = {
     "view": "three_d",
@@ -404,3 +411,62 @@ def _box(points_mm: FloatArray) -> FloatArray:
     """Eight corners of the box around points, shape (8, 3)."""
     low, high = points_mm.min(axis=0), points_mm.max(axis=0)
     return np.array([np.where(bits, high, low) for bits in np.ndindex(2, 2, 2)])
+
+
+class SurfaceExtraction(QObject):
+    """At most one at a time: another patient ends that of the last.
+
+    Signals:
+        failed(Exception): why there are none.
+    """
+
+    failed = Signal(object)
+
+    def __init__(self, scene: SceneView, parent: QObject) -> None:
+        super().__init__(parent)
+        self._scene = scene
+        self._task: BackgroundTask | None = None
+
+    @property
+    def is_running(self) -> bool:
+        """Whether surfaces are still to come."""
+        return self._task is not None
+
+    def start(self, patient: Patient) -> None:
+        """Extract a patient's surfaces."""
+        if self._task is not None:
+            self._task.drop()
+        self._task = run_in_background(
+            self,
+            lambda progress: _surfaces(patient, progress),
+            self._done,
+            self._fail,
+            lambda: self._done(None),
+        )
+        self._task.progressed.connect(
+            lambda share, _: self._scene.set_note(
+                tr("Surfaces {percent:.0f} %", percent=100 * share)
+            )
+        )
+
+    def close(self) -> None:
+        """End it; idempotent."""
+        if self._task is not None:
+            self._task.close()
+            self._task = None
+
+    def _done(self, surfaces: Surfaces | None) -> None:
+        self._task = None
+        self._scene.set_note("")
+        if surfaces is not None:
+            self._scene.set_surfaces(surfaces)
+
+    def _fail(self, error: Exception) -> None:
+        self._done(None)
+        self.failed.emit(error)
+
+
+def _surfaces(patient: Patient, progress: Progress) -> Surfaces:
+    with ONE_AT_A_TIME:  # VTK and scipy: behind the window, not before it
+        from app.views.scene.surfaces import extract_surfaces
+    return extract_surfaces(patient.volume, patient.body, progress, patient.phantom_seed)

@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
 
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
-from app.imaging.candidate import Candidate, of_folder, of_pacs
+from app.imaging.privacy.pictures import Candidate, of_folder, of_pacs
 from app.imaging.series import Listing, Series
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background

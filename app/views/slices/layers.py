@@ -17,15 +17,19 @@ from app.planning.needle_overlay import NeedleOverlay
 from app.views.kit import theme
 from app.views.kit.text import tr
 from app.views.kit.theme import Mark
-from app.views.slices.crosshair import CrosshairLayer, NeedleTraces
+from app.views.slices.crosshair import (
+    CrosshairLayer,
+    ErrorLayer,
+    NeedleTraces,
+    TargetDisc,
+    TickLayer,
+)
 from app.views.slices.drawing import Drawing, Ink
-from app.views.slices.ellipses import ErrorLayer, TargetDisc
 from app.views.slices.items import MarkItem, SegmentItem
 from app.views.slices.labels import arrange
 from app.views.slices.panes import NEEDLE_PANES, PaneId
 from app.views.slices.plane import SlicePlane
 from app.views.slices.slab import PlanePoint, pieces
-from app.views.slices.ticks import TickLayer
 from app.views.slices.viewing import Viewing
 
 FADED, FAINTEST = 0.75, 0.25
