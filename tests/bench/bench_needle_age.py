@@ -28,6 +28,7 @@ from app.planning.needle_overlay import NeedleOverlay
 from app.session.snapshot import Snapshot
 from app.views.exercise.pad_canvas import PadCanvas
 from app.views.slices.pane import SlicePane
+from tests.bench.needle_moves import stay
 from tests.bench.window_load import Session, pump
 
 SECONDS = float(os.environ.get("ACUS_BENCH_SECONDS", "30"))
@@ -131,7 +132,7 @@ def measure(
     loop = session.window.conductor.controller.run.trainer._loop
     begin, start, looks = loop.latest().tick, time.monotonic(), hand.looks
     used = time.thread_time()
-    pump(lambda: False, SECONDS)
+    stay(SECONDS)
     used, took = time.thread_time() - used, time.monotonic() - start
     late = 1e3 * loop.rows(begin)[:, sv.LATENESS]
     looks = hand.looks - looks
@@ -186,7 +187,7 @@ def main() -> None:
         try:
             for sixth in ("3D view", "bull's-eye"):
                 workspace.show_bullseye(sixth == "bull's-eye")
-                pump(lambda: False, 4.0)
+                stay(4.0)
                 measure(session, hand, counters, name, sixth)
         finally:
             if other is not None:

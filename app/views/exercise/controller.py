@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from app.core.arrays import FloatArray
 from app.core.clock import Clock, SystemClock
@@ -200,7 +200,7 @@ class ExerciseController(QObject):
         self._ending = False
         self._beat, self._unreadable, self._waiting = 0.0, "", ""
         self._display = ExerciseDisplay(views)
-        self._timer = QTimer(self, interval=PERIOD_MS)
+        self._timer = QTimer(self, interval=PERIOD_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.poll)
         self._connect()
 
@@ -275,8 +275,8 @@ class ExerciseController(QObject):
         self._display.take_hand(snapshot)
         # Nobody beyond this line knows more than may be told.
         shown = run.shown.of(snapshot, run.placed)
+        self.snapshot_taken.emit(shown)  # first: pictures are made while the rest is shown
         self._display.show(run, shown, now, late)
-        self.snapshot_taken.emit(shown)
         if shown.pose.valid:
             self.needle_moved.emit(shown.pose)
         self._take_result(run)

@@ -269,6 +269,7 @@ class SliceCanvas(PlaneView):
         viewing.window_changed.connect(lambda: self._want(Due.GREYS))
         viewing.plan_changed.connect(lambda: self._want(Due.PLAN))
         viewing.needle_changed.connect(lambda: self._want(Due.NEEDLE))
+        viewing.needle_shown.connect(self._begin)
 
     # --- what is shown ------------------------------------------------------------------------
     @property
@@ -367,6 +368,11 @@ class SliceCanvas(PlaneView):
 
     def _camera_moved(self) -> None:
         self._want(Due.CAMERA)
+
+    def _begin(self) -> None:
+        """Let the picture be made while the window's thread is still busy with other things."""
+        if self._asked:
+            self._fetch()
 
     def _draw_together(self) -> None:
         """Draw what has changed, or wait with it for the picture that belongs to it."""

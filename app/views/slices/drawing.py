@@ -227,27 +227,54 @@ class Drawing:
             picture: on the screen's pixels; None where it has been painted already, or there is
                 none.
         """
-        self.is_new = smooth = False
+        self.is_new = False
+        if picture is None:
+            self._draw(painter, painter, to_pixels, screen, None)
+            return
+        sheet = self._copied(picture)
+        image = image_of(sheet, screen.ratio)
+        with QPainter(image) as over:
+            over.setFont(painter.font())
+            self._draw(painter, over, to_pixels, screen, sheet)
+        painter.drawImage(0, 0, image)
+
+    def _draw(
+        self,
+        painter: QPainter,
+        over: QPainter,
+        to_pixels: QTransform,
+        screen: Screen,
+        sheet: NDArray[np.uint32] | None,
+    ) -> None:
+        """Draw all that is visible, the lowest first.
+
+        Args:
+            painter: of the pane.
+            over: draws on `sheet`, or on the pane.
+            to_pixels: takes plane millimetres to the pane's pixels.
+            screen: the pane's own pixels.
+            sheet: what strokes are drawn on; None to lay them over the pane as a picture.
+        """
+        smooth = False
         hint = QPainter.RenderHint.Antialiasing
         rows: list[float] = []
-        sheet = None if picture is None else self._copied(picture)
         for shape in self.shapes:
             if not shape.visible:
                 continue
             if isinstance(shape, Strokes):
                 rows += shape.rows
                 continue
-            if rows or sheet is not None:
+            if rows:
                 _lay(painter, screen, rows, sheet)
-                rows, sheet = [], None
-            painter.setTransform(to_pixels)
-            painter.setBrush(Qt.BrushStyle.NoBrush)
+                rows = []
+            over.setTransform(to_pixels)
+            over.setBrush(Qt.BrushStyle.NoBrush)
             if shape.smooth is not smooth:
                 smooth = shape.smooth
-                painter.setRenderHint(hint, smooth)
-            shape.paint(painter)
-        painter.resetTransform()
-        if rows or sheet is not None:
+                over.setRenderHint(hint, smooth)
+            shape.paint(over)
+        over.resetTransform()
+        if rows:
             _lay(painter, screen, rows, sheet)
 
     def _copied(self, picture: NDArray[np.uint32]) -> NDArray[np.uint32]:
@@ -261,18 +288,15 @@ class Drawing:
 def _lay(
     painter: QPainter, screen: Screen, rows: list[float], sheet: NDArray[np.uint32] | None
 ) -> None:
-    """Draw strokes on a picture and copy it to the pane; without a picture, over what is there."""
-    opaque = sheet is not None
-    if sheet is None:
-        sheet = np.zeros((screen.height, screen.width), np.uint32)
-    if rows:
-        from app.imaging.screen import STROKE, draw_strokes  # compiled: since there is a volume
+    """Draw strokes on a picture; without one, over what the pane shows."""
+    from app.imaging.screen import STROKE, draw_strokes  # compiled: since there is a volume
 
-        strokes: NDArray[Any] = np.array(rows).reshape(-1, STROKE)
-        corner = (screen.left, screen.top)
-        draw_strokes(sheet, strokes, corner, screen.scale, screen.ratio)
-    painter.resetTransform()
-    painter.drawImage(0, 0, image_of(sheet, screen.ratio, opaque))
+    drawn = np.zeros((screen.height, screen.width), np.uint32) if sheet is None else sheet
+    strokes: NDArray[Any] = np.array(rows).reshape(-1, STROKE)
+    draw_strokes(drawn, strokes, (screen.left, screen.top), screen.scale, screen.ratio)
+    if sheet is None:
+        painter.resetTransform()
+        painter.drawImage(0, 0, image_of(drawn, screen.ratio, opaque=False))
 
 
 def _height(shape: Shape) -> float:

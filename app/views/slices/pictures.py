@@ -1,6 +1,6 @@
 """The pictures of slices, made beside the window's thread: values, window and scale in one go.
 
-A pane's `PictureFeed` wishes for pictures, the `PictureMaker` makes them in a thread of its own and
+A pane's `PictureFeed` wishes for pictures, the `PictureMaker` makes them in threads of its own and
 hands them over in the window's. Requests neither wait nor queue up: the newest of each pane wins,
 and the panes take turns.
 """
@@ -25,7 +25,10 @@ from app.imaging.window import WindowLevel
 from app.views.slices.plane import Rect, SlicePlane
 
 IDLE_S = 20.0
-"""The thread ends when nobody wants a picture for so long; the next request starts another."""
+"""A thread ends when nobody wants a picture for so long; the next request starts another."""
+
+THREADS = 2
+"""So many make pictures at once: while they do, the window's thread has little to do."""
 
 LATE_S = 0.1
 """A picture later than this is not waited for: its code is being compiled, or the slab is thick."""
@@ -197,7 +200,7 @@ def image_of(pixels: NDArray[np.uint32], ratio: float, opaque: bool = True) -> Q
 
 
 class PictureMaker(QObject):
-    """Makes the pictures of several panes in one thread.
+    """Makes the pictures of several panes, those of one pane one after another.
 
     Signals:
         idle(): every picture that was awaited is there, or late.
@@ -211,10 +214,10 @@ class PictureMaker(QObject):
         self._wishes: dict[Hashable, Wish] = {}
         self._made: dict[Hashable, Picture | None] = {}
         self._answered: list[Hashable] = []
-        self._working: Hashable = None
+        self._working: set[Hashable] = set()
         self._closing = False
         self._wake = threading.Condition()
-        self._thread: threading.Thread | None = None
+        self._threads: list[threading.Thread] = []
         self._feeds: dict[Hashable, PictureFeed] = {}
         self._timer = QTimer(self, interval=WATCH_MS)
         self._timer.timeout.connect(self._watch)
@@ -236,10 +239,11 @@ class PictureMaker(QObject):
         """Ask for a picture in place of any that `who` still waits for."""
         with self._wake:
             self._wishes[who] = wish  # keeps its place in the queue if there is one
-            if self._thread is None:
-                self._closing = False
-                self._thread = threading.Thread(target=self._run, name="acus-pictures", daemon=True)
-                self._thread.start()
+            self._closing = False
+            if len(self._threads) < min(THREADS, len(self._wishes) + len(self._working)):
+                thread = threading.Thread(target=self._run, name="acus-pictures", daemon=True)
+                self._threads.append(thread)
+                thread.start()
             self._wake.notify_all()
 
     def take(self, who: Hashable) -> Picture | None:
@@ -256,20 +260,21 @@ class PictureMaker(QObject):
     def waits(self, who: Hashable) -> bool:
         """Whether a picture is still to come, or to be taken."""
         with self._wake:
-            return who in self._wishes or who in self._made or self._working == who
+            return who in self._wishes or who in self._made or who in self._working
 
     def wait(self, timeout: float) -> bool:
         """Wait up to `timeout` [s] until every wish is answered; for tests and commands."""
         with self._wake:
-            return self._wake.wait_for(lambda: not self._wishes and self._working is None, timeout)
+            return self._wake.wait_for(lambda: not self._wishes and not self._working, timeout)
 
     def close(self, timeout: float = 2.0) -> None:
-        """Stop the thread; idempotent. A later request starts it again."""
+        """Stop the threads; idempotent. A later request starts them again."""
         with self._wake:
-            self._closing, thread = True, self._thread
+            self._closing, threads = True, self._threads
+            self._threads = []
             self._wishes.clear()
             self._wake.notify_all()
-        if thread is not None:
+        for thread in threads:
             thread.join(timeout)
 
     def _hand_over(self) -> None:
@@ -297,7 +302,7 @@ class PictureMaker(QObject):
         if not self.is_awaited:
             self.idle.emit()
 
-    # --- in its own thread ----------------------------------------------------------------------
+    # --- in its own threads ---------------------------------------------------------------------
     def _run(self) -> None:
         with ONE_AT_A_TIME:  # compiled: nobody else may be loading it just now
             import app.imaging.oblique
@@ -310,7 +315,7 @@ class PictureMaker(QObject):
             except Exception as error:  # the pane keeps its last picture, the others go on
                 _log.warning("the picture of a slice could not be made", exc_info=error)
             with self._wake:
-                self._working = None
+                self._working.discard(who)
                 if picture is not None:
                     self._made[who] = picture
                 first = not self._answered  # one event hands over all that is there by then
@@ -320,14 +325,20 @@ class PictureMaker(QObject):
                     self._rung.emit()
 
     def _next(self) -> tuple[Hashable, Wish] | None:
+        me = threading.current_thread()
         with self._wake:
-            self._wake.wait_for(lambda: self._closing or self._wishes, IDLE_S)
-            if self._closing or not self._wishes:
-                self._thread = None
+            self._wake.wait_for(lambda: me not in self._threads or self._free() is not None, IDLE_S)
+            who = self._free()
+            if me not in self._threads or who is None:
+                if me in self._threads:
+                    self._threads.remove(me)
                 return None
-            who = next(iter(self._wishes))
-            self._working = who
+            self._working.add(who)
             return who, self._wishes.pop(who)
+
+    def _free(self) -> Hashable:
+        """Whose wish comes next: nobody's whose last one is still in the making."""
+        return next((who for who in self._wishes if who not in self._working), None)
 
 
 class PictureFeed:

@@ -156,6 +156,7 @@ class Viewing(QObject):
 
     Signals:
         volume_changed, cursor_changed, window_changed, tool_changed, plan_changed, needle_changed.
+        needle_shown(): all that goes along with a needle has changed too.
         plane_changed(PaneId): a pane's plane is another one, or is scrolled away from its needle.
         look_changed(PaneId): a pane is turned or has another slab; zoom and pan start anew.
         scheme_changed(): mouse and keys mean something else.
@@ -171,6 +172,7 @@ class Viewing(QObject):
     tool_changed = Signal()
     plan_changed = Signal()
     needle_changed = Signal()
+    needle_shown = Signal()
     plane_changed = Signal(object)
     point_placed = Signal(object, object, bool)
     look_changed = Signal(object)
@@ -359,10 +361,10 @@ class Viewing(QObject):
         """Show the live needle (None hides it); the image is not touched unless slices follow."""
         self.needle, self._next_needle = needle, None
         self.needle_changed.emit()
-        if needle is None or not needle.valid or not self.follows_tip:
-            return
-        if np.linalg.norm(needle.tip_mm - self.cursor_mm) > FOLLOW_DEAD_BAND_MM:
-            self.set_cursor(needle.tip_mm)
+        if needle is not None and needle.valid and self.follows_tip:
+            if np.linalg.norm(needle.tip_mm - self.cursor_mm) > FOLLOW_DEAD_BAND_MM:
+                self.set_cursor(needle.tip_mm)
+        self.needle_shown.emit()
 
     def set_target_error(self, error: ErrorOverlay | None) -> None:
         """Show how far the target may be from where the CT has it; None where nobody checked."""
