@@ -434,15 +434,13 @@ class SliceCanvas(PlaneView):
         picture, screen = self.feed.picture, self._screen
         self._painted = picture
         painter = QPainter(self)
-        pixels = None
-        if picture is not None and picture.wish.screen == screen:
-            pixels = picture.pixels
-        else:
+        fits = picture is not None and picture.wish.screen == screen
+        if not fits:
             painter.fillRect(event.rect(), self._background)
             if picture is not None:
                 painter.setTransform(self._to_pixels)
                 picture.paint(painter)
-        self.drawing.paint(painter, self._to_pixels, screen, pixels)
+        self.drawing.paint(painter, self._to_pixels, screen, picture if fits else None)
         for words in self.written:
             words.paint(painter)
         painter.end()

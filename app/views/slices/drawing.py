@@ -16,7 +16,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QPainter, QPolygonF, QTransform
 
 from app.views.kit.theme import Mark
-from app.views.slices.pictures import Screen, image_of
+from app.views.slices.pictures import Picture, Screen, image_of
 
 RIM = 0.55
 """Opacity of the dark rim of a line."""
@@ -191,7 +191,7 @@ class Drawing:
         self._changed = changed
         self.shapes: list[Shape] = []
         self.is_new = False
-        self._sheet: NDArray[np.uint32] | None = None
+        self._drawn_on: Picture | None = None
 
     def add(self, shape: Shape) -> None:
         """Draw a shape more, over those of the same z."""
@@ -216,7 +216,7 @@ class Drawing:
         painter: QPainter,
         to_pixels: QTransform,
         screen: Screen,
-        picture: NDArray[np.uint32] | None,
+        picture: Picture | None,
     ) -> None:
         """Draw the picture and all that is visible over it.
 
@@ -231,7 +231,10 @@ class Drawing:
         if picture is None:
             self._draw(painter, painter, to_pixels, screen, None)
             return
-        sheet = self._copied(picture)
+        sheet = picture.sheet
+        if picture is self._drawn_on:  # else nobody has drawn on it yet
+            np.copyto(sheet, picture.pixels)
+        self._drawn_on = picture
         image = image_of(sheet, screen.ratio)
         with QPainter(image) as over:
             over.setFont(painter.font())
@@ -276,13 +279,6 @@ class Drawing:
         over.resetTransform()
         if rows:
             _lay(painter, screen, rows, sheet)
-
-    def _copied(self, picture: NDArray[np.uint32]) -> NDArray[np.uint32]:
-        """Copy a picture: strokes of now go over it, and others the next time."""
-        if self._sheet is None or self._sheet.shape != picture.shape:
-            self._sheet = np.empty_like(picture)
-        np.copyto(self._sheet, picture)
-        return self._sheet
 
 
 def _lay(

@@ -162,11 +162,13 @@ class Picture:
         wish: which.
         values: its Hounsfield units.
         pixels: 0xAARRGGBB, shape (height, width) of the screen.
+        sheet: the same again, for who draws over it.
     """
 
     wish: Wish
     values: Values
     pixels: NDArray[np.uint32]
+    sheet: NDArray[np.uint32]
 
     @classmethod
     def of(cls, wish: Wish) -> Picture:
@@ -177,7 +179,7 @@ class Picture:
         screen = wish.screen
         place, size = screen.place(values.bounds_mm), (screen.width, screen.height)
         pixels = screen_pixels(values.hu, wish.window, wish.inverted, place, size)
-        return cls(wish, values, pixels)
+        return cls(wish, values, pixels, pixels.copy())
 
     @property
     def image(self) -> QImage:
