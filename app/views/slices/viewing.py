@@ -361,9 +361,9 @@ class Viewing(QObject):
         """Show the live needle (None hides it); the image is not touched unless slices follow."""
         self.needle, self._next_needle = needle, None
         self.needle_changed.emit()
-        if needle is not None and needle.valid and self.follows_tip:
-            if np.linalg.norm(needle.tip_mm - self.cursor_mm) > FOLLOW_DEAD_BAND_MM:
-                self.set_cursor(needle.tip_mm)
+        tip = needle.tip_mm if needle is not None and needle.valid and self.follows_tip else None
+        if tip is not None and np.linalg.norm(tip - self.cursor_mm) > FOLLOW_DEAD_BAND_MM:
+            self.set_cursor(tip)
         self.needle_shown.emit()
 
     def set_target_error(self, error: ErrorOverlay | None) -> None:
