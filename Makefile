@@ -33,6 +33,8 @@ WORKERS ?= $(shell expr $$(nproc) + 1)
 # A test of real time can miss its moment when the machine is busy with others: what fails is run
 # once more, and named at the end; what fails twice has failed.
 AGAIN := --reruns 1 --reruns-delay 2 -rR
+# Every process of the tests, and every program that one starts, reads what is compiled already.
+test: export PYTHONDONTWRITEBYTECODE =
 test: setup  ## the tests (no display and no network needed), a file at a time in each process
 	$(BIN)/python -m tools.compile_kernels
 	./tools/with-display $(BIN)/python -m pytest -q --numprocesses $(WORKERS) --dist loadfile \

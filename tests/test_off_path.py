@@ -43,6 +43,8 @@ class Kept:
     def set_needle(self, needle):
         self.needle = needle
 
+    follow_needle = set_needle
+
     def set_target_now(self, target):
         self.target = target
 

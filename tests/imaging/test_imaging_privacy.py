@@ -22,9 +22,9 @@ from app.core.progress import Cancelled, Progress
 from app.imaging import library as library_module
 from app.imaging.errors import FileDamagedError, SeriesUnknownError
 from app.imaging.library import CtLibrary, ImportFailedError
-from app.imaging.privacy import dates, verify
+from app.imaging.privacy import dates
 from app.imaging.privacy.burned_in import MaskBox
-from app.imaging.privacy.deidentifying import deidentify_series
+from app.imaging.privacy.deidentifying import Secrets, deidentify_series, pixel_digest, verify
 from app.imaging.privacy.errors import BurnedInError, KeyDamagedError, NotCleanError
 from app.imaging.privacy.forms import fits
 from app.imaging.privacy.key import installation_key, key_path
@@ -376,8 +376,8 @@ def test_the_second_pass_finds_what_the_first_let_through(tmp_path):
     entry = CtLibrary().import_series(series_of(tmp_path / "in")).entry
     path = min(entry.folder.glob("*.dcm"))
     clean = pydicom.dcmread(path)
-    secrets = verify.Secrets(profile(), {"Secret^Name"})
-    digest = verify.pixel_digest(clean)
+    secrets = Secrets(profile(), {"Secret^Name"})
+    digest = pixel_digest(clean)
 
     def spoilt(change):
         dataset = pydicom.dcmread(path)
@@ -385,7 +385,7 @@ def test_the_second_pass_finds_what_the_first_let_through(tmp_path):
         dataset.save_as(tmp_path / "spoilt.dcm")
         return tmp_path / "spoilt.dcm"
 
-    verify.verify(path, secrets, frozenset({SERIES}), digest)
+    verify(path, secrets, frozenset({SERIES}), digest)
     changes = [
         ("SeriesDescription", lambda d: setattr(d, "SeriesDescription", "free text")),
         ("SeriesInstanceUID", lambda d: setattr(d, "SeriesInstanceUID", SERIES)),
@@ -396,7 +396,7 @@ def test_the_second_pass_finds_what_the_first_let_through(tmp_path):
     ]
     for words, change in changes:
         with pytest.raises(NotCleanError, match=words) as raised:
-            verify.verify(spoilt(change), secrets, frozenset({SERIES}), digest)
+            verify(spoilt(change), secrets, frozenset({SERIES}), digest)
         assert "Secret" not in str(raised.value)
 
 
@@ -437,10 +437,10 @@ def test_compressed_big_endian_and_deflated_files_keep_their_pixels_bit_for_bit(
         from app.imaging.privacy.report import Tally
 
         rules = Rules(profile(), UidMap(b"k"), timedelta(days=-40), "P-1", "CT-00000001")
-        secrets = verify.Secrets(profile())
+        secrets = Secrets(profile())
         to = tmp_path / "out.dcm"
         digest = convert(header, to, rules, (), secrets, Tally())
-        verify.verify(to, secrets, rules.uids.old, digest)
+        verify(to, secrets, rules.uids.old, digest)
         old, new = pydicom.dcmread(name, force=True), pydicom.dcmread(to)
         assert old.PixelData == new.PixelData, name
         assert new.file_meta.TransferSyntaxUID == header.pixels.syntax
