@@ -30,7 +30,7 @@ from app.views.kit import theme
 from app.views.slices.camera import SliceCamera
 from app.views.slices.drawing import Drawing
 from app.views.slices.items import MarkItem
-from app.views.slices.layers import ALL_LAYERS, WAITED_FOR, Due, Layer, LayerStack
+from app.views.slices.layers import ALL_LAYERS, RUNNING_ON, WAITED_FOR, Due, Layer, LayerStack
 from app.views.slices.looks import Turn
 from app.views.slices.pace import Unhurried
 from app.views.slices.panes import PaneId
@@ -215,9 +215,9 @@ class SliceCanvas(PlaneView):
 
     Changes are gathered until the event loop comes round, and drawn together: a needle that moves
     changes planes, crosshair and itself, and every layer is placed once. The picture is made beside
-    the window's thread, and what lies over it waits for it. Under a needle that moves words are
-    written anew only as often as they can be read. A canvas that nobody sees draws nothing until
-    it is shown.
+    the window's thread, and what lies over it waits for it. Under a needle that moves, and while
+    somebody drags the window, words are written anew only as often as they can be read. A canvas
+    that nobody sees draws nothing until it is shown.
 
     Attributes:
         drawing: the shapes over the picture.
@@ -417,7 +417,7 @@ class SliceCanvas(PlaneView):
         if layers:
             self.layers.place(layers, plane, index, self.camera.scale)
         if moved or zoomed or due - {Due.CROSSHAIR}:
-            hurried = (Due.NEEDLE in due or not due) and not due & WAITED_FOR
+            hurried = (due & RUNNING_ON or not due) and not due & WAITED_FOR
             (self._words.ask if hurried else self._words.do)()
         if zoomed or picture is not self._painted:
             self.update()

@@ -235,8 +235,11 @@ class Due(IntEnum):
 ALL_LAYERS = frozenset({Due.CROSSHAIR, Due.PLAN, Due.NEEDLE, Due.ADDED})
 """What is to be placed where slice, plane or zoom are others."""
 
-WAITED_FOR = frozenset({Due.CAMERA, Due.GREYS, Due.PLAN, Due.ADDED})
+WAITED_FOR = frozenset({Due.CAMERA, Due.PLAN, Due.ADDED})
 """What somebody does and looks at: its words are written at once."""
+
+RUNNING_ON = frozenset({Due.GREYS, Due.NEEDLE})
+"""What changes again and again: its words are written only as often as they can be read."""
 
 
 UNSEEN_PX = 0.1
