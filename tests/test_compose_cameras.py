@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 import pytest
 
-from app.compose.camera_check import aim_of, look
+from app.compose.camera_check import aim_of, survey_cameras
 from app.compose.cameras import real_cameras
 from app.compose.desktop import _learner
 from app.compose.trainer import TrainerSetup, build_rig
@@ -164,9 +164,9 @@ def test_a_calibration_that_was_found_bad_is_refused_though_the_settings_name_it
 
 def test_exchanged_cameras_are_found_by_the_marker_they_see(wide, leaning):
     CalibrationHistory().keep(calibration(wide))
-    assert "as calibrated" in look(leaning, "", 0.5).order
+    assert "as calibrated" in survey_cameras(leaning, "", 0.5).order
     swapped = leaning.model_copy(update={"left": leaning.right, "right": leaning.left})
-    assert "the cameras are swapped" in look(swapped, "", 0.5).order
+    assert "the cameras are swapped" in survey_cameras(swapped, "", 0.5).order
 
 
 def test_the_cone_of_calibrated_cameras_is_drawn_into_their_pictures(wide, leaning, tmp_path):

@@ -23,8 +23,8 @@ from app.planning.measurements import Angle, Distance, Probe, Region
 from app.views.plan.feature import PlanFeature
 from app.views.plan.paths import PathsFeature
 from app.views.shell.application import start
-from app.views.slices.looks import Look, OperatorSide, Slab
 from app.views.slices.panes import PaneId
+from app.views.slices.presentation import OperatorSide, Presentation, Slab
 from app.views.slices.turning import StartingPlanes, straighten, turn_planes
 from app.views.structures.feature import StructuresFeature
 from tools.dialog_pictures import pacs, report, series
@@ -146,13 +146,13 @@ def looks(studio: Studio) -> None:
     viewing = studio.window.workspace.viewing
     window = viewing.window
     viewing.set_window(LUNG)
-    viewing.set_look(PaneId.AXIAL, Look(slab=Slab("mip", 20.0)))
-    viewing.set_look(PaneId.CORONAL, Look(slab=Slab("minip", 20.0)))
+    viewing.set_presentation(PaneId.AXIAL, Presentation(slab=Slab("mip", 20.0)))
+    viewing.set_presentation(PaneId.CORONAL, Presentation(slab=Slab("minip", 20.0)))
     target = viewing.cursor_mm
     viewing.set_cursor((55.0, 140.0, target[2] + 90.0))
     studio.keep("reading-slab")
     for pane in (PaneId.AXIAL, PaneId.CORONAL):
-        viewing.set_look(pane, Look())
+        viewing.set_presentation(pane, Presentation())
     viewing.set_window(window)
     viewing.set_cursor(target)
     turned = (PaneId.SAGITTAL, PaneId.CORONAL)

@@ -2,7 +2,7 @@
 
 Part of `make docs-pictures`. `python -m tools.scene_pictures FOLDER` draws the chest CT of the test
 data (left out where it is not there) and the built-in patient, without a window. What the same
-views looked like before stands beside them as `scene-before-*.png`, which nothing makes again.
+views read like before stands beside them as `scene-before-*.png`, which nothing makes again.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class Sitting:
         self._stage.set_needle(NeedleOverlay(self.tip - NEEDLE_MM * self.axis, self.tip))
         self.points = surfaces.skin.points.astype(np.float64)
         middle = (self.points.min(axis=0) + self.points.max(axis=0)) / 2.0
-        front = Orbit.look_from("A", middle, 1.0).turned(*HOME_TURN_PX)
+        front = Orbit.from_side("A", middle, 1.0).turned(*HOME_TURN_PX)
         low, high = self.points.min(axis=0), self.points.max(axis=0)
         self.corners = np.array([np.where(bits, high, low) for bits in np.ndindex(2, 2, 2)])
         self.front = front.fitted(self.corners)

@@ -335,11 +335,11 @@ def list_views(
 ) -> Answer:
     """Say of every picture whether it can be used. Or why it cannot."""
     from app.tracking.calibration.boards import parse_board
-    from app.tracking.calibration.pictures import list_pictures, look_at_all
+    from app.tracking.calibration.pictures import list_pictures, read_views
 
     known = parse_board(board)
     paths = list_pictures(images)
-    found = with_progress(lambda progress: look_at_all(paths, known, progress))
+    found = with_progress(lambda progress: read_views(paths, known, progress))
     facts = {"board": known.spec, "views": [view_document(view) for view in found]}
     return Answer(facts, [view_line(view) for view in found])
 

@@ -92,7 +92,7 @@ def mono_document(found: "MonoSet") -> dict[str, Any]:
         "held_back_rms_px": result.held_back_rms_px,
         "dropped": [{"name": d.name, "value": d.value, "sd": d.sd} for d in result.dropped],
         "residuals": _residuals(result.residuals),
-        "pictures": [view_document(view) for view in found.looked],
+        "pictures": [view_document(view) for view in found.read],
         "notes": list(result.notes),
     }
 
@@ -126,7 +126,7 @@ def stereo_document(
         "validation": calibration.validation.model_dump() if calibration.validation else None,
         "mended": list(estimate.mended),
         "residuals": _residuals(found.result.residuals),
-        "pictures": [view_document(view) for view in found.looked],
+        "pictures": [view_document(view) for view in found.read],
         "checks": [
             {
                 "name": check.name,
@@ -167,7 +167,7 @@ def mono_lines(found: "MonoSet") -> list[str]:
     if result.held_back_rms_px is not None:
         lines.append(f"  views held back      {result.held_back_rms_px:.4f} px")
     lines += _residual_lines(result.residuals)
-    return lines + _refused(found.looked) + [f"  {note}" for note in result.notes]
+    return lines + _refused(found.read) + [f"  {note}" for note in result.notes]
 
 
 def stereo_lines(found: "StereoSet", checks: "Sequence[Check]", verdict: "Judgement") -> list[str]:
@@ -195,7 +195,7 @@ def stereo_lines(found: "StereoSet", checks: "Sequence[Check]", verdict: "Judgem
             "(--check-images, --check-board)"
         )
     lines += _residual_lines(found.result.residuals)
-    lines += _refused(found.looked) + [f"  {note}" for note in calibration.notes]
+    lines += _refused(found.read) + [f"  {note}" for note in calibration.notes]
     return [*lines, f"verdict: {verdict.grade.value}: {verdict.text}"]
 
 

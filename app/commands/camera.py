@@ -120,11 +120,11 @@ def examine(
     out: Annotated[Path | None, typer.Option(help="Folder for a picture of each.")] = None,
 ) -> Answer:
     """Measure what the cameras deliver. Size, rate, repeats, light; left and right swapped?"""
-    from app.compose.camera_check import look
+    from app.compose.camera_check import survey_cameras
     from app.tracking.cameras.settings import load_settings, parse_cameras
 
     settings = load_settings() if cameras is None else parse_cameras(cameras)
-    found = look(settings, source, seconds)
+    found = survey_cameras(settings, source, seconds)
     if out is not None:
         found.write_pictures(out)
     lines = [line for report in found.reports for line in report_lines(report)]

@@ -83,7 +83,7 @@ class Aim:
         write_pictures(folder, dict(zip(self.cone.names, drawn, strict=True)))
 
 
-def look(settings: CameraSettings, source: str, seconds: float) -> CameraCheck:
+def survey_cameras(settings: CameraSettings, source: str, seconds: float) -> CameraCheck:
     """Look at the cameras of the settings, or at one source.
 
     Raises:

@@ -102,7 +102,7 @@ class DailyCheck:
             robot.clearance() if robot is not None else None,
             robot.readiness if robot is not None else None,
         )
-        seen = Inspector(rig.stereo).look(lines=False)
+        seen = Inspector(rig.stereo).inspect(lines=False)
         return daily_facts(snapshot, seen, facts, self._touch, self._failure)
 
     def move_to(self, point: FloatArray) -> None:

@@ -233,8 +233,8 @@ def _inspector(tracker: Tracker | PenTracker) -> Callable[[bool, bool], Inspecti
     from app.tracking.pen.tracker import PenTracker
 
     if isinstance(tracker, PenTracker):
-        return PenInspector(tracker).look
-    return Inspector(tracker).look
+        return PenInspector(tracker).inspect
+    return Inspector(tracker).inspect
 
 
 def _touched(tracker: Tracker | PenTracker) -> Callable[[float, float], None] | None:

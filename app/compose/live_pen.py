@@ -107,7 +107,7 @@ class LivePen:
         tracker.listen(lambda _: self._seen())
 
     def open(self) -> None:
-        """Open the webcam and begin to look.
+        """Open the webcam and begin to seen.
 
         Raises:
             CameraError: if the webcam cannot be opened.

@@ -109,7 +109,7 @@ def _collect(
     fulcrum = load_profile("icube").pantograph.fulcrum
     step = PenStep(settings.profile(), settings.webcam(), fulcrum)
     for frame in _frames(settings, seconds, time):
-        seen = step.look(frame)
+        seen = step.observe(frame)
         kept = collector.add(seen)
         line = seen.fix.reason or f"{len(collector.poses)} of {WANTED} poses"
         if line != said and (not kept or len(collector.poses) % 10 == 0):

@@ -96,7 +96,7 @@ def agreement_of(
     metadata record `agreement`: `radius_mm` and the `check`'s id; nothing where nobody has checked.
     """
 
-    def look(placed: PlacedPlan) -> Mapping[str, str]:
+    def distances(placed: PlacedPlan) -> Mapping[str, str]:
         try:
             record = Registrations.own().newest(
                 calibration, rig, simulated, ct.pseudonym, frame=ct.frame
@@ -109,7 +109,7 @@ def agreement_of(
             return {}
         return {"radius_mm": f"{1e3 * radius:.3f}", "check": record.id}
 
-    return look
+    return distances
 
 
 def _conditions(exercise: Exercise) -> dict[str, str]:

@@ -84,7 +84,7 @@ class Comparison:
         self._share = 0.0
         self._open: tuple[int, float] | None = None
 
-    def look(self, first_row: int, states: FloatArray) -> None:
+    def compare(self, first_row: int, states: FloatArray) -> None:
         """Compare recomputed states, shape (n, SLOTS), with the rows from `first_row` on."""
         rows = np.arange(first_row, first_row + len(states))
         found = self._by_value(rows, states) + self._by_state(first_row, states)
@@ -296,7 +296,7 @@ def replay(recording: Recording, table_of: TableOf) -> ReplayReport:
     given = given_slots(recording)
     comparison = Comparison(inputs, given)
     for first, states in _states(recording, table_of, given, rows):
-        comparison.look(first, states)
+        comparison.compare(first, states)
     changed = changes(recording.metadata.get(BUILD, {}), build())
     return ReplayReport(
         session=recording.id,

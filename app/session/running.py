@@ -175,7 +175,7 @@ class RunningAttempt:
             self._classifier, attempt.state, seen.pose, seen.offset.distance, self._thresholds
         )
         silence = inputs.silence(seen.time)
-        pause = self._pauses.look(
+        pause = self._pauses.judge(
             attempt.state, seen.pose, seen.fix_status, silence, simulated and seen.swings
         )
         event = pause or event

@@ -178,7 +178,7 @@ class _Watched:
         self._there: float | None = None
         self._gone: float | None = None
 
-    def look(self, there: bool, gone: bool, now: float) -> None:
+    def note(self, there: bool, gone: bool, now: float) -> None:
         self._there = (now if self._there is None else self._there) if there else None
         self._gone = (now if self._gone is None else self._gone) if gone else None
 
@@ -202,7 +202,7 @@ class Pauses:
         self._inside = True
         self._began = 0.0
 
-    def look(
+    def judge(
         self,
         state: State,
         pose: NeedlePose,
@@ -219,11 +219,11 @@ class Pauses:
         now = pose.time
         blamed = pose.valid and fix_status != FixStatus.NOT_YET_VISIBLE
         cameras = self._watched[PauseCause.CAMERAS]
-        cameras.look(not pose.measured and blamed, pose.measured, now)
+        cameras.note(not pose.measured and blamed, pose.measured, now)
         busy = silence > HEARTBEAT
         own = {PauseCause.WINDOW: busy, PauseCause.HAND: swings}
         for cause, there in own.items():
-            self._watched[cause].look(there, not there, now)
+            self._watched[cause].note(there, not there, now)
         if state is State.PAUSED:
             if self.cause is None or not self._watched[self.cause].over(now):
                 return None

@@ -124,7 +124,7 @@ def rendered(setup: Setup, poses: int = _POSES, seed: int = _SEED) -> Outcome:
         image = draw.render(PenScene(T_world_body, p_tip)).astype(np.float64)
         image += rng.normal(0.0, setup.noise, image.shape[:2])[..., None]
         frame = CameraFrame(np.clip(np.rint(image), 0, 255).astype(np.uint8), 1.0)
-        needle = known.look(frame).needle
+        needle = known.observe(frame).needle
         if needle is None:
             continue
         error = needle.p_tip - p_tip

@@ -44,7 +44,7 @@ class Continuity:
     def __init__(self) -> None:
         self._last: NeedleFix | None = None
 
-    def look(self, fix: NeedleFix, found: Sequence[MarkerFix] = ()) -> NeedleFix:
+    def judge(self, fix: NeedleFix, found: Sequence[MarkerFix] = ()) -> NeedleFix:
         """Return the fix, without its point if it is not to be believed.
 
         Args:

@@ -55,7 +55,7 @@ class Hiding:
         self._offset = needle.marker_offset
         self._last: float | None = None
 
-    def look(self, fix: NeedleFix) -> NeedleFix:
+    def judge(self, fix: NeedleFix) -> NeedleFix:
         """Return the fix, as `not_yet_visible` if the tube explains why the marker is not seen."""
         if fix.usable:
             self._last = fix.depth - self._offset
@@ -123,7 +123,7 @@ class FixHealth:
         self._verdict = Discrepancy()
         self._count = 0
 
-    def look(
+    def judge(
         self,
         fix: NeedleFix,
         axis: FloatArray | None,

@@ -86,7 +86,7 @@ class Inspector:
     def __init__(self, tracker: Tracker) -> None:
         self._tracker = tracker
 
-    def look(self, masks: bool = False, lines: bool = True) -> Inspection:
+    def inspect(self, masks: bool = False, lines: bool = True) -> Inspection:
         """Return the newest pictures.
 
         Args:

@@ -273,9 +273,9 @@ class Tracker:
         axis = self._axis(time)
         fix, markers = self._measured(frames, axis, time)
         certain = all(isinstance(m, MarkerFix) and m.centre is Centre.BAND for m in markers)
-        fix = self._health.look(fix, axis, certain, self._follower.exchanged)
+        fix = self._health.judge(fix, axis, certain, self._follower.exchanged)
         found = [one for one in markers if isinstance(one, MarkerFix)]
-        fix = self._hiding.look(self._continuity.look(fix, found))
+        fix = self._hiding.judge(self._continuity.judge(fix, found))
         if fix.status is FixStatus.INCONSISTENT:
             self._follower.doubt()
         self._follower.remember(self._solver.band(fix, axis))

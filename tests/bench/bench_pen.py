@@ -124,7 +124,7 @@ def compare(setup: Setup, count: int) -> None:
     known = PenStep(pen, lens, ENTRY)
 
     def stepped(frame):
-        needle = known.look(frame).needle
+        needle = known.observe(frame).needle
         return None if needle is None else needle.p_tip
 
     # Pictures a second apart remember nothing of each other: each is searched as a whole.

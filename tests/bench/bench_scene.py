@@ -45,7 +45,7 @@ def main() -> None:
             known = anatomy(seed)
             stage.set_plan(DraftPlan(known.entry_mm, known.lesion_mm))
         points = surfaces.skin.points.astype(np.float64)
-        orbit = Orbit.look_from("A", points.mean(axis=0), 1.0).fitted(points)
+        orbit = Orbit.from_side("A", points.mean(axis=0), 1.0).fitted(points)
         for words, display in (("as usual", Display()), ("x-ray", Display(xray=True))):
             stage.set_display(display)
             _measure(f"{name}, {words}", stage, orbit)

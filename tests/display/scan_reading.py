@@ -6,7 +6,7 @@ METAL_HU = 1000
 """Brighter than tissue: metal, or bone away from the path."""
 
 NEAR_MM = 6.0
-"""Metal further off the planned path than this is not looked for."""
+"""Metal further off the planned path than this is not read for."""
 
 
 def remaining_mm(volume, entry_mm, target_mm) -> float | None:

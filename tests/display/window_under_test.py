@@ -34,14 +34,14 @@ def main() -> None:
     collector = collect_for(window)
     window.show()
     timer = QTimer(window, interval=PERIOD_MS)
-    timer.timeout.connect(lambda: write_atomically(report, json.dumps(look(window)).encode()))
+    timer.timeout.connect(lambda: write_atomically(report, json.dumps(state_of(window)).encode()))
     timer.start()
     code = application.exec()
     collector.close()
     sys.exit(code)
 
 
-def look(window: MainWindow) -> dict[str, Any]:
+def state_of(window: MainWindow) -> dict[str, Any]:
     """Places and states of what a user would look at."""
     workspace, run = window.workspace, window.conductor.controller.run
     snapshot = None if run is None else run.trainer.snapshot()

@@ -72,12 +72,12 @@ def test_a_single_face_seen_from_the_side_and_near_is_decided():
 
 def test_the_hole_settles_which_of_two_poses_it_is_where_the_shaft_goes_through_it(draw):
     what, _ = scene((0.0, 0.0), depth=-0.015)
-    look = step(MODEL).look(picture(draw, what))
-    assert [m.id for m in look.sightings.markers if m.id < 5] == [3]
-    assert look.fix.status is FixStatus.VALID
-    assert np.linalg.norm(look.needle.p_tip - what.p_tip) < look.needle.tip_radius()
+    seen = step(MODEL).observe(picture(draw, what))
+    assert [m.id for m in seen.sightings.markers if m.id < 5] == [3]
+    assert seen.fix.status is FixStatus.VALID
+    assert np.linalg.norm(seen.needle.p_tip - what.p_tip) < seen.needle.tip_radius()
     lifted, _ = scene((0.0, 0.0), depth=-0.015, beside=(0.03, 0.0, 0.0))
-    beside = step(MODEL).look(picture(draw, lifted))
+    beside = step(MODEL).observe(picture(draw, lifted))
     if beside.fix.status is FixStatus.VALID:  # by the picture alone
         np.testing.assert_allclose(np.linalg.norm(beside.beside), 0.03, atol=3e-3)
     else:
@@ -119,28 +119,28 @@ def test_a_marker_at_the_border_is_not_measured(x):
 def test_a_cube_half_outside_the_picture_gives_a_status_or_a_right_needle(draw):
     for lean in (0.3, 0.6, 0.9):
         cut, _ = scene((0.0, -lean), depth=-0.05)
-        look = step(MODEL).look(picture(draw, cut))
-        if look.fix.status is FixStatus.VALID:
-            assert np.linalg.norm(look.needle.p_tip - cut.p_tip) < look.needle.tip_radius()
+        seen = step(MODEL).observe(picture(draw, cut))
+        if seen.fix.status is FixStatus.VALID:
+            assert np.linalg.norm(seen.needle.p_tip - cut.p_tip) < seen.needle.tip_radius()
         else:
-            assert look.fix.reason
+            assert seen.fix.reason
 
 
 def test_one_id_twice_in_the_picture_is_named(draw):
     what, _ = scene()
     image = picture(draw, what).image.copy()
     image[20:120, 20:140] = image[75:175, 280:400]  # the cube once more
-    look = step(MODEL).look(CameraFrame(image, 1.0))
-    assert look.fix.status is FixStatus.INCONSISTENT
-    assert "twice" in look.fix.reason
+    seen = step(MODEL).observe(CameraFrame(image, 1.0))
+    assert seen.fix.status is FixStatus.INCONSISTENT
+    assert "twice" in seen.fix.reason
 
 
 def test_a_mirrored_picture_is_named(draw):
     what, _ = scene()
     image = np.ascontiguousarray(picture(draw, what).image[:, ::-1])
-    look = step(MODEL).look(CameraFrame(image, 1.0))
-    assert look.fix.status is FixStatus.INCONSISTENT
-    assert "mirrored" in look.fix.reason
+    seen = step(MODEL).observe(CameraFrame(image, 1.0))
+    assert seen.fix.status is FixStatus.INCONSISTENT
+    assert "mirrored" in seen.fix.reason
 
 
 def test_faces_of_two_cubes_are_inconsistent():
@@ -165,19 +165,19 @@ def test_no_sheet_in_view_is_named_and_gives_no_needle(draw):
     what, _ = scene()
     image = picture(draw, what).image.copy()
     image[205:] = 120
-    look = step(MODEL).look(CameraFrame(image, 1.0))
-    assert look.fix.status is FixStatus.NO_ORIENTATION
-    assert "sheet" in look.fix.reason
-    assert look.needle is None
+    seen = step(MODEL).observe(CameraFrame(image, 1.0))
+    assert seen.fix.status is FixStatus.NO_ORIENTATION
+    assert "sheet" in seen.fix.reason
+    assert seen.needle is None
 
 
 def test_no_cube_and_an_empty_picture_are_out_of_view(draw):
     tip = scene()[0].p_tip
-    look = step(MODEL).look(picture(draw, PenScene(None, tip)))
-    assert look.fix.status is FixStatus.OUT_OF_VIEW
+    seen = step(MODEL).observe(picture(draw, PenScene(None, tip)))
+    assert seen.fix.status is FixStatus.OUT_OF_VIEW
     for grey in (0, 128, 255):
         blank = CameraFrame(np.full((480, 640, 3), grey, np.uint8), 1.0)
-        assert step(MODEL).look(blank).fix.status is FixStatus.OUT_OF_VIEW
+        assert step(MODEL).observe(blank).fix.status is FixStatus.OUT_OF_VIEW
 
 
 def test_noise_alone_gives_no_needle():
@@ -185,7 +185,7 @@ def test_noise_alone_gives_no_needle():
     known = step(MODEL)
     for _ in range(10):
         image = rng.integers(0, 256, (480, 640, 3), dtype=np.uint8)
-        assert known.look(CameraFrame(image, 1.0)).fix.status is FixStatus.OUT_OF_VIEW
+        assert known.observe(CameraFrame(image, 1.0)).fix.status is FixStatus.OUT_OF_VIEW
 
 
 def test_corners_that_are_no_numbers_are_left_out():

@@ -125,9 +125,9 @@ def test_cameras_that_fall_silent_are_not_excused_by_what_they_said_last(bench: 
 
 def _paused(source: DepthSource, state: State, status: str = "") -> bool:
     pauses = Pauses()
-    pauses.look(state, pose(0.0), "valid")
+    pauses.judge(state, pose(0.0), "valid")
     return any(
-        pauses.look(state, pose(0.02 * k, source), status) is AttemptEvent.PAUSE
+        pauses.judge(state, pose(0.02 * k, source), status) is AttemptEvent.PAUSE
         for k in range(1, 200)
     )
 
@@ -145,14 +145,14 @@ def test_only_a_loss_in_the_body_pauses() -> None:
 def test_a_marker_drawn_into_the_tube_in_a_pause_keeps_it_until_it_is_seen_again() -> None:
     pauses = Pauses()
     for k in range(60):
-        event = pauses.look(State.INSERTING, pose(0.02 * k, DepthSource.MODEL), "out_of_view")
+        event = pauses.judge(State.INSERTING, pose(0.02 * k, DepthSource.MODEL), "out_of_view")
         if event is not None:
             break
     assert event is AttemptEvent.PAUSE
     for k in range(100):
         seen = pose(2.0 + 0.02 * k, DepthSource.MODEL)
-        assert pauses.look(State.PAUSED, seen, "not_yet_visible") is None
-    events = [pauses.look(State.PAUSED, pose(5.0 + 0.02 * k), "valid") for k in range(40)]
+        assert pauses.judge(State.PAUSED, seen, "not_yet_visible") is None
+    events = [pauses.judge(State.PAUSED, pose(5.0 + 0.02 * k), "valid") for k in range(40)]
     assert events.index(AttemptEvent.RESUME) == pytest.approx(BACK / 0.02, abs=1)
 
 
@@ -160,11 +160,11 @@ def test_a_flickering_marker_neither_pauses_nor_resumes() -> None:
     pauses = Pauses()
     for k in range(400):
         seen = DepthSource.TRACKED if k % 20 == 0 else DepthSource.MODEL
-        assert pauses.look(State.INSERTING, pose(0.02 * k, seen), "") is None
+        assert pauses.judge(State.INSERTING, pose(0.02 * k, seen), "") is None
     assert LOST > BACK
     for k in range(400):
         seen = DepthSource.MODEL if k % 20 == 0 else DepthSource.TRACKED
-        assert pauses.look(State.PAUSED, pose(8.0 + 0.02 * k, seen), "") is None
+        assert pauses.judge(State.PAUSED, pose(8.0 + 0.02 * k, seen), "") is None
 
 
 # --- a busy window --------------------------------------------------------------------------------

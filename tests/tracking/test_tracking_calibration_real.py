@@ -7,7 +7,7 @@ import pytest
 
 from app.tracking.calibration.boards import parse_board
 from app.tracking.calibration.pairing import Pair, pair_folder
-from app.tracking.calibration.pictures import look_at_all
+from app.tracking.calibration.pictures import read_views
 from app.tracking.calibration.poses import usual_rms, usual_stereo_rms
 from app.tracking.calibration.run import StereoResult, calibrate_pairs
 from app.tracking.calibration.views import BoardView
@@ -26,11 +26,9 @@ def pairs(shared_data: Path) -> list[Pair]:
 
 
 def seen(pairs: list[Pair], window: int | None = None) -> tuple[Views, Views]:
-    looked = look_at_all(
-        [p for pair in pairs for p in (pair.left, pair.right)], BOARD, None, window
-    )
-    assert all(isinstance(view, BoardView) for view in looked)
-    return looked[0::2], looked[1::2]  # type: ignore[return-value]
+    read = read_views([p for pair in pairs for p in (pair.left, pair.right)], BOARD, None, window)
+    assert all(isinstance(view, BoardView) for view in read)
+    return read[0::2], read[1::2]  # type: ignore[return-value]
 
 
 @pytest.fixture(scope="module")

@@ -176,13 +176,13 @@ def test_pictures_without_a_board_say_why() -> None:
 def test_rendered_pictures_are_found_kept_and_refused_when_blurred() -> None:
     collector = ViewCollector(BOARD, ["left"], live=False)
     pose = board_pose(BOARD, 0.35, 15.0, -20.0)
-    assert collector.look((board_picture(BOARD, CAMERA, pose),)).kept
+    assert collector.offer((board_picture(BOARD, CAMERA, pose),)).kept
     other = board_pose(BOARD, 0.3, -15.0, 20.0)
-    offer = collector.look((board_picture(BOARD, CAMERA, other, blur=1.6),))
+    offer = collector.offer((board_picture(BOARD, CAMERA, other, blur=1.6),))
     assert not offer.kept
     assert "blurred" in offer.words
     empty = np.full((480, 640), 120, np.uint8)
-    assert "no ChArUco board" in collector.look((empty,)).words
+    assert "no ChArUco board" in collector.offer((empty,)).words
 
 
 def test_a_rendered_picture_shows_its_corners_where_the_model_says() -> None:

@@ -195,7 +195,7 @@ def test_a_needle_known_to_bend_is_measured_where_the_line_alone_would_refuse_it
     for k in range(120):
         depth = 0.02 + 0.07 * (k % 40) / 40
         band = FULCRUM + depth * axis + 0.4 * depth**2 * side
-        fix = health.look(_fix(wide, solver, band, axis), axis)
+        fix = health.judge(_fix(wide, solver, band, axis), axis)
         statuses.append(fix.status)
     assert FixStatus.INCONSISTENT in statuses
     assert FixStatus.INCONSISTENT not in statuses[60:]
@@ -213,7 +213,7 @@ def test_two_touches_tell_the_tracker_of_a_slipped_marker(wide):
     for known in (0.04, 0.05):
         health.monitor.touch(known + 0.002, known)
     for k in range(15):
-        fix = health.look(_fix(wide, solver, FULCRUM + (0.02 + 0.001 * k) * axis, axis), axis)
+        fix = health.judge(_fix(wide, solver, FULCRUM + (0.02 + 0.001 * k) * axis, axis), axis)
     assert fix.discrepancy.cause is DiscrepancyCause.SLIPPED_MARKER
 
 
@@ -223,6 +223,6 @@ def test_a_camera_that_is_bumped_while_it_runs_is_named(wide):
     for k in range(60):
         axis = _axis(0.2, 0.1 * k)
         band = FULCRUM + (0.02 + 0.001 * k) * axis
-        fix = health.look(_fix(wide, solver, band, axis, nudge=1.5), axis)
+        fix = health.judge(_fix(wide, solver, band, axis, nudge=1.5), axis)
     assert fix.discrepancy.cause is DiscrepancyCause.BUMPED_CAMERA
     assert "daily check" in told[0]

@@ -109,7 +109,7 @@ def test_one_camera_is_believed_only_where_it_goes_on_with_what_both_saw(wide):
     def fix(time, depth, cameras):
         band = FULCRUM + depth * axis
         seen = [_sighting(wide, i, band, axis) if i in cameras else None for i in (0, 1)]
-        return continuity.look(solver.solve((seen[0], seen[1]), axis, time))
+        return continuity.judge(solver.solve((seen[0], seen[1]), axis, time))
 
     alone = fix(0.0, 0.05, (0,))
     assert not alone.usable
@@ -145,15 +145,15 @@ def test_a_marker_that_was_last_seen_at_the_tube_is_not_yet_visible_and_elsewher
     solver = FixSolver(wide, FULCRUM)
     hiding = Hiding(_profile(wide, hidden_mm=(-60.0, 12.0)))
     unseen = solver.solve((None, None), _axis(0.0, 0.0), 0.0)
-    assert hiding.look(unseen).status is FixStatus.NOT_YET_VISIBLE
+    assert hiding.judge(unseen).status is FixStatus.NOT_YET_VISIBLE
     for depth, status in ((0.06, FixStatus.OUT_OF_VIEW), (0.025, FixStatus.NOT_YET_VISIBLE)):
         axis = _axis(10.0, 30.0)
         band = FULCRUM + (depth - wide.needle.marker_offset) * axis
         pair = tuple(_sighting(wide, camera, band, axis) for camera in (0, 1))
-        assert hiding.look(solver.solve(pair, axis, 0.0)).usable
-        assert hiding.look(unseen).status is status
+        assert hiding.judge(solver.solve(pair, axis, 0.0)).usable
+        assert hiding.judge(unseen).status is status
     open_rig = Hiding(wide.needle)
-    assert open_rig.look(unseen).status is FixStatus.OUT_OF_VIEW
+    assert open_rig.judge(unseen).status is FixStatus.OUT_OF_VIEW
 
 
 def test_a_marker_that_is_never_seen_is_asked_for_after_a_while_and_once(wide):
@@ -161,7 +161,7 @@ def test_a_marker_that_is_never_seen_is_asked_for_after_a_while_and_once(wide):
     solver = FixSolver(wide, FULCRUM)
     hiding = Hiding(_profile(wide, hidden_mm=(-60.0, 12.0)), lambda *said: told.append(said))
     for time in np.arange(0.0, 40.0, 0.5):
-        fix = hiding.look(solver.solve((None, None), _axis(0.0, 0.0), float(time)))
+        fix = hiding.judge(solver.solve((None, None), _axis(0.0, 0.0), float(time)))
         hidden = fix.status is FixStatus.NOT_YET_VISIBLE
         assert hidden == (time <= NEVER)
         assert hidden or "push the needle in" in fix.reason
@@ -169,7 +169,7 @@ def test_a_marker_that_is_never_seen_is_asked_for_after_a_while_and_once(wide):
     assert "not seen yet" in told[0][1]
     hiding.clear()
     unseen = solver.solve((None, None), _axis(0.0, 0.0), 100.0)
-    assert hiding.look(unseen).status is FixStatus.NOT_YET_VISIBLE
+    assert hiding.judge(unseen).status is FixStatus.NOT_YET_VISIBLE
 
 
 def test_a_hidden_range_in_the_wrong_order_is_refused(wide):

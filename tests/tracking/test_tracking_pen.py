@@ -193,49 +193,49 @@ def test_the_needle_s_ellipsoid_holds_with_print_tip_and_lens_uncertain():
 
 
 def test_a_rendered_picture_gives_the_needle_within_its_radius(draw):
-    look = step(MODEL).look(picture(draw, SCENE))
-    assert look.fix.status is FixStatus.VALID
-    error = np.linalg.norm(look.needle.p_tip - SCENE.p_tip)
+    seen = step(MODEL).observe(picture(draw, SCENE))
+    assert seen.fix.status is FixStatus.VALID
+    error = np.linalg.norm(seen.needle.p_tip - SCENE.p_tip)
     assert error < 2.0e-3, (
         "an exact print: 0.05 px of corner noise is about a millimetre at the tip"
     )
-    assert error < look.needle.tip_radius()
-    np.testing.assert_allclose(look.fix.depth, 0.05, atol=1.5e-3)
-    assert "95 %" in look.needle.words
+    assert error < seen.needle.tip_radius()
+    np.testing.assert_allclose(seen.fix.depth, 0.05, atol=1.5e-3)
+    assert "95 %" in seen.needle.words
 
 
 def test_the_distance_beside_the_entry_is_measured(draw):
     missed, axis = scene(beside=(6e-3, 0.0, 0.0))
-    look = step(MODEL).look(picture(draw, missed))
+    seen = step(MODEL).observe(picture(draw, missed))
     across = 6e-3 * (np.array([1.0, 0.0, 0.0]) - axis[0] * axis)
-    np.testing.assert_allclose(look.beside, across, atol=1.5e-3)
-    assert 0.0 < look.beside_sd < 6e-3
+    np.testing.assert_allclose(seen.beside, across, atol=1.5e-3)
+    assert 0.0 < seen.beside_sd < 6e-3
 
 
 def test_the_webcam_may_stand_elsewhere_in_the_next_picture(draw):
     moved = camera((-150, 520, 420), (0, 160, 130))
     known = step(MODEL)
-    first = known.look(picture(draw, SCENE)).needle
-    second = known.look(picture(renderer(moved), SCENE)).needle
+    first = known.observe(picture(draw, SCENE)).needle
+    second = known.observe(picture(renderer(moved), SCENE)).needle
     np.testing.assert_allclose(second.T_world_camera.translation, moved.centre, atol=3e-3)
     np.testing.assert_allclose(first.p_tip, second.p_tip, atol=3e-3)
 
 
 def test_a_guessed_lens_is_said_and_widens_the_ellipsoid(draw):
     frame = picture(draw, SCENE)
-    sharp = step(MODEL).look(frame).needle
+    sharp = step(MODEL).observe(frame).needle
     guess = PenStep(PEN, None, ENTRY)
-    look = guess.look(frame)
-    assert look.fix.status is FixStatus.VALID
+    seen = guess.observe(frame)
+    assert seen.fix.status is FixStatus.VALID
     assert "GUESSED" in guess.webcam.words
-    assert look.needle.tip_radius() > sharp.tip_radius()
-    assert np.linalg.norm(look.needle.p_tip - SCENE.p_tip) < look.needle.tip_radius()
+    assert seen.needle.tip_radius() > sharp.tip_radius()
+    assert np.linalg.norm(seen.needle.p_tip - SCENE.p_tip) < seen.needle.tip_radius()
 
 
 def test_pictures_of_another_size_than_the_calibration_are_refused_with_both_sizes(draw):
     other = PenStep(PEN, guessed_webcam((1280, 720)), ENTRY)
     with pytest.raises(PenError, match=r"640x480.*1280x720"):
-        other.look(picture(draw, SCENE))
+        other.observe(picture(draw, SCENE))
 
 
 def test_the_tip_of_the_scene_is_the_tip_of_the_body():

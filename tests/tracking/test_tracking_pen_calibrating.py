@@ -18,7 +18,7 @@ from app.tracking.pen.settings import PenSettings, load_settings, save_pen, save
 from app.tracking.simulated.pen_scene import body_pose
 
 MODEL = camera()
-BLANK = step(MODEL).look(CameraFrame(np.full((480, 640, 3), 128, np.uint8), 1.0))
+BLANK = step(MODEL).observe(CameraFrame(np.full((480, 640, 3), 128, np.uint8), 1.0))
 TRUE_TIP = np.array([0.0015, -0.001, 0.172])
 
 
@@ -73,7 +73,7 @@ def test_a_rocked_pen_is_calibrated_to_its_true_tip():
 
 
 def test_pictures_without_cube_or_sheet_give_no_pose():
-    blank = step(MODEL).look(CameraFrame(np.full((480, 640, 3), 128, np.uint8), 1.0))
+    blank = step(MODEL).observe(CameraFrame(np.full((480, 640, 3), 128, np.uint8), 1.0))
     collector = PoseCollector()
     assert not collector.add(blank)
     with pytest.raises(PenError, match="too few"):
@@ -117,7 +117,7 @@ def test_a_lens_is_read_from_its_file_and_a_wrong_name_is_named(tmp_path):
 
 def test_what_was_found_is_drawn_and_an_empty_picture_stays_as_it_is():
     blank = CameraFrame(np.full((480, 640, 3), 128, np.uint8), 1.0)
-    seen = step(MODEL).look(blank)
+    seen = step(MODEL).observe(blank)
     assert np.array_equal(draw_observation(blank.image, seen), blank.image)
     pose = body_pose(ENTRY, np.array([0.0, 0.0, -1.0]), TIP, DOWN, 1.0)
     found = observed(pose, np.random.default_rng(0))

@@ -45,7 +45,7 @@ def test_a_followed_pen_is_found_as_one_that_is_searched_for_in_every_picture(dr
     known = step(MODEL)
     told = searches(known)
     for frame, (what, _) in zip(frames(draw, moving()), moving(), strict=True):
-        followed, alone = known.look(frame).needle, step(MODEL).look(frame).needle
+        followed, alone = known.observe(frame).needle, step(MODEL).observe(frame).needle
         assert np.linalg.norm(followed.p_tip - alone.p_tip) < 0.5 * alone.tip_radius()
         assert np.linalg.norm(followed.p_tip - what.p_tip) < followed.tip_radius()
         np.testing.assert_allclose(followed.covariance, alone.covariance, rtol=0.2, atol=1e-8)
@@ -58,9 +58,9 @@ def test_a_pen_that_jumps_out_of_the_region_is_found_in_the_same_picture(draw):
     for frame, (what, _) in zip(
         frames(draw, [here, here, there]), [here, here, there], strict=True
     ):
-        look = known.look(frame)
-        assert look.fix.status is FixStatus.VALID
-        assert np.linalg.norm(look.needle.p_tip - what.p_tip) < look.needle.tip_radius()
+        seen = known.observe(frame)
+        assert seen.fix.status is FixStatus.VALID
+        assert np.linalg.norm(seen.needle.p_tip - what.p_tip) < seen.needle.tip_radius()
 
 
 def test_a_webcam_that_is_pushed_is_noticed_in_the_next_picture(draw):
@@ -71,8 +71,8 @@ def test_a_webcam_that_is_pushed_is_noticed_in_the_next_picture(draw):
     known = step(MODEL)
     told = searches(known)
     for frame in (first, second, third):
-        look = known.look(frame)
-        assert np.linalg.norm(look.needle.p_tip - what.p_tip) < look.needle.tip_radius()
+        seen = known.observe(frame)
+        assert np.linalg.norm(seen.needle.p_tip - what.p_tip) < seen.needle.tip_radius()
     assert told == [True, False, True]
 
 
@@ -82,10 +82,10 @@ def test_a_second_cube_is_named_within_a_third_of_a_second(draw):
         image = frame.image.copy()
         if number >= 2:
             image[20:120, 20:140] = image[75:175, 280:400]
-        look = known.look(CameraFrame(image, frame.time))
-        if look.fix.status is not FixStatus.VALID:
+        seen = known.observe(CameraFrame(image, frame.time))
+        if seen.fix.status is not FixStatus.VALID:
             break
-    assert "twice" in look.fix.reason
+    assert "twice" in seen.fix.reason
     assert number <= FULL_EVERY
 
 
@@ -94,7 +94,7 @@ def test_what_was_seen_at_another_time_is_not_used(draw, times):
     known = step(MODEL)
     told = searches(known)
     for seed, time in enumerate(times):
-        known.look(picture(draw, scene()[0], seed, time=time))
+        known.observe(picture(draw, scene()[0], seed, time=time))
     assert told == [True, True]
 
 
@@ -109,7 +109,11 @@ def test_the_shift_of_a_picture_is_told_to_a_fifth_or_to_what_counts_as_still(dr
     first = picture(draw, what, 1).image[..., 0]
     second = picture(renderer(there), what, 2).image[..., 0]
     corners = np.concatenate(
-        [m.corners for m in step(here).look(picture(draw, what, 1)).sightings.markers if m.id >= 20]
+        [
+            m.corners
+            for m in step(here).observe(picture(draw, what, 1)).sightings.markers
+            if m.id >= 20
+        ]
     )
     assert Stillness(first, corners).moved(second) == pytest.approx(
         shift, abs=0.4 * STILL_PX, rel=0.25

@@ -55,7 +55,7 @@ def looks():
     known, scene = step(MODEL), rocked(ENTRY, PenTip.of(PEN.tip))
     draw = renderer(MODEL)
     times = np.arange(3.0, 7.0, 1.0 / 6.0)
-    return [known.look(picture(draw, scene(t), k, time=t)) for k, t in enumerate(times)]
+    return [known.observe(picture(draw, scene(t), k, time=t)) for k, t in enumerate(times)]
 
 
 def test_a_rocked_pen_covers_all_sides_and_each_position_counts_for_the_side_it_leans_to(looks):

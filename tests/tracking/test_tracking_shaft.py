@@ -95,8 +95,8 @@ def test_one_camera_s_find_that_may_be_another_thing_does_not_carry_a_depth_on()
         return [MarkerFix(np.zeros(2), 1e-4 * np.eye(2), 200.0, 1.0, centre, alone)]
 
     continuity = Continuity()
-    assert continuity.look(fix(0.0, FixStatus.VALID), find(False)).usable
-    assert not continuity.look(fix(0.03, FixStatus.ONE_CAMERA), find(False)).usable
-    assert continuity.look(fix(0.06, FixStatus.ONE_CAMERA), find(True)).usable
+    assert continuity.judge(fix(0.0, FixStatus.VALID), find(False)).usable
+    assert not continuity.judge(fix(0.03, FixStatus.ONE_CAMERA), find(False)).usable
+    assert continuity.judge(fix(0.06, FixStatus.ONE_CAMERA), find(True)).usable
     outlines = find(False, Centre.OUTLINE)
-    assert continuity.look(fix(0.09, FixStatus.VALID), outlines).status is FixStatus.INCONSISTENT
+    assert continuity.judge(fix(0.09, FixStatus.VALID), outlines).status is FixStatus.INCONSISTENT

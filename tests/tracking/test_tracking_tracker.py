@@ -236,7 +236,7 @@ def test_red_things_off_each_others_epipolar_line_are_no_marker_and_it_is_said(
     assert fix.status is FixStatus.OUT_OF_VIEW
     for picture in tracker.pictures():
         assert picture.found.reason is MissReason.OFF_EPIPOLAR
-    shown = Inspector(tracker).look()
+    shown = Inspector(tracker).inspect()
     assert [one.why for one in shown.pictures] == [MissReason.OFF_EPIPOLAR.words] * 2
 
 

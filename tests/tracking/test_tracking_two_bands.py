@@ -191,7 +191,7 @@ def test_an_axis_that_is_not_the_robots_is_told(rig, pictures):
         lean = AXIS + turn * normal / np.linalg.norm(normal)
         seen = replace(fix, axis_world=lean / np.linalg.norm(lean), beside=np.zeros(3))
         for _ in range(60):
-            found = health.look(seen, AXIS).discrepancy
+            found = health.judge(seen, AXIS).discrepancy
         assert found.cause is cause
         assert found.turn == pytest.approx(turn, rel=1e-3)
         assert len(told) == (cause is DiscrepancyCause.TURNED)

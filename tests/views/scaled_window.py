@@ -29,7 +29,7 @@ from app.planning.draft import DraftPlan
 from app.planning.patient import Patient
 from app.views.kit.theme import apply_theme
 from app.views.shell.window import MainWindow
-from app.views.slices.looks import Look, Turn
+from app.views.slices.presentation import Presentation, Turn
 from app.views.slices.viewing import Tool
 
 BEAD = np.array([41, 25, 17])
@@ -105,7 +105,7 @@ def main(width, height):
                  "outside": outside(window), "off_mm": []}  # fmt: skip
         for turn in (Turn(), Turn(1, True)):
             for pane in window.workspace.panes:
-                viewing.set_look(pane.pane, Look(turn=turn))
+                viewing.set_presentation(pane.pane, Presentation(turn=turn))
                 found["off_mm"].append(click(window, pane, target))
         print(json.dumps(found), flush=True)
     os._exit(0)

@@ -10,11 +10,11 @@ from app.imaging.window import WindowLevel
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices.items import MarkItem
-from app.views.slices.looks import Slab
 from app.views.slices.needle_source import NeedlePlanes
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, NEEDLE_PANES, PaneId
 from app.views.slices.pictures import Picture
+from app.views.slices.presentation import Slab
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
 
@@ -83,9 +83,11 @@ def change(room, rng):
     elif what == 6:
         viewing.set_window(WindowLevel(float(rng.integers(100, 900)), 40.0))
     elif what == 7:
-        look = viewing.look(pane.pane)
+        presentation = viewing.presentation(pane.pane)
         thick = Slab("mean", float(rng.integers(0, 6)))
-        viewing.set_look(pane.pane, replace(look, turn=look.turn.turned(1), slab=thick))
+        viewing.set_presentation(
+            pane.pane, replace(presentation, turn=presentation.turn.turned(1), slab=thick)
+        )
     elif what == 8:
         viewing.set_follows_tip(bool(rng.random() < 0.5))
     else:
@@ -248,7 +250,7 @@ def test_a_picture_that_was_overtaken_or_dropped_never_comes_back(room, settle):
             feed.drop()
         feed.is_waiting = True
         maker._made[id(feed)] = Picture.of(old)
-        feed.look()
+        feed.take()
         assert feed.picture is (None if drop else newest)
 
 

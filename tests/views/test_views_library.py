@@ -55,8 +55,8 @@ def until(condition, seconds=60.0):
     assert condition()
 
 
-def look(desk):
-    """The dialog in which the pictures are looked at, once it is open."""
+def mask_dialog(desk):
+    """The dialog in which the pictures are read at, once it is open."""
     until(lambda: desk.intake.mask is not None)
     return desk.intake.mask
 
@@ -75,7 +75,7 @@ def test_a_folder_is_taken_in_and_the_report_offers_to_open_it(desk, tmp_path):
     opened = []
     desk.open_wanted.connect(opened.append)
     desk.import_from(tmp_path / "in")
-    look(desk).take.click()
+    mask_dialog(desk).take.click()
     until(lambda: desk.intake.report is not None)
     report = desk.intake.report
     assert "SeriesDescription" in report.text.toPlainText()
@@ -98,7 +98,7 @@ def test_an_archive_and_a_file_are_taken_in_too(desk, tmp_path, kind):
     else:
         source = write_enhanced(tmp_path / "one.dcm", Slices())
     desk.import_from(source)
-    dialog = look(desk)
+    dialog = mask_dialog(desk)
     assert dialog.canvas.may_draw == (kind == "zip")
     dialog.take.click()
     until(lambda: desk.intake.report is not None)
@@ -109,7 +109,7 @@ def test_an_archive_and_a_file_are_taken_in_too(desk, tmp_path, kind):
 def test_boxes_drawn_with_the_mouse_do_what_the_command_line_does(desk, tmp_path):
     Slices(shape=(40, 60)).write(tmp_path / "in")
     desk.import_from(tmp_path / "in")
-    dialog = look(desk)
+    dialog = mask_dialog(desk)
     frame = dialog.canvas.frame()
     scale = frame.width() / 60.0, frame.height() / 40.0
 
@@ -147,7 +147,7 @@ def test_writing_that_the_files_tell_of_must_be_drawn_over_before_it_is_taken_in
     failed = []
     desk.failed.connect(failed.append)
     desk.import_from(tmp_path / "in")
-    first = look(desk)
+    first = mask_dialog(desk)
     first.take.click()
     until(lambda: desk.intake.mask is not first)
     assert desk.entries() == []
@@ -166,7 +166,7 @@ def test_what_cannot_be_taken_in_is_told_and_nothing_is_kept(desk, tmp_path):
     failed = []
     desk.failed.connect(failed.append)
     desk.import_from(tmp_path / "in")
-    look(desk).take.click()
+    mask_dialog(desk).take.click()
     until(lambda: failed)
     assert "picture of a screen" in str(failed[0])
     assert desk.entries() == []
@@ -175,7 +175,7 @@ def test_what_cannot_be_taken_in_is_told_and_nothing_is_kept(desk, tmp_path):
 def test_a_look_that_is_cancelled_keeps_nothing(desk, tmp_path):
     Slices().write(tmp_path / "in")
     desk.import_from(tmp_path / "in")
-    look(desk).reject()
+    mask_dialog(desk).reject()
     assert desk.entries() == []
 
 
@@ -193,7 +193,7 @@ def test_the_panel_searches_shows_and_hands_over(desk, tmp_path):
         until(lambda: panel.take.isEnabled())
         assert panel.tree.topLevelItem(0).text(6) == "5"
         panel.take.click()
-        look(desk).take.click()
+        mask_dialog(desk).take.click()
         until(lambda: desk.intake.report is not None)
     assert len(CtLibrary().entries()) == 1
     assert aside() == 0
@@ -205,7 +205,7 @@ def test_a_retrieved_series_that_is_given_up_is_deleted(desk, tmp_path):
         client = Pacs(pacs.settings())
         study = client.find_studies(Query(patient_id="SECRET*"))[0]
         desk._retrieve(pacs.settings(), client.find_series(study)[0])
-        dialog = look(desk)
+        dialog = mask_dialog(desk)
         assert aside() == 5
         dialog.reject()
     assert aside() == 0
@@ -229,7 +229,7 @@ def test_an_interrupted_retrieval_is_shown_and_resumed(desk, tmp_path):
             assert shown == ("5" if ill else "2 of 5 here, to be resumed")
             panel.take.click()
             until(lambda: failed)
-        look(desk).take.click()
+        mask_dialog(desk).take.click()
         until(lambda: desk.intake.report is not None)
     assert len(CtLibrary().entries()) == 1
 

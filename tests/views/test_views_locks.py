@@ -19,8 +19,8 @@ from app.exercises.schema import Exercise
 from app.imaging.window import PRESETS, WindowLevel
 from app.planning.plan import Plan
 from app.session.errors import ControlLockedError
-from app.views.slices.looks import Look, Slab
 from app.views.slices.panes import PaneId
+from app.views.slices.presentation import Presentation, Slab
 
 PLAN = Plan(np.array([0.0, -100.0, 0.0]), np.array([15.0, -35.0, 10.0]), "test")
 
@@ -128,7 +128,7 @@ def reading_of(window):
     workspace = window.workspace
     greys = workspace.viewing.greys
     windows = {pane: greys.of(pane) for pane in PaneId}
-    slabs = {pane: workspace.viewing.look(pane).slab for pane in PaneId}
+    slabs = {pane: workspace.viewing.presentation(pane).slab for pane in PaneId}
     return windows, slabs, workspace.layout_name
 
 
@@ -154,7 +154,7 @@ def test_an_assessment_keeps_window_slab_and_layout_whatever_one_does(opened, se
     greys.set_linked(False)
     viewing.set_window(WindowLevel(77.0, 7.0), PaneId.AXIAL)
     viewing.set_window(WindowLevel(77.0, 7.0))
-    viewing.set_look(PaneId.AXIAL, Look(Slab("mip", 20.0)))
+    viewing.set_presentation(PaneId.AXIAL, Presentation(Slab("mip", 20.0)))
     pane.actions_of.next_kind()
     pane.actions_of.reset()
     workspace.show_layout("6-up")
@@ -174,11 +174,11 @@ def test_an_attempt_begins_with_the_window_slab_and_layout_of_its_exercise(opene
     window = opened(load_exercise("first-insertion").model_copy(update={"reading": part}))
     workspace, viewing = window.workspace, window.workspace.viewing
     viewing.set_window(WindowLevel(77.0, 7.0))
-    viewing.set_look(PaneId.AXIAL, Look())
+    viewing.set_presentation(PaneId.AXIAL, Presentation())
     workspace.show_layout("needle")
     window.conductor.controller.begin("")
     assert viewing.window == PRESETS["Lung"]
-    assert {viewing.look(pane).slab for pane in PaneId} == {Slab("mip", 10.0)}
+    assert {viewing.presentation(pane).slab for pane in PaneId} == {Slab("mip", 10.0)}
     assert workspace.layout_name == "1+3"
     viewing.set_window(WindowLevel(77.0, 7.0))
     assert viewing.window == WindowLevel(77.0, 7.0)  # not locked: only the beginning is the same
@@ -188,8 +188,8 @@ def test_leaving_an_assessment_gives_everything_back(opened):
     window = opened(load_exercise("scans-only"))
     window = opened(load_exercise("first-insertion"))
     viewing, source = window.workspace.viewing, window.workspace.bullseye.source
-    viewing.set_look(PaneId.AXIAL, Look(Slab("mip", 20.0)))
-    assert viewing.look(PaneId.AXIAL).slab == Slab("mip", 20.0)
+    viewing.set_presentation(PaneId.AXIAL, Presentation(Slab("mip", 20.0)))
+    assert viewing.presentation(PaneId.AXIAL).slab == Slab("mip", 20.0)
     assert not viewing.greys.is_locked
     assert source.box.isEnabled()
     assert window.view_menu.layouts["needle"].isEnabled()

@@ -57,7 +57,7 @@ def test_names_paths_files_and_pseudonyms_become_dots_and_come_back(text, secret
 )  # fmt: skip
 def test_what_is_no_name_stays_as_it_is(text):
     names = Names()
-    names.learn("ct", "", "  ")  # too short to be looked for
+    names.learn("ct", "", "  ")  # too short to be read for
     names.hide(True)
     assert names.without_names(text) == text
 

@@ -72,13 +72,13 @@ def test_nothing_is_chosen_before_a_click(panel):
 
 
 def test_a_click_looks_and_only_the_button_takes(panel):
-    looked, taken = [], []
-    panel.shown.connect(looked.append)
+    read, taken = [], []
+    panel.shown.connect(read.append)
     panel.taken.connect(taken.append)
     found = scores([55.0, 90.0])
     panel.show_scores(found, best(found))
     panel.table.selectRow(1)
-    assert looked == [0]
+    assert read == [0]
     assert taken == []
     panel.take.click()
     assert taken == [0]

@@ -36,13 +36,15 @@ MODEL = camera()
 
 @pytest.fixture(scope="module")
 def seen():
-    return step(MODEL).look(picture(renderer(MODEL), scene()[0]))
+    return step(MODEL).observe(picture(renderer(MODEL), scene()[0]))
 
 
 @pytest.fixture(scope="module")
 def blank():
     image = np.full((480, 640, 3), 128, np.uint8)
-    return step(MODEL).look(dataclasses.replace(picture(renderer(MODEL), scene()[0]), image=image))
+    return step(MODEL).observe(
+        dataclasses.replace(picture(renderer(MODEL), scene()[0]), image=image)
+    )
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +52,7 @@ def looks():
     """Positions of a pen that is rocked to all sides."""
     known, moves, draw = step(MODEL), rocked(ENTRY, PenTip.of(PEN.tip)), renderer(MODEL)
     times = np.arange(2.5, 7.5, 0.125)
-    return [known.look(picture(draw, moves(t), k, time=t)) for k, t in enumerate(times)]
+    return [known.observe(picture(draw, moves(t), k, time=t)) for k, t in enumerate(times)]
 
 
 @pytest.fixture

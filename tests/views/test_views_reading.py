@@ -25,10 +25,10 @@ from app.views.slices.bindings import (
     key_rows,
 )
 from app.views.slices.camera import SliceCamera
-from app.views.slices.looks import KINDS, Look, Slab, Turn
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, PaneId
-from app.views.slices.plane import looked_at, own_plane
+from app.views.slices.plane import own_plane, presented
+from app.views.slices.presentation import KINDS, Presentation, Slab, Turn
 from app.views.slices.presets import KEYED, best_window, default_window, menu_windows
 from app.views.slices.viewing import Tool, Viewing
 
@@ -217,7 +217,7 @@ def test_a_window_can_be_kept_by_name_and_forgotten(pane, viewing):
 @pytest.mark.parametrize("view", list(View))
 def test_places_letters_and_pixels_of_a_turned_pane_belong_together(volume, view, turn):
     plane = own_plane(OrthogonalSlicer(volume), view)
-    turned = looked_at(plane, Look(turn=turn))
+    turned = presented(plane, Presentation(turn=turn))
     lps = volume.lps_mm([[20, 10, 7], [5, 40, 30], [50, 3, 20]])
     for point in lps:
         index = plane.index_at(point)
@@ -261,7 +261,7 @@ def test_flipping_twice_and_turning_four_times_changes_nothing(turn):
 
 
 def test_the_crosshair_and_the_marks_follow_a_turned_pane(pane, viewing):
-    viewing.set_look(pane.pane, Look(turn=Turn(1)))
+    viewing.set_presentation(pane.pane, Presentation(turn=Turn(1)))
     at = pane.canvas.plane.point(viewing.cursor_mm, pane.canvas.index)
     place = pane.canvas.pixel_at(at.x, at.y)
     assert_allclose(pane.canvas.lps_at(place)[:2], viewing.cursor_mm[:2], atol=1e-9)
@@ -274,7 +274,7 @@ def test_the_crosshair_and_the_marks_follow_a_turned_pane(pane, viewing):
 @pytest.mark.parametrize("view", list(View))
 def test_a_slab_of_whole_slices_is_what_numpy_makes_of_them(volume, view, kind, reduce):
     plane = own_plane(OrthogonalSlicer(volume), view)
-    slab = looked_at(plane, Look(Slab(kind, 5 * plane.step_mm)))
+    slab = presented(plane, Presentation(Slab(kind, 5 * plane.step_mm)))
     block = np.stack([plane.image(index) for index in range(8, 13)]).astype(np.float64)
     assert_allclose(slab.image(10), reduce(block, axis=0), atol=1e-3)
     assert slab.half_slab_mm >= 2.5 * plane.step_mm
@@ -282,23 +282,23 @@ def test_a_slab_of_whole_slices_is_what_numpy_makes_of_them(volume, view, kind, 
 
 def test_a_slab_at_the_end_of_the_volume_takes_the_slices_that_there_are(volume):
     plane = own_plane(OrthogonalSlicer(volume), View.AXIAL)
-    slab = looked_at(plane, Look(Slab("mip", 100.0)))
+    slab = presented(plane, Presentation(Slab("mip", 100.0)))
     assert_allclose(slab.image(0), np.max([plane.image(i) for i in range(26)], axis=0))
 
 
 def test_the_wheel_with_shift_thickens_and_the_reader_is_told(pane, viewing):
     wheel(pane, 120, SHIFT)
-    assert viewing.look(pane.pane).slab == Slab("mean", 1.0)
+    assert viewing.presentation(pane.pane).slab == Slab("mean", 1.0)
     wheel(pane, 5 * 120, SHIFT)
     press(pane, Qt.Key.Key_K)
     pane.canvas.flush()
     assert "MIP 6 mm" in pane.readouts.title.text()
     wheel(pane, -20 * 120, SHIFT)
-    assert not viewing.look(pane.pane).slab
+    assert not viewing.presentation(pane.pane).slab
     press(pane, Qt.Key.Key_K)
-    assert viewing.look(pane.pane).slab.thickness_mm == 10.0
+    assert viewing.presentation(pane.pane).slab.thickness_mm == 10.0
     press(pane, Qt.Key.Key_Space)
-    assert not viewing.look(pane.pane).slab
+    assert not viewing.presentation(pane.pane).slab
 
 
 def test_the_kinds_go_round():
@@ -364,7 +364,7 @@ def test_slab_and_turn_work_along_oblique_planes_too(viewing):
     frame = Frame.of(viewing.cursor_mm, [0.8, 0.6, 0.0], [0.0, 0.0, -1.0])
     viewing.set_frame(PaneId.IN_PLANE, frame)
     plane = viewing.plane(PaneId.IN_PLANE)
-    viewing.set_look(PaneId.IN_PLANE, Look(Slab("mip", 6.0), Turn(1)))
+    viewing.set_presentation(PaneId.IN_PLANE, Presentation(Slab("mip", 6.0), Turn(1)))
     turned = viewing.plane(PaneId.IN_PLANE)
     assert turned.half_slab_mm == 3.0
     left, right, top, bottom = plane.letters()
@@ -374,7 +374,7 @@ def test_slab_and_turn_work_along_oblique_planes_too(viewing):
     assert (after.x, after.y) == pytest.approx((-before.y, before.x))
     assert after.distance == pytest.approx(before.distance)
     assert turned.image(0.0).max() >= plane.image(0.0).max() - 1e-3
-    viewing.set_frame(PaneId.IN_PLANE, frame)  # the needle moved: it is looked at as before
+    viewing.set_frame(PaneId.IN_PLANE, frame)  # the needle moved: it is read at as before
     assert viewing.plane(PaneId.IN_PLANE).half_slab_mm == 3.0
 
 

@@ -25,9 +25,9 @@ from app.views.plan.paths import PathsFeature
 from app.views.robot.feature import RobotFeature
 from app.views.robot.health_panel import _Line
 from app.views.shell.window import MainWindow
-from app.views.slices.looks import Look, OperatorSide, Slab, Turn, side_name, turns
 from app.views.slices.panes import PANE_MARKS, PaneId
-from app.views.slices.plane import looked_at, own_plane
+from app.views.slices.plane import own_plane, presented
+from app.views.slices.presentation import OperatorSide, Presentation, Slab, Turn, side_name, turns
 
 
 @pytest.fixture
@@ -244,17 +244,17 @@ def test_each_exercise_is_read_as_it_was_read_before(window, patient):
     first, second, *_ = window.feature(ExerciseFeature).exercises.values()
     window.conductor.set_exercise(first)
     workspace.show_layout("1+3")
-    look = Look(Slab("mip", 8.0), Turn(1, True))
-    viewing.set_look(PaneId.CORONAL, look)
+    presentation = Presentation(Slab("mip", 8.0), Turn(1, True))
+    viewing.set_presentation(PaneId.CORONAL, presentation)
     window.conductor.set_exercise(second)
     workspace.show_layout("2x2")
-    viewing.set_look(PaneId.CORONAL, Look())
+    viewing.set_presentation(PaneId.CORONAL, Presentation())
     window.conductor.set_exercise(first)
     assert workspace.layout_name == "1+3"
-    assert viewing.look(PaneId.CORONAL) == look
+    assert viewing.presentation(PaneId.CORONAL) == presentation
     window.conductor.set_exercise(second)
     assert workspace.layout_name == "2x2"
-    assert viewing.look(PaneId.CORONAL) == Look()
+    assert viewing.presentation(PaneId.CORONAL) == Presentation()
 
 
 def test_scheme_hand_and_kept_windows_are_remembered(services, window, patient, destroy):
@@ -295,7 +295,7 @@ def test_settings_that_cannot_be_used_are_left(services, window, destroy, stored
 # --- operator's side --------------------------------------------------------------------------
 def letters(volume, view, turn):
     plane = own_plane(OrthogonalSlicer(volume), view)
-    return looked_at(plane, Look(turn=turn)).letters()
+    return presented(plane, Presentation(turn=turn)).letters()
 
 
 @pytest.mark.parametrize(("lies", "top"), [("SUPINE", "A"), ("PRONE", "P"), ("LEFT_DOWN", "R"),
@@ -331,9 +331,9 @@ def test_the_menu_turns_the_slices_and_back(window, patient):
     window.show_patient(patient)
     viewing, operator = window.workspace.viewing, window.view_menu.operator
     operator["right"].trigger()
-    assert viewing.look(PaneId.CORONAL).turn == Turn(3)
+    assert viewing.presentation(PaneId.CORONAL).turn == Turn(3)
     operator["convention"].trigger()
-    assert not viewing.look(PaneId.CORONAL).turn
+    assert not viewing.presentation(PaneId.CORONAL).turn
     assert all(side_name(side) for side in OperatorSide)
 
 

@@ -161,7 +161,7 @@ def test_extraction_can_be_cancelled(volume):
 @given(st.lists(st.tuples(st.floats(-500, 500), st.floats(-500, 500)), max_size=20))
 @settings(derandomize=True, deadline=None, max_examples=50)
 def test_the_eye_stays_square_however_it_is_turned(turns):
-    orbit = Orbit.look_from("A", np.zeros(3), 100.0)
+    orbit = Orbit.from_side("A", np.zeros(3), 100.0)
     for right, down in turns:
         orbit = orbit.turned(right, down)
     basis = np.array([orbit.right, orbit.up, orbit.backwards])
@@ -171,7 +171,7 @@ def test_the_eye_stays_square_however_it_is_turned(turns):
 @pytest.mark.parametrize("size", [(300, 900), (900, 300), (500, 500)])
 def test_a_fitted_eye_shows_every_point_in_a_tall_and_in_a_wide_pane(size):
     points = np.random.default_rng(3).uniform(-200.0, 300.0, (40, 3)) * [1.0, 0.4, 2.0]
-    orbit = Orbit.look_from("A", np.zeros(3), 10.0).turned(-50, 30).fitted(points)
+    orbit = Orbit.from_side("A", np.zeros(3), 10.0).turned(-50, 30).fitted(points)
     seen = (points - orbit.focus_mm) / orbit.mm_per_px(size)
     assert np.abs(seen @ orbit.right).max() < size[0] / 2
     assert np.abs(seen @ orbit.up).max() < size[1] / 2
@@ -180,13 +180,13 @@ def test_a_fitted_eye_shows_every_point_in_a_tall_and_in_a_wide_pane(size):
 
 @pytest.mark.parametrize("letter", list("APLRSI"))
 def test_each_letter_points_at_the_viewer_on_its_own_side(letter):
-    orbit = Orbit.look_from("A", np.zeros(3), 100.0).seen_from(letter)
+    orbit = Orbit.from_side("A", np.zeros(3), 100.0).seen_from(letter)
     assert compass_ends(orbit)[-1][0] == letter
 
 
 def test_the_line_of_sight_through_the_middle_goes_through_the_focus():
     focus = np.array([1.0, 2.0, 3.0])
-    orbit = Orbit.look_from("L", focus, 50.0).turned(30, 20)
+    orbit = Orbit.from_side("L", focus, 50.0).turned(30, 20)
     point, direction = orbit.ray(50.0, 40.0, (100, 80))
     assert_allclose(point, focus, atol=1e-12)
     assert_allclose(direction, -orbit.backwards)
@@ -225,7 +225,7 @@ def stage():
 
 
 def test_a_picture_shows_what_stands_on_the_stage(stage, surfaces):
-    orbit = Orbit.look_from("A", np.full(3, 14.5), 20.0)
+    orbit = Orbit.from_side("A", np.full(3, 14.5), 20.0)
     empty = stage.render(orbit, SIZE, moving=False)
     assert empty.shape == (90, 120, 4)
     assert empty[:, :, :3].max() == 0
@@ -239,7 +239,7 @@ def test_a_picture_shows_what_stands_on_the_stage(stage, surfaces):
 
 
 def test_needle_plan_and_robot_appear_and_go(stage):
-    orbit = Orbit.look_from("A", np.zeros(3), 60.0)
+    orbit = Orbit.from_side("A", np.zeros(3), 60.0)
     stage.set_needle(NeedleOverlay([0, 0, 50], [0, 0, 0]))
     upper = stage.render(orbit, SIZE, False)[20, 55:65, :3].astype(int)
     assert (upper[:, 0] > upper[:, 2] + 60).any()  # orange
@@ -251,22 +251,22 @@ def test_needle_plan_and_robot_appear_and_go(stage):
     geometry = load_profile("icube").pantograph
     robot = RobotShape.of(geometry, inverse(geometry, [0.0, 0.15]))
     stage.set_robot(robot, RigidTransform.from_translation([0.0, 0.0, -0.1]))
-    assert stage.render(Orbit.look_from("S", np.zeros(3), 300.0), SIZE, False)[:, :, :3].max() > 60
+    assert stage.render(Orbit.from_side("S", np.zeros(3), 300.0), SIZE, False)[:, :, :3].max() > 60
     stage.set_robot(None, RigidTransform.identity())
     assert stage.render(orbit, SIZE, False)[:, :, :3].max() == 0
 
 
 def test_a_needle_without_length_is_not_drawn(stage):
     stage.set_needle(NeedleOverlay([0, 0, 0], [0, 0, 0]))
-    assert np.isfinite(stage.render(Orbit.look_from("A", np.zeros(3), 9.0), SIZE, False)).all()
+    assert np.isfinite(stage.render(Orbit.from_side("A", np.zeros(3), 9.0), SIZE, False)).all()
 
 
 def test_the_needle_is_seen_at_every_zoom_and_through_what_hides_it(stage, surfaces):
-    orbit = Orbit.look_from("A", np.full(3, 14.5), 400.0)
+    orbit = Orbit.from_side("A", np.full(3, 14.5), 400.0)
     stage.set_needle(NeedleOverlay([14.5, 14.5, 114.5], [14.5, 14.5, 14.5]))
     orange = stage.render(orbit, SIZE, False)[35, :, :3].astype(int)
     assert (orange[:, 0] > orange[:, 2] + 60).sum() >= 3
-    near = Orbit.look_from("A", np.full(3, 14.5), 20.0)
+    near = Orbit.from_side("A", np.full(3, 14.5), 20.0)
     stage.set_needle(None)
     stage.set_surfaces(surfaces)
     alone = stage.render(near, SIZE, False)[30, 60, :3].astype(int)
@@ -277,11 +277,11 @@ def test_the_needle_is_seen_at_every_zoom_and_through_what_hides_it(stage, surfa
 
 def test_a_closed_stage_says_so():
     with pytest.raises(SceneError, match="closed"):
-        Stage().render(Orbit.look_from("A", np.zeros(3), 10.0), SIZE, False)
+        Stage().render(Orbit.from_side("A", np.zeros(3), 10.0), SIZE, False)
 
 
 def shot(half=20.0, moving=False):
-    return Shot(Orbit.look_from("A", np.full(3, 14.5), half), SIZE, moving)
+    return Shot(Orbit.from_side("A", np.full(3, 14.5), half), SIZE, moving)
 
 
 def test_the_render_thread_answers_with_the_newest_request(surfaces):
@@ -469,7 +469,7 @@ def test_lungs_are_an_organ_and_gas_outside_the_body_is_not(volume, monkeypatch)
 
 
 def test_the_background_is_light_and_marks_are_dark_on_it(stage):
-    orbit = Orbit.look_from("A", np.zeros(3), 60.0)
+    orbit = Orbit.from_side("A", np.zeros(3), 60.0)
     stage.set_needle(NeedleOverlay([0, 0, 50], [0, 0, 0]))
     stage.set_display(Display(light=True))
     picture = stage.render(orbit, SIZE, False)[:, :, :3].astype(int)
@@ -482,14 +482,14 @@ def test_the_background_is_light_and_marks_are_dark_on_it(stage):
 
 def test_in_an_x_ray_the_needle_is_never_hidden_and_three_pixels_wide(stage, surfaces):
     size = (420, 330)  # the 3D view of a window of 1366 × 768
-    orbit = Orbit.look_from("A", np.full(3, 14.5), 300.0)
+    orbit = Orbit.from_side("A", np.full(3, 14.5), 300.0)
     stage.set_surfaces(surfaces)
     stage.set_needle(NeedleOverlay([14.5, 60.0, 214.5], [14.5, 14.5, 4.5]))
     stage.set_display(Display(xray=True))
     picture = stage.render(orbit, size, False)[:, :, :3].astype(int)
     orange = (picture[58:158, :, 0] - picture[58:158, :, 2]) > 100
     assert (orange.sum(axis=1) >= 3).all()
-    near = Orbit.look_from("A", np.full(3, 14.5), 20.0)
+    near = Orbit.from_side("A", np.full(3, 14.5), 20.0)
     inside = stage.render(near, SIZE, False)[38, 60, :3].astype(int)
     assert inside[0] - inside[2] > 100  # solid orange in the middle of the ball
 
@@ -501,7 +501,7 @@ def test_what_is_nearer_lies_over_what_is_farther_in_whatever_order_it_came(stag
         return meshes.Mesh(mesh.points + np.float32([0, y, 0]), mesh.triangles, mesh.normals)
 
     red, blue = (220, 20, 20), (20, 20, 220)
-    orbit = Orbit.look_from("A", np.full(3, 14.5), 20.0)
+    orbit = Orbit.from_side("A", np.full(3, 14.5), 20.0)
     stage.peels = peels
     seen = []
     for shown in (((red, sheet(0)), (blue, sheet(40))), ((blue, sheet(40)), (red, sheet(0)))):
@@ -513,7 +513,7 @@ def test_what_is_nearer_lies_over_what_is_farther_in_whatever_order_it_came(stag
 
 
 def test_path_and_tolerance_are_seen_through_the_body(stage, surfaces):
-    orbit = Orbit.look_from("A", np.full(3, 14.5), 20.0)
+    orbit = Orbit.from_side("A", np.full(3, 14.5), 20.0)
     stage.set_surfaces(surfaces)
     plain = stage.render(orbit, SIZE, False)[:, :, :3].astype(int)
     stage.set_plan(DraftPlan((14.5, 14.5, 34.5), (14.5, 14.5, 14.5)))
@@ -529,7 +529,7 @@ def test_path_and_tolerance_are_seen_through_the_body(stage, surfaces):
 
 def test_slices_stand_where_they_are_with_the_values_of_the_ct(stage, volume):
     _, section = plane_of(volume, find_body(volume))
-    orbit = Orbit.look_from("A", section.frame.origin_mm, 40.0)
+    orbit = Orbit.from_side("A", section.frame.origin_mm, 40.0)
     stage.set_sections((section,))
     picture = stage.render(orbit, (160, 160), False)[:, :, :3]
     assert picture[80, 80].min() > 250  # bone
@@ -544,14 +544,14 @@ def test_a_cut_takes_away_what_lies_before_it_from_either_side(stage, volume):
     _, section = plane_of(volume, body)
     stage.set_surfaces(extract_surfaces(volume, body, Progress()))
     for side in "AP":
-        orbit = Orbit.look_from(side, section.frame.origin_mm, 40.0)
+        orbit = Orbit.from_side(side, section.frame.origin_mm, 40.0)
         stage.set_cut(None)
         whole = stage.render(orbit, (160, 160), False)[80, 80 + 24, :3].astype(int)
         stage.set_cut(section)
         cut = stage.render(orbit, (160, 160), False)[80, 80 + 24, :3].astype(int)
         assert whole[0] - whole[2] > 8  # skin
         assert_allclose(cut, 127, atol=6)  # the CT
-    beside = Orbit.look_from("R", section.frame.origin_mm, 40.0)
+    beside = Orbit.from_side("R", section.frame.origin_mm, 40.0)
     picture = stage.render(beside, (160, 160), False)[80, :, :3].max(axis=1)
     assert picture.max() > 30
 
@@ -562,7 +562,7 @@ def test_the_volume_is_rendered_where_it_is_asked_for(monkeypatch, volume, prese
     stage = Stage()
     stage.open()
     patient, section = plane_of(volume, find_body(volume))
-    orbit = Orbit.look_from("A", section.frame.origin_mm, 40.0)
+    orbit = Orbit.from_side("A", section.frame.origin_mm, 40.0)
     try:
         stage.set_patient(patient)
         stage.set_display(Display(volume=preset))
@@ -583,7 +583,7 @@ def test_without_a_graphics_card_surfaces_stay(monkeypatch, stage, surfaces, vol
     stage.set_surfaces(surfaces)
     stage.set_display(Display(volume="bone"))
     assert not stage.has_volume
-    shown = stage.render(Orbit.look_from("A", np.full(3, 14.5), 20.0), SIZE, False)
+    shown = stage.render(Orbit.from_side("A", np.full(3, 14.5), 20.0), SIZE, False)
     assert shown[45, 60, :3].max() > 60
 
 
@@ -645,9 +645,9 @@ def test_the_menu_of_the_3d_view_says_what_each_entry_does_and_is_remembered(
     window.show_patient(patient)
     plan(window)
     scene, menu = window.workspace.scene, feature.menu
-    entries = (*menu.looks.values(), *menu.switches.values())
+    entries = (*menu.standpoints.values(), *menu.switches.values())
     assert all(action.toolTip() and "\t" in action.text() for action in entries)
-    menu.looks["S"].trigger()
+    menu.standpoints["S"].trigger()
     assert_allclose(scene.orbit.backwards, [0, 0, 1], atol=1e-12)
     menu.switches["Q"].trigger()
     menu.switches["M"].trigger()

@@ -12,10 +12,10 @@ from app.imaging.window import WindowLevel, to_grey
 from app.planning.draft import DraftPlan
 from app.planning.error_overlay import ErrorOverlay
 from app.planning.needle_overlay import NeedleOverlay
-from app.views.slices.looks import Look, Slab, Turn
 from app.views.slices.needle_source import NeedlePlanes
 from app.views.slices.pane import SlicePane
 from app.views.slices.panes import MPR_PANES, NEEDLE_PANES, PaneId
+from app.views.slices.presentation import Presentation, Slab, Turn
 from app.views.slices.presets import default_window
 from app.views.slices.viewing import Viewing
 
@@ -66,7 +66,7 @@ def greys(canvas):
 def reference(canvas, window, inverted=False):
     """Greys by the plain way: values of the plane, their grey, four of them mixed exactly."""
     plane, index, screen = canvas.plane, canvas.index, canvas.feed.wish.screen
-    slab = plane.look.slab
+    slab = plane.presentation.slab
     if plane.is_native:
         values, (left, top, width, height) = (
             np.ascontiguousarray(plane.image(index)),
@@ -106,15 +106,15 @@ def reference(canvas, window, inverted=False):
     return np.where(inside, mixed, 0.0), edge
 
 
-@pytest.mark.parametrize("look", [
-    Look(), Look(Slab("mean", 6.0)), Look(Slab("mip", 9.0), Turn(1, True)),
-    Look(Slab("minip", 5.0), Turn(2)), Look(turn=Turn(3)),
+@pytest.mark.parametrize("presentation", [
+    Presentation(), Presentation(Slab("mean", 6.0)), Presentation(Slab("mip", 9.0), Turn(1, True)),
+    Presentation(Slab("minip", 5.0), Turn(2)), Presentation(turn=Turn(3)),
 ], ids=["plain", "mean", "mip turned", "minip", "turned"])  # fmt: skip
 @pytest.mark.parametrize(("window", "inverted"), [(WIDE, False), (BONE, True)])
 def test_every_pixel_is_the_plain_references_to_one_grey_level(
-    pane, viewing, settle, look, window, inverted
+    pane, viewing, settle, presentation, window, inverted
 ):
-    viewing.set_look(pane.pane, look)
+    viewing.set_presentation(pane.pane, presentation)
     viewing.set_window(window)
     viewing.greys.set_inverted(inverted)
     canvas = pane.canvas

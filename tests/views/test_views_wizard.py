@@ -28,7 +28,7 @@ def wizard(application, bench, destroy):
     dialog = CommissioningWizard(bench)
     destroy(dialog)
     dialog.show()
-    dialog.runner._timer.setInterval(10**6)  # looked at by hand
+    dialog.runner._timer.setInterval(10**6)  # read at by hand
     yield dialog
     dialog.close()
 

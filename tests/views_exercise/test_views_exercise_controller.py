@@ -35,7 +35,7 @@ def desk(qt):
     controller = ExerciseController(views, VirtualClock(10.0))
     trainer = FakeTrainer()
     controller.attach(run(trainer))
-    controller._timer.stop()  # looked at by hand
+    controller._timer.stop()  # read at by hand
     yield SimpleNamespace(controller=controller, views=views, trainer=trainer)
     controller.detach()
     for name in ExerciseViews.__slots__:

@@ -73,7 +73,7 @@ def test_up_is_the_head_and_sideways_stays_in_the_axial_plane():
 
 
 def test_a_supine_patient_seen_from_above_with_head_up_shows_the_right_side_on_the_left():
-    # Lying supine, head up on the pad, looked at from above (the front): radiological sides.
+    # Lying supine, head up on the pad, read at from above (the front): radiological sides.
     assert path_frame((0.0, 0.0, -1.0), SUPINE).letters == ("R", "L", "S", "I")
 
 

@@ -237,11 +237,11 @@ def _survey(
     assembly: float,
 ) -> None:
     for k in range(len(points)):
-        _look(points[k, 0], points[k, 1], rows[k], lengths, mode_left, mode_right, assembly)
+        _survey_row(points[k, 0], points[k, 1], rows[k], lengths, mode_left, mode_right, assembly)
 
 
 @njit
-def _look(
+def _survey_row(
     x: float,
     y: float,
     row: FloatArray,
@@ -300,7 +300,7 @@ def _peak(
             for j in range(_FINE):
                 a = heading + angle * (2.0 * j / (_FINE - 1) - 1.0)
                 px, py = fx + r * np.cos(a), fy + r * np.sin(a)
-                _look(px, py, row, lengths, mode_left, mode_right, assembly)
+                _survey_row(px, py, row, lengths, mode_left, mode_right, assembly)
                 if row[column] > largest:
                     largest, away, turn = row[column], r, a
         width, angle = _SHRINK * width, _SHRINK * angle

@@ -175,7 +175,7 @@ class Search:
     def _run(self) -> None:
         try:
             for shot in self._shots.shots(self._stop):
-                offer = self.collector.look(shot.images, shot.names)
+                offer = self.collector.offer(shot.images, shot.names)
                 self._note(shot, offer)
         except Exception as error:  # shown by the window
             self.error = error

@@ -142,7 +142,7 @@ class ViewCollector:
         """Return what the kept views of a camera cover."""
         return self._coverage[camera]
 
-    def look(self, images: Images, names: Sequence[str] = ()) -> Offer:
+    def offer(self, images: Images, names: Sequence[str] = ()) -> Offer:
         """Find the board in pictures taken at the same time, and keep them if they are useful.
 
         `names` of the pictures, one for each camera, go into the views.

@@ -61,7 +61,7 @@ def strange_files(folder: Path) -> list[Path]:
     )
 
 
-def look(
+def read_view(
     path: Path, board: Board, thorough: bool = True, window: int | None = None
 ) -> BoardView | Rejection:
     """Read a picture and find the board; a file that is no picture is a rejection."""
@@ -81,7 +81,7 @@ def look(
     return found.called(path.name)
 
 
-def look_at_all(
+def read_views(
     paths: Sequence[Path],
     board: Board,
     progress: Progress | None = None,
@@ -95,10 +95,10 @@ def look_at_all(
     progress = progress or Progress()
     progress.report(0.0, "looking for the board")
     with ThreadPoolExecutor(max_workers=max(1, cpu_count() or 1)) as pool:
-        jobs = {pool.submit(look, path, board, True, window): path for path in paths}
+        jobs = {pool.submit(read_view, path, board, True, window): path for path in paths}
         try:
             for count, job in enumerate(as_completed(jobs), 1):
-                progress.report(count / len(jobs), f"looked at {jobs[job].name}")
+                progress.report(count / len(jobs), f"read at {jobs[job].name}")
         except BaseException:
             pool.shutdown(cancel_futures=True)
             raise

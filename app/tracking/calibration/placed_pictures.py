@@ -16,7 +16,7 @@ from app.tracking.calibration.camera_pair import OpenPair, close_all
 from app.tracking.calibration.capture import LiveShots
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.pairing import pair_folder
-from app.tracking.calibration.pictures import look_at_all
+from app.tracking.calibration.pictures import read_views
 from app.tracking.calibration.placed_board import PlacedBoard
 from app.tracking.calibration.sets import Seen, none_seen
 from app.tracking.calibration.views import BoardView, Rejection
@@ -93,12 +93,12 @@ def placed_boards(
             "place of its board: --images DIR --at x,y,z[,rx,ry,rz]"
         )
     progress = progress or Progress()
-    boards, looked = [], []
+    boards, read = [], []
     for i, (folder, place) in enumerate(zip(folders, places, strict=True)):
         part = progress.part(i / len(folders), (i + 1) / len(folders))
         pairs = pair_folder(folder).pairs
-        found = look_at_all([p for pair in pairs for p in (pair.left, pair.right)], board, part)
-        looked += found
+        found = read_views([p for pair in pairs for p in (pair.left, pair.right)], board, part)
+        read += found
         views = [view if isinstance(view, BoardView) else None for view in found]
         seen: list[Pair] = [
             pair for pair in zip(views[0::2], views[1::2], strict=True) if any(pair)
@@ -106,4 +106,4 @@ def placed_boards(
         if not seen:
             raise CalibrationError(f"{folder}: {none_seen(found)}")
         boards.append(PlacedBoard(place, tuple(seen)))
-    return boards, looked
+    return boards, read

@@ -1,4 +1,4 @@
-"""Pictures of one or two cameras on disk: looked at, then calibrated."""
+"""Pictures of one or two cameras on disk: read at, then calibrated."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from app.tracking.calibration.boards import Board
 from app.tracking.calibration.mono import MonoResult, calibrate_mono
 from app.tracking.calibration.pair_fit import matched
 from app.tracking.calibration.pairing import Pair
-from app.tracking.calibration.pictures import look_at_all
+from app.tracking.calibration.pictures import read_views
 from app.tracking.calibration.run import StereoResult, calibrate_pairs
 from app.tracking.calibration.stereo import LEAST_PAIRS, StereoEstimate
 from app.tracking.calibration.validation import ViewPair
@@ -25,11 +25,11 @@ class MonoSet:
     """One camera's pictures.
 
     Attributes:
-        looked: every picture, as it was seen.
+        read: every picture, as it was seen.
         result: the calibration.
     """
 
-    looked: tuple[Seen, ...]
+    read: tuple[Seen, ...]
     result: MonoResult
 
 
@@ -38,11 +38,11 @@ class StereoSet:
     """Two cameras' pictures.
 
     Attributes:
-        looked: every picture, left and right of the pairs in turn, then those of one camera alone.
+        read: every picture, left and right of the pairs in turn, then those of one camera alone.
         result: the calibration.
     """
 
-    looked: tuple[Seen, ...]
+    read: tuple[Seen, ...]
     result: StereoResult
 
     @property
@@ -67,12 +67,12 @@ def mono_set(
         Cancelled: through `progress`.
     """
     progress = progress or Progress()
-    looked = look_at_all(paths, board, progress.part(0.0, 0.6), window)
-    views = [view for view in looked if isinstance(view, BoardView)]
+    read = read_views(paths, board, progress.part(0.0, 0.6), window)
+    views = [view for view in read if isinstance(view, BoardView)]
     if not views:
-        raise CalibrationError(none_seen(looked))
+        raise CalibrationError(none_seen(read))
     result = calibrate_mono(views, name, hold_back, progress.part(0.6, 1.0))
-    return MonoSet(tuple(looked), result)
+    return MonoSet(tuple(read), result)
 
 
 def stereo_set(
@@ -103,10 +103,10 @@ def stereo_set(
     paths = [path for pair in pairs for path in (pair.left, pair.right)]
     count = len(paths)
     paths += [path for side in alone for path in side]
-    looked = look_at_all(paths, board, progress.part(0.0, 0.6), window)
-    found = [view if isinstance(view, BoardView) else None for view in looked]
+    read = read_views(paths, board, progress.part(0.0, 0.6), window)
+    found = [view if isinstance(view, BoardView) else None for view in read]
     if not any(found):
-        raise CalibrationError(none_seen(looked))
+        raise CalibrationError(none_seen(read))
     views, lone = found[:count], found[count:]
     both = sum(
         a is not None and b is not None for a, b in zip(views[0::2], views[1::2], strict=True)
@@ -114,7 +114,7 @@ def stereo_set(
     if both < LEAST_PAIRS:
         raise CalibrationError(
             f"{both} of {len(pairs)} pairs show the board to both cameras; at least {LEAST_PAIRS} "
-            f"are needed, 15 to 30 are good; {commonest(looked)}"
+            f"are needed, 15 to 30 are good; {commonest(read)}"
         )
     lefts, rights = lone[: len(alone[0])], lone[len(alone[0]) :]
     result = calibrate_pairs(
@@ -124,7 +124,7 @@ def stereo_set(
         hold_back,
         progress.part(0.6, 1.0),
     )
-    return StereoSet(tuple(looked), result)
+    return StereoSet(tuple(read), result)
 
 
 def seen_by_both(pairs: Sequence[Pair], board: Board, estimate: StereoEstimate) -> list[ViewPair]:
@@ -133,25 +133,25 @@ def seen_by_both(pairs: Sequence[Pair], board: Board, estimate: StereoEstimate) 
     Raises:
         CalibrationError: if no pair shows it to both.
     """
-    looked = look_at_all([path for pair in pairs for path in (pair.left, pair.right)], board)
+    read = read_views([path for pair in pairs for path in (pair.left, pair.right)], board)
     found = [
         matched((left, right), estimate.adjusted)
-        for left, right in zip(looked[0::2], looked[1::2], strict=True)
+        for left, right in zip(read[0::2], read[1::2], strict=True)
         if isinstance(left, BoardView) and isinstance(right, BoardView)
     ]
     if not found:
-        raise CalibrationError(none_seen(looked))
+        raise CalibrationError(none_seen(read))
     return found
 
 
-def none_seen(looked: Sequence[Seen]) -> str:
+def none_seen(read: Sequence[Seen]) -> str:
     """Say that no picture shows the board, and the commonest reason."""
-    return f"the board is usable in none of {len(looked)} pictures (or pairs); {commonest(looked)}"
+    return f"the board is usable in none of {len(read)} pictures (or pairs); {commonest(read)}"
 
 
-def commonest(looked: Sequence[Seen]) -> str:
+def commonest(read: Sequence[Seen]) -> str:
     """Name a picture that was refused for the commonest reason, and the reason."""
-    texts = [view.text for view in looked if isinstance(view, Rejection)]
+    texts = [view.text for view in read if isinstance(view, Rejection)]
     common = max(texts, key=texts.count, default="")
-    name = next((v.name for v in looked if isinstance(v, Rejection) and v.text == common), "")
+    name = next((v.name for v in read if isinstance(v, Rejection) and v.text == common), "")
     return f"{name}: {common}"

@@ -26,7 +26,7 @@ class PenInspector:
     def __init__(self, tracker: PenTracker) -> None:
         self._tracker = tracker
 
-    def look(self, masks: bool = False, lines: bool = True) -> Inspection:
+    def inspect(self, masks: bool = False, lines: bool = True) -> Inspection:
         """Return the newest picture.
 
         Args:

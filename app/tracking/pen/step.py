@@ -262,7 +262,7 @@ class PenStep:
         self._memory = Memory()
         self._detector = MarkerDetector(body.dictionary)
 
-    def look(self, frame: CameraFrame) -> PenObservation:
+    def observe(self, frame: CameraFrame) -> PenObservation:
         """Find the needle in a picture; every failure is a status of the fix.
 
         Raises:

@@ -160,7 +160,7 @@ class PenTracker:
         Raises:
             PenError: if the picture has another size than the calibration.
         """
-        observation = self._step.look(frame)
+        observation = self._step.observe(frame)
         pixel = observation.fix.pixels[0]
         self._picture = PenPicture(NAME, frame.image, frame.time, pixel, observation)
         self._tell(observation)

@@ -8,8 +8,8 @@ from app.exercises.locks import Lock
 from app.exercises.schema import Exercise
 from app.views.reading.layouts import FOUR
 from app.views.reading.workspace import WorkspacePage
-from app.views.slices.looks import Slab
 from app.views.slices.panes import PaneId
+from app.views.slices.presentation import Slab
 from app.views.slices.presets import default_window
 
 
@@ -37,7 +37,7 @@ def apply(workspace: WorkspacePage, exercise: Exercise) -> None:
     if whole or slab is not None:
         wanted = Slab() if slab is None else Slab(slab.kind, slab.thickness_mm)
         for pane in PaneId:
-            viewing.set_look(pane, replace(viewing.look(pane), slab=wanted))
+            viewing.set_presentation(pane, replace(viewing.presentation(pane), slab=wanted))
         viewing.fix_slabs(whole or part.locked)
     if whole or layout is not None:
         workspace.show_layout(layout or FOUR.name)

@@ -137,7 +137,7 @@ class SceneMenu:
     def __init__(self, menu: QMenu, scene: SceneView) -> None:
         self._scene = scene
         menu.setToolTipsVisible(True)
-        self.looks = self._entries(menu, (
+        self.standpoints = self._entries(menu, (
             ("A", tr("From the front"), tr("What is at the patient's right is on the left.")),
             ("P", tr("From behind"), tr("Onto the back.")),
             ("L", tr("From the patient's left"), tr("The face looks to the left.")),

@@ -175,14 +175,14 @@ def run(algorithm: vtkAlgorithm, progress: Progress) -> None:
         Cancelled: if `progress` was cancelled; what the filter then holds is not whole.
     """
 
-    def look(_: object, __: str) -> None:
+    def report(_: object, __: str) -> None:
         try:
             progress.report(algorithm.GetProgress())
         except Cancelled:  # must not be raised through VTK
             algorithm.SetAbortExecute(1)
 
     progress.report(0.0)
-    observer = algorithm.AddObserver("ProgressEvent", look)
+    observer = algorithm.AddObserver("ProgressEvent", report)
     try:
         algorithm.Update()
     finally:

@@ -48,7 +48,7 @@ class Orbit:
     half_mm: float
 
     @classmethod
-    def look_from(cls, letter: str, focus_mm: FloatArray, half_mm: float) -> Orbit:
+    def from_side(cls, letter: str, focus_mm: FloatArray, half_mm: float) -> Orbit:
         """Look from the patient's A, P, L, R, S or I side."""
         backwards, up = _FROM[letter]
         return cls(frozen(focus_mm), frozen(backwards), frozen(up), half_mm)
@@ -91,7 +91,7 @@ class Orbit:
 
     def seen_from(self, letter: str) -> Orbit:
         """Keep focus and size, look from another side."""
-        return Orbit.look_from(letter, self.focus_mm, self.half_mm)
+        return Orbit.from_side(letter, self.focus_mm, self.half_mm)
 
     def turned(self, right_px: float, down_px: float) -> Orbit:
         """Turn the patient with the mouse as on a ball."""

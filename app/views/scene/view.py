@@ -101,7 +101,7 @@ class SceneView(QWidget):
         super().__init__(parent)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(120, 90)
-        self._home = Orbit.look_from("A", np.zeros(3), 250.0)
+        self._home = Orbit.from_side("A", np.zeros(3), 250.0)
         self._feed = SceneFeed(renderer, self._home, self)
         self._feed.arrived.connect(self.update)
         self._body: FloatArray = _box(np.zeros((1, 3)))
@@ -125,14 +125,14 @@ class SceneView(QWidget):
 
     def _commands(self) -> Mapping[str, Callable[[], None]]:
         def side(letter: str) -> Callable[[], None]:
-            return lambda: self.look(self.orbit.seen_from(letter))
+            return lambda: self.view_from(self.orbit.seen_from(letter))
 
         def switch(part: str) -> Callable[[], None]:
             return lambda: self.set_display(self.display.switched(part))
 
         return {letter: side(letter) for letter in SIDES} | {
-            "N": self.look_along_needle, "W": self.look_as_operator,
-            "Space": lambda: self.look(self._home), "Backspace": self.look_back,
+            "N": self.view_along_needle, "W": self.view_as_operator,
+            "Space": lambda: self.view_from(self._home), "Backspace": self.view_back,
             "X": switch("xray"), "C": switch("cut"), "M": switch("slices"),
             "Y": switch("organs"), "Q": switch("light"), "V": self.show_next_preset,
         }  # fmt: skip
@@ -181,7 +181,7 @@ class SceneView(QWidget):
         if section is not None and not had:
             eye, head = self.orbit, (0.0, 0.0, 1.0)  # as the pane of that plane shows it
             facing = Orbit.towards(section.frame.normal, head, eye.focus_mm, eye.half_mm)
-            self.look(facing.turned(*CUT_TURN_PX))
+            self.view_from(facing.turned(*CUT_TURN_PX))
 
     def set_tolerances(self, radii_mm: tuple[float, ...]) -> None:
         """Show rings of these radii round the target [mm]."""
@@ -261,7 +261,7 @@ class SceneView(QWidget):
         """Let the home view show patient and robot whole; go there, unless one looks elsewhere."""
         was_home = self.orbit is self._home
         points = self._body if self._robot is None else np.vstack([self._body, self._robot])
-        front = Orbit.look_from("A", points.mean(axis=0), 1.0).turned(*HOME_TURN_PX)
+        front = Orbit.from_side("A", points.mean(axis=0), 1.0).turned(*HOME_TURN_PX)
         self._home = front.fitted(points)
         if was_home:
             self.set_orbit(self._home)
@@ -273,7 +273,7 @@ class SceneView(QWidget):
         """Look from somewhere else."""
         self._feed.turn(orbit)
 
-    def look(self, orbit: Orbit) -> None:
+    def view_from(self, orbit: Orbit) -> None:
         """Look from somewhere else, and know the way back."""
         self._keep_orbit()
         self.set_orbit(orbit)
@@ -281,12 +281,12 @@ class SceneView(QWidget):
     def _keep_orbit(self) -> None:
         self._before = [*self._before, self.orbit][-MOST_BACK:]
 
-    def look_back(self) -> None:
+    def view_back(self) -> None:
         """Look from where one looked before."""
         if self._before:
             self.set_orbit(self._before.pop())
 
-    def look_along_needle(self) -> None:
+    def view_along_needle(self) -> None:
         """Look from the hub along the needle, or along the path where there is no needle."""
         needle, entry, target = self._needle, self._draft.entry_mm, self._draft.target_mm
         if needle is not None and needle.valid:
@@ -296,13 +296,13 @@ class SceneView(QWidget):
         else:
             return
         if np.linalg.norm(way) > 0.0:
-            self.look(Orbit.towards(way, (0.0, 0.0, 1.0), tip, NEEDLE_HALF_MM))
+            self.view_from(Orbit.towards(way, (0.0, 0.0, 1.0), tip, NEEDLE_HALF_MM))
 
-    def look_as_operator(self) -> None:
+    def view_as_operator(self) -> None:
         """Look at the patient as the operator does who stands behind the robot."""
         middle = self._body.mean(axis=0)
         eye = Orbit.from_operator(self._R_world_patient, middle, 1.0)
-        self.look(eye.fitted(self._body))
+        self.view_from(eye.fitted(self._body))
 
     def set_note(self, note: str) -> None:
         """Write a line at the bottom, such as the progress of the surfaces."""

@@ -18,8 +18,8 @@ from app.views.reading.layouts import LAYOUTS
 from app.views.reading.workspace import WorkspacePage
 from app.views.shell.projector import Projector
 from app.views.slices.bindings import SCHEMES
-from app.views.slices.looks import KINDS, THICKEST_MM, Look, Slab, Turn
 from app.views.slices.panes import PaneId
+from app.views.slices.presentation import KINDS, THICKEST_MM, Presentation, Slab, Turn
 
 SMALLEST = (1180, 700)
 PREFERRED = (1400, 900)
@@ -123,16 +123,17 @@ class Remembered:
 def reading(workspace: WorkspacePage) -> dict[str, Any]:
     """How the slices are read now, as JSON can hold it."""
     viewing, greys = workspace.viewing, workspace.viewing.greys
-    looks = {}
+    presentations = {}
     for pane in PaneId:
-        look = viewing.look(pane)
-        if look != Look():
-            looks[str(pane)] = [
-                look.slab.kind, look.slab.thickness_mm, look.turn.quarters, look.turn.mirrored
+        presentation = viewing.presentation(pane)
+        slab, turn = presentation.slab, presentation.turn
+        if presentation != Presentation():
+            presentations[str(pane)] = [
+                slab.kind, slab.thickness_mm, turn.quarters, turn.mirrored
             ]  # fmt: skip
     return {
         "window": [greys.common.width, greys.common.level], "linked": greys.is_linked,
-        "inverted": greys.is_inverted, "layout": workspace.layout_name, "looks": looks,
+        "inverted": greys.is_inverted, "layout": workspace.layout_name, "looks": presentations,
         "locked": greys.is_locked and not greys.is_fixed,
     }  # fmt: skip
 
@@ -144,7 +145,9 @@ def set_reading(workspace: WorkspacePage, state: Mapping[str, Any]) -> None:
         ValueError, TypeError, KeyError, AcusError: if it is not one; nothing has changed then.
     """
     window = WindowLevel(*(float(value) for value in state["window"]))
-    looks = {PaneId(name): _look(*values) for name, values in state["looks"].items()}
+    presentations = {
+        PaneId(name): _presentation(*values) for name, values in state["looks"].items()
+    }
     layout, viewing = state["layout"], workspace.viewing
     if layout not in LAYOUTS:
         raise ValueError(f"there is no layout {layout}")
@@ -155,11 +158,11 @@ def set_reading(workspace: WorkspacePage, state: Mapping[str, Any]) -> None:
     greys.set_locked(bool(state.get("locked", False)))  # states of earlier versions have none
     greys.set_inverted(bool(state["inverted"]))
     for pane in PaneId:
-        viewing.set_look(pane, looks.get(pane, Look()))
+        viewing.set_presentation(pane, presentations.get(pane, Presentation()))
     workspace.show_layout(layout)
 
 
-def _look(kind: str, thickness_mm: float, quarters: int, mirrored: bool) -> Look:
+def _presentation(kind: str, thickness_mm: float, quarters: int, mirrored: bool) -> Presentation:
     if kind not in KINDS or not 0.0 <= thickness_mm <= THICKEST_MM or quarters not in range(4):
-        raise ValueError("not a look")
-    return Look(Slab(kind, float(thickness_mm)), Turn(int(quarters), bool(mirrored)))
+        raise ValueError("not a presentation")
+    return Presentation(Slab(kind, float(thickness_mm)), Turn(int(quarters), bool(mirrored)))

@@ -18,9 +18,9 @@ from app.views.reading.lock_words import view_title, why_locked
 from app.views.reading.workspace import WorkspacePage
 from app.views.shell.projector import Projector
 from app.views.slices.bindings import SCHEMES
-from app.views.slices.looks import OperatorSide, side_name, turns
 from app.views.slices.needle_source import fill_needle_menu
 from app.views.slices.pane import SlicePane, fill_windows
+from app.views.slices.presentation import OperatorSide, side_name, turns
 from app.views.slices.turning import straighten
 
 
@@ -177,7 +177,7 @@ class ViewMenu:
         lies = self._editor.edit.placement.orientation
         viewing = self._workspace.viewing
         for pane, turn in turns(side, lies).items():
-            viewing.set_look(pane, replace(viewing.look(pane), turn=turn))
+            viewing.set_presentation(pane, replace(viewing.presentation(pane), turn=turn))
 
     def _reverse_level(self, reverse: bool) -> None:
         self._workspace.viewing.level_reversed = reverse

@@ -31,11 +31,11 @@ from app.views.slices.camera import SliceCamera
 from app.views.slices.drawing import Drawing
 from app.views.slices.items import MarkItem
 from app.views.slices.layers import ALL_LAYERS, RUNNING_ON, WAITED_FOR, Due, Layer, LayerStack
-from app.views.slices.looks import Turn
 from app.views.slices.pace import Unhurried
 from app.views.slices.panes import PaneId
 from app.views.slices.pictures import Picture, PictureFeed, Screen
 from app.views.slices.plane import Rect, SlicePlane
+from app.views.slices.presentation import Turn
 from app.views.slices.viewing import Viewing
 from app.views.slices.words import Written
 
@@ -118,7 +118,7 @@ class PlaneView(QWidget):
     def set_camera(self, camera: SliceCamera) -> None:
         """Pan and zoom to `camera`."""
         self.camera, self._fitted = camera, False
-        self._look()
+        self._see()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the image fitted, or its middle in the middle."""
@@ -126,7 +126,7 @@ class PlaneView(QWidget):
         if self._fitted and self.plane is not None:
             self.fit()
         else:
-            self._look()
+            self._see()
 
     def _keep_crosshair(self, before: SlicePlane, plane: SlicePlane) -> None:
         """Let the crosshair stay at its pixel, wherever the new plane counts from."""
@@ -138,7 +138,7 @@ class PlaneView(QWidget):
             self.set_camera(SliceCamera(camera.x + right, camera.y + down, camera.scale))
             self._fitted = fitted
 
-    def _look(self) -> None:
+    def _see(self) -> None:
         """Take what is seen from the camera; every place is asked of it."""
         self._size = (self.width(), self.height())
         self._visible = self.camera.visible(self._size)
@@ -265,7 +265,7 @@ class SliceCanvas(PlaneView):
         viewing.cursor_changed.connect(lambda: self._want(Due.CROSSHAIR))
         viewing.traces_changed.connect(lambda: self._want(Due.CROSSHAIR))
         viewing.plane_changed.connect(self._show_plane)
-        viewing.look_changed.connect(self._show_look)
+        viewing.presentation_changed.connect(self._show_presentation)
         viewing.window_changed.connect(lambda: self._want(Due.GREYS))
         viewing.plan_changed.connect(lambda: self._want(Due.PLAN))
         viewing.needle_changed.connect(lambda: self._want(Due.NEEDLE))
@@ -331,9 +331,9 @@ class SliceCanvas(PlaneView):
             self._keep_crosshair(before, self.plane)
         self._want(Due.CROSSHAIR)
 
-    def _show_look(self, pane: PaneId) -> None:
+    def _show_presentation(self, pane: PaneId) -> None:
         """Fit what has been turned; a slab leaves zoom and pan."""
-        turn = self.viewing.look(self.pane).turn
+        turn = self.viewing.presentation(self.pane).turn
         if pane is self.pane and turn != self._turn:
             self._turn = turn
             self._take_plane()  # first, or the crosshair would be kept at its pixel afterwards
@@ -446,7 +446,7 @@ class SliceCanvas(PlaneView):
         painter.end()
         self.painted.emit()
         if self.devicePixelRatioF() != screen.ratio and self.plane is not None:
-            self._look()  # moved to another screen
+            self._see()  # moved to another screen
 
     def changeEvent(self, event: QEvent) -> None:
         """Write words anew in another size of the text."""
@@ -454,11 +454,11 @@ class SliceCanvas(PlaneView):
         if event.type() == QEvent.Type.FontChange and hasattr(self, "drawing"):
             self.rewrite()
 
-    def _look(self) -> None:
+    def _see(self) -> None:
         ratio, (left, top, _, _) = self.devicePixelRatioF(), self.camera.visible(self._px())
         width, height = (max(1, round(size * ratio)) for size in self._px())
         self._seen = Screen(left, top, self.camera.scale * ratio, width, height, ratio)
-        super()._look()
+        super()._see()
 
     def _px(self) -> tuple[int, int]:
         return self.width(), self.height()
@@ -476,7 +476,7 @@ class SliceCanvas(PlaneView):
         super().showEvent(event)
         self._take_plane()
         if self.plane is not None:
-            self._look()
+            self._see()
         self.seen.emit()
 
     def hideEvent(self, event: QHideEvent) -> None:

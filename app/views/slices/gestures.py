@@ -283,8 +283,10 @@ class SliceGestures(QObject):
 
 def thicken(canvas: SliceCanvas, steps: int) -> None:
     """Make a pane's slab thicker by so many steps, or thinner."""
-    look = canvas.viewing.look(canvas.pane)
-    canvas.viewing.set_look(canvas.pane, replace(look, slab=look.slab.thicker(steps)))
+    presentation = canvas.viewing.presentation(canvas.pane)
+    canvas.viewing.set_presentation(
+        canvas.pane, replace(presentation, slab=presentation.slab.thicker(steps))
+    )
 
 
 def _length(vector: QPointF) -> float:

@@ -18,8 +18,8 @@ from app.views.kit.text import tr
 from app.views.slices.bindings import Action, digit
 from app.views.slices.canvas import SliceCanvas
 from app.views.slices.gestures import ZOOM_PER_NOTCH, SliceGestures, thicken
-from app.views.slices.looks import KINDS, Slab, Turn, kind_name
 from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
+from app.views.slices.presentation import KINDS, Slab, Turn, kind_name
 from app.views.slices.presets import default_window, keyed_window, menu_windows
 from app.views.slices.readouts import Readouts
 from app.views.slices.slab import as_point
@@ -304,7 +304,7 @@ class PaneActions:
     def reset(self) -> None:
         """Fit the image, one slice thick, in the window that was there at first."""
         viewing, pane = self._pane.viewing, self._pane.pane
-        viewing.set_look(pane, replace(viewing.look(pane), slab=Slab()))
+        viewing.set_presentation(pane, replace(viewing.presentation(pane), slab=Slab()))
         self._pane.canvas.fit()
         if not viewing.greys.is_locked:
             viewing.set_window(default_window(), pane)
@@ -333,19 +333,19 @@ class PaneActions:
     def take_slab(self, slab: Slab) -> None:
         """Look at another slab."""
         viewing, pane = self._pane.viewing, self._pane.pane
-        viewing.set_look(pane, replace(viewing.look(pane), slab=slab))
+        viewing.set_presentation(pane, replace(viewing.presentation(pane), slab=slab))
 
     @property
     def _turn(self) -> Turn:
-        return self._pane.viewing.look(self._pane.pane).turn
+        return self._pane.viewing.presentation(self._pane.pane).turn
 
     @property
     def _slab(self) -> Slab:
-        return self._pane.viewing.look(self._pane.pane).slab
+        return self._pane.viewing.presentation(self._pane.pane).slab
 
     def _take_turn(self, turn: Turn) -> None:
         viewing, pane = self._pane.viewing, self._pane.pane
-        viewing.set_look(pane, replace(viewing.look(pane), turn=turn))
+        viewing.set_presentation(pane, replace(viewing.presentation(pane), turn=turn))
 
     def _menu(self) -> None:
         canvas = self._pane.canvas
@@ -412,7 +412,7 @@ def _switch(menu: QMenu, text: str, on: bool, command: Callable[[], object]) -> 
 
 
 def _slabs(menu: QMenu, pane: SlicePane) -> None:
-    slab, take = pane.viewing.look(pane.pane).slab, pane.actions_of.take_slab
+    slab, take = pane.viewing.presentation(pane.pane).slab, pane.actions_of.take_slab
     for kind in KINDS:
         wanted = Slab(kind, slab.thickness_mm or 10.0)
         _switch(menu, kind_name(kind), slab == wanted, partial(take, wanted))

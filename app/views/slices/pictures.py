@@ -285,7 +285,7 @@ class PictureMaker(QObject):
             answered, self._answered = self._answered, []
         for who in answered:
             if feed := self._feeds.get(who):
-                feed.look()
+                feed.take()
         self._rest()
 
     def _watch(self) -> None:
@@ -426,7 +426,7 @@ class PictureFeed:
         self.picture, self.is_waiting = None, False
         self._least = self._count + 1
 
-    def look(self) -> None:
+    def take(self) -> None:
         """Take the picture if there is one, as there was an answer."""
         if not self.is_waiting:
             return

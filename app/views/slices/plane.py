@@ -21,8 +21,8 @@ from app.core.errors import NumericalError
 from app.imaging.orthogonal import OrthogonalSlicer, View, letters
 from app.imaging.reformat import Frame
 from app.imaging.volume import Volume
-from app.views.slices.looks import Look, Slab
 from app.views.slices.panes import PaneId
+from app.views.slices.presentation import Presentation, Slab
 from app.views.slices.slab import PlanePoint
 
 HALF_SLAB_MM = 2.0
@@ -34,7 +34,7 @@ FIELD_MM = 180.0
 MOST_PIXELS = 1024
 """Columns or rows that a whole interpolated picture has at most."""
 
-AS_IT_LIES = Look()
+AS_IT_LIES = Presentation()
 """Neither turned nor thick."""
 
 _CUBE = np.array(list(product((0.0, 1.0), repeat=3)))
@@ -61,7 +61,7 @@ class SlicePlane:
         ends: indices at the two ends of the volume.
         slicer: where the volume's own slices come from; None for an interpolated plane.
         slices: how many of the volume's own slices a picture is made of.
-        look: how the pane looks at it, turned and thick; already part of all else.
+        presentation: how the pane shows it, turned and thick; already part of all else.
         plain: the plane as it lies in the patient, neither turned nor thick; None for itself.
     """
 
@@ -78,7 +78,7 @@ class SlicePlane:
     ends: tuple[float, float]
     slicer: OrthogonalSlicer | None = None
     slices: int = 1
-    look: Look = AS_IT_LIES
+    presentation: Presentation = AS_IT_LIES
     plain: SlicePlane | None = None
     _axes: tuple[float, ...] = field(init=False)
     _next: tuple[float, float, float] = field(init=False)
@@ -109,7 +109,7 @@ class SlicePlane:
     @property
     def thickness_mm(self) -> float:
         """Thickness of what a picture shows together [mm]; 0 where it is one slice, or a plane."""
-        slab = self.look.slab
+        slab = self.presentation.slab
         if not slab:
             return 0.0
         return self.slices * self.step_mm if self.is_native else slab.thickness_mm
@@ -198,7 +198,7 @@ class SlicePlane:
         interpolated at the volume's finest spacing.
         """
         if self.slicer is not None:
-            turn, picture = self.look.turn, self._slices_at(self.slicer, round(index))
+            turn, picture = self.presentation.turn, self._slices_at(self.slicer, round(index))
             if turn.mirrored:
                 picture = picture[:, ::-1]
             return np.rot90(picture, -turn.quarters)  # its turns are counter-clockwise
@@ -215,7 +215,7 @@ class SlicePlane:
 
         first = max(0, middle - (self.slices - 1) // 2)
         last = min(self.count, middle + self.slices // 2 + 1)
-        return slices_image(slicer.images(view, first, last), self.look.slab.projection)
+        return slices_image(slicer.images(view, first, last), self.presentation.slab.projection)
 
     def pixels(
         self, index: float, corner: tuple[float, float], pixel_mm: float, columns: int, rows: int
@@ -232,7 +232,7 @@ class SlicePlane:
         from app.imaging.oblique import oblique_image  # compiled: loaded since there is a volume
 
         plane = self.frame(index).pixels(*corner, pixel_mm, columns, rows, 0.0)
-        slab = self.look.slab
+        slab = self.presentation.slab
         if slab:
             from app.imaging.slab import slab_image
 
@@ -319,14 +319,14 @@ def reformat_plane(
     )
 
 
-def looked_at(plane: SlicePlane, look: Look) -> SlicePlane:
-    """Return a plane as a pane with this look shows it: turned by quarters, mirrored, thick."""
+def presented(plane: SlicePlane, presentation: Presentation) -> SlicePlane:
+    """Return a plane as a pane presents it: turned by quarters, mirrored, thick."""
     plain = plane.plain or plane
-    if not look.turn and not look.slab:
+    if not presentation.turn and not presentation.slab:
         return plain
-    slices, thickness = _thick(plain, look.slab)
-    first, bounds = _turned(plain.first, plain.bounds_mm, look, plain.is_native)
-    _, home = _turned(plain.first, plain.home_mm, look, plain.is_native)
+    slices, thickness = _thick(plain, presentation.slab)
+    first, bounds = _turned(plain.first, plain.bounds_mm, presentation, plain.is_native)
+    _, home = _turned(plain.first, plain.home_mm, presentation, plain.is_native)
     return replace(
         plain,
         first=first,
@@ -334,7 +334,7 @@ def looked_at(plane: SlicePlane, look: Look) -> SlicePlane:
         home_mm=home,
         half_slab_mm=max(plain.half_slab_mm, thickness / 2),
         slices=slices,
-        look=look,
+        presentation=presentation,
         plain=plain,
     )
 
@@ -347,9 +347,11 @@ def _thick(plain: SlicePlane, slab: Slab) -> tuple[int, float]:
     return slices, slices * plain.step_mm
 
 
-def _turned(frame: Frame, rect: Rect, look: Look, from_corner: bool) -> tuple[Frame, Rect]:
+def _turned(
+    frame: Frame, rect: Rect, presentation: Presentation, from_corner: bool
+) -> tuple[Frame, Rect]:
     """Turn what is seen about the frame's origin, or so that its rectangle begins at (0, 0)."""
-    turn = look.turn
+    turn = presentation.turn
     turned = frame.quarter(turn.quarters, turn.mirrored)
     left, top, width, height = rect
     corners = [frame.lps_mm(x, y) for x in (left, left + width) for y in (top, top + height)]

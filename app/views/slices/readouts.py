@@ -94,18 +94,18 @@ class Readouts(QObject):
         self.ruler.setVisible(True)
         note = self._note or tr("{step:.2f} mm slices", step=plane.step_mm)
         name = NAMES.shown(volume.series.pseudonym)
-        lines = [pane_name(pane), name, note, *_made(volume), *self._look(plane)]
+        lines = [pane_name(pane), name, note, *_made(volume), *self._special_view(plane)]
         self.title.set_lines(*lines, first=colour)
         for overlay, letter in zip(self.letters, plane.letters(), strict=True):
             overlay.set_lines(letter)
 
-    def _look(self, plane: SlicePlane) -> list[str]:
+    def _special_view(self, plane: SlicePlane) -> list[str]:
         """Say what a reader must not overlook: that it is a slab, that it is turned."""
-        look = self._canvas.viewing.look(self._canvas.pane)
-        slab = look.slab
+        presentation = self._canvas.viewing.presentation(self._canvas.pane)
+        slab = presentation.slab
         if slab:  # of whole slices it is as thick as they are
             slab = replace(slab, thickness_mm=round(plane.thickness_mm, 2))
-        notes = (("▣", slab.words()), ("↻", look.turn.words()))
+        notes = (("▣", slab.words()), ("↻", presentation.turn.words()))
         return [f"{sign} {words}" for sign, words in notes if words]
 
     def _zoom(self) -> list[str]:

@@ -22,10 +22,10 @@ from app.planning.draft import DraftPlan
 from app.planning.error_overlay import ErrorOverlay
 from app.planning.needle_overlay import NeedleOverlay
 from app.views.slices.bindings import OHIF, Scheme
-from app.views.slices.looks import Look
 from app.views.slices.panes import MPR_PANES, PaneId
 from app.views.slices.pictures import PictureMaker
-from app.views.slices.plane import SlicePlane, looked_at, own_plane, reformat_plane
+from app.views.slices.plane import SlicePlane, own_plane, presented, reformat_plane
+from app.views.slices.presentation import Presentation
 from app.views.slices.presets import Greys
 
 
@@ -44,7 +44,7 @@ class Planes:
         self.oblique: set[PaneId] = set()
         self._planes: dict[PaneId, SlicePlane] = {}
         self._own_index: dict[PaneId, float] = {}
-        self._looks: dict[PaneId, Look] = {}
+        self._presentations: dict[PaneId, Presentation] = {}
         self._shown: dict[PaneId, SlicePlane] = {}
         self._frames: dict[PaneId, tuple[SlicePlane, float, FloatArray, Frame]] = {}
         self._indices: dict[PaneId, tuple[SlicePlane, FloatArray, float]] = {}
@@ -68,16 +68,16 @@ class Planes:
         if plane is None:
             return None
         if pane not in self._shown:
-            self._shown[pane] = looked_at(plane, self.look(pane))
+            self._shown[pane] = presented(plane, self.presentation(pane))
         return self._shown[pane]
 
-    def look(self, pane: PaneId) -> Look:
+    def presentation(self, pane: PaneId) -> Presentation:
         """How a pane looks at its plane: slab and turn."""
-        return self._looks.get(pane, Look())
+        return self._presentations.get(pane, Presentation())
 
-    def set_look(self, pane: PaneId, look: Look) -> None:
+    def set_presentation(self, pane: PaneId, presentation: Presentation) -> None:
         """Give a pane another slab, or turn it."""
-        self._looks[pane] = look
+        self._presentations[pane] = presentation
         self._shown.pop(pane, None)
 
     def lay(self, pane: PaneId, frame: Frame | None, ahead: ArrayLike | None) -> None:
@@ -158,7 +158,7 @@ class Viewing(QObject):
         volume_changed, cursor_changed, window_changed, tool_changed, plan_changed, needle_changed.
         needle_shown(): all that goes along with a needle has changed too.
         plane_changed(PaneId): a pane's plane is another one, or is scrolled away from its needle.
-        look_changed(PaneId): a pane is turned or has another slab; zoom and pan start anew.
+        presentation_changed(PaneId): a pane is turned or has another slab; zoom and pan start anew.
         scheme_changed(): mouse and keys mean something else.
         traces_changed(): other planes of the needle show their traces in the patient views.
         point_placed(Tool, tuple, bool): with any tool but `NAVIGATE`, a point was clicked or
@@ -175,7 +175,7 @@ class Viewing(QObject):
     needle_shown = Signal()
     plane_changed = Signal(object)
     point_placed = Signal(object, object, bool)
-    look_changed = Signal(object)
+    presentation_changed = Signal(object)
     scheme_changed = Signal()
     traces_changed = Signal()
 
@@ -252,18 +252,18 @@ class Viewing(QObject):
         """Plane of a pane as it lies in the patient, neither turned on the screen nor thick."""
         return self._planes.own(pane)
 
-    def look(self, pane: PaneId) -> Look:
+    def presentation(self, pane: PaneId) -> Presentation:
         """How a pane looks at its plane: slab and turn."""
-        return self._planes.look(pane)
+        return self._planes.presentation(pane)
 
-    def set_look(self, pane: PaneId, look: Look) -> None:
+    def set_presentation(self, pane: PaneId, presentation: Presentation) -> None:
         """Give a pane another slab, unless an exercise holds them, or turn it."""
-        if self.is_slab_fixed and look.slab != self.look(pane).slab:
+        if self.is_slab_fixed and presentation.slab != self.presentation(pane).slab:
             self.greys.refused.emit()
-            look = replace(look, slab=self.look(pane).slab)
-        if look != self.look(pane):
-            self._planes.set_look(pane, look)
-            self.look_changed.emit(pane)
+            presentation = replace(presentation, slab=self.presentation(pane).slab)
+        if presentation != self.presentation(pane):
+            self._planes.set_presentation(pane, presentation)
+            self.presentation_changed.emit(pane)
             self.plane_changed.emit(pane)
 
     def fix_slabs(self, fixed: bool) -> None:

@@ -1,4 +1,4 @@
-"""How a pane looks at its plane: as a slab, turned and mirrored, from where the operator stands."""
+"""How a pane presents its plane: as a slab, turned and mirrored, from where the operator stands."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ class Turn:
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class Presentation:
     """Slab and turn of one pane."""
 
     slab: Slab = Slab()
