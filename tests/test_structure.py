@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import app
+from tools.structure import MOST_ALONE, MOST_NAMES, Structure, read
 
 ROOT = Path(app.__file__).parents[1]
 TOOLKITS = ("PySide6", "pyqtgraph", "vtkmodules", "vtk")
@@ -27,6 +28,15 @@ WITHOUT_QT = {
     "app.views.slices.slab": "points and slabs as panes take them",
 }
 """Modules of `views` that neither import a toolkit nor a module that does, each with its reason."""
+
+MEAN_TWO_THINGS = {
+    "Patient": "whose CT is planned on, and the body that the phantom draws",
+    "Ring": "a circle: an actor of VTK here, the outline of the brush there",
+    "Section": "a part of a device's mechanics, and a cut through the 3D view: the words of either",
+    "Stage": "a step of the loop, and what a theatre and a renderer call a stage",
+    "Way": "one of several that are compared: in a study, and of triangulating",
+}
+"""Class names that more than one module defines, each with its reason."""
 
 
 @cache
@@ -61,47 +71,22 @@ def imported(tree: ast.Module) -> Iterator[tuple[str, str]]:
 
 
 @cache
-def graph() -> dict[str, frozenset[str]]:
-    """Which modules of `app` a module imports."""
-    known, edges = trees(), {}
-    for name in known:
-        found = set()
-        for module, part in imports()[name]:
-            whole = f"{module}.{part}"
-            found.add(whole if whole in known else module)
-        edges[name] = frozenset((found & set(known)) - {name})
-    return edges
-
-
-def circles() -> list[tuple[str, ...]]:
-    """Modules that can be reached from themselves, in groups (Tarjan)."""
-    edges, order, low = graph(), {}, {}
-    stack: list[str] = []
-    found: list[tuple[str, ...]] = []
-
-    def visit(name: str) -> None:
-        order[name] = low[name] = len(order)
-        stack.append(name)
-        for other in edges[name]:
-            if other not in order:
-                visit(other)
-                low[name] = min(low[name], low[other])
-            elif other in stack:
-                low[name] = min(low[name], order[other])
-        if low[name] == order[name]:
-            group = tuple(stack[stack.index(name) :])
-            del stack[stack.index(name) :]
-            if len(group) > 1:
-                found.append(tuple(sorted(group)))
-
-    for name in edges:
-        if name not in order:
-            visit(name)
-    return found
+def structure() -> Structure:
+    """What the syntax trees say of this checkout."""
+    return read()
 
 
 def test_no_modules_import_each_other_in_a_circle_not_even_late_or_for_types():
-    assert circles() == []
+    assert structure().circles == ()
+
+
+def test_few_modules_are_a_piece_of_the_one_that_uses_them():
+    assert len(structure().alone) <= MOST_ALONE * len(structure().modules)
+
+
+def test_a_class_name_means_one_thing_but_for_those_that_say_why():
+    assert len(MEAN_TWO_THINGS) <= MOST_NAMES
+    assert set(structure().ambiguous) == set(MEAN_TWO_THINGS)
 
 
 def test_only_the_shell_names_the_windows_class():
@@ -148,18 +133,18 @@ def test_features_are_made_from_the_context_alone_and_know_neither_window_nor_wo
         hints.pop("return")
         assert list(hints.values()) == [Context], kind
         assert kind.__init__.__code__.co_argcount == 2, kind
-    for name, edges in graph().items():
+    for name, edges in structure().imports.items():
         if name.rpartition(".")[0] in rooms and not name.startswith("app.views.exercise"):
             assert "app.views.reading.workspace" not in edges, name
             assert "app.views.shell.window" not in edges, name
     for kind in FEATURES:
         others = {other.__module__ for other in FEATURES} - {kind.__module__}
-        assert not graph()[kind.__module__] & others, f"{kind} knows another feature"
+        assert not structure().imports[kind.__module__] & others, f"{kind} knows another feature"
 
 
 def test_what_stands_in_views_draws_or_speaks():
     """Words of the interface are Qt's too: they pass through `tr`, which is its translation."""
-    known, edges = trees(), graph()
+    known, edges = trees(), structure().imports
     direct = {
         name
         for name in known
