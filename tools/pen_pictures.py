@@ -22,7 +22,7 @@ from app.tracking.pen.needle import PenTip
 from app.tracking.pen.settings import PenSettings
 from app.tracking.simulated.pen import PenRenderer
 from app.tracking.simulated.pen_scene import rocked
-from app.views.pen.feature import PenDialog
+from app.views.pen.dialog import PenDialog
 from app.views.shell.application import start
 from tools.robot_pictures import keep, pause, wait
 

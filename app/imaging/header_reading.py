@@ -1,30 +1,18 @@
-"""What one file holds: the headers of its images, or why it belongs to no series.
-
-An enhanced multi-frame file says of each frame where it lies and what its values mean (PS3.3 A.38):
-what holds for one frame stands in its functional groups, what holds for all in the shared ones; a
-frame's own group goes first. A frame whose values are no Hounsfield units (perfusion and other
-maps) is refused by the name that the file gives it.
-"""
+"""What one file holds: the headers of its images, or why it belongs to no series."""
 
 import importlib
 import os
 import stat
 import struct
 import sys
-import warnings
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, BinaryIO, Final
-
-import pydicom
-from pydicom.dataset import Dataset
+from typing import BinaryIO, Final
 
 from app.core.progress import Progress
 from app.imaging import elements
 from app.imaging.element_reading import PREAMBLE, NotStandardError, read_elements
-from app.imaging.elements import TAG_LIST, TAGS, Elements, check_orientation
-from app.imaging.errors import FileDamagedError, brief
+from app.imaging.elements import TAG_LIST, TAGS, Elements
+from app.imaging.errors import FileDamagedError
 from app.imaging.header import MULTI_FRAME, Identity, ImagePlane, Rescale, SliceHeader
 from app.imaging.pixel_data import PixelFormat
 from app.imaging.pixel_finding import find_pixels
@@ -32,167 +20,7 @@ from app.imaging.privacy.known_words import body_parts, is_kernel
 from app.imaging.privacy.pseudonyms import former_pseudonym, pseudonym
 from app.imaging.series import Ignored
 
-_SHARED, _EACH, _REAL_WORLD = 0x52009229, 0x52009230, 0x00409096
-_MOST_FRAMES = 1 << 16
-_MAPS = ("PERFUSION", "DIFFUSION", "PARAMETRIC")
-
-
-def frames_of(file: SliceHeader, stream: BinaryIO) -> tuple[SliceHeader, ...]:
-    """One header for each frame of a multi-frame file.
-
-    Args:
-        file: the header of the whole file, without damage.
-        stream: the file.
-    """
-    try:
-        groups = _groups(stream, file)
-        return tuple(_frame(file, number, group) for number, group in enumerate(groups))
-    except FileDamagedError as error:
-        return (replace(file, damage=str(error)),)
-    except Exception as error:  # hostile bytes make the parser raise nearly anything
-        return (replace(file, damage=f"its frames cannot be read ({brief(error)})"),)
-
-
-@dataclass(frozen=True, slots=True)
-class _Group:
-    """Functional groups of one frame over those that all share."""
-
-    own: Dataset
-    shared: Dataset
-
-    def macro(self, keyword: str) -> Dataset:
-        """One macro, empty where neither group has it."""
-        for group in (self.own, self.shared):
-            items = group.get(keyword)
-            if items:
-                item: Dataset = items[0]
-                return item
-        return Dataset()
-
-    def numbers(self, macro: str, keyword: str, count: int) -> tuple[float, ...]:
-        """Finite numbers of an attribute, `count` of them, or none where it is absent.
-
-        Raises:
-            FileDamagedError: if they are not finite or of another number.
-        """
-        value = self.macro(macro).get(keyword)
-        if value is None or value == "":
-            return ()
-        many = value if isinstance(value, Sequence | pydicom.multival.MultiValue) else [value]
-        found = tuple(float(one) for one in many)
-        if len(found) != count or not all(abs(one) < 1e12 for one in found):  # NaN fails too
-            raise FileDamagedError(f"{keyword} of a frame is not {count} finite numbers")
-        return found
-
-
-def _groups(stream: BinaryIO, file: SliceHeader) -> list[_Group]:
-    stream.seek(0)
-    with warnings.catch_warnings():  # what is wrong with a file is said by name, by us
-        warnings.simplefilter("ignore")
-        dataset = pydicom.dcmread(
-            stream, stop_before_pixels=True, specific_tags=[_SHARED, _EACH], force=True
-        )
-        each = dataset.get("PerFrameFunctionalGroupsSequence") or []
-        shared = (dataset.get("SharedFunctionalGroupsSequence") or [Dataset()])[0]
-        if not 1 <= len(each) <= _MOST_FRAMES or len(each) != file.format.frames:
-            raise FileDamagedError(
-                f"NumberOfFrames is {file.format.frames}, and {len(each)} frames are described"
-            )
-        return [_Group(own, shared) for own in each]
-
-
-def _frame(file: SliceHeader, number: int, group: _Group) -> SliceHeader:
-    rescale, obstacle = _frame_rescale(file, group)
-    thickness = group.numbers("PixelMeasuresSequence", "SliceThickness", 1)
-    return replace(
-        file,
-        frame=number,
-        plane=_frame_plane(group),
-        rescale=rescale,
-        obstacle=obstacle,
-        windows=_frame_windows(group) or file.windows,
-        thickness_mm=thickness[0] if thickness else None,
-        marks=_frame_marks(file, group),
-    )
-
-
-def _frame_plane(group: _Group) -> ImagePlane | None:
-    position = group.numbers("PlanePositionSequence", "ImagePositionPatient", 3)
-    orientation = group.numbers("PlaneOrientationSequence", "ImageOrientationPatient", 6)
-    spacing = group.numbers("PixelMeasuresSequence", "PixelSpacing", 2)
-    if not (position and orientation and spacing):
-        return None
-    if min(spacing) <= 0.0:
-        raise FileDamagedError(f"PixelSpacing is {spacing}; both must be above zero")
-    check_orientation(orientation)
-    return ImagePlane(position, orientation, spacing)  # type: ignore[arg-type]  # counts were checked
-
-
-def _frame_rescale(file: SliceHeader, group: _Group) -> tuple[Rescale | None, str]:
-    macro = "PixelValueTransformationSequence"
-    slope = group.numbers(macro, "RescaleSlope", 1)
-    intercept = group.numbers(macro, "RescaleIntercept", 1)
-    if slope and slope[0] == 0.0:
-        raise FileDamagedError("RescaleSlope is 0; every pixel would have the same value")
-    if "MR" in MULTI_FRAME[file.identity.sop_class]:
-        return (Rescale(slope[0], intercept[0]) if slope and intercept else Rescale(1, 0)), ""
-    unit = str(group.macro(macro).get("RescaleType", "") or "").upper()
-    kinds = _kinds(file, group)
-    map_of = next((kind for kind in kinds if kind in _MAPS), "")
-    if map_of or unit not in ("", "HU"):
-        return None, _named_map(map_of, kinds, group)
-    return (Rescale(slope[0], intercept[0]) if slope and intercept else None), ""
-
-
-def _kinds(file: SliceHeader, group: _Group) -> tuple[str, ...]:
-    own = group.macro("CTImageFrameTypeSequence").get("FrameType")
-    values: Any = own or file.identity.image_type
-    return tuple(str(value) for value in values)
-
-
-def _named_map(kind: str, kinds: tuple[str, ...], group: _Group) -> str:
-    """Reason against a frame of other values, such as `perfusion map (RCBF, ml/100ml/s)`."""
-    units = group.macro("RealWorldValueMappingSequence").get("MeasurementUnitsCodeSequence")
-    unit = str(units[0].get("CodeValue", "") or "") if units else ""
-    flavour = kinds[3] if len(kinds) > 3 else ""
-    inside = ", ".join(word[:16] for word in (flavour, unit) if word)
-    name = f"{kind.lower()} map" if kind else "a map of values in another unit"
-    return f"{name}{f' ({inside})' if inside else ''}, no Hounsfield units"
-
-
-def _frame_windows(group: _Group) -> tuple[tuple[float, float], ...]:
-    """Width and level pairs; a window that cannot be used is no reason to refuse a frame."""
-    macro = group.macro("FrameVOILUTSequence")
-    try:
-        pairs = [
-            [
-                float(v)
-                for v in (value if isinstance(value, pydicom.multival.MultiValue) else [value])
-            ]
-            for value in (macro.get("WindowWidth"), macro.get("WindowCenter"))
-        ]
-    except (TypeError, ValueError):
-        return ()
-    found = zip(*pairs, strict=False)
-    return tuple(dict.fromkeys((width, level) for width, level in found if 1.0 <= width < 1e6))
-
-
-def _frame_marks(file: SliceHeader, group: _Group) -> tuple[tuple[str, str], ...]:
-    content = group.macro("FrameContentSequence")
-    values = {
-        "acquisition": content.get("FrameAcquisitionNumber"),
-        "time-position": content.get("TemporalPositionIndex"),
-        "cardiac-phase": group.macro("CardiacSynchronizationSequence").get(
-            "NominalPercentageOfCardiacPhase"
-        ),
-        "echo": group.macro("MREchoSequence").get("EffectiveEchoTime"),
-        "image-type": "\\".join(_kinds(file, group)) or None,
-    }
-    own = {mark: str(value) for mark, value in values.items() if value is not None}
-    return tuple((dict(file.marks) | own).items())
-
-
-_WITH_PYDICOM: Final = ("pydicom", "pydicom.filereader", "app.imaging.header_reading")
+_WITH_PYDICOM: Final = ("pydicom", "pydicom.filereader", "app.imaging.enhanced")
 """What reads headers with pydicom, which takes half a second to load."""
 
 _FIRST_GROUPS: Final = (0x0002, 0x0008)
@@ -306,7 +134,7 @@ def _headers(
         return (found,)
     if without_pydicom:
         raise NotStandardError
-    from app.imaging.header_reading import frames_of
+    from app.imaging.enhanced import frames_of
 
     return frames_of(found, stream)
 

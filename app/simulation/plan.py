@@ -1,8 +1,7 @@
 """Compile a scene: keep the effects that somebody consumes, say why, put them in order.
 
 Demand is walked back from the consumers: an effect is kept when it writes a slot that a consumer
-reads, and what a kept effect reads is then itself demanded. Nothing is imported here. Before the
-effects goes a stage that begins each tick at zero with what only they add to.
+reads, and what a kept effect reads is then itself demanded. Nothing is imported here.
 """
 
 import math
@@ -13,23 +12,11 @@ from graphlib import CycleError, TopologicalSorter
 import numpy as np
 
 from app.core import state_vector as sv
-from app.core.arrays import FloatArray
-from app.core.compiled import stage
 from app.core.parameters import Stage
 from app.simulation.consumers import Consumer, DevicePort
 from app.simulation.effects import Effect, declaration, implementation, parameters_of
 from app.simulation.errors import SimulationError
 from app.simulation.scene import Binding, EffectRequest, Scene
-
-
-@stage
-def clear(state: FloatArray, parameters: FloatArray) -> None:
-    """Zero what only effects add to."""
-    state[sv.AXIAL_FORCE] = 0.0
-    state[sv.TARGET_SHIFT_X] = 0.0
-    state[sv.TARGET_SHIFT_Y] = 0.0
-    state[sv.TARGET_SHIFT_Z] = 0.0
-
 
 """Name, compiled `void(state, parameters)`, its parameters array."""
 
@@ -82,7 +69,7 @@ class SimulationPlan:
         """
         if not self.kept:
             return []
-        from app.simulation.plan import clear  # compiled; the plan itself is needed sooner
+        from app.simulation.clearing import clear  # compiled; the plan itself is needed sooner
 
         first = Stage("clear_effects", clear, np.zeros(1))
         return [first, *(self._stage(kept) for kept in self.kept)]

@@ -1,16 +1,16 @@
 """CTs in the window: the ways in, those of before, the PACS, and the library of de-identified
 ones.
 
-A series on its way into the library is looked through first; what was removed is told at the
-end.
+A series on its way into the library, a `Candidate`, is looked through first, then taken in or given
+up; what was removed is told at the end.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from PySide6.QtCore import QObject, Signal, SignalInstance
 from PySide6.QtWidgets import (
@@ -26,7 +26,6 @@ from PySide6.QtWidgets import (
 
 from app.core.loading import ONE_AT_A_TIME
 from app.core.progress import Progress
-from app.imaging.privacy.pictures import Candidate, of_folder, of_pacs
 from app.imaging.series import Listing, Series
 from app.views.kit import theme
 from app.views.kit.background import BackgroundTask, Indicator, run_in_background
@@ -44,7 +43,50 @@ if TYPE_CHECKING:
     from app.imaging.pacs.query import FoundSeries
     from app.imaging.pacs.settings import PacsSettings
     from app.imaging.pacs.taking import Fetched
+    from app.imaging.privacy.burned_in import MaskBox
     from app.imaging.privacy.pictures import Pictures
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Candidate:
+    """What is to be taken in.
+
+    Attributes:
+        series: a usable one, or one that opens on request.
+        take: `take(boxes, progress)` brings it into the library.
+        give_up: deletes what was set aside for it, if anything was.
+        keeper: holds its files (an unpacked archive) as long as the candidate lives.
+        pictures: once they were read.
+    """
+
+    series: Series
+    take: Callable[[Sequence[MaskBox], Progress], Imported]
+    give_up: Callable[[], object]
+    keeper: object = None
+    pictures: Pictures | None = None
+
+
+def of_folder(series: Series, keeper: object) -> Candidate:
+    """Candidate of a series that was found on this computer."""
+
+    def take(boxes: Sequence[MaskBox], progress: Progress) -> Any:
+        with ONE_AT_A_TIME:
+            from app.imaging.library import CtLibrary
+        return CtLibrary().import_series(series, boxes, progress, series.remedy)
+
+    return Candidate(series, take, lambda: None, keeper)
+
+
+def of_pacs(fetched: Fetched) -> Candidate:
+    """Candidate of a series that was retrieved."""
+
+    def take(boxes: Sequence[MaskBox], progress: Progress) -> Any:
+        with ONE_AT_A_TIME:
+            from app.imaging.library import CtLibrary
+            from app.imaging.pacs.taking import keep
+        return keep(fetched, CtLibrary(), progress, boxes, fetched.series.remedy)
+
+    return Candidate(fetched.series, take, fetched.forget)
 
 
 T = TypeVar("T")
