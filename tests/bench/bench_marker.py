@@ -10,7 +10,7 @@ from collections import Counter
 
 import numpy as np
 
-from app.studies.references.cramer_rao import joint_bound, position_bound
+from app.studies.marker import joint_bound, position_bound
 from app.tracking.confidence import chi_square_quantile
 from app.tracking.markers.choice import ExtractorName, extractors
 from app.tracking.markers.extractor import Centre, Hint, MarkerFix, Miss

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.studies.references.cramer_rao import joint_bound, position_bound, schur_bound
+from app.studies.marker import joint_bound, position_bound, schur_bound
 from app.tracking.band.fit import BandFitter
 from app.tracking.markers.choice import ExtractorName, extractors
 from app.tracking.markers.extractor import Hint, MarkerFix

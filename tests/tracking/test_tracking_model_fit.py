@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.studies.references.cramer_rao import position_bound
+from app.studies.marker import position_bound
 from app.tracking.markers.choice import ExtractorName, extractors
 from app.tracking.markers.extractor import Centre, Hint, MarkerFix, Miss
 from app.tracking.simulated.picture_effects import NoiseTile, noise
