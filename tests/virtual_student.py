@@ -2,9 +2,11 @@
 
 from contextlib import suppress
 from pathlib import Path
+from unittest.mock import patch
 
 import numpy as np
 
+from app.compose.cameras import AttachedCameras, simulated_on
 from app.compose.trainer import TrainerSetup, build_rig, device_of
 from app.core import state_vector as sv
 from app.core.clock import VirtualClock
@@ -29,6 +31,15 @@ INTENT = 10
 LOOK = 20
 """Ticks between two looks of the trainer: 50 Hz, as in the program."""
 
+_CAMERAS: dict[str, AttachedCameras] = {}
+
+
+def _never_opened(rig, *rest):
+    """Cameras of a rig, painted once: a student has eyes of its own, and nobody opens these."""
+    if rig.name not in _CAMERAS:
+        _CAMERAS[rig.name] = simulated_on(rig, *rest)
+    return _CAMERAS[rig.name]
+
 
 class Student:
     """A trainer in virtual time, cameras that see the marker late and with noise, and a pad."""
@@ -41,7 +52,8 @@ class Student:
         placed = placed_plan_of(chosen, profile, PLAN)
         self.clock = VirtualClock(10.0)
         setup = TrainerSetup(chosen, placed, skill=skill, sessions=folder, clock=self.clock)
-        self.rig = build_rig(setup)
+        with patch("app.compose.trainer.simulated_on", _never_opened):
+            self.rig = build_rig(setup)
         self._random = np.random.default_rng(5)
         self._seen = self._looked = 0.0
         self.blind = False

@@ -1,5 +1,7 @@
 """Strict YAML: one loader for settings, profiles and exercises."""
 
+from copy import deepcopy
+from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -89,20 +91,29 @@ def parse_yaml(text: str, origin: str) -> Any:
         ConfigurationError: if it is not YAML, or its aliases make more of it than `MOST_VALUES`.
     """
     try:
-        loader = _UniqueKeyLoader(text)  # a SafeLoader
-        try:
-            node = loader.get_single_node()
-            if node is None:
-                return None
-            _count_values(node, {})
-            return loader.construct_document(node)
-        finally:
-            loader.dispose()
+        return deepcopy(_document(text))
     except RecursionError as error:
         raise ConfigurationError(f"{origin} is not valid YAML: it is nested too deeply") from error
     except (yaml.YAMLError, ValueError, LookupError, AttributeError, ArithmeticError) as error:
         # Not all are YAMLError: a date of month 99, `!!int abc`, `!!bool x` or 1:1:…:1 raise these.
         raise ConfigurationError(f"{origin} is not valid YAML: {_one_line(error)}") from error
+
+
+@lru_cache(maxsize=64)
+def _document(text: str) -> Any:
+    """Return what a document holds, to be copied before it is given away.
+
+    The same few profiles and exercises are read again and again; YAML takes long to read.
+    """
+    loader = _UniqueKeyLoader(text)  # a SafeLoader
+    try:
+        node = loader.get_single_node()
+        if node is None:
+            return None
+        _count_values(node, {})
+        return loader.construct_document(node)
+    finally:
+        loader.dispose()
 
 
 def _count_values(node: yaml.Node, known: dict[int, int]) -> int:
