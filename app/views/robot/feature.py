@@ -300,7 +300,8 @@ class RobotFeature(Feature):
             self.choose(text.strip())
 
     def _show_health(self, snapshot: Snapshot) -> None:
-        run = self._runs.run  # asked each time: another power cycle of the board is told at once
+        seen = self.panel.isVisible()  # asked anew then: another power cycle is told at once
+        run = self._runs.run if seen else self._conductor.controller.run
         if run is not None:
             self.panel.show_snapshot(run, snapshot, self._conductor.controller.rates, snapshot.time)
 

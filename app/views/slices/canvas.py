@@ -243,7 +243,7 @@ class SliceCanvas(PlaneView):
         self._turn = Turn()
         self._due: set[Due] = set()
         self._slice: tuple[SlicePlane, float] | None = None
-        self._asked = False
+        self._asked = self._begun = False
         self._painted: Picture | None = None
         self._wanted.connect(self._draw_together, Qt.ConnectionType.QueuedConnection)
         self._words = Unhurried(self._write, self)
@@ -362,6 +362,7 @@ class SliceCanvas(PlaneView):
     # --- drawing ------------------------------------------------------------------------------
     def _want(self, *due: Due) -> None:
         self._due.update(due)
+        self._begun = False
         if not self._asked and self.isVisible():
             self._asked = True
             self._wanted.emit()
@@ -373,13 +374,15 @@ class SliceCanvas(PlaneView):
         """Let the picture be made while the window's thread is still busy with other things."""
         if self._asked:
             self._fetch()
+            self._begun = True
 
     def _draw_together(self) -> None:
         """Draw what has changed, or wait with it for the picture that belongs to it."""
         if not self._asked:
             return  # it has been drawn meanwhile
         self._asked = False
-        self._fetch()
+        if not self._begun:
+            self._fetch()
         if Due.CAMERA in self._due:  # zoomed and panned at once; what is interpolated follows
             self.feed.finish()
         elif self.feed.is_near:
