@@ -162,7 +162,7 @@ class TrainerSetup:
         port: serial port of a real robot; None simulates one.
         cameras: real ones; None simulates those of the exercise's rig.
         pen: a pen with printed markers and a webcam in place of robot and cameras; no force then.
-        risks: structures that the needle has to keep away from; see `compose.risks`.
+        risks: structures that the needle has to keep away from.
     """
 
     exercise: Exercise

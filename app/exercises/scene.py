@@ -128,7 +128,7 @@ def compile_exercise(
     Args:
         exercise: the exercise.
         profile: its device.
-        views: what every view reads, by its name (`views.declared.declared_views`).
+        views: what every view reads, by its name (`compose.declared_views.declared_views`).
         simulated: whether robot and hand are simulated too.
 
     Raises:
