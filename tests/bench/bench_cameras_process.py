@@ -131,7 +131,7 @@ def side(way: str) -> None:
     put_in_place(way)
     needle_age._tell_paintings()
     session = Session()
-    session.open_exercise(90.0)
+    session.open_exercise()
     window = session.window
     pump(lambda: window.conductor.settled, 60.0)
     workspace = window.workspace
