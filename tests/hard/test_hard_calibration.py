@@ -22,7 +22,7 @@ from app.tracking.calibration.checks import check_baseline
 from app.tracking.calibration.corners import find_corners
 from app.tracking.calibration.mono import calibrate_mono
 from app.tracking.calibration.pairing import Pair
-from app.tracking.calibration.pictures import look
+from app.tracking.calibration.pictures import read_view
 from app.tracking.calibration.poses import board_pose, rigid_fit
 from app.tracking.calibration.run import calibrate_pairs
 from app.tracking.calibration.sets import mono_set, stereo_set
@@ -165,7 +165,7 @@ def test_a_rigid_fit_of_a_mirrored_set_is_a_rotation_never_a_reflection() -> Non
 def test_a_corrupt_picture_is_a_rejection_by_name(content: bytes, tmp_path: Path, rig: Rig) -> None:
     path = tmp_path / "left1.png"
     path.write_bytes(content)
-    found = look(path, rig.board)
+    found = read_view(path, rig.board)
     assert isinstance(found, Rejection)
     assert (found.reason, found.name) == (RejectionReason.UNREADABLE, "left1.png")
 
@@ -177,7 +177,7 @@ def test_half_a_picture_is_a_rejection_or_a_view_never_an_exception(
     data = cv2.imencode(".jpg", image)[1].tobytes()
     path = tmp_path / "half.jpg"
     path.write_bytes(data[: len(data) // 2])
-    assert isinstance(look(path, rig.board), Rejection | BoardView)
+    assert isinstance(read_view(path, rig.board), Rejection | BoardView)
 
 
 def test_pictures_without_a_board_say_so_once(tmp_path: Path, rig: Rig) -> None:
