@@ -1,5 +1,6 @@
 """What every test may rely on: no display, own user folders, the shared data or a reason."""
 
+import gc
 import os
 import sys
 from pathlib import Path
@@ -47,6 +48,16 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin with the files that take longest, each as a whole; the others stay in their order."""
     rank = {ROOT / "tests" / name: place for place, name in enumerate(LONG_FILES)}
     items.sort(key=lambda item: rank.get(item.path, len(rank)))
+
+
+# What hundreds of test files import stays to the end: no collection of garbage looks at it.
+gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Leave modules and tests to themselves, and collect garbage from here on."""
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.fixture(autouse=True)
