@@ -52,6 +52,8 @@ def test_a_file_that_has_the_name_of_another_is_refused(folders):
 def test_the_list_ends_with_code_3_where_a_file_is_refused_and_with_0_where_none_is(folders):
     assert CliRunner().invoke(build(), ["plugin", "list"]).exit_code == 0
     assert plugin_files() == ()
+    empty = CliRunner().invoke(build(), ["plugin", "list"]).stdout
+    assert all(f"{KINDS[folder]}: {folders / folder}" in empty for folder in KINDS)
     (folders / "effects" / "mine.py").write_text("DECLARATION = {'nonsense': 1}\n")
     answer = CliRunner().invoke(build(), ["plugin", "list", "--json"])
     assert answer.exit_code == 3

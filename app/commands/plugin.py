@@ -14,12 +14,12 @@ def register(root: typer.Typer) -> None:
 
 @app.command("list")
 def list_plugins() -> Answer:
-    """List your own files of every kind, and why one is refused.
+    """List your own files of every kind, why one is refused, and the folders for them.
 
     File and line of what is wrong are told. Ends with code 3 if one is refused. Nothing is run or
     deleted; `acus law list --try` also tries force laws.
     """
-    from app.compose.plugins import plugin_files
+    from app.compose.plugins import plugin_files, plugin_folders
 
     rows = [
         {
@@ -37,4 +37,8 @@ def list_plugins() -> Answer:
         for row in rows
     ]
     fine = not any(row["refused"] for row in rows)
-    return Answer({"plugins": rows}, lines or ["no files of your own"], yes=fine)
+    folders = {kind: str(folder) for kind, folder in plugin_folders().items()}
+    if not rows:
+        lines = ["no files of your own yet; save them in these folders (make what is missing):"]
+        lines += [f"  {kind}: {folder}" for kind, folder in folders.items()]
+    return Answer({"plugins": rows, "folders": folders}, lines, yes=fine)

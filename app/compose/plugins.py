@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from app.core import paths
 from app.core.plugins import PluginKind
 
 
@@ -48,6 +49,11 @@ def plugin_files() -> tuple[PluginFile, ...]:
             title = "" if reason else kind.read(path).title
             found.append(PluginFile(kind.word, path, title, reason))
     return tuple(found)
+
+
+def plugin_folders() -> dict[str, Path]:
+    """Return where the user's own files of each kind lie; a folder need not exist."""
+    return {kind.word: paths.plugins(kind.folder) for kind, _ in _kinds()}
 
 
 def refused_files() -> tuple[PluginFile, ...]:

@@ -302,7 +302,7 @@ PAGES: Final = {
     "plan": "planning.md",
     "reading": "reading.md",
     "robot": "hardware.md#in-the-trainer",
-    "scene": "reading.md#layouts",
+    "scene": "reading.md#3d-view",
     "series": "reading.md#opening-a-ct",
     "slices": "reading.md#mouse-and-keys",
     "structures": "structures.md#in-the-window",
