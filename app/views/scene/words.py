@@ -44,7 +44,8 @@ def draw_words(
     _write(painter, line, display, display.text, title(display))
     if error_scale > 0.0:
         line.translate(0, height)
-        _write(painter, line, display, theme.NEEDLE_TIP.colour, error_note(error_scale))
+        tip = display.colour(theme.NEEDLE_TIP.colour)
+        _write(painter, line, display, tip, error_note(error_scale))
     room = max(0, (pane.height() - COMPASS_PX - line.bottom()) // height)
     for rgb, text in fitted(legend, room):
         line.translate(0, height)
@@ -95,7 +96,7 @@ def _write(painter: QPainter, line: QRect, display: Display, colour: str, text: 
     for dx, dy in ((-1, 0), (1, 0), (0, -1), (0, 1)):
         painter.setPen(QColor(display.background))
         painter.drawText(line.translated(dx, dy), flags, shown)
-    painter.setPen(QColor(display.colour(colour)))
+    painter.setPen(QColor(colour))
     painter.drawText(line, flags, shown)
 
 
