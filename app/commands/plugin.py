@@ -14,10 +14,11 @@ def register(root: typer.Typer) -> None:
 
 @app.command("list")
 def list_plugins() -> Answer:
-    """List your own files of every kind, why one is refused, and the folders for them.
+    """List your own files of every kind, and why one is refused.
 
-    File and line of what is wrong are told. Ends with code 3 if one is refused. Nothing is run or
-    deleted; `acus law list --try` also tries force laws.
+    File and line of what is wrong are told. Ends with code 3 if one is refused. Where there are
+    none, the folders for them are listed. Nothing is run or deleted; `acus law list --try` also
+    tries force laws.
     """
     from app.compose.plugins import plugin_files, plugin_folders
 
