@@ -1,6 +1,7 @@
 """The room: projector mode, what is remembered, the operator's side, colours for everybody."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -114,6 +115,24 @@ def test_what_the_status_strip_said_in_usual_text_has_room_in_large_text(
         for label in strip.findChildren(QLabel):
             needed = label.fontMetrics().horizontalAdvance(label.text())
             assert label.width() >= needed, (label.text(), large)
+    strip.close()
+
+
+def test_a_status_strip_without_room_ends_its_words_in_an_ellipsis(application, settle):
+    strip, item = StatusStrip(), depth_item("tracked", 0.01)
+    strip.show_items([replace(item, title=f"Screen and needle {n}") for n in range(7)])
+    strip.setFixedWidth(400)
+    strip.show()
+    settle(timeout=0.1)
+    labels = [label for label in strip.findChildren(QLabel) if label.isVisible()]
+    for label in labels:
+        assert label.width() >= label.fontMetrics().horizontalAdvance(label.text()), label.text()
+    cut = [label for label in labels if label.text().endswith("…")]
+    assert cut
+    assert all(one.toolTip() == one.whole for one in cut)
+    strip.setFixedWidth(4000)
+    settle(timeout=0.1)
+    assert not [label.text() for label in labels if label.text().endswith("…")]
     strip.close()
 
 

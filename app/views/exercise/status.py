@@ -7,13 +7,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QHBoxLayout,
-    QLabel,
     QListWidget,
     QListWidgetItem,
+    QSizePolicy,
     QVBoxLayout,
     QWidget,
 )
@@ -22,6 +22,7 @@ from app.core.events import Event
 from app.views.exercise.readouts import clock_text
 from app.views.kit import theme
 from app.views.kit.names import NAMES
+from app.views.kit.progress_strip import ElidedLabel
 from app.views.kit.text import tr
 from app.views.kit.verdict import StatusItem, Verdict
 
@@ -118,9 +119,10 @@ class StatusCell(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._item: StatusItem | None = None
-        self._title, self._text = QLabel(self), QLabel(self)
-        for label in (self._title, self._text):
-            label.setTextFormat(Qt.TextFormat.PlainText)
+        self._widest = 0
+        self._title, self._text = ElidedLabel(parent=self), ElidedLabel(parent=self)
+        for label in (self._title, self._text):  # neither holds the other to its own width
+            label.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
         self._text.setStyleSheet(f"font-size: {theme.SMALL_PX}px;")
         self._text.installEventFilter(self)
         column = QVBoxLayout(self)
@@ -132,8 +134,18 @@ class StatusCell(QWidget):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Take the room that the text needs in another size."""
         if watched is self._text and event.type() == QEvent.Type.FontChange:
-            self._text.setMinimumWidth(self._text.sizeHint().width())
+            self._widest = 0
+            self._grow()
         return False
+
+    def sizeHint(self) -> QSize:
+        """Return the room for title and text; where there is less, they end in an ellipsis."""
+        return super().sizeHint().expandedTo(QSize(self._widest, 0))
+
+    def _grow(self) -> None:
+        """Want no less room than before, so that the neighbours do not dance with the digits."""
+        self._widest = max(self._widest, self._text.sizeHint().width())
+        self.updateGeometry()
 
     def show_item(self, item: StatusItem) -> None:
         """Show an item; does nothing when it is the one shown."""
@@ -145,10 +157,9 @@ class StatusCell(QWidget):
                 f"color: {colour}; font-size: {theme.SMALL_PX}px; font-weight: 600;"
             )
         self._item = item
-        self._title.setText(f"{symbol} {item.title}")
-        self._text.setText(item.text)
-        # The cell only ever grows, so that its neighbours do not dance with the digits.
-        self._text.setMinimumWidth(max(self._text.minimumWidth(), self._text.sizeHint().width()))
+        self._title.set_whole(f"{symbol} {item.title}")
+        self._text.set_whole(item.text)
+        self._grow()
         self.setToolTip(f"{item.title}: {item.text}\n\n{item.help}")
         self.setAccessibleName(f"{item.title}: {item.text}")
 
