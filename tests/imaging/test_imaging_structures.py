@@ -1,15 +1,21 @@
 """Structures: their values, outlines, distances, and how they come onto a CT."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from app.core.progress import Cancelled, Progress
 from app.imaging.series import Series
 from app.imaging.structures.distance import SignedDistance
+from app.imaging.structures.edit import brushed
 from app.imaging.structures.errors import FrameOfReferenceError, StructureError
 from app.imaging.structures.parsing import even_odd
 from app.imaging.structures.placing import Found, Labelled, guessed_kind, place
 from app.imaging.structures.structure import (
+    MOST_POINTS,
     Structure,
     StructureKind,
     StructureSet,
@@ -22,13 +28,15 @@ from app.imaging.volume import Volume
 FRAME = "2.25.77"
 
 
-def made(size=(60, 50, 40), spacing=(0.8, 0.8, 2.0), origin=(-30.0, 20.0, 100.0), turn=None):
-    """A CT of nothing, with a geometry."""
+def made(
+    size=(60, 50, 40), spacing=(0.8, 0.8, 2.0), origin=(-30.0, 20.0, 100.0), turn=None, hu=None
+):
+    """A CT of nothing, or of these numbers, with a geometry."""
     affine = np.eye(4)
     affine[:3, :3] = (np.eye(3) if turn is None else turn) * spacing
     affine[:3, 3] = origin
     series = Series("2.25.1", "CT", "", size, None, None, None, True, "", (), "p", FRAME, ())
-    return Volume(np.zeros(size[::-1], np.int16), affine, series)
+    return Volume(np.zeros(size[::-1], np.int16) if hu is None else hu, affine, series)
 
 
 def turned(degrees=25.0):
@@ -213,6 +221,60 @@ def test_outlines_on_slices_of_the_ct_pass_between_its_voxels():
     assert lines == []
     lines = contours(one, volume.lps_mm([59, 0, 20]), -axes[0], axes[1])
     assert np.array_equal(even_odd(lines, mask[20].shape), mask[20][:, ::-1])
+
+
+def noise(size):
+    """A CT of nothing, and a threshold within its noise."""
+    volume = made(size=size)
+    mask = np.random.default_rng(1).random(size[::-1]) > 0.6
+    return volume, Structure.of("noise", mask, volume)
+
+
+@pytest.mark.parametrize("oblique", [False, True])
+def test_outlines_within_noise_are_coarse_and_leave_no_voxel_out(oblique):
+    volume, one = noise((300, 300, 9))
+    axes = volume.affine_mm[:3, :3].T
+    right, down = (axes[0] + 1e-4 * axes[2], axes[1]) if oblique else (axes[0], axes[1])
+    lines = contours(one, volume.lps_mm([0, 0, 4]), right, down, 0.9)
+    assert 100 < sum(map(len, lines)) <= MOST_POINTS
+    inside = even_odd(lines, (300, 300))
+    assert inside[one.full(volume.hu.shape)[4]].mean() >= (0.999 if oblique else 1.0)
+
+
+def test_outlines_of_a_large_structure_take_no_copy_of_it():
+    volume, one = noise((128, 128, 512))
+    origin, axes = volume.lps_mm([0, 0, 100]), volume.affine_mm[:3, :3].T
+    contours(one, origin, axes[0], axes[1])
+    tracemalloc.start()
+    contours(one, origin, axes[0], axes[1])
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < one.mask.nbytes / 2
+
+
+@given(st.integers(0, 2**32 - 1), st.booleans(), st.booleans())
+def test_a_stroke_of_dabs_is_what_they_are_one_by_one(seed, add, limited):
+    rng = np.random.default_rng(seed)
+    hu = rng.integers(0, 3, (12, 13, 14)).astype(np.int16)
+    volume = made(size=(14, 13, 12), spacing=(1.0, 1.2, 1.5), hu=hu)
+    one = Structure.of("s", ball(volume, middle(volume), rng.uniform(2.0, 5.0)), volume)
+    centres = middle(volume) + rng.normal(size=(4, 3)) * 5.0
+    limits = (1.0, 2.0) if limited else None
+    radius = rng.uniform(1.0, 5.0)
+    stroke = brushed(one, volume, centres, radius, add, limits)
+    truth = one
+    for centre in centres:
+        found = brushed(truth, volume, centre, radius, add, limits)
+        if found is None:
+            assert stroke is None
+            return
+        truth = one.changed(mask=found[0], corner=found[1])
+        ij = np.argwhere(truth.mask)
+        assert (ij.min(axis=0) == 0).all()
+        assert (ij.max(axis=0) + 1 == truth.mask.shape).all()
+    after = one.changed(mask=stroke[0], corner=stroke[1])
+    assert after.corner == truth.corner
+    assert np.array_equal(after.mask, truth.mask)
 
 
 # --- polygons ----------------------------------------------------------------------------------

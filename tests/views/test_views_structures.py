@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPointF, Qt
-from PySide6.QtGui import QMouseEvent
+from PySide6.QtGui import QImage, QMouseEvent, QPainter, QTransform
 from window_rig import plan
 
 from app.exercises.parts import StructurePart
@@ -21,7 +21,7 @@ from app.views.slices.viewing import Tool, Viewing
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip, Mode
 from app.views.structures.feature import StructuresFeature
-from app.views.structures.layer import StructureLayer
+from app.views.structures.layer import StructureLayer, StructureOutline
 from app.views.structures.panel import NAME, PATH, StructurePanel
 from app.views.structures.watch import StructureWatch, words
 
@@ -119,6 +119,35 @@ def test_an_outline_is_drawn_where_the_structure_is(book, volume, pane):
     view.canvas.refresh()
     view.canvas.flush()
     assert layer._items == {}
+
+
+def test_the_picture_of_an_outline_is_drawn_once_and_looks_like_the_outline(book, volume):
+    outline = StructureOutline(1.5)
+    square = np.array([[0.0, 0.0], [20.0, 0.0], [20.0, 12.0], [0.0, 12.0]])
+    one = book.structures.find("vessel")
+    outline.set_lines(one, [square])
+    outline.set_style(one, 4.0, bold=False)
+    drawn, draw = [], outline._draw
+    outline._draw = lambda painter: (drawn.append(1), draw(painter))
+
+    def painted(dx, paint=outline.paint):
+        picture = QImage(160, 120, QImage.Format.Format_ARGB32_Premultiplied)
+        picture.fill(Qt.GlobalColor.gray)
+        with QPainter(picture) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            painter.setTransform(QTransform(4.0, 0.0, 0.0, 4.0, 30.25 + dx, 30.5))
+            paint(painter)
+            assert painter.transform().dx() == 30.25 + dx
+        return np.array(picture.constBits()).reshape(120, 160, 4).astype(int)
+
+    assert np.abs(painted(0.0) - painted(0.0, draw)).max() <= 3
+    assert np.array_equal(painted(0.0)[:, :-20], painted(20.0)[:, 20:])  # moved by whole pixels
+    assert len(drawn) == 1
+    outline.set_style(one, 4.0, bold=True)
+    assert np.abs(painted(0.0) - painted(0.0, draw)).max() <= 3
+    assert len(drawn) == 2
+    painted(0.4)  # by half a pixel: drawn anew
+    assert len(drawn) == 3
 
 
 def press(canvas, x, y):

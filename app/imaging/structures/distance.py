@@ -95,9 +95,9 @@ class Boundary:
     def inside(self, points_mm: FloatArray) -> NDArray[np.bool_]:
         """Whether the structure's share at points, linear between voxel centres, is one half."""
         inverse = np.linalg.inv(self._structure.grid_mm)
-        at = points_mm @ inverse[:3, :3].T + inverse[:3, 3] + 1.0  # one layer around
+        at = points_mm @ inverse[:3, :3].T + inverse[:3, 3]
         share = ndimage.map_coordinates(
-            self._structure.occupancy, at[:, ::-1].T, order=1, mode="constant", cval=0.0
+            self._structure.mask, at[:, ::-1].T, np.float32, order=1, mode="grid-constant"
         )
         result: NDArray[np.bool_] = share >= 0.5
         return result
@@ -308,9 +308,9 @@ def _resampled(structure: Structure, low: FloatArray, step: float, size: Any) ->
     to_mask = np.linalg.inv(structure.grid_mm)
     flip = np.eye(3)[::-1]
     matrix = flip @ (to_mask[:3, :3] * step) @ flip
-    offset = (to_mask[:3, :3] @ low + to_mask[:3, 3])[::-1] + 1.0  # one layer around
+    offset = (to_mask[:3, :3] @ low + to_mask[:3, 3])[::-1]
     share = ndimage.affine_transform(
-        structure.occupancy, matrix, offset, output_shape=tuple(size[::-1]), order=1
+        structure.mask, matrix, offset, tuple(size[::-1]), np.float32, 1, "grid-constant"
     )
     inside = share >= 0.5
     if not inside.any():  # thinner than a cell: the cells that hold its voxels' centres

@@ -77,44 +77,80 @@ def grown(
 def brushed(
     structure: Structure | None,
     volume: Volume,
-    centre_mm: ArrayLike,
+    centres_mm: ArrayLike,
     radius_mm: float,
     add: bool,
     limits: tuple[float, float] | None = None,
 ) -> tuple[Mask, Index] | None:
-    """Box and corner of a structure after one dab of a round brush; None if nothing is left.
+    """Box and corner of a structure after dabs of a round brush; None if nothing is left.
 
     Args:
         structure: so far; None for nothing.
         volume: the CT.
-        centre_mm: of the ball, LPS, shape (3,).
-        radius_mm: of the ball.
-        add: whether its voxels are added or taken away.
+        centres_mm: of the balls, LPS, shape (n, 3) or (3,) for one.
+        radius_mm: of the balls.
+        add: whether their voxels are added or taken away.
         limits: only voxels of these HU, both included, are touched.
     """
-    span, corner = _span(volume, centre_mm, radius_mm)
-    dab = _ball(volume, centre_mm, radius_mm, span, corner)
-    if limits is not None:
-        dab &= (volume.hu[span] >= limits[0]) & (volume.hu[span] <= limits[1])
-    if not dab.any():
+    stroke = _stroke(volume, np.reshape(centres_mm, (-1, 3)), radius_mm, limits)
+    if stroke is None:
         return None if structure is None else (structure.mask, structure.corner)
+    dabs, corner = stroke
     if structure is None:
-        if not add:
-            return None
-        mask, offset = cropped(dab)
-        return mask, _moved(corner, offset)
-    low, high = _united(structure, corner, dab.shape)
+        return stroke if add else None
+    return _joined(structure, dabs, corner) if add else _erased(structure, dabs, corner)
+
+
+def _joined(structure: Structure, dabs: Mask, corner: Index) -> tuple[Mask, Index]:
+    """Box and corner with the dabs; both boxes fit closely, and so does theirs."""
+    low, high = _united(structure, corner, dabs.shape)
     mask = np.zeros(tuple((np.array(high) - low)[::-1]), bool)
     mask[_slices(structure.corner, structure.mask.shape, low)] = structure.mask
-    part = mask[_slices(corner, dab.shape, low)]
-    if add:
-        part |= dab
-    else:
-        part &= ~dab
+    mask[_slices(corner, dabs.shape, low)] |= dabs
+    return mask, low
+
+
+def _erased(structure: Structure, dabs: Mask, corner: Index) -> tuple[Mask, Index] | None:
+    """Box and corner without the dabs; None if nothing is left."""
+    shape = np.array(structure.mask.shape)
+    start = np.subtract(corner, structure.corner)[::-1]
+    first, last = np.clip(start, 0, shape), np.clip(start + dabs.shape, 0, shape)
+    if (first >= last).any():
+        return structure.mask, structure.corner
+    mask = structure.mask.copy()
+    part = mask[tuple(map(slice, first, last))]
+    part &= ~dabs[tuple(map(slice, first - start, last - start))]
+    if (first > 0).all() and (last < shape).all():  # the outermost voxels are still there
+        return mask, structure.corner
     if not mask.any():
         return None
     box, offset = cropped(mask)
-    return box, _moved(low, offset)
+    return box, _moved(structure.corner, offset)
+
+
+def _stroke(
+    volume: Volume,
+    centres_mm: NDArray[np.float64],
+    radius_mm: float,
+    limits: tuple[float, float] | None,
+) -> tuple[Mask, Index] | None:
+    """Box and corner of all dabs together; None where there is no voxel."""
+    dabs = [_span(volume, centre, radius_mm) for centre in centres_mm]
+    whole = tuple(
+        slice(min(one[0][axis].start for one in dabs), max(one[0][axis].stop for one in dabs))
+        for axis in range(3)
+    )
+    k, j, i = (span.start for span in whole)
+    mask = np.zeros([span.stop - span.start for span in whole], bool)
+    for centre, (span, corner) in zip(centres_mm, dabs, strict=True):
+        dab = _ball(volume, centre, radius_mm, span, corner)
+        mask[_slices(corner, dab.shape, (i, j, k))] |= dab
+    if limits is not None:
+        mask &= (volume.hu[whole] >= limits[0]) & (volume.hu[whole] <= limits[1])
+    if not mask.any():
+        return None
+    box, offset = cropped(mask)
+    return box, _moved((i, j, k), offset)
 
 
 def _span(

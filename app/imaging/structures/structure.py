@@ -105,6 +105,10 @@ def _points(edges: NDArray[np.intp], values: FloatArray, level: float) -> FloatA
     return np.column_stack([column + (1 - upright) * share, row + upright * share])
 
 
+MOST_POINTS = 10_000
+"""Of the outlines of a structure in a plane: more are not told apart, and too slow to draw."""
+
+
 def contours(
     structure: Structure,
     origin_mm: FloatArray,
@@ -113,6 +117,10 @@ def contours(
     pixel_mm: float = 0.7,
 ) -> list[FloatArray]:
     """Outlines of a structure in a plane.
+
+    Where they would have more than `MOST_POINTS`, as those of a threshold within noise, they are
+    drawn in steps twice as wide, or wider yet, around every place that holds some of it: rather
+    too large than too small.
 
     Args:
         structure: what.
@@ -131,22 +139,68 @@ def contours(
     to_mask = np.linalg.inv(structure.grid_mm)
     steps = np.column_stack([to_mask[:3, :3] @ right, to_mask[:3, :3] @ down])
     start = to_mask[:3, :3] @ origin_mm + to_mask[:3, 3]
-    low, high = box[:, :2].min(axis=0), box[:, :2].max(axis=0)
-    pixel = np.full(2, pixel_mm)
     if _along_voxels(steps):  # then look at centres of voxels only
         axes = np.abs(steps).argmax(axis=0)
         last = np.array(structure.mask.shape[::-1])[axes] - 1.0
         along = steps[axes, [0, 1]]
-        ends = np.array([-start[axes] / along, (last - start[axes]) / along])
-        low, high, pixel = ends.min(axis=0), ends.max(axis=0) - 1e-9, 1.0 / np.abs(along)
-    columns, rows = (np.ceil((high - low) / pixel).astype(int) + 1).tolist()
-    y, x = np.mgrid[:rows, :columns]
-    plane = np.stack([x.ravel(), y.ravel()], axis=1) * pixel + low
-    places = start + plane @ steps.T + 1.0  # one layer around
-    inside = ((places > 0.0) & (places < np.array(structure.occupancy.shape[::-1]) - 1.0)).all(1)
-    values = np.zeros(len(places))
-    values[inside] = interpolate(structure.occupancy, places[inside])
-    return [line * pixel + low for line in outlines(values.reshape(rows, columns))]
+        low = np.minimum(-start[axes] / along, (last - start[axes]) / along)
+        pixel = 1.0 / np.abs(along)
+        values = _layer(structure.mask, axes, along, start)
+    else:
+        low, high = box[:, :2].min(axis=0), box[:, :2].max(axis=0)
+        pixel = np.full(2, pixel_mm)
+        columns, rows = (np.ceil((high - low) / pixel).astype(int) + 1).tolist()
+        y, x = np.mgrid[:rows, :columns]
+        plane = np.stack([x.ravel(), y.ravel()], axis=1) * pixel + low
+        values = _share(structure.mask, start + plane @ steps.T).reshape(rows, columns)
+    if _crossings(values >= 0.5) <= MOST_POINTS:
+        return [line * pixel + low for line in outlines(values)]
+    held, low = np.pad(values >= 0.5, 1), low - pixel
+    while _crossings(held) > MOST_POINTS:
+        held = np.pad(held, [(0, n % 2) for n in held.shape])
+        held = held[::2] | held[1::2]
+        held = held[:, ::2] | held[:, 1::2]
+        low, pixel = low + pixel / 2.0, pixel * 2.0
+    lines = outlines(held.astype(np.float64), 0.05)  # at 0.5 it cuts off the corners of squares
+    return [line * pixel + low for line in lines]
+
+
+def _layer(
+    mask: Mask, axes: NDArray[np.intp], along: FloatArray, start: FloatArray
+) -> NDArray[np.float64]:
+    """Share of a mask at voxel centres of a plane along its axes, shape (rows, columns).
+
+    Args:
+        mask: shape (K, J, I).
+        axes: of the voxels (i, j, k), along which columns and rows are counted.
+        along: voxels per step on them; only its signs count.
+        start: the plane's origin in voxels (i, j, k).
+    """
+    column, row = axes.tolist()
+    across = 3 - column - row
+    by_layer = mask.transpose(2 - across, 2 - row, 2 - column)
+    share = np.zeros(by_layer.shape[1:])
+    first = int(np.floor(start[across]))
+    for number in (first, first + 1):
+        if 0 <= number < len(by_layer):
+            share += by_layer[number] * (1.0 - abs(start[across] - number))
+    flips = tuple(slice(None, None, -1 if along[n] < 0.0 else 1) for n in (1, 0))
+    return share[flips]
+
+
+def _share(mask: Mask, ijk: FloatArray) -> FloatArray:
+    """Share of a mask at places (i, j, k), linear between voxel centres; it fades beyond them."""
+    beyond = np.abs(ijk - np.clip(ijk, 0.0, np.array(mask.shape[::-1]) - 1.0))
+    share = np.clip(1.0 - beyond, 0.0, None).prod(axis=1)
+    reached = share > 0.0
+    share[reached] *= interpolate(mask, ijk[reached])
+    return share
+
+
+def _crossings(inside: NDArray[np.bool_]) -> int:
+    """How often neighbours differ: the points of the outlines."""
+    flat, upright = inside[:, 1:] ^ inside[:, :-1], inside[1:] ^ inside[:-1]
+    return int(np.count_nonzero(flat)) + int(np.count_nonzero(upright))
 
 
 def _along_voxels(steps: FloatArray) -> bool:
@@ -258,11 +312,6 @@ class Structure:
         return frozen(affine)
 
     @cached_property
-    def occupancy(self) -> NDArray[np.float32]:
-        """The mask as 0 and 1 with one layer of 0 around, float32, read-only."""
-        return read_only(np.pad(self.mask.astype(np.float32), 1))
-
-    @cached_property
     def box_mm(self) -> FloatArray:
         """Corners of the mask's voxels in LPS [mm], shape (8, 3)."""
         size = np.array(self.mask.shape[::-1])
@@ -278,7 +327,8 @@ class Structure:
     @property
     def centre_mm(self) -> FloatArray:
         """Centre of its voxels in LPS [mm], shape (3,)."""
-        middle = np.argwhere(self.mask).mean(axis=0)[::-1]
+        counts = [self.mask.sum(axis=axes, dtype=np.float64) for axes in ((0, 1), (0, 2), (1, 2))]
+        middle = [float(count @ np.arange(len(count)) / count.sum()) for count in counts]
         result: FloatArray = self.grid_mm[:3, :3] @ middle + self.grid_mm[:3, 3]
         return result
 

@@ -89,11 +89,12 @@ def isosurface(
 
 def structure_mesh(structure: Structure, most: int, progress: Progress | None = None) -> Mesh:
     """Surface of a structure with at most `most` triangles, where its share passes one half."""
-    share, affine = structure.occupancy, np.array(structure.grid_mm)
-    affine[:3, 3] -= affine[:3, :3].sum(axis=1)  # its layer around
+    mask, affine = structure.mask, np.array(structure.grid_mm)
+    affine[:3, 3] -= affine[:3, :3].sum(axis=1)  # the layer around it
     factors = _factors(structure, most)
     k, j, i = factors
-    share = np.pad(share, [(0, -n % f) for n, f in zip(share.shape, factors, strict=True)])
+    around = [(1, 1 + -(n + 2) % f) for n, f in zip(mask.shape, factors, strict=True)]
+    share = np.pad(mask, around)
     depth, height, width = (n // f for n, f in zip(share.shape, factors, strict=True))
     share = share.reshape(depth, k, height, j, width, i).mean(axis=(1, 3, 5), dtype=np.float32)
     affine[:3, 3] += affine[:3, :3] @ (np.array([i, j, k]) - 1.0) / 2.0

@@ -171,17 +171,15 @@ class BrushGrip:
         if self._last is not None and far < 0.25 * settings.radius_mm:
             return
         steps = max(1, int(np.ceil(2.0 * far / settings.radius_mm)))
+        centres = start + np.outer(np.arange(1, steps + 1) / steps, at - start)
         limits = (settings.low, settings.high) if settings.limited else None
-        for step in range(1, steps + 1):
-            centre = start + (at - start) * step / steps
-            old = next((one for one in self._book.structures if one.name == self._name), None)
-            new = brushed(old, volume, centre, settings.radius_mm,
-                          settings.mode is Mode.PAINT, limits)  # fmt: skip
-            if new is None:
-                if old is not None:
-                    self._book.remove(self._name)
-                continue
-            if old is None or new[0] is not old.mask:
-                self._book.put(self._name, *new, starts_step=self._fresh)
-                self._fresh = False
+        old = next((one for one in self._book.structures if one.name == self._name), None)
+        new = brushed(old, volume, centres, settings.radius_mm,
+                      settings.mode is Mode.PAINT, limits)  # fmt: skip
+        if new is None:
+            if old is not None:
+                self._book.remove(self._name)
+        elif old is None or new[0] is not old.mask:
+            self._book.put(self._name, *new, starts_step=self._fresh)
+            self._fresh = False
         self._last = at

@@ -7,6 +7,7 @@ alone.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import floor
 
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
@@ -14,6 +15,7 @@ from PySide6.QtGui import (
     QBrush,
     QColor,
     QFontMetrics,
+    QImage,
     QPainter,
     QPainterPath,
     QPen,
@@ -95,14 +97,18 @@ def named(structure: Structure) -> str:
 HATCH_ALPHA = 0.55
 SMALLEST_NAMED_PX = 14.0
 """Outlines smaller than this carry no name."""
+MOST_KEPT_PX = 4e6
+"""Pictures of outlines with more pixels than this, far zoomed in, are not kept."""
 
 
 class StructureOutline(Shape):
-    """One structure in one slice."""
+    """One structure in one slice; its picture is kept until outline, style or zoom change."""
 
     def __init__(self, z: float) -> None:
         super().__init__(z)
         self._path, self._top = QPainterPath(), QPointF()
+        self._picture = QImage()
+        self._drawn_for: tuple[float, ...] = ()
         self._structure: Structure | None = None
         self._scale, self._bold = 1.0, False
 
@@ -121,6 +127,11 @@ class StructureOutline(Shape):
             self._top = QPointF(x, y)
         self.setVisible(bool(len(lines)))
         self.touch()
+
+    def touch(self) -> None:
+        """Have it painted anew, with another picture."""
+        self._drawn_for = ()
+        super().touch()
 
     def set_style(self, structure: Structure, scale: float, bold: bool) -> None:
         """Take the colours of `structure` and the zoom [px/mm]."""
@@ -148,6 +159,29 @@ class StructureOutline(Shape):
         )
 
     def paint(self, painter: QPainter) -> None:
+        """Draw its picture: moved by whole pixels, as a needle or a hand moves panes, the same."""
+        to_pixels, ratio = painter.transform(), painter.device().devicePixelRatioF()
+        place = to_pixels.mapRect(self.boundingRect()).toAlignedRect()
+        if ratio**2 * place.width() * place.height() > MOST_KEPT_PX:
+            self._draw(painter)
+            return
+        dx, dy = ratio * to_pixels.dx(), ratio * to_pixels.dy()
+        drawn_for = (to_pixels.m11(), to_pixels.m12(), to_pixels.m21(), to_pixels.m22(), ratio,
+                     round(dx - floor(dx), 2), round(dy - floor(dy), 2))  # fmt: skip
+        if drawn_for != self._drawn_for:
+            picture = QImage(place.size() * ratio, QImage.Format.Format_ARGB32_Premultiplied)
+            picture.setDevicePixelRatio(ratio)
+            picture.fill(0)
+            with QPainter(picture) as over:
+                over.setRenderHints(painter.renderHints())
+                over.setTransform(to_pixels * QTransform.fromTranslate(-place.x(), -place.y()))
+                self._draw(over)
+            self._picture, self._drawn_for = picture, drawn_for
+        painter.resetTransform()
+        painter.drawImage(place.topLeft(), self._picture)
+        painter.setTransform(to_pixels)
+
+    def _draw(self, painter: QPainter) -> None:
         """Draw hatching, a dark rim, the line and the name."""
         structure = self._structure
         if structure is None:
