@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import dataclasses
+import re
 import typing
 from collections.abc import Iterator
 from functools import cache
@@ -87,6 +88,17 @@ def test_few_modules_are_a_piece_of_the_one_that_uses_them():
 def test_a_class_name_means_one_thing_but_for_those_that_say_why():
     assert len(MEAN_TWO_THINGS) <= MOST_NAMES
     assert set(structure().ambiguous) == set(MEAN_TWO_THINGS)
+
+
+def test_nothing_is_kept_from_the_formatter_to_save_lines():
+    skipped = [
+        f"{path.relative_to(ROOT)}:{number}"
+        for room in ("app", "tools")
+        for path in sorted((ROOT / room).rglob("*.py"))
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if re.search(r"#\s*fmt:\s*(skip|off)", line)
+    ]
+    assert skipped == []
 
 
 def test_only_the_shell_names_the_windows_class():

@@ -46,15 +46,23 @@ def rendered(rig: RigProfile, folder: Path) -> CameraSettings:
 def calibration(rig: RigProfile) -> StereoCalibration:
     """Return a rig's own cameras as a calibration."""
     cameras = tuple(
-        CameraCalibration(name=m.name, image_size=m.image_size, focal_px=tuple(m.intrinsics[:2]),
-                          centre_px=tuple(m.intrinsics[2:]), distortion=tuple(m.distortion))
+        CameraCalibration(
+            name=m.name,
+            image_size=m.image_size,
+            focal_px=tuple(m.intrinsics[:2]),
+            centre_px=tuple(m.intrinsics[2:]),
+            distortion=tuple(m.distortion),
+        )
         for m in rig.models
-    )  # fmt: skip
+    )
     left, right = (model.T_world_camera for model in rig.models)
     return StereoCalibration(
-        id="20261122-091244-3f2a", created=datetime.now(UTC), cameras=cameras,
-        pose=PoseCalibration.of(right.inverse() @ left), world=PoseCalibration.of(left),
-    )  # fmt: skip
+        id="20261122-091244-3f2a",
+        created=datetime.now(UTC),
+        cameras=cameras,
+        pose=PoseCalibration.of(right.inverse() @ left),
+        world=PoseCalibration.of(left),
+    )
 
 
 def main(folder: Path) -> None:

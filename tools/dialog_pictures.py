@@ -71,7 +71,11 @@ def _found() -> tuple[FoundSeries, ...]:
         FoundSeries(
             f"1.2.{number}",
             FoundStudy(f"1.1.{number}", date, "EXAMPLE^NOBODY", patient, "", study, ("CT",), None),
-            number, "CT", words, part, pictures,
+            number,
+            "CT",
+            words,
+            part,
+            pictures,
         )
         for patient, date, study, number, words, part, pictures in rows
-    )  # fmt: skip
+    )

@@ -34,9 +34,12 @@ def rendered(folder: Path) -> PenSettings:
     """Write the pictures and the lens; return the settings that name them."""
     pen, entry = load_pen("cube"), load_profile("icube").pantograph.fulcrum
     draw = PenRenderer(
-        SIMULATED_WEBCAM.model(), pen.body.board(), pen.base.board(), pen.base.pose(entry),
+        SIMULATED_WEBCAM.model(),
+        pen.body.board(),
+        pen.base.board(),
+        pen.base.pose(entry),
         pen.body.edge_mm * MILLIMETRE,
-    )  # fmt: skip
+    )
     tip = PenTip.of(pen.tip.model_copy(update={"position_mm": TRUE_TIP_MM, "axis": TRUE_TIP_MM}))
     scene, rng = rocked(entry, tip), np.random.default_rng(1)
     (folder / "webcam").mkdir()

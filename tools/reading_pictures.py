@@ -45,12 +45,19 @@ def structures(studio: Studio) -> None:
     desk.brush.set(low=250.0, high=3000.0)
     desk.threshold()
     wait(lambda: len(desk.book.structures) == 1)
-    desk.book.change(desk.book.structures.structures[0].name, name="Bones", kind=StructureKind.BONE,
-                     warn_mm=2.0)  # fmt: skip
+    desk.book.change(
+        desk.book.structures.structures[0].name, name="Bones", kind=StructureKind.BONE, warn_mm=2.0
+    )
     _paint(studio, "Lesion", [target], 9.0, StructureKind.TARGET, 0.0)
     along = np.linspace(-30.0, 30.0, 31)[:, None] * np.array([0.55, 0.35, 0.75])
-    _paint(studio, "Hepatic vein", 0.4 * entry + 0.6 * target + [13.0, 4.0, 0.0] + along, 4.0,
-           StructureKind.VESSEL, 10.0)  # fmt: skip
+    _paint(
+        studio,
+        "Hepatic vein",
+        0.4 * entry + 0.6 * target + [13.0, 4.0, 0.0] + along,
+        4.0,
+        StructureKind.VESSEL,
+        10.0,
+    )
     wait(lambda: desk.is_settled)
     window.workspace.side.setCurrentIndex(window.workspace.side.count() - 1)
     window.workspace.show_layout("1+3")
@@ -116,8 +123,12 @@ def measurements(studio: Studio) -> None:
 def layouts(studio: Studio) -> None:
     """Go through every layout, without and with the bull's-eye, and maximise a pane."""
     workspace = studio.window.workspace
-    for name, word in (("2x2", "four"), ("1+3", "one-and-three"), ("6-up", "six"),
-                       ("needle", "needle")):  # fmt: skip
+    for name, word in (
+        ("2x2", "four"),
+        ("1+3", "one-and-three"),
+        ("6-up", "six"),
+        ("needle", "needle"),
+    ):
         workspace.show_layout(name)
         for bullseye in (False, True):
             workspace.show_bullseye(bullseye)

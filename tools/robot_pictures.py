@@ -84,8 +84,18 @@ def emulated_board() -> Iterator[str]:
     """Start an emulated robot, parked at its stops, and yield its port."""
     with tempfile.TemporaryDirectory() as folder:
         port = Path(folder) / "robot"
-        orders = [sys.executable, "-m", "app", "device", "emulate", "--parked", "--link", str(port),
-                  "--serial", "A17-0042"]  # fmt: skip
+        orders = [
+            sys.executable,
+            "-m",
+            "app",
+            "device",
+            "emulate",
+            "--parked",
+            "--link",
+            str(port),
+            "--serial",
+            "A17-0042",
+        ]
         with subprocess.Popen(
             orders, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True
         ) as board:

@@ -52,9 +52,16 @@ class StillRun:
         clock = VirtualClock(START)
         self._setup = setup
         self._rig: Rig = build_rig(
-            TrainerSetup(setup.exercise, setup.placed, setup.ct, "novice", setup.exercise.seed,
-                         sessions, clock)
-        )  # fmt: skip
+            TrainerSetup(
+                setup.exercise,
+                setup.placed,
+                setup.ct,
+                "novice",
+                setup.exercise.seed,
+                sessions,
+                clock,
+            )
+        )
         self.trainer = StillTrainer(
             self._rig.loop, None, setup.placed, setup.exercise, None, clock, self._measure
         )
@@ -73,10 +80,13 @@ class StillRun:
         """What the views need."""
         exercise = self._setup.exercise
         return ExerciseRun(
-            self.trainer, self._setup.placed, self._rig.profile, rings=rings(exercise.tolerances),
+            self.trainer,
+            self._setup.placed,
+            self._rig.profile,
+            rings=rings(exercise.tolerances),
             guidance=exercise.guidance,
             shown=Shown(live=exercise.guidance_mode is GuidanceMode.LIVE),
-        )  # fmt: skip
+        )
 
     def place(self, placed: PlacedPlan) -> ExerciseRun:
         """Keep still: nothing is planned while a picture is taken."""

@@ -72,15 +72,20 @@ def _made(
                 running.move_to(place)
             else:
                 typer.prompt(
-                    f"Rest the tip in {name} and hold still; press Enter", default="",
-                    show_default=False, err=True,
-                )  # fmt: skip
+                    f"Rest the tip in {name} and hold still; press Enter",
+                    default="",
+                    show_default=False,
+                    err=True,
+                )
             running.touch(name, place)
         results = tuple(one for one in daily_check(running.facts()) if touch or one.name != "touch")
         found = DayCheck.of(
-            results, datetime.now().astimezone(), running.device, running.simulated,
+            results,
+            datetime.now().astimezone(),
+            running.device,
+            running.simulated,
             running.calibration,
-        )  # fmt: skip
+        )
     finally:
         running.close()
     save_check(found)

@@ -72,13 +72,21 @@ def add(
     from app.imaging.pacs.settings import PacsSettings, configured, keep
 
     given: dict[str, Any] = {
-        "name": name, "host": host, "title": title, "port": port, "own_title": own_title,
-        "own_host": own_host, "own_port": own_port, "retrieve": retrieve, "timeout_s": timeout_s,
-    }  # fmt: skip
+        "name": name,
+        "host": host,
+        "title": title,
+        "port": port,
+        "own_title": own_title,
+        "own_host": own_host,
+        "own_port": own_port,
+        "retrieve": retrieve,
+        "timeout_s": timeout_s,
+    }
     if tls or tls_authority or tls_certificate or tls_key or tls_any_name:
         files = (tls_authority, tls_certificate, tls_key)
-        given["tls"] = dict(zip(("authority", "certificate", "key"), map(_whole, files),
-                                strict=True)) | {"check_name": not tls_any_name}  # fmt: skip
+        given["tls"] = dict(
+            zip(("authority", "certificate", "key"), map(_whole, files), strict=True)
+        ) | {"check_name": not tls_any_name}
     one = parse(given, PacsSettings, "acus pacs add")
     keep((*(other for other in configured() if other.name != name), one))
     words = f"{name} is configured; acus pacs echo --pacs {name} asks whether it is there"

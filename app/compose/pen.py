@@ -292,7 +292,13 @@ class Pen:
         return {
             # What the loop reads is given, never computed: to a replay this is no simulated robot.
             "device": {"name": "pen", "simulated": "no", "pen": simulated},
-            "cameras": {"name": "webcam", "simulated": simulated, "source": kind, "lens": lens,
-                        "pen": pen.name, "tip": "measured" if pen.tip.calibrated else "drawn"},
+            "cameras": {
+                "name": "webcam",
+                "simulated": simulated,
+                "source": kind,
+                "lens": lens,
+                "pen": pen.name,
+                "tip": "measured" if pen.tip.calibrated else "drawn",
+            },
             TRAINEE: {"scripted": skill or ""} | hand,
-        }  # fmt: skip
+        }

@@ -314,10 +314,17 @@ def _build_pen_rig(setup: TrainerSetup, pen: Pen) -> Rig:
     documents = {"device": pen.profile, "pen": pen.settings.profile()}
     context = run_context(setup.exercise, setup.sessions, setup.seed, metadata, documents)
     trainer = Trainer(
-        loop, tracker, setup.placed, setup.exercise, context, setup.clock, risks=setup.risks,
-        dial=0.0, trust=DepthTrust(FASTEST),  # a pen in the air is no needle in its tube
+        loop,
+        tracker,
+        setup.placed,
+        setup.exercise,
+        context,
+        setup.clock,
+        risks=setup.risks,
+        dial=0.0,
+        trust=DepthTrust(FASTEST),  # a pen in the air is no needle in its tube
         start=Start.SIMULATED if pen.settings.simulated else Start.REAL,
-    )  # fmt: skip
+    )
     tracker.listen(trainer.on_fix)
     return Rig(setup, pen.profile, loop, tracker, trainer, pen=pen)
 

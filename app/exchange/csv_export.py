@@ -57,8 +57,16 @@ def cell(value: object) -> str:
 
 
 COLUMNS: Final = (
-    "name", "kind", "quantity", "value", "unit", "x_mm", "y_mm", "z_mm", "note",
-)  # fmt: skip
+    "name",
+    "kind",
+    "quantity",
+    "value",
+    "unit",
+    "x_mm",
+    "y_mm",
+    "z_mm",
+    "note",
+)
 """Columns of the table: one row for each value; x, y, z is the first point, LPS."""
 
 _TYPES: Final = {Distance: "Line", Angle: "Angle", Probe: "Fiducial", Region: "ClosedCurve"}
@@ -71,11 +79,17 @@ def measurements_table(items: Sequence[Measurement], volume: Volume) -> str:
     for number, item in enumerate(items, start=1):
         found = measured(item, volume)
         for quantity in found:
-            rows.append((
-                title(item, number), KINDS[type(item)], quantity.name, quantity.value,
-                quantity.unit, *item.points[-1 if isinstance(item, Region) else 0],
-                f"{found.note}; {DISCLAIMER}" if found.note else DISCLAIMER,
-            ))  # fmt: skip
+            rows.append(
+                (
+                    title(item, number),
+                    KINDS[type(item)],
+                    quantity.name,
+                    quantity.value,
+                    quantity.unit,
+                    *item.points[-1 if isinstance(item, Region) else 0],
+                    f"{found.note}; {DISCLAIMER}" if found.note else DISCLAIMER,
+                )
+            )
     return table_text(rows)
 
 
@@ -100,8 +114,9 @@ def write_measurements(path: Path, items: Sequence[Measurement], volume: Volume)
         return
     if not path.name.lower().endswith(".json"):
         raise ExportError(f"{path.name}: measurements are written as .csv or .mrk.json")
-    text = json.dumps(measurements_document(items, volume), indent=1, allow_nan=False,
-                      ensure_ascii=False)  # fmt: skip
+    text = json.dumps(
+        measurements_document(items, volume), indent=1, allow_nan=False, ensure_ascii=False
+    )
     try:
         write_atomically(path, text + "\n")
     except OSError as error:
@@ -125,19 +140,29 @@ def _markup(item: Measurement, number: int, volume: Volume) -> dict[str, Any]:
         "labelFormat": "%N-%d",
         "controlPoints": [
             {
-                "id": str(i), "label": f"{title(item, number)}-{i}", "position": list(point),
-                "selected": True, "locked": False, "visibility": True, "positionStatus": "defined",
+                "id": str(i),
+                "label": f"{title(item, number)}-{i}",
+                "position": list(point),
+                "selected": True,
+                "locked": False,
+                "visibility": True,
+                "positionStatus": "defined",
             }
             for i, point in enumerate(points, start=1)
         ],
         "measurements": [
-            {"name": q.name, "enabled": True, "value": q.value, "units": q.unit,
-             "printFormat": "%-#4.4g%s"}
+            {
+                "name": q.name,
+                "enabled": True,
+                "value": q.value,
+                "units": q.unit,
+                "printFormat": "%-#4.4g%s",
+            }
             for q in found
             if q.value is not None
         ],
         "description": DISCLAIMER,
-    }  # fmt: skip
+    }
 
 
 FIXED: Final = (

@@ -8,8 +8,17 @@ worker process nothing is logged at all; this is for the program, whatever it lo
 import logging
 import warnings
 
-PACKAGES = ("pydicom", "pynetdicom", "highdicom", "nibabel", "nrrd", "pylibjpeg", "openjpeg",
-            "_openjpeg", "jpeg_ls")  # fmt: skip
+PACKAGES = (
+    "pydicom",
+    "pynetdicom",
+    "highdicom",
+    "nibabel",
+    "nrrd",
+    "pylibjpeg",
+    "openjpeg",
+    "_openjpeg",
+    "jpeg_ls",
+)
 _WITH_HANDLERS = ("nibabel.global",)  # nibabel gives it one of its own, which writes to stderr
 
 

@@ -16,8 +16,16 @@ from app.imaging.errors import FileDamagedError
 from app.imaging.filling import filled
 from app.imaging.header import SliceHeader
 
-MARKS = ("acquisition", "time-position", "cardiac-phase", "trigger", "echo", "image-type", "kernel",
-         "acquisition-time")  # fmt: skip
+MARKS = (
+    "acquisition",
+    "time-position",
+    "cardiac-phase",
+    "trigger",
+    "echo",
+    "image-type",
+    "kernel",
+    "acquisition-time",
+)
 """What may tell passes apart, the most telling first (names of `SliceHeader.marks`)."""
 
 SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
@@ -88,9 +96,12 @@ def _stacks(headers: Headers) -> tuple[Group, ...]:
 
 def _same_grid(a: SliceHeader, b: SliceHeader) -> bool:
     same_size = (a.format.rows, a.format.columns) == (b.format.rows, b.format.columns)
-    return same_size and a.plane is not None and b.plane is not None and (
-        stack.same_plane(a.plane, b.plane)
-    )  # fmt: skip
+    return (
+        same_size
+        and a.plane is not None
+        and b.plane is not None
+        and stack.same_plane(a.plane, b.plane)
+    )
 
 
 def _passes(headers: Headers, name: str) -> list[Group]:

@@ -102,8 +102,10 @@ def find_body(volume: Volume, progress: Progress | None = None) -> Body:
         Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
-    i, j, k = (max(1, min(round(GRID_MM / s), n)) for s, n in
-               zip(volume.spacing_mm, volume.size, strict=True))  # fmt: skip
+    i, j, k = (
+        max(1, min(round(GRID_MM / s), n))
+        for s, n in zip(volume.spacing_mm, volume.size, strict=True)
+    )
     progress.report(0.0, "looking for the body")
     level = _skin_level(volume, volume.hu[::k, ::j, ::i])
     tissue = volume.hu[::k, ::j, ::i] > level

@@ -81,9 +81,13 @@ def scan_image(
     size = (picture.shape[2], picture.shape[1], picture.shape[0])
     x, y, z = grid[:3, 3].tolist()
     series = replace(
-        volume.series, size=size, spacing_mm=(grid[0, 0], grid[1, 1], grid[2, 2]),
-        origin_mm=(x, y, z), direction=(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0), slices=(),
-    )  # fmt: skip
+        volume.series,
+        size=size,
+        spacing_mm=(grid[0, 0], grid[1, 1], grid[2, 2]),
+        origin_mm=(x, y, z),
+        direction=(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+        slices=(),
+    )
     return Volume(picture, grid, series)
 
 
@@ -194,8 +198,14 @@ def _share(
     for depth in depths:
         for dy in parts:
             for dx in parts:
-                offset = np.stack([x0 + dx * grid[0, 0], y0 + dy * grid[1, 1],
-                                   np.full(len(rows), middle + depth)], axis=1)  # fmt: skip
+                offset = np.stack(
+                    [
+                        x0 + dx * grid[0, 0],
+                        y0 + dy * grid[1, 1],
+                        np.full(len(rows), middle + depth),
+                    ],
+                    axis=1,
+                )
                 offset -= needle.hub_mm
                 along = offset @ needle.axis
                 across2 = np.einsum("ij,ij->i", offset, offset) - along**2

@@ -79,9 +79,16 @@ def slab_image(
     start = volume.voxel(plane.corner_mm - 0.5 * (count - 1) * step_mm)
     hu = np.ascontiguousarray(volume.hu)  # as it is read: no copy
     _project(
-        hu, start, linear @ plane.across_mm, linear @ plane.down_mm, linear @ step_mm,
-        count, _CODES[Projection(way)], outside_hu, picture,
-    )  # fmt: skip
+        hu,
+        start,
+        linear @ plane.across_mm,
+        linear @ plane.down_mm,
+        linear @ step_mm,
+        count,
+        _CODES[Projection(way)],
+        outside_hu,
+        picture,
+    )
     return picture
 
 
@@ -127,9 +134,14 @@ def _project(
                 if 0.0 <= i < size_i - 1 and 0.0 <= j < size_j - 1 and 0.0 <= k < size_k - 1:
                     a, b, c = int(i), int(j), int(k)
                     value = _mixed(
-                        flat, c * slab + b * size_i + a, size_i, slab,
-                        np.float32(i - a), np.float32(j - b), np.float32(k - c),
-                    )  # fmt: skip
+                        flat,
+                        c * slab + b * size_i + a,
+                        size_i,
+                        slab,
+                        np.float32(i - a),
+                        np.float32(j - b),
+                        np.float32(k - c),
+                    )
                 elif _outside(i, j, k, hu):
                     continue
                 else:

@@ -78,8 +78,9 @@ class ErrorOverlay:
         a, b = float(across @ right), float(across @ down)
         c = float(down @ self.covariance_mm2 @ down)
         middle, off = (a + c) / 2.0, hypot((a - c) / 2.0, b)
-        far, near = (sqrt(_chi_square() * max(v, SMALLEST_MM**2))
-                     for v in (middle + off, middle - off))  # fmt: skip
+        far, near = (
+            sqrt(_chi_square() * max(v, SMALLEST_MM**2)) for v in (middle + off, middle - off)
+        )
         return far, near, 0.5 * atan2(2.0 * b, a - c)
 
 

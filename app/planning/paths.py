@@ -210,8 +210,18 @@ def score_paths(
     for start in range(0, max(1, len(skin)), CHUNK):
         progress.report(start / max(1, len(skin)), "scoring paths")
         part = slice(start, start + CHUNK)
-        parts.append(_chunk(target, skin.points_mm[part], skin.outward[part], body, avoided,
-                            placement, limits, weights))  # fmt: skip
+        parts.append(
+            _chunk(
+                target,
+                skin.points_mm[part],
+                skin.outward[part],
+                body,
+                avoided,
+                placement,
+                limits,
+                weights,
+            )
+        )
     progress.report(1.0, "paths scored")
     columns: list[Any] = [np.concatenate(column) for column in zip(*parts, strict=True)]
     score, block, length, angle, bone, nearest, which = columns

@@ -65,8 +65,11 @@ class ControlScan:
         order, bent = self.order, self.needle.corners_mm
         return {
             "version": VERSION,
-            "order": {"centre_mm": order.centre_mm, "slices": order.slices,
-                      "slice_mm": order.slice_mm},
+            "order": {
+                "centre_mm": order.centre_mm,
+                "slices": order.slices,
+                "slice_mm": order.slice_mm,
+            },
             "range_mm": list(order.range_mm),
             "streak": self.streak,
             "seen": self.seen.value,
@@ -75,7 +78,7 @@ class ControlScan:
             "hub_lps_mm": self.needle.hub_mm.tolist(),
             "tip_lps_mm": self.needle.tip_mm.tolist(),
             "shift_lps_mm": self.shift_mm.tolist(),
-        } | ({} if bent is None else {"bent_lps_mm": bent.tolist()})  # fmt: skip
+        } | ({} if bent is None else {"bent_lps_mm": bent.tolist()})
 
     @classmethod
     def of(cls, event: Event) -> ControlScan | None:
@@ -88,15 +91,16 @@ class ControlScan:
             return cls(
                 int(data["number"]),
                 event.time,
-                ScanOrder(float(order["centre_mm"]), int(order["slices"]),
-                          float(order["slice_mm"])),
+                ScanOrder(
+                    float(order["centre_mm"]), int(order["slices"]), float(order["slice_mm"])
+                ),
                 ScanNeedle(
                     data["hub_lps_mm"], data["tip_lps_mm"], corners_mm=data.get("bent_lps_mm")
                 ),
                 frozen(data["shift_lps_mm"], (3,), "shift_lps_mm"),
                 float(data["dose_mgy_cm"]),
                 streak if isinstance(streak := data.get("streak"), bool) else None,
-            )  # fmt: skip
+            )
         except (AcusError, LookupError, TypeError, ValueError):
             return None  # of a damaged record; the scan is still counted
 
@@ -122,9 +126,14 @@ SEEN_WORDS: Final = {
 
 
 def take(
-    number: int, order: ScanOrder, dose: float, now: float, look: Observation | None,
-    placed: PlacedPlan, streak: bool = False,
-) -> ControlScan:  # fmt: skip
+    number: int,
+    order: ScanOrder,
+    dose: float,
+    now: float,
+    look: Observation | None,
+    placed: PlacedPlan,
+    streak: bool = False,
+) -> ControlScan:
     """Take a scan at `now` [s].
 
     Args:

@@ -209,8 +209,14 @@ def _parse(frame: bytes, offset: int, problems: list[str], chunk: bool = False) 
     except EndOfFile:
         pass  # the frame's own end
     except (
-        McapError, ZstdError, ValueError, struct.error, MemoryError, RuntimeError, OverflowError,
-    ) as error:  # fmt: skip
+        McapError,
+        ZstdError,
+        ValueError,
+        struct.error,
+        MemoryError,
+        RuntimeError,
+        OverflowError,
+    ) as error:
         text = " ".join(str(error).split()) or type(error).__name__
         problems.append(f"the record at byte {offset} is damaged and left out: {text}")
         return []

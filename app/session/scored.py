@@ -30,9 +30,14 @@ def renders_force(metadata: Mapping[str, Mapping[str, str]]) -> bool:
 
 
 def trajectory(
-    samples: Samples, placed: PlacedPlan, aborted: str = "", renders: bool = True,
-    scans: tuple[ScanMark, ...] = (), risks: tuple[RiskMark, ...] = (), excused: float = 0.0,
-) -> Trajectory:  # fmt: skip
+    samples: Samples,
+    placed: PlacedPlan,
+    aborted: str = "",
+    renders: bool = True,
+    scans: tuple[ScanMark, ...] = (),
+    risks: tuple[RiskMark, ...] = (),
+    excused: float = 0.0,
+) -> Trajectory:
     """Turn samples into what scoring wants: those without a valid pose are left out.
 
     A force that the robot did not report counts as zero; hub point and fixture are given only if

@@ -28,11 +28,30 @@ from app.session.needle import DOWN, NeedlePose
 from app.session.snapshot import Snapshot
 
 HARMLESS: Final = (
-    sv.ENABLED, sv.HEARTBEAT, sv.HOMED, sv.FORCE_CAP, sv.TIME, sv.DT, sv.TICK, sv.LATENESS,
-    sv.MISSED, sv.TICK_COST, sv.INPUT_FAULT, sv.LINK_STATUS, sv.LINK_REPLIES, sv.LINK_ERRORS,
-    sv.LINK_LOST, sv.ROUND_TRIP, sv.BOARD_ERROR, sv.Q_TIME, sv.SAFETY_SCALE, sv.LET_GO_SCALE,
-    sv.LET_GO, sv.ARMING, sv.FAULT,
-)  # fmt: skip
+    sv.ENABLED,
+    sv.HEARTBEAT,
+    sv.HOMED,
+    sv.FORCE_CAP,
+    sv.TIME,
+    sv.DT,
+    sv.TICK,
+    sv.LATENESS,
+    sv.MISSED,
+    sv.TICK_COST,
+    sv.INPUT_FAULT,
+    sv.LINK_STATUS,
+    sv.LINK_REPLIES,
+    sv.LINK_ERRORS,
+    sv.LINK_LOST,
+    sv.ROUND_TRIP,
+    sv.BOARD_ERROR,
+    sv.Q_TIME,
+    sv.SAFETY_SCALE,
+    sv.LET_GO_SCALE,
+    sv.LET_GO,
+    sv.ARMING,
+    sv.FAULT,
+)
 """Slots of the loop's state that tell how the robot is, and nothing of where the needle is."""
 
 HIDDEN_STATES: Final = (State.ALIGNING, State.INSERTING, State.HOLDING)
@@ -101,18 +120,31 @@ def without_needle(snapshot: Snapshot) -> Snapshot:
     """Take everything about the needle, and what follows from it, out of a snapshot."""
     pose = snapshot.pose
     nobody = NeedlePose(
-        p_tip=read_only(np.zeros(3)), axis=DOWN, depth=0.0, time=pose.time,
-        orientation_age=pose.orientation_age, depth_age=pose.depth_age,
-        depth_source=pose.depth_source, valid=False, covariance=read_only(np.zeros((3, 3))),
+        p_tip=read_only(np.zeros(3)),
+        axis=DOWN,
+        depth=0.0,
+        time=pose.time,
+        orientation_age=pose.orientation_age,
+        depth_age=pose.depth_age,
+        depth_source=pose.depth_source,
+        valid=False,
+        covariance=read_only(np.zeros((3, 3))),
         reason="control scans only",
-    )  # fmt: skip
+    )
     state = State.INSERTING if snapshot.state in HIDDEN_STATES else snapshot.state
     device: Any = None if snapshot.device is None else _WithoutNeedle(snapshot.device)
     tracker = snapshot.tracker
     if is_dataclass(tracker) and not isinstance(tracker, type):
         tracker = replace(tracker, discrepancy="")  # it says by how much the needle is elsewhere
     return replace(
-        snapshot, state=state, phases=MappingProxyType({}), pose=nobody, measured_pose=None,
-        offset=NOWHERE, p_target=read_only(np.zeros(3)),
-        device=device, tracker=tracker, messages=(),
-    )  # fmt: skip
+        snapshot,
+        state=state,
+        phases=MappingProxyType({}),
+        pose=nobody,
+        measured_pose=None,
+        offset=NOWHERE,
+        p_target=read_only(np.zeros(3)),
+        device=device,
+        tracker=tracker,
+        messages=(),
+    )

@@ -108,9 +108,15 @@ def aimed(distance: float, speed: float, acceleration: float) -> float:
 
 @njit
 def turn(
-    state: FloatArray, p: FloatArray, at: int, h: float, wx: float, wy: float, wz: float,
+    state: FloatArray,
+    p: FloatArray,
+    at: int,
+    h: float,
+    wx: float,
+    wy: float,
+    wz: float,
     lever: float,
-) -> None:  # fmt: skip
+) -> None:
     """Move the hand across the needle for a step `h` [s] towards the direction w.
 
     `lever`: from the fulcrum to the hub, where the bounds hold [m].

@@ -89,9 +89,19 @@ def tried(progress: Progress | None = None) -> list[Tried]:
             short, edge, half, *errors = zip(*shots, strict=True)
             unrefined, chosen, usual = (np.concatenate(part) for part in (errors[0], *errors[2:]))
             found.append(
-                Tried(square, slant, noise, float(np.mean(short)), float(np.mean(edge)), unrefined,
-                      np.concatenate(errors[1], axis=1), chosen, usual, float(np.mean(half)))
-            )  # fmt: skip
+                Tried(
+                    square,
+                    slant,
+                    noise,
+                    float(np.mean(short)),
+                    float(np.mean(edge)),
+                    unrefined,
+                    np.concatenate(errors[1], axis=1),
+                    chosen,
+                    usual,
+                    float(np.mean(half)),
+                )
+            )
     return found
 
 
@@ -154,10 +164,18 @@ def _rms(squares: FloatArray) -> float:
 def _row(one: Tried) -> tuple[Cell, ...]:
     best = int(np.argmin(one.refined.mean(axis=1)))
     return (
-        f"{one.square:g}", f"{one.slant:g}", f"{one.noise:g}", round(one.short, 1),
-        round(one.edge, 1), _rms(one.unrefined), _rms(one.usual), _rms(one.chosen),
-        round(one.half, 1), _rms(one.refined[best]), WINDOWS[best],
-    )  # fmt: skip
+        f"{one.square:g}",
+        f"{one.slant:g}",
+        f"{one.noise:g}",
+        round(one.short, 1),
+        round(one.edge, 1),
+        _rms(one.unrefined),
+        _rms(one.usual),
+        _rms(one.chosen),
+        round(one.half, 1),
+        _rms(one.refined[best]),
+        WINDOWS[best],
+    )
 
 
 def _summary(kinds: list[Tried]) -> list[tuple[Cell, ...]]:
@@ -186,18 +204,37 @@ def _measure(progress: Progress | None = None) -> Findings:
         Sheet(
             "share",
             "Error of the corners by the edge's share of the square [px RMS]",
-            ("edge / square", "kinds", "unrefined", "a third of the square", "the rule",
-             "best window", "third worse than unrefined", "rule worse than unrefined"),
+            (
+                "edge / square",
+                "kinds",
+                "unrefined",
+                "a third of the square",
+                "the rule",
+                "best window",
+                "third worse than unrefined",
+                "rule worse than unrefined",
+            ),
             tuple(_summary(kinds)),
         ),
         Sheet(
             "kinds",
             "Error of the corners [px RMS] and the window that gives it",
-            ("square [px]", "slant [°]", "noise [grey]", "short way [px]", "edge [px]",
-             "unrefined", "a third", "the rule", "± [px]", "best", "± best [px]"),
+            (
+                "square [px]",
+                "slant [°]",
+                "noise [grey]",
+                "short way [px]",
+                "edge [px]",
+                "unrefined",
+                "a third",
+                "the rule",
+                "± [px]",
+                "best",
+                "± best [px]",
+            ),
             tuple(_row(one) for one in kinds),
         ),
-    )  # fmt: skip
+    )
     lines = (
         "The rule: half the window is a third of the shortest way across a square; where edges "
         "are wide 1.5 times their width, up to half the square; at most 11 px.",
@@ -217,9 +254,12 @@ def _draw(figure: Any, kinds: list[Tried]) -> None:
                 axes.plot(shares / one.short, errors, color=(tint, 0.2, 1.0 - tint), linewidth=0.7)
         axes.axvline(WINDOW_SHARE, color="black", linewidth=0.8)
         axes.set(
-            title=f"noise {noise:g} grey", xlabel="half the window / shortest way across a square",
-            yscale="log", xlim=(0.0, 1.0), ylabel="error of the corners [px RMS]",
-        )  # fmt: skip
+            title=f"noise {noise:g} grey",
+            xlabel="half the window / shortest way across a square",
+            yscale="log",
+            xlim=(0.0, 1.0),
+            ylabel="error of the corners [px RMS]",
+        )
     figure.suptitle("blue: sharp edges, red: edges half as wide as the square")
     figure.tight_layout()
 

@@ -137,9 +137,14 @@ def joint_bound(
         TrackingError: if the band has no picture there.
     """
     unknowns = band_unknowns(
-        render(p_world), model, shape, blur_px, noise_grey,
-        model.T_camera_world @ p_world, model.T_camera_world.rotate(axis_world),
-    )  # fmt: skip
+        render(p_world),
+        model,
+        shape,
+        blur_px,
+        noise_grey,
+        model.T_camera_world @ p_world,
+        model.T_camera_world.rotate(axis_world),
+    )
     u, v = np.rint(unknowns.pixels).astype(int).T
     by_pixel = position_derivatives(render, model, p_world)[v, u] / noise_grey  # (m, 3, 2)
     position = by_pixel.transpose(1, 0, 2).reshape(-1, 2)
@@ -246,9 +251,13 @@ def _places(
 ) -> _Band:
     """Pixels near the band with their colours and the model's columns."""
     seen, outline = trace(
-        p_camera, axis_camera, shape, model.intrinsics, model.distortion,
+        p_camera,
+        axis_camera,
+        shape,
+        model.intrinsics,
+        model.distortion,
         strips(p_camera, shape, model.intrinsics, blur_px),
-    )  # fmt: skip
+    )
     pixels = gather(image, outline, blur_px, noise_grey)
     count = len(pixels.places)
     if not seen or count == 0:
@@ -406,14 +415,32 @@ def _findings() -> Findings:
         over = round(float(np.sqrt(np.mean(least) / np.mean(joint))), 2)
         of_joint = round(float(np.median(np.sqrt(least / joint))), 2)
         rows.append(
-            (background, "bound: position alone", round(float(floor), 4), in_mm,
-             1.0, 1.0, over, of_joint, 0)
-        )  # fmt: skip
+            (
+                background,
+                "bound: position alone",
+                round(float(floor), 4),
+                in_mm,
+                1.0,
+                1.0,
+                over,
+                of_joint,
+                0,
+            )
+        )
         floor, in_mm = np.sqrt(np.mean(joint)), float(np.sqrt(np.mean(joint * scale**2)))
         rows.append(
-            (background, "bound: joint", round(float(floor), 4), in_mm,
-             round(1.0 / over, 2), round(1.0 / of_joint, 2), 1.0, 1.0, 0)
-        )  # fmt: skip
+            (
+                background,
+                "bound: joint",
+                round(float(floor), 4),
+                in_mm,
+                round(1.0 / over, 2),
+                round(1.0 / of_joint, 2),
+                1.0,
+                1.0,
+                0,
+            )
+        )
         for name in ExtractorName:
             finders = _finders(name)
             found = [finders[shot.camera].find(shot.image, shot.hint) for shot in taken]
@@ -434,9 +461,16 @@ def _findings() -> Findings:
                 )
             )
     columns = (
-        "background", "way", "RMS [px]", "RMS [mm]", "RMS over position's bound", "median",
-        "RMS over joint bound", "median of these", "refused",
-    )  # fmt: skip
+        "background",
+        "way",
+        "RMS [px]",
+        "RMS [mm]",
+        "RMS over position's bound",
+        "median",
+        "RMS over joint bound",
+        "median of these",
+        "refused",
+    )
     return Findings(
         (Sheet("bound", "Error over two Cramér-Rao bounds", columns, tuple(rows)),),
         (),

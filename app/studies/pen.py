@@ -223,8 +223,18 @@ def _inside(outcome: Outcome) -> float:
 
 def _row(setup: Setup, found: Outcome) -> tuple[Cell, ...]:
     if not len(found.tip):
-        return (setup.edge_mm, setup.distance, f"{setup.width}x{setup.height}", setup.noise,
-                0.0, "-", "-", "-", "-", "-")  # fmt: skip
+        return (
+            setup.edge_mm,
+            setup.distance,
+            f"{setup.width}x{setup.height}",
+            setup.noise,
+            0.0,
+            "-",
+            "-",
+            "-",
+            "-",
+            "-",
+        )
     return (
         setup.edge_mm,
         setup.distance,
@@ -251,10 +261,20 @@ def _measure(progress: Progress | None = None) -> Findings:
     sheet = Sheet(
         "workspace",
         "Error of the needle in rendered pictures, print and tip exact",
-        ("edge [mm]", "distance [m]", "pictures", "noise [grey]", "found [%]", "tip RMS [mm]",
-         "tip 95 % [mm]", "axis RMS [°]", "axis 95 % [°]", "in 95 % ellipsoid [%]"),
+        (
+            "edge [mm]",
+            "distance [m]",
+            "pictures",
+            "noise [grey]",
+            "found [%]",
+            "tip RMS [mm]",
+            "tip 95 % [mm]",
+            "axis RMS [°]",
+            "axis 95 % [°]",
+            "in 95 % ellipsoid [%]",
+        ),
         tuple(rows),
-    )  # fmt: skip
+    )
     lines = (
         f"With a print to 0.2 mm, a tip by the drawing (2 mm across, 5 mm along) and 0.05 px in "
         f"the corners: tip {np.sqrt(np.mean(drawn.tip**2)) / MILLIMETRE:.1f} mm RMS, axis "

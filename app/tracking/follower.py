@@ -199,11 +199,13 @@ class MarkerFollower:
                 for one, marker in zip(best, markers, strict=True)
             ]
         return [
-            one if not isinstance(one, MarkerFix)
-            else _either(one) if self._distance is not None and one is not marker
+            one
+            if not isinstance(one, MarkerFix)
+            else _either(one)
+            if self._distance is not None and one is not marker
             else self._closer(i, frames, one, None, axis)
             for i, (one, marker) in enumerate(zip(best, markers, strict=True))
-        ]  # fmt: skip
+        ]
 
     def _wrong(
         self, candidates: list[list[Found]], frames: Pair, axis: FloatArray | None

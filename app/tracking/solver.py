@@ -93,9 +93,17 @@ def _triangulate(
     if status != FOUND:
         return status, 0.0
     square, nearest, found = optimum(
-        rotations, translations, observed, seen, point, point.copy(), np.zeros((3, 3)), steps,
-        residual, covariance,
-    )  # fmt: skip
+        rotations,
+        translations,
+        observed,
+        seen,
+        point,
+        point.copy(),
+        np.zeros((3, 3)),
+        steps,
+        residual,
+        covariance,
+    )
     if nearest <= NEAREST:
         return BEHIND, 0.0
     return (FOUND if found else DEGENERATE), square
@@ -281,9 +289,19 @@ class FixSolver:
         covariance = self._with_calibration(found)
         beside, summary = np.empty(3), np.full(SUMMARY, np.inf)
         summarise(
-            found.p_world, covariance, found.residual, found.observations, found.chi_square,
-            self._focal, self._essential, self._fulcrum, axis, self._line_variance, beside, summary,
-        )  # fmt: skip
+            found.p_world,
+            covariance,
+            found.residual,
+            found.observations,
+            found.chi_square,
+            self._focal,
+            self._essential,
+            self._fulcrum,
+            axis,
+            self._line_variance,
+            beside,
+            summary,
+        )
         residual, epipolar, off_line = (float(value) for value in summary)
         reason = _contradiction(found.chi_square, residual, beside, off_line)
         tip = found.p_world + self._rig.needle.marker_offset * axis
@@ -321,9 +339,19 @@ class FixSolver:
         point, covariance, residual = np.empty(3), np.empty((3, 3)), np.empty(4)
         observed, seen = np.empty((2, 2)), np.empty((2, 2, 2))
         status, square = locate(
-            self._cameras, self._matrices, pixels, spreads, outlines, self._needle, known,
-            point, covariance, residual, observed, seen,
-        )  # fmt: skip
+            self._cameras,
+            self._matrices,
+            pixels,
+            spreads,
+            outlines,
+            self._needle,
+            known,
+            point,
+            covariance,
+            residual,
+            observed,
+            seen,
+        )
         if status in (NO_RAY, NO_OUTLINE):
             return None
         return triangulation(status, point, covariance, square, residual, observed, seen)

@@ -219,10 +219,13 @@ def association(
     own: list[socket.socket] = []
     context = client_context(settings)
     linked = made.associate(
-        settings.host, settings.port, ae_title=settings.title,
-        ext_neg=list(roles), evt_handlers=[*handlers, opened],
+        settings.host,
+        settings.port,
+        ae_title=settings.title,
+        ext_neg=list(roles),
+        evt_handlers=[*handlers, opened],
         tls_args=None if context is None else (context, settings.host),
-    )  # fmt: skip
+    )
     with _closed(own), _watched(linked, progress) as cancelled:
         if not linked.is_established:
             raise _refused(settings, linked)

@@ -25,8 +25,12 @@ from app.imaging.worker.limits import PACKAGE_SECONDS, for_file, size_of
 from app.imaging.worker.pool import shared_worker
 
 _IDENTITY = (
-    "SOPClassUID", "SOPInstanceUID", "SeriesInstanceUID", "StudyInstanceUID", "PatientID",
-)  # fmt: skip
+    "SOPClassUID",
+    "SOPInstanceUID",
+    "SeriesInstanceUID",
+    "StudyInstanceUID",
+    "PatientID",
+)
 
 
 def identity(path: Path, progress: Progress) -> tuple[str, str, str, str, str]:
@@ -48,11 +52,18 @@ STORAGE_CLASSES = (
 )
 PLAIN = ("1.2.840.10008.1.2.1", "1.2.840.10008.1.2")
 COMPRESSED = (
-    "1.2.840.10008.1.2.4.57", "1.2.840.10008.1.2.4.70", "1.2.840.10008.1.2.4.80",
-    "1.2.840.10008.1.2.4.81", "1.2.840.10008.1.2.4.90", "1.2.840.10008.1.2.4.91",
-    "1.2.840.10008.1.2.5", "1.2.840.10008.1.2.4.50", "1.2.840.10008.1.2.4.51",
-    "1.2.840.10008.1.2.1.99", "1.2.840.10008.1.2.2",
-)  # fmt: skip
+    "1.2.840.10008.1.2.4.57",
+    "1.2.840.10008.1.2.4.70",
+    "1.2.840.10008.1.2.4.80",
+    "1.2.840.10008.1.2.4.81",
+    "1.2.840.10008.1.2.4.90",
+    "1.2.840.10008.1.2.4.91",
+    "1.2.840.10008.1.2.5",
+    "1.2.840.10008.1.2.4.50",
+    "1.2.840.10008.1.2.4.51",
+    "1.2.840.10008.1.2.1.99",
+    "1.2.840.10008.1.2.2",
+)
 _KEPT_S = 24 * 3600.0
 _LARGEST = 2 * 1024**3
 _SPARE_BYTES = 256 * 1024**2
@@ -196,9 +207,10 @@ def handler(incoming: Incoming, progress: Any) -> Any:
     def store(event: Any) -> int:
         request = event.request
         status = incoming.take(
-            str(request.AffectedSOPClassUID), str(request.AffectedSOPInstanceUID),
+            str(request.AffectedSOPClassUID),
+            str(request.AffectedSOPInstanceUID),
             event.encoded_dataset(),
-        )  # fmt: skip
+        )
         progress.arrived()
         return status
 

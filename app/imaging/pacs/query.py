@@ -8,13 +8,25 @@ from app.core.errors import ConfigurationError
 
 _DATES = re.compile(r"(\d{8})?(-(\d{8})?)?")
 STUDY_WANTED = (
-    "StudyInstanceUID", "StudyDate", "StudyTime", "AccessionNumber", "PatientName", "PatientID",
-    "PatientBirthDate", "StudyDescription", "ModalitiesInStudy", "NumberOfStudyRelatedInstances",
-)  # fmt: skip
+    "StudyInstanceUID",
+    "StudyDate",
+    "StudyTime",
+    "AccessionNumber",
+    "PatientName",
+    "PatientID",
+    "PatientBirthDate",
+    "StudyDescription",
+    "ModalitiesInStudy",
+    "NumberOfStudyRelatedInstances",
+)
 SERIES_WANTED = (
-    "SeriesInstanceUID", "SeriesNumber", "Modality", "SeriesDescription", "BodyPartExamined",
+    "SeriesInstanceUID",
+    "SeriesNumber",
+    "Modality",
+    "SeriesDescription",
+    "BodyPartExamined",
     "NumberOfSeriesRelatedInstances",
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,20 +127,28 @@ def found_study(answer: Any) -> FoundStudy:
     if isinstance(modalities, str):
         modalities = (modalities,)
     return FoundStudy(
-        _text(answer, "StudyInstanceUID"), _text(answer, "StudyDate"),
-        _text(answer, "PatientName"), _text(answer, "PatientID"),
-        _text(answer, "PatientBirthDate"), _text(answer, "StudyDescription"),
-        tuple(str(one) for one in modalities), _count(answer, "NumberOfStudyRelatedInstances"),
-    )  # fmt: skip
+        _text(answer, "StudyInstanceUID"),
+        _text(answer, "StudyDate"),
+        _text(answer, "PatientName"),
+        _text(answer, "PatientID"),
+        _text(answer, "PatientBirthDate"),
+        _text(answer, "StudyDescription"),
+        tuple(str(one) for one in modalities),
+        _count(answer, "NumberOfStudyRelatedInstances"),
+    )
 
 
 def found_series(answer: Any, study: FoundStudy) -> FoundSeries:
     """Read an answer at series level."""
     return FoundSeries(
-        _text(answer, "SeriesInstanceUID"), study, _text(answer, "SeriesNumber"),
-        _text(answer, "Modality"), _text(answer, "SeriesDescription"),
-        _text(answer, "BodyPartExamined"), _count(answer, "NumberOfSeriesRelatedInstances"),
-    )  # fmt: skip
+        _text(answer, "SeriesInstanceUID"),
+        study,
+        _text(answer, "SeriesNumber"),
+        _text(answer, "Modality"),
+        _text(answer, "SeriesDescription"),
+        _text(answer, "BodyPartExamined"),
+        _count(answer, "NumberOfSeriesRelatedInstances"),
+    )
 
 
 def _blank(level: str, wanted: tuple[str, ...]) -> Any:

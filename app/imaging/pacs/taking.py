@@ -133,9 +133,14 @@ def keep(
 
 
 def take(
-    pacs: Pacs, study_uid: str, series_uid: str, library: CtLibrary, progress: Progress,
-    boxes: Sequence[MaskBox] = (), remedy: Remedy = Remedy.NONE,
-) -> Imported:  # fmt: skip
+    pacs: Pacs,
+    study_uid: str,
+    series_uid: str,
+    library: CtLibrary,
+    progress: Progress,
+    boxes: Sequence[MaskBox] = (),
+    remedy: Remedy = Remedy.NONE,
+) -> Imported:
     """Retrieve a series into the library, de-identified; see `fetch` and `keep` for the errors."""
     fetched = fetch(pacs, study_uid, series_uid, progress.part(0.0, 0.65), remedy)
     return keep(fetched, library, progress.part(0.65, 1.0), boxes, remedy)

@@ -125,9 +125,12 @@ def _distance(patient: Patient, name: str, at: organs.Place) -> Field:
         _, ends = skeleton.rib_distance(at.wall - 5.0, p, at.z)
         return np.minimum(ends, skeleton.costal_arch_distance(at.wall - 5.0, p, at.z))
     shapes = {
-        "liver": organs.liver, "heart": organs.heart, "stomach": organs.stomach,
-        "spleen": organs.spleen, "lesion": organs.lesion,
-    }  # fmt: skip
+        "liver": organs.liver,
+        "heart": organs.heart,
+        "stomach": organs.stomach,
+        "spleen": organs.spleen,
+        "lesion": organs.lesion,
+    }
     filling = name in ("liver", "stomach", "spleen")
     return shapes[name](patient, organs.touching(at) if filling else at)
 

@@ -54,9 +54,13 @@ class Canvas:
         """Points of a part of the slice."""
         rows, columns = box
         return organs.Place(
-            self.grid.x[:, columns], self.grid.y[rows], np.array(self.z, np.float32),
-            self.skin[box], self.wall[box], np.float32(self.z) - self.grid.dome[box],
-        )  # fmt: skip
+            self.grid.x[:, columns],
+            self.grid.y[rows],
+            np.array(self.z, np.float32),
+            self.skin[box],
+            self.wall[box],
+            np.float32(self.z) - self.grid.dome[box],
+        )
 
     def paint_all(self) -> None:
         """Paint the slice from the outside in."""

@@ -32,11 +32,13 @@ def place_of(patient: Patient, x: Field, y: Field, z: Field) -> Place:
     """Look points up in the trunk, arrays of one shape."""
     theta, rho = np.arctan2(y, x), np.hypot(x, y)
     return Place(
-        x, y, z,
+        x,
+        y,
+        z,
         rho - skin_radius(theta, z),
         rho - cavity_radius(patient, theta, z),
         z - diaphragm_height(patient, x, y),
-    )  # fmt: skip
+    )
 
 
 def touching(at: Place, up_mm: float = 4.6) -> Place:
@@ -93,8 +95,9 @@ def spleen(patient: Patient, at: Place) -> Field:
     outer = ellipsoid((at.x, at.y, at.z), (100.0, 26.0, 202.0), (46.0, 52.0, 46.0))
     hollow = ellipsoid((at.x, at.y, at.z), (62.0, 2.0, 196.0), (48.0, 46.0, 60.0))
     under = intersection(at.wall + 4.0, 0.75 * (at.above + 4.0), 8.0)
-    return np.maximum(intersection(np.maximum(outer, under), -hollow, 6.0),
-                      7.0 - kidney(patient, at, right=False))  # fmt: skip
+    return np.maximum(
+        intersection(np.maximum(outer, under), -hollow, 6.0), 7.0 - kidney(patient, at, right=False)
+    )
 
 
 def kidney(patient: Patient, at: Place, right: bool) -> Field:

@@ -80,8 +80,15 @@ def _identify(file: FileDataset, seed: int, index: int, series: tuple[Any, ...])
     file.SeriesDescription = "Procedural torso"
     file.StudyID = str(seed)
     file.SeriesNumber, file.AcquisitionNumber, file.InstanceNumber = 1, 1, index + 1
-    for empty in ("PatientBirthDate", "PatientSex", "StudyDate", "StudyTime", "AccessionNumber",
-                  "ReferringPhysicianName", "PositionReferenceIndicator"):  # fmt: skip
+    for empty in (
+        "PatientBirthDate",
+        "PatientSex",
+        "StudyDate",
+        "StudyTime",
+        "AccessionNumber",
+        "ReferringPhysicianName",
+        "PositionReferenceIndicator",
+    ):
         setattr(file, empty, "")  # type 2: present, value unknown
 
 
@@ -165,9 +172,12 @@ class Scan:
         """The part of the grid that holds the body."""
         rows, columns = self._body_box
         return Grid(
-            self.patient, self.axis(0)[None, columns], self.axis(1)[rows, None],
-            self.pixel_mm, vasculature(self.patient),
-        )  # fmt: skip
+            self.patient,
+            self.axis(0)[None, columns],
+            self.axis(1)[rows, None],
+            self.pixel_mm,
+            vasculature(self.patient),
+        )
 
     @cached_property
     def _room(self) -> Field:

@@ -109,9 +109,10 @@ def rib_neck_distance(side: Field, y: Field, z: float) -> Field:
         t = (side - start[0]) * way[0] + (y - start[1]) * way[1] + (z - start[2]) * way[2]
         t = np.clip(t / (way @ way), 0.0, 1.0)
         gap = np.sqrt(
-            (side - start[0] - t * way[0]) ** 2 + (y - start[1] - t * way[1]) ** 2
+            (side - start[0] - t * way[0]) ** 2
+            + (y - start[1] - t * way[1]) ** 2
             + (z - start[2] - t * way[2]) ** 2
-        )  # fmt: skip
+        )
         np.minimum(neck, gap - 4.2, out=neck)
     return neck
 
@@ -189,12 +190,19 @@ def sternum_distance(x: Field, wall: Field, z: float) -> Field:
     return np.maximum((flat - 1.0) * 4.8, np.abs(x) - half_width)
 
 
-_WING: Final = np.array([
-    # side, back, crest, half thickness
-    (41.0, 74.0, 30.0, 9.5), (54.0, 67.0, 44.0, 7.0), (72.0, 54.0, 54.0, 4.2),
-    (90.0, 34.0, 58.0, 3.8), (105.0, 12.0, 55.0, 4.2), (115.0, -6.0, 47.0, 5.0),
-    (121.0, -20.0, 33.0, 5.6), (123.0, -29.0, 18.0, 5.0),
-])  # fmt: skip
+_WING: Final = np.array(
+    [
+        # side, back, crest, half thickness
+        (41.0, 74.0, 30.0, 9.5),
+        (54.0, 67.0, 44.0, 7.0),
+        (72.0, 54.0, 54.0, 4.2),
+        (90.0, 34.0, 58.0, 3.8),
+        (105.0, 12.0, 55.0, 4.2),
+        (115.0, -6.0, 47.0, 5.0),
+        (121.0, -20.0, 33.0, 5.6),
+        (123.0, -29.0, 18.0, 5.0),
+    ]
+)
 """An iliac wing from the sacrum to the anterior spine at the height of L5 [mm]."""
 
 _FLARE: Final = 0.25

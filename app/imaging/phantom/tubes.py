@@ -65,9 +65,11 @@ def _smooth(s: FloatArray, values: FloatArray, at: FloatArray) -> FloatArray:
     t = (at - s[n])[:, None] / h
     t2, t3 = t * t, t * t * t
     result: FloatArray = (
-        (2 * t3 - 3 * t2 + 1) * values[n] + (t3 - 2 * t2 + t) * h * slopes[n]
-        + (3 * t2 - 2 * t3) * values[n + 1] + (t3 - t2) * h * slopes[n + 1]
-    )  # fmt: skip
+        (2 * t3 - 3 * t2 + 1) * values[n]
+        + (t3 - 2 * t2 + t) * h * slopes[n]
+        + (3 * t2 - 2 * t3) * values[n + 1]
+        + (t3 - t2) * h * slopes[n + 1]
+    )
     return result
 
 

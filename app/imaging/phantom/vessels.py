@@ -27,9 +27,14 @@ class Vasculature:
 def vasculature(patient: Patient) -> Vasculature:
     """Lay out every tube of a patient."""
     return Vasculature(
-        _arteries(), _cava(), _portal(patient), _hepatic(patient), _lung(patient),
-        _colon(patient), _small_bowel(patient),
-    )  # fmt: skip
+        _arteries(),
+        _cava(),
+        _portal(patient),
+        _hepatic(patient),
+        _lung(patient),
+        _colon(patient),
+        _small_bowel(patient),
+    )
 
 
 def obstacles(patient: Patient) -> dict[str, Tubes]:
@@ -189,13 +194,19 @@ def _free(patient: Patient, tubes: Tubes) -> Tubes:
     at = organs.place_of(patient, x, y, z)
     solid = np.min(
         [
-            organs.liver(patient, at), organs.stomach(patient, at), organs.spleen(patient, at),
-            organs.kidney(patient, at, True), organs.kidney(patient, at, False),
-            organs.pancreas(at), organs.gallbladder(at), organs.psoas(at), -at.wall - 3.0,
+            organs.liver(patient, at),
+            organs.stomach(patient, at),
+            organs.spleen(patient, at),
+            organs.kidney(patient, at, True),
+            organs.kidney(patient, at, False),
+            organs.pancreas(at),
+            organs.gallbladder(at),
+            organs.psoas(at),
+            -at.wall - 3.0,
             np.hypot(x, y - 22.0) - 30.0,
         ],
         axis=0,
-    )  # fmt: skip
+    )
     shrunk: FloatArray = np.minimum(radius, solid + 1.0)
     balls = np.column_stack([x, y, z, shrunk])
     return Tubes(balls[shrunk > 5.0])

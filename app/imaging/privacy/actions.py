@@ -30,10 +30,19 @@ DECLARED = "\n".join(
 """What every written file says of itself; a file that came de-identified may say the same."""
 
 _EMPTY = (  # type 2 of the CT image: must stand there, with or without a value
-    "StudyDate", "StudyTime", "AccessionNumber", "ReferringPhysicianName", "PatientBirthDate",
-    "PatientSex", "Manufacturer", "KVP", "AcquisitionNumber", "SeriesNumber", "InstanceNumber",
+    "StudyDate",
+    "StudyTime",
+    "AccessionNumber",
+    "ReferringPhysicianName",
+    "PatientBirthDate",
+    "PatientSex",
+    "Manufacturer",
+    "KVP",
+    "AcquisitionNumber",
+    "SeriesNumber",
+    "InstanceNumber",
     "PositionReferenceIndicator",
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,9 +92,11 @@ def deidentified(dataset: Dataset, rules: Rules, tally: Tally) -> Dataset:
 
 
 _DECLARING = (
-    "PatientIdentityRemoved", "DeidentificationMethod", "DeidentificationMethodCodeSequence",
+    "PatientIdentityRemoved",
+    "DeidentificationMethod",
+    "DeidentificationMethodCodeSequence",
     "LongitudinalTemporalInformationModified",
-)  # fmt: skip
+)
 _PIXELS = BaseTag(0x7FE00010)
 
 

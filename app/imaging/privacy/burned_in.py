@@ -14,10 +14,17 @@ from app.imaging.privacy.forms import values
 
 _SECONDARY_CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
 _SCREENS = {
-    "SCREEN", "SCREENSHOT", "SCREENSAVE", "SNAPSHOT", "CAPTURE",  # GE and others: SCREEN SAVE
-    "DOSE", "DOSEREPORT", "REPORT",  # DOSE_INFO, CSA REPORT
-    "PROT", "POSDISP",  # Siemens: CT_SOM5 PROT, the patient protocol
-}  # fmt: skip
+    "SCREEN",
+    "SCREENSHOT",
+    "SCREENSAVE",
+    "SNAPSHOT",
+    "CAPTURE",  # GE and others: SCREEN SAVE
+    "DOSE",
+    "DOSEREPORT",
+    "REPORT",  # DOSE_INFO, CSA REPORT
+    "PROT",
+    "POSDISP",  # Siemens: CT_SOM5 PROT, the patient protocol
+}
 """Words of ImageType, taken apart at blanks and underscores."""
 
 _CONVERTED = {"DV", "DI", "DF", "SD", "SI", "SV", "DRW"}

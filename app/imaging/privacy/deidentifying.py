@@ -43,11 +43,23 @@ _SHORTEST_NUMBER = 6
 _SHORTEST_IN_PIXELS = 8  # a shorter one may stand there by chance
 _TEXT = ("AE", "LO", "LT", "PN", "SH", "ST", "UC", "UR", "UT", "CS", "AS", "IS", "DS", "UN")
 _ADDED = (
-    "PatientName", "PatientID", "StudyID", "PatientIdentityRemoved", "DeidentificationMethod",
-    "DeidentificationMethodCodeSequence", "CodeValue", "CodingSchemeDesignator", "CodeMeaning",
-    "LongitudinalTemporalInformationModified", "StudyTime", "AccessionNumber",
-    "ReferringPhysicianName", "PatientBirthDate", "Manufacturer", "PositionReferenceIndicator",
-)  # fmt: skip
+    "PatientName",
+    "PatientID",
+    "StudyID",
+    "PatientIdentityRemoved",
+    "DeidentificationMethod",
+    "DeidentificationMethodCodeSequence",
+    "CodeValue",
+    "CodingSchemeDesignator",
+    "CodeMeaning",
+    "LongitudinalTemporalInformationModified",
+    "StudyTime",
+    "AccessionNumber",
+    "ReferringPhysicianName",
+    "PatientBirthDate",
+    "Manufacturer",
+    "PositionReferenceIndicator",
+)
 
 
 _NUMERIC = ("IS", "DS", "US", "UL", "UV", "SS", "SL", "SV", "FD", "FL")
@@ -55,9 +67,13 @@ _DATE = re.compile(r"(\d{4})[.]?(\d{2})[.]?(\d{2})")
 _DIGITS = 5
 _NUMBERS = ("PatientID", "OtherPatientIDs", "AccessionNumber", "IssuerOfPatientID")
 _GEOMETRY = (
-    "ImagePositionPatient", "ImageOrientationPatient", "PixelSpacing", "RescaleSlope",
-    "RescaleIntercept", "NumberOfFrames",
-)  # fmt: skip
+    "ImagePositionPatient",
+    "ImageOrientationPatient",
+    "PixelSpacing",
+    "RescaleSlope",
+    "RescaleIntercept",
+    "NumberOfFrames",
+)
 
 
 @dataclass(slots=True)
@@ -274,9 +290,13 @@ def read_original(header: SliceHeader) -> Dataset:
 
 
 def convert(
-    header: SliceHeader, to: Path, rules: Rules, boxes: Sequence[MaskBox], secrets: Secrets,
+    header: SliceHeader,
+    to: Path,
+    rules: Rules,
+    boxes: Sequence[MaskBox],
+    secrets: Secrets,
     tally: Tally,
-) -> str:  # fmt: skip
+) -> str:
     """De-identify one file into another.
 
     Args:
@@ -346,9 +366,13 @@ def _write(result: Dataset, to: Path, syntax: UID) -> None:
     meta.TransferSyntaxUID = syntax
     meta.ImplementationClassUID = _MAKER
     file = FileDataset(
-        str(to), result, preamble=b"\0" * 128, file_meta=meta,
-        is_implicit_VR=syntax.is_implicit_VR, is_little_endian=syntax.is_little_endian,
-    )  # fmt: skip
+        str(to),
+        result,
+        preamble=b"\0" * 128,
+        file_meta=meta,
+        is_implicit_VR=syntax.is_implicit_VR,
+        is_little_endian=syntax.is_little_endian,
+    )
     try:
         file.save_as(to, enforce_file_format=True)
     except OSError as error:
@@ -436,9 +460,13 @@ def _deidentified(
 
 
 def _writer(
-    header: SliceHeader, to: Path, rules: Rules, boxes: Sequence[MaskBox], secrets: Secrets,
+    header: SliceHeader,
+    to: Path,
+    rules: Rules,
+    boxes: Sequence[MaskBox],
+    secrets: Secrets,
     tally: Tally,
-) -> Callable[[], str]:  # fmt: skip
+) -> Callable[[], str]:
     return lambda: convert(header, to, rules, boxes, secrets, tally)
 
 

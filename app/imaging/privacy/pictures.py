@@ -76,6 +76,9 @@ def read_pictures(series: Series, progress: Progress) -> Pictures:
     paths = {header.path for header in series.slices}
     progress.report(1.0, f"{len(values)} pictures read")
     return Pictures(
-        values, brightest, float(np.clip(row / column, 0.1, 10.0)), inverted,
+        values,
+        brightest,
+        float(np.clip(row / column, 0.1, 10.0)),
+        inverted,
         len(paths) == len(series.slices),
-    )  # fmt: skip
+    )

@@ -36,11 +36,13 @@ CODES = {
 """Category and type of a segment by kind."""
 
 
-_XYZ_TO_RGB = np.array([
-    [3.1338561, -1.6168667, -0.4906146],
-    [-0.9787684, 1.9161415, 0.0334540],
-    [0.0719453, -0.2289914, 1.4052427],
-])  # fmt: skip
+_XYZ_TO_RGB = np.array(
+    [
+        [3.1338561, -1.6168667, -0.4906146],
+        [-0.9787684, 1.9161415, 0.0334540],
+        [0.0719453, -0.2289914, 1.4052427],
+    ]
+)
 """From D50 to linear sRGB (Bradford adapted)."""
 
 _WHITE = (0.96422, 1.0, 0.82521)
@@ -52,8 +54,11 @@ def rgb_of(lab: Any) -> Colour:
     f = np.array([fy + lab[1] / 500.0, fy, fy - lab[2] / 200.0])
     xyz = np.where(f > 6 / 29, f**3, 3 * (6 / 29) ** 2 * (f - 4 / 29)) * _WHITE
     linear = _XYZ_TO_RGB @ xyz
-    curve = np.where(linear <= 0.0031308, 12.92 * linear,
-                     1.055 * np.clip(linear, 1e-9, None) ** (1 / 2.4) - 0.055)  # fmt: skip
+    curve = np.where(
+        linear <= 0.0031308,
+        12.92 * linear,
+        1.055 * np.clip(linear, 1e-9, None) ** (1 / 2.4) - 0.055,
+    )
     r, g, b = (int(v) for v in np.rint(255.0 * np.clip(curve, 0.0, 1.0)))
     return r, g, b
 
@@ -227,6 +232,7 @@ def _colour(description: Any) -> Colour | None:
     if value is None:
         return None
     lightness, a, b = (int(v) for v in value)
-    lab = np.array([lightness * 100.0 / 65535.0, a * 255.0 / 65535.0 - 128.0,
-                    b * 255.0 / 65535.0 - 128.0])  # fmt: skip
+    lab = np.array(
+        [lightness * 100.0 / 65535.0, a * 255.0 / 65535.0 - 128.0, b * 255.0 / 65535.0 - 128.0]
+    )
     return rgb_of(lab)

@@ -55,8 +55,9 @@ class Boundary:
     def of(cls, structure: Structure) -> Boundary:
         """Find the boundary; a tenth of a second for each 100 000 voxels of its surface."""
         segments, cells = _segments(np.pad(structure.mask, 1))
-        names, cell = np.unique(np.ravel_multi_index(tuple(cells.T), _shape(structure)),
-                                return_inverse=True)  # fmt: skip
+        names, cell = np.unique(
+            np.ravel_multi_index(tuple(cells.T), _shape(structure)), return_inverse=True
+        )
         order = np.argsort(cell, kind="stable")
         segments, cell = segments[order], cell[order]
         counts = np.bincount(cell, minlength=len(names))
@@ -125,12 +126,17 @@ def _segments(inside: NDArray[np.bool_]) -> tuple[FloatArray, Indices]:
     for normal, a, b in ((0, 1, 2), (1, 0, 2), (2, 0, 1)):
         one, two, across = (np.eye(3, dtype=np.intp)[axis] for axis in (a, b, normal))
         corners = [
-            inside[tuple(slice(o, s - 1 + o if axis != normal else s) for axis, (o, s) in
-                         enumerate(zip(offset, inside.shape, strict=True)))]
+            inside[
+                tuple(
+                    slice(o, s - 1 + o if axis != normal else s)
+                    for axis, (o, s) in enumerate(zip(offset, inside.shape, strict=True))
+                )
+            ]
             for offset in (0 * one, one, one + two, two)
-        ]  # fmt: skip
-        mixed = np.argwhere((corners[0] != corners[1]) | (corners[1] != corners[2])
-                            | (corners[2] != corners[3]))  # fmt: skip
+        ]
+        mixed = np.argwhere(
+            (corners[0] != corners[1]) | (corners[1] != corners[2]) | (corners[2] != corners[3])
+        )
         held = np.stack([corner[tuple(mixed.T)] for corner in corners], axis=1)
         halves = 0.5 * np.array([one, 2 * one + two, one + 2 * two, two])  # of its four edges
         for first, second, chosen in _joined(held):
@@ -289,8 +295,9 @@ class SignedDistance:
         least, most = self.boundary.bounds_mm(points)
         if least.min() > within_mm:
             best = int(np.argmin(most))
-            return Nearest(float(self.at(points[best])[0]), points[best],
-                           float(shares[best]) * length, through)  # fmt: skip
+            return Nearest(
+                float(self.at(points[best])[0]), points[best], float(shares[best]) * length, through
+            )
         candidates = np.flatnonzero(least <= most.min())
         rough = shares[candidates[np.argmin(self.boundary.at(points[candidates]))]]
         step = shares[1] - shares[0]

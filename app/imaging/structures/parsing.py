@@ -205,10 +205,16 @@ def _filled(lines: list[FloatArray], volume: Volume, what: str) -> tuple[Any, Fl
     if (last - first + 1) * shape[0] * shape[1] > LARGEST_CONTOURS:
         raise StructureFileError(f"{what}: contours over {last - first + 1} slices")
     pictures = [
-        even_odd([p[:, :2] - low for p, h in zip(places, heights, strict=True)
-                  if abs(h - plane) * step_mm <= _ONE_PLANE_MM], shape)
+        even_odd(
+            [
+                p[:, :2] - low
+                for p, h in zip(places, heights, strict=True)
+                if abs(h - plane) * step_mm <= _ONE_PLANE_MM
+            ],
+            shape,
+        )
         for plane in planes
-    ]  # fmt: skip
+    ]
     mask = np.zeros((last - first + 1, *shape), bool)
     for number in range(len(mask)):
         nearest = int(np.argmin(np.abs(planes - (first + number))))
@@ -332,8 +338,20 @@ def _grid(size: tuple[int, int, int], affine_mm: tuple[float, ...], frame: str) 
     """Return a CT of this grid, whose values are nowhere: structures are placed by geometry."""
     values = np.broadcast_to(np.int16(0), size[::-1])
     series = Series(
-        "", "CT", "", size, None, None, None, True, "", (), "", frame, windows=(),
-    )  # fmt: skip
+        "",
+        "CT",
+        "",
+        size,
+        None,
+        None,
+        None,
+        True,
+        "",
+        (),
+        "",
+        frame,
+        windows=(),
+    )
     return Volume(values, np.array(affine_mm, np.float64).reshape(4, 4), series)
 
 
@@ -349,9 +367,17 @@ def _read(path: Path, volume: Volume) -> Found:
         from app.imaging.structures.seg_nrrd import read_nrrd
 
         return read_nrrd(path)
-    if head[:2] == b"\x1f\x8b" or head[344:348] in _NIFTI or head[:4] in (
-        b"\x5c\x01\0\0", b"\0\0\x01\x5c", b"\x1c\x02\0\0", b"\0\0\x02\x1c",
-    ):  # fmt: skip
+    if (
+        head[:2] == b"\x1f\x8b"
+        or head[344:348] in _NIFTI
+        or head[:4]
+        in (
+            b"\x5c\x01\0\0",
+            b"\0\0\x01\x5c",
+            b"\x1c\x02\0\0",
+            b"\0\0\x02\x1c",
+        )
+    ):
         return read_labels(path)
     if head[128:132] != b"DICM" and not starts_like_dicom(head):
         raise _unknown(path, "no file of structures")

@@ -49,10 +49,21 @@ class PlacedStructures:
 # 2 upper right, 4 lower right, 8 lower left); what is inside lies on its left. 0 top, 1 right,
 # 2 bottom, 3 left. Two corners across from each other are kept apart.
 _LINES = {
-    1: ((3, 0),), 2: ((0, 1),), 3: ((3, 1),), 4: ((1, 2),), 5: ((3, 0), (1, 2)), 6: ((0, 2),),
-    7: ((3, 2),), 8: ((2, 3),), 9: ((2, 0),), 10: ((0, 1), (2, 3)), 11: ((2, 1),), 12: ((1, 3),),
-    13: ((1, 0),), 14: ((0, 3),),
-}  # fmt: skip
+    1: ((3, 0),),
+    2: ((0, 1),),
+    3: ((3, 1),),
+    4: ((1, 2),),
+    5: ((3, 0), (1, 2)),
+    6: ((0, 2),),
+    7: ((3, 2),),
+    8: ((2, 3),),
+    9: ((2, 0),),
+    10: ((0, 1), (2, 3)),
+    11: ((2, 1),),
+    12: ((1, 3),),
+    13: ((1, 0),),
+    14: ((0, 3),),
+}
 
 
 def outlines(values: NDArray[np.floating], level: float = 0.5) -> list[FloatArray]:
@@ -241,9 +252,15 @@ class StructureKind(StrEnum):
 
 
 COLOURS: tuple[Colour, ...] = (
-    (230, 159, 0), (86, 180, 233), (0, 178, 135), (240, 228, 66),
-    (213, 94, 0), (204, 121, 167), (150, 170, 255), (190, 190, 190),
-)  # fmt: skip
+    (230, 159, 0),
+    (86, 180, 233),
+    (0, 178, 135),
+    (240, 228, 66),
+    (213, 94, 0),
+    (204, 121, 167),
+    (150, 170, 255),
+    (190, 190, 190),
+)
 """For structures whose file names none: Okabe and Ito's, told apart by colour-blind people too."""
 
 

@@ -37,13 +37,15 @@ class FoundPoint(Strict):
         """Take them from points in metres."""
         rows = zip(points.names, points.points, points.covariances, strict=True)
         return tuple(
-            cls.model_validate({
-                "name": name,
-                "point_mm": (point / MILLIMETRE).tolist(),
-                "covariance_mm2": (spread / MILLIMETRE**2).tolist(),
-            })
+            cls.model_validate(
+                {
+                    "name": name,
+                    "point_mm": (point / MILLIMETRE).tolist(),
+                    "covariance_mm2": (spread / MILLIMETRE**2).tolist(),
+                }
+            )
             for name, point, spread in rows
-        )  # fmt: skip
+        )
 
 
 class RegistrationRecord(Strict):
@@ -158,8 +160,10 @@ class Registrations:
         """
         for record in self.records():
             same = (record.calibration, record.rig, record.simulated) == (
-                calibration, rig, simulated,
-            )  # fmt: skip
+                calibration,
+                rig,
+                simulated,
+            )
             ours = record.series == series or (bool(former) and record.series == former)
             ours = ours and (not record.frame or not frame or record.frame == frame)
             if same and (not record.picked or ours):

@@ -56,8 +56,14 @@ class DayCheck(Strict):
             StepRecord(name=one.name, verdict=one.verdict, found=one.found, todo=one.todo)
             for one in results
         )
-        return cls(created=now, verdict=overall(results), steps=steps, device=device,
-                   simulated=simulated, calibration=calibration)  # fmt: skip
+        return cls(
+            created=now,
+            verdict=overall(results),
+            steps=steps,
+            device=device,
+            simulated=simulated,
+            calibration=calibration,
+        )
 
     def words(self, now: datetime) -> str:
         """Say `checked today 08:12`, or when else, and whether all was well."""

@@ -65,15 +65,24 @@ def overall(results: tuple[StepResult, ...]) -> CheckVerdict:
 def _homing(facts: DailyFacts) -> StepResult:
     robot, title = facts.robot, "Homing"
     if not robot.ticking:
-        return StepResult("homing", title, CheckVerdict.BAD, "the robot's loop does not run",
-                          "wait a moment; if it stays so, check cable and power, start the "
-                          "exercise again")  # fmt: skip
+        return StepResult(
+            "homing",
+            title,
+            CheckVerdict.BAD,
+            "the robot's loop does not run",
+            "wait a moment; if it stays so, check cable and power, start the exercise again",
+        )
     if robot.simulated:
         return StepResult("homing", title, CheckVerdict.GOOD, "simulated robot: its zero is known")
     if robot.homed:
         return StepResult("homing", title, CheckVerdict.GOOD, "homed since it was switched on")
-    return StepResult("homing", title, CheckVerdict.BAD, "not homed since it was switched on",
-                      "menu Robot, Commissioning, step Homing")  # fmt: skip
+    return StepResult(
+        "homing",
+        title,
+        CheckVerdict.BAD,
+        "not homed since it was switched on",
+        "menu Robot, Commissioning, step Homing",
+    )
 
 
 def _signs(facts: DailyFacts) -> StepResult:
@@ -82,34 +91,54 @@ def _signs(facts: DailyFacts) -> StepResult:
         return StepResult("signs", title, CheckVerdict.GOOD, "simulated robot: its signs are known")
     if robot.signs:
         return StepResult("signs", title, CheckVerdict.GOOD, "motors and encoders agree")
-    return StepResult("signs", title, CheckVerdict.BAD, "not checked since it was switched on",
-                      "menu Robot, Commissioning, step Signs")  # fmt: skip
+    return StepResult(
+        "signs",
+        title,
+        CheckVerdict.BAD,
+        "not checked since it was switched on",
+        "menu Robot, Commissioning, step Signs",
+    )
 
 
 def _force(facts: DailyFacts) -> StepResult:
     robot, title = facts.robot, "Force"
     if robot.fault:
-        return StepResult("force", title, CheckVerdict.BAD, robot.fault,
-                          "do what the message says; see the page Robot")  # fmt: skip
+        return StepResult(
+            "force",
+            title,
+            CheckVerdict.BAD,
+            robot.fault,
+            "do what the message says; see the page Robot",
+        )
     if not robot.encoder_age <= STALE:
-        return StepResult("force", title, CheckVerdict.BAD,
-                          "joint angles come late, so the force is held back",
-                          "check the robot's cable; close other programs")  # fmt: skip
+        return StepResult(
+            "force",
+            title,
+            CheckVerdict.BAD,
+            "joint angles come late, so the force is held back",
+            "check the robot's cable; close other programs",
+        )
     clearance = robot.clearance
     if robot.simulated or (clearance is not None and clearance.full):
         return StepResult("force", title, CheckVerdict.GOOD, "cleared for its full force")
     if clearance is None:
         return StepResult("force", title, CheckVerdict.WAITING, "the robot has not said yet")
     verdict = CheckVerdict.WARNING if clearance.force_cap > 0.0 else CheckVerdict.BAD
-    return StepResult("force", title, verdict, f"at most {clearance.force_cap:g} N",
-                      clearance.reason)  # fmt: skip
+    return StepResult(
+        "force", title, verdict, f"at most {clearance.force_cap:g} N", clearance.reason
+    )
 
 
 def _pictures(facts: DailyFacts) -> StepResult:
     title = "Pictures"
     if len(facts.cameras) < 2:
-        return StepResult("pictures", title, CheckVerdict.BAD, f"{len(facts.cameras)} of 2 cameras",
-                          "plug both cameras in; menu Cameras")  # fmt: skip
+        return StepResult(
+            "pictures",
+            title,
+            CheckVerdict.BAD,
+            f"{len(facts.cameras)} of 2 cameras",
+            "plug both cameras in; menu Cameras",
+        )
     worst = [(_picture(camera), camera.name) for camera in facts.cameras]
     for verdict in (CheckVerdict.BAD, CheckVerdict.WAITING, CheckVerdict.WARNING):
         for (found, text, todo), name in worst:
@@ -130,15 +159,23 @@ def _picture(camera: CameraFacts) -> tuple[CheckVerdict, str, str]:
     if quality.level < DARKEST or quality.dark > MOST_DARK:
         return CheckVerdict.BAD, "the picture is dark", "lens cap, light, exposure"
     if quality.bright > MOST_BRIGHT:
-        return (CheckVerdict.WARNING, f"{100 * quality.bright:.0f} % of the picture is overexposed",
-                "less light, or a shorter exposure")  # fmt: skip
+        return (
+            CheckVerdict.WARNING,
+            f"{100 * quality.bright:.0f} % of the picture is overexposed",
+            "less light, or a shorter exposure",
+        )
     if camera.rate and camera.rate < RATE_SHARE * camera.wanted_rate:
-        return (CheckVerdict.WARNING,
-                f"{camera.rate:.0f} pictures a second instead of {camera.wanted_rate:.0f}",
-                "own USB port for each camera; lock the exposure")  # fmt: skip
+        return (
+            CheckVerdict.WARNING,
+            f"{camera.rate:.0f} pictures a second instead of {camera.wanted_rate:.0f}",
+            "own USB port for each camera; lock the exposure",
+        )
     if quality.edge_width is not None and quality.edge_width > WIDEST_EDGE:
-        return (CheckVerdict.WARNING, f"the marker's edge is {quality.edge_width:.1f} px wide",
-                "focus the lens on the needle and lock it")  # fmt: skip
+        return (
+            CheckVerdict.WARNING,
+            f"the marker's edge is {quality.edge_width:.1f} px wide",
+            "focus the lens on the needle and lock it",
+        )
     return CheckVerdict.GOOD, "", ""
 
 
@@ -152,48 +189,83 @@ def _marker(facts: DailyFacts) -> StepResult:
             "marker", title, CheckVerdict.WAITING, "no pictures yet", "pictures first"
         )
     text = "; ".join(f"{name}: {why}" for name, why in missed) or "only one camera"
-    return StepResult("marker", title, CheckVerdict.BAD, text,
-                      "push the needle on until both cameras see the red band; look for other "
-                      "red things")  # fmt: skip
+    return StepResult(
+        "marker",
+        title,
+        CheckVerdict.BAD,
+        text,
+        "push the needle on until both cameras see the red band; look for other red things",
+    )
 
 
 def _agreement(facts: DailyFacts) -> StepResult:
     title = "Cameras agree"
     if facts.residual_px is None:
-        return StepResult("residual", title, CheckVerdict.WAITING, facts.status or "no point yet",
-                          "the marker must be seen by both cameras")  # fmt: skip
+        return StepResult(
+            "residual",
+            title,
+            CheckVerdict.WAITING,
+            facts.status or "no point yet",
+            "the marker must be seen by both cameras",
+        )
     text = f"residual {facts.residual_px:.2f} px"
     if facts.status:
-        return StepResult("residual", title, CheckVerdict.BAD, f"{text}: {facts.status}",
-                          "a camera was moved, or robot and cameras differ: "
-                          "`acus calibrate world`")  # fmt: skip
+        return StepResult(
+            "residual",
+            title,
+            CheckVerdict.BAD,
+            f"{text}: {facts.status}",
+            "a camera was moved, or robot and cameras differ: `acus calibrate world`",
+        )
     if facts.residual_px <= GOOD_RESIDUAL:
         return StepResult("residual", title, CheckVerdict.GOOD, text)
     verdict = CheckVerdict.WARNING if facts.residual_px <= LARGEST_RESIDUAL else CheckVerdict.BAD
-    return StepResult("residual", title, verdict, text,
-                      "a camera was bumped? calibrate again: menu Cameras")  # fmt: skip
+    return StepResult(
+        "residual", title, verdict, text, "a camera was bumped? calibrate again: menu Cameras"
+    )
 
 
 def _touch(facts: DailyFacts) -> StepResult:
     title, touch = "Touch one point", facts.touch
     if touch is None:
         found = facts.touch_failure or "not touched yet"
-        return StepResult("touch", title, CheckVerdict.WAITING, found,
-                          "rest the tip in a known mark and hold still for a second")  # fmt: skip
+        return StepResult(
+            "touch",
+            title,
+            CheckVerdict.WAITING,
+            found,
+            "rest the tip in a known mark and hold still for a second",
+        )
     distance, radius = touch.distance / MILLIMETRE, touch.radius / MILLIMETRE
     text = f"{touch.name}: {distance:.2f} mm off, measured to ± {radius:.2f} mm (95 %)"
     if touch.radius > max(touch.tolerance, touch.distance):
-        return StepResult("touch", title, CheckVerdict.WARNING, text,
-                          "the cameras do not measure this point well enough to tell: look at "
-                          "their pictures and rate, touch again")  # fmt: skip
+        return StepResult(
+            "touch",
+            title,
+            CheckVerdict.WARNING,
+            text,
+            "the cameras do not measure this point well enough to tell: look at "
+            "their pictures and rate, touch again",
+        )
     if touch.distance <= touch.tolerance:
         return StepResult("touch", title, CheckVerdict.GOOD, text)
     limit = f"the limit is {touch.tolerance / MILLIMETRE:.1f} mm"
-    return StepResult("touch", title, CheckVerdict.BAD, text,
-                      f"{limit}: touch again; is it {touch.name}, is the plate in its place? then "
-                      "check with all fiducials: menu Checks, Registration check")  # fmt: skip
+    return StepResult(
+        "touch",
+        title,
+        CheckVerdict.BAD,
+        text,
+        f"{limit}: touch again; is it {touch.name}, is the plate in its place? then "
+        "check with all fiducials: menu Checks, Registration check",
+    )
 
 
 _STEPS: Final[tuple[Callable[[DailyFacts], StepResult], ...]] = (
-    _homing, _signs, _force, _pictures, _marker, _agreement, _touch,
-)  # fmt: skip
+    _homing,
+    _signs,
+    _force,
+    _pictures,
+    _marker,
+    _agreement,
+    _touch,
+)

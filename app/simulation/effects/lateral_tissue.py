@@ -243,9 +243,12 @@ def at_tip(p: FloatArray, axis: int, n: float) -> Any:
     v0, v1 = c11 * r0 + c12 * r1, c12 * r0 + c22 * r1
     m = p[e + _EDGE.m + axis] + g0 * (r0 - f0 * v0 - f1 * v1) + g1 * (r1 - f1 * v0 - f2 * v1)
     rest = 0.5 * (
-        y0 * (f0 * y0 + f1 * y1) + y1 * (f1 * y0 + f2 * y1) - 2.0 * (y0 * q0 + y1 * q1)
-        - r0 * v0 - r1 * v1
-    )  # fmt: skip
+        y0 * (f0 * y0 + f1 * y1)
+        + y1 * (f1 * y0 + f2 * y1)
+        - 2.0 * (y0 * q0 + y1 * q1)
+        - r0 * v0
+        - r1 * v1
+    )
     return place + slope * length, slope, m, rest - n * m
 
 
@@ -280,9 +283,12 @@ def _finish_bin(p: FloatArray, j: int) -> None:
             p[e + _EDGE.m + axis] + g0 * (r0 - f0 * v0 - f1 * v1) + g1 * (r1 - f1 * v0 - f2 * v1)
         )
         total += 0.5 * (
-            y0 * (f0 * y0 + f1 * y1) + y1 * (f1 * y0 + f2 * y1) - 2.0 * (y0 * q0 + y1 * q1)
-            - r0 * v0 - r1 * v1
-        )  # fmt: skip
+            y0 * (f0 * y0 + f1 * y1)
+            + y1 * (f1 * y0 + f2 * y1)
+            - 2.0 * (y0 * q0 + y1 * q1)
+            - r0 * v0
+            - r1 * v1
+        )
         b0, b1 = y0 + s11 * q0 + s12 * q1, y1 + s12 * q0 + s22 * q1
         turn = i21 * b0 + i22 * b1
         p[below + _EDGE.y0 + axis] = i11 * b0 + i12 * b1 + BIN * turn

@@ -15,10 +15,20 @@ from typing import Any
 import numpy as np
 
 _NO_DICOM: dict[str, Any] = {
-    "modality": "", "sop_class": "", "series": False, "frames": 0, "samples": 0, "bits": 0,
-    "photometric": "", "size": [0, 0], "preamble": False, "image_type": [], "rescale": False,
-    "pixels": False, "planes": [],
-}  # fmt: skip
+    "modality": "",
+    "sop_class": "",
+    "series": False,
+    "frames": 0,
+    "samples": 0,
+    "bits": 0,
+    "photometric": "",
+    "size": [0, 0],
+    "preamble": False,
+    "image_type": [],
+    "rescale": False,
+    "pixels": False,
+    "planes": [],
+}
 
 
 def image(files: list[str], folder: str, out: str) -> dict[str, Any]:
@@ -69,20 +79,27 @@ def nifti(file: str) -> dict[str, Any]:
         ):
             if len(data) < size or struct.unpack_from(f"{order}i", data)[0] != size:
                 continue
-            read = [struct.unpack_from(order + form, data, at)
-                    for at, form in (dim, kind, forms, rows, offset)]  # fmt: skip
+            read = [
+                struct.unpack_from(order + form, data, at)
+                for at, form in (dim, kind, forms, rows, offset)
+            ]
             sizes, ((code,), (qform, sform), matrix, (start,)) = list(read[0]), read[1:]
             axes = np.reshape(matrix, (3, 4))[:, :3]
             lengths = np.linalg.norm(axes, axis=0)
-            square = lengths.min() > 0 and np.abs(
-                axes.T @ axes / np.outer(lengths, lengths) - np.eye(3)
-            ).max() * max(sizes[1:4], default=1) < 1e-3  # fmt: skip
+            square = (
+                lengths.min() > 0
+                and np.abs(axes.T @ axes / np.outer(lengths, lengths) - np.eye(3)).max()
+                * max(sizes[1:4], default=1)
+                < 1e-3
+            )
             return {
-                "sizes": sizes[1 : 1 + max(0, min(sizes[0], 7))], "type": code,
-                "placed": bool(qform or sform), "square": bool(square or not sform),
+                "sizes": sizes[1 : 1 + max(0, min(sizes[0], 7))],
+                "type": code,
+                "placed": bool(qform or sform),
+                "square": bool(square or not sform),
                 "volume": bool(sform == 0 or abs(np.linalg.det(axes)) > 1e-9),
                 "bytes": len(data) + rest - int(start),
-            }  # fmt: skip
+            }
     return {}
 
 

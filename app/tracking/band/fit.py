@@ -120,9 +120,15 @@ class BandFitter:
         if not seen:
             return None
         found, best = minimise(
-            read_only(image[:]), outline, self._shape, self._blur, self._noise,
-            self._prior, _PRIORS, SHADING_PRIOR,
-        )  # fmt: skip
+            read_only(image[:]),
+            outline,
+            self._shape,
+            self._blur,
+            self._noise,
+            self._prior,
+            _PRIORS,
+            SHADING_PRIOR,
+        )
         if not found:
             return None
         return BandFit(

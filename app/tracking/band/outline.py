@@ -136,9 +136,20 @@ def trace(c: Any, a: Any, shape: Any, intrinsics: Any, distortion: Any, cells: i
         _fill_end(projection, shape, end, faces, sine, arcs[end])
         _fill_shaft(projection, shape, end, faces, sine, lean, arcs[2 + end])
     return True, Outline(
-        u0, v0, eu, ev, left, left_slope, right, right_slope,
-        apex, taper, bow / (far * far), 0.25 * length * length, arcs,
-    )  # fmt: skip
+        u0,
+        v0,
+        eu,
+        ev,
+        left,
+        left_slope,
+        right,
+        right_slope,
+        apex,
+        taper,
+        bow / (far * far),
+        0.25 * length * length,
+        arcs,
+    )
 
 
 @njit

@@ -132,10 +132,13 @@ def lock(capture: Capture, controls: Controls) -> tuple[DriverSetting, ...]:
         _exposure(capture, controls.exposure),
         _held(capture, "focus", cv2.CAP_PROP_AUTOFOCUS, cv2.CAP_PROP_FOCUS, controls.focus),
         _held(
-            capture, "white balance [K]", cv2.CAP_PROP_AUTO_WB, cv2.CAP_PROP_WB_TEMPERATURE,
+            capture,
+            "white balance [K]",
+            cv2.CAP_PROP_AUTO_WB,
+            cv2.CAP_PROP_WB_TEMPERATURE,
             controls.white_balance,
         ),
-    )  # fmt: skip
+    )
 
 
 def _exposure(capture: Capture, wanted: float | None) -> DriverSetting:

@@ -62,8 +62,11 @@ class StreamFigures:
     @property
     def text(self) -> str:
         """Counts of refused pictures for people; empty if there were none."""
-        counts = ((self.repeated, "repeated"), (self.backwards, "with times that go back"),
-                  (self.impossible, "with impossible times"))  # fmt: skip
+        counts = (
+            (self.repeated, "repeated"),
+            (self.backwards, "with times that go back"),
+            (self.impossible, "with impossible times"),
+        )
         return ", ".join(f"{count} {what}" for count, what in counts if count)
 
 

@@ -104,9 +104,11 @@ class EllipseMarker(Extractor):
         variances = _SAMPLE_VARIANCE * strength / slopes**2
         covariance = (conic.gain * variances) @ conic.gain.T  # the gain has no unit
         return MarkerFix(
-            start.uv + scale * conic.centre, covariance + 1e-8 * np.eye(2), area,
+            start.uv + scale * conic.centre,
+            covariance + 1e-8 * np.eye(2),
+            area,
             len(points) / _RAYS,
-        )  # fmt: skip
+        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -187,9 +189,12 @@ def _edge(image: Image, start: MarkerFix, weights: FloatArray) -> tuple[FloatArr
     reach = _STEP * np.arange(steps)
     place = (start.uv + reach[:, None, None] * _DIRECTIONS).astype(np.float32)
     samples = cv2.remap(
-        np.ascontiguousarray(image).astype(np.float32), place[..., 0], place[..., 1],
-        cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE,
-    )  # fmt: skip
+        np.ascontiguousarray(image).astype(np.float32),
+        place[..., 0],
+        place[..., 1],
+        cv2.INTER_LINEAR,
+        borderMode=cv2.BORDER_REPLICATE,
+    )
     strength = np.asarray(samples, dtype=np.float64) @ weights
     rays = np.arange(_RAYS)
     last, _ = _fall(strength, np.full(_RAYS, 0.5 * np.median(strength[:6])))

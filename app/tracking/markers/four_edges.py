@@ -180,9 +180,17 @@ def mean_colour(
 
 @njit
 def patch_colour(
-    window: Any, edges: Any, x: float, y: float, dy: float, n: int, low: float, high: float,
-    out: Any, one: Any,
-) -> float:  # fmt: skip
+    window: Any,
+    edges: Any,
+    x: float,
+    y: float,
+    dy: float,
+    n: int,
+    low: float,
+    high: float,
+    out: Any,
+    one: Any,
+) -> float:
     """Mean colour over n steps of dy across and 5 px along; returns its scatter², relative."""
     first, second = 0.0, 0.0
     out[:] = 0.0

@@ -364,9 +364,17 @@ class OutlineCentroid(Extractor):
         numbers, inner = np.empty((bottom - top, right - left), np.int32), np.empty(4, np.int64)
         middle = np.empty(2)
         number = nearest_patch(
-            read_only(image[:]), np.array([left, top, right, bottom]), at_u, at_v,
-            self.colour.weights, self.colour.strength, self.colour.share, numbers, inner, middle,
-        )  # fmt: skip
+            read_only(image[:]),
+            np.array([left, top, right, bottom]),
+            at_u,
+            at_v,
+            self.colour.weights,
+            self.colour.strength,
+            self.colour.share,
+            numbers,
+            inner,
+            middle,
+        )
         if number == 0:
             return Miss(MissReason.NOTHING_RED)
         x, y, w, h = inner.tolist()

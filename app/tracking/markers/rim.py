@@ -104,9 +104,18 @@ def _narrowing(edges: Any, end: int, tip: int, needle: Any, x: float) -> float:
 
 @njit
 def _shaft_colour(
-    window: Any, edges: Any, end: int, tip: int, needle: Any, x: float, y: float, middle: float,
-    start: float, out: Any, one: Any,
-) -> None:  # fmt: skip
+    window: Any,
+    edges: Any,
+    end: int,
+    tip: int,
+    needle: Any,
+    x: float,
+    y: float,
+    middle: float,
+    start: float,
+    out: Any,
+    one: Any,
+) -> None:
     """Mean colour of what is seen further outside at the same place between the shaft's edges."""
     sign = 2.0 * end - 1.0
     here = _narrowing(edges, end, tip, needle, x)
@@ -148,9 +157,15 @@ def _end_share(
 
 @njit
 def fit_end(
-    window: Any, edges: Any, end: int, tip: int, needle: Any, spread: float, noise: float,
+    window: Any,
+    edges: Any,
+    end: int,
+    tip: int,
+    needle: Any,
+    spread: float,
+    noise: float,
     covariance: Any,
-) -> Any:  # fmt: skip
+) -> Any:
     """Move an end's arc; how many pixels are mixtures, and of how many."""
     inner, outer, beside, one = np.empty(3), np.empty(3), np.empty(3), np.empty(3)
     ease, normal, right, row = np.zeros((2, 3)), np.zeros((3, 3)), np.zeros(3), np.empty(3)
@@ -216,9 +231,15 @@ _PASSES: Final = 2
 
 @njit
 def edge_moments(
-    window: Any, field: Any, sides: Any, hue: Any, blur: float, noise: float, focal: float,
+    window: Any,
+    field: Any,
+    sides: Any,
+    hue: Any,
+    blur: float,
+    noise: float,
+    focal: float,
     needle: Any,
-) -> Any:  # fmt: skip
+) -> Any:
     """Area, centroid, its covariance and quality of the band.
 
     Args:
@@ -284,7 +305,7 @@ def _fit_flanks(
             expected = below(sign * (edge - y) / spread)
             scatter = patch_colour(
                 window, edges, x, edge + sign * off, sign, 4, start - off, stop + off, ground, one
-            )  # fmt: skip
+            )
             patch_colour(window, edges, x, edge - sign * off, -sign, 2, start, stop, paint, one)
             light = (paint[0] * hue[0] + paint[1] * hue[1] + paint[2] * hue[2]) / strength
             loose = math.sqrt(_GROUND_SD**2 + _SCATTER**2 * scatter) * (1.0 - expected)

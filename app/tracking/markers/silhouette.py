@@ -56,10 +56,15 @@ def convex_hull(points: Any, hull: Any) -> int:
             while (
                 count >= start + (0 if half else 1)
                 and turn(
-                    hull[count - 2, 0], hull[count - 2, 1], hull[count - 1, 0], hull[count - 1, 1],
-                    p[0], p[1],
-                ) <= 0.0
-            ):  # fmt: skip
+                    hull[count - 2, 0],
+                    hull[count - 2, 1],
+                    hull[count - 1, 0],
+                    hull[count - 1, 1],
+                    p[0],
+                    p[1],
+                )
+                <= 0.0
+            ):
                 count -= 1
             hull[count, 0], hull[count, 1] = p[0], p[1]
             count += 1

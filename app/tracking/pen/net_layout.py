@@ -141,10 +141,15 @@ def base_page(base: BaseProfile, paper: Paper) -> Page:
     width, height, landscape = _fit(paper, wide, high, "sheet")
     x, y = 0.5 * width, EDGE_MM + 0.5 * high
     faces = tuple(
-        Face(base.first_id + k, x + cx - 0.5 * base.marker_mm, y - cy - 0.5 * base.marker_mm,
-             base.marker_mm, base.marker_mm)
+        Face(
+            base.first_id + k,
+            x + cx - 0.5 * base.marker_mm,
+            y - cy - 0.5 * base.marker_mm,
+            base.marker_mm,
+            base.marker_mm,
+        )
         for k, (cx, cy) in enumerate(base.centres_mm.tolist())
-    )  # fmt: skip
+    )
     return Page(
         title="sheet",
         width=width,

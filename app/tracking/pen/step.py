@@ -283,9 +283,16 @@ class PenStep:
         beside, beside_sd = needle.beside(self.fulcrum)
         centre, _ = model.project_camera(body.T_camera_board.translation[None])
         fix = NeedleFix(
-            needle.p_tip, needle.tip_covariance, frame.time, FixStatus.VALID, (centre[0], None),
-            float(np.hypot(body.residual_px, base.residual_px)), depth, variance, has_point=True,
-        )  # fmt: skip
+            needle.p_tip,
+            needle.tip_covariance,
+            frame.time,
+            FixStatus.VALID,
+            (centre[0], None),
+            float(np.hypot(body.residual_px, base.residual_px)),
+            depth,
+            variance,
+            has_point=True,
+        )
         return PenObservation(fix, sightings, body, base, model, needle, beside, beside_sd)
 
     def _poses(
@@ -345,9 +352,15 @@ class PenStep:
         seen = body.status is PoseStatus.FOUND
         centre = model.project_camera(body.T_camera_board.translation[None])[0][0] if seen else None
         fix = NeedleFix(
-            np.zeros(3), np.zeros((3, 3)), time, status, (centre, None), 0.0,
-            missing=() if body.ids else ("webcam",), reason=reason,
-        )  # fmt: skip
+            np.zeros(3),
+            np.zeros((3, 3)),
+            time,
+            status,
+            (centre, None),
+            0.0,
+            missing=() if body.ids else ("webcam",),
+            reason=reason,
+        )
         return PenObservation(fix, sightings, body, base, model, None, np.zeros(3), 0.0)
 
 

@@ -14,9 +14,16 @@ GUESSED_FOCAL = 0.83
 """Focal length over the longer side of the picture: 62° wide, in the middle of usual webcams."""
 
 _GUESS_SD = {
-    "fx": 0.14, "fy": 0.14, "cx": 0.03, "cy": 0.03, "k1": 0.1, "k2": 0.1, "p1": 2e-3, "p2": 2e-3,
+    "fx": 0.14,
+    "fy": 0.14,
+    "cx": 0.03,
+    "cy": 0.03,
+    "k1": 0.1,
+    "k2": 0.1,
+    "p1": 2e-3,
+    "p2": 2e-3,
     "k3": 0.0,
-}  # fmt: skip
+}
 """Standard deviations of the guess; the first four in lengths of the longer side. Focal lengths of
 webcams lie between 52° and 78° wide."""
 

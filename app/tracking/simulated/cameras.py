@@ -315,9 +315,18 @@ class NeedleRenderer:
             columns = slice(*spans[row])
             image[row, columns] = self._background[row, columns]
         draw_needle(
-            image, self._rays, spans, self._fine, self._coarse, axis, centre,
-            moved, _COLOURS, self._light, self._margin,
-        )  # fmt: skip
+            image,
+            self._rays,
+            spans,
+            self._fine,
+            self._coarse,
+            axis,
+            centre,
+            moved,
+            _COLOURS,
+            self._light,
+            self._margin,
+        )
 
     def _compile(self) -> None:
         """Draw once, so that the kernels are ready before the first picture is due."""
@@ -330,9 +339,18 @@ class NeedleRenderer:
         along = np.linspace(self._shape.hub - 1e-3, self._shape.tip + 1e-3, 42)
         spans = self._spans(centre, axis, along)
         draw_needle(
-            image, self._rays, spans, self._fine, self._coarse, axis, centre,
-            self._shape, colours, self._light, self._margin,
-        )  # fmt: skip
+            image,
+            self._rays,
+            spans,
+            self._fine,
+            self._coarse,
+            axis,
+            centre,
+            self._shape,
+            colours,
+            self._light,
+            self._margin,
+        )
 
     def _spans(self, centre: FloatArray, axis: FloatArray, along: FloatArray) -> Any:
         """Columns of each row that the needle may touch between positions `along` its axis [m].

@@ -119,9 +119,11 @@ def _paint_text(
     painter.setPen(_INK)
     lines = (
         board.spec,
-        tr("Print at 100 %, not fitted to the page. The line above measures 100 mm: check it. "
-           "Glue the sheet on something flat."),
-    )  # fmt: skip
+        tr(
+            "Print at 100 %, not fitted to the page. The line above measures 100 mm: check it. "
+            "Glue the sheet on something flat."
+        ),
+    )
     for i, words in enumerate(lines):
         box = QRectF(
             EDGE_MM * dots_per_mm,

@@ -25,9 +25,9 @@ class SourceBox(QComboBox):
         for port in sources:
             self.addItem(port.title, port.port)
         self.addItem(tr("Simulated"), SourceKind.SIMULATED.value)
-        self.setToolTip(tr(
-            "A camera that is plugged in, or typed: usb:PORT, folder:PATH, video:PATH"
-        ))  # fmt: skip
+        self.setToolTip(
+            tr("A camera that is plugged in, or typed: usb:PORT, folder:PATH, video:PATH")
+        )
 
     def show_source(self, source: str) -> None:
         """Show a source, listed or not."""

@@ -76,9 +76,14 @@ class AimDialog(QDialog):
         for side, preview in zip(SIDES, self.previews, strict=True):
             preview.open(_opener(services, settings, side, free))
         run_in_background(
-            self, lambda progress: services.aim(settings, device, progress), self._show, self._fail,
-            self.reject, title=tr("Computing the cone"), indicator=self.waiting,
-        )  # fmt: skip
+            self,
+            lambda progress: services.aim(settings, device, progress),
+            self._show,
+            self._fail,
+            self.reject,
+            title=tr("Computing the cone"),
+            indicator=self.waiting,
+        )
 
     def closed(self) -> Callable[[], object]:
         """Return what waits until the cameras are closed; for other threads."""
@@ -121,11 +126,13 @@ class AimDialog(QDialog):
         self.share.setText(f"{symbol} {error}")
 
     def _lay_out(self) -> None:
-        words = QLabel(tr(
-            "The green line surrounds every place the marker can be at. It should lie within both "
-            "pictures. The line follows from the calibration, not from the picture: after moving a "
-            "camera, calibrate again."
-        ))  # fmt: skip
+        words = QLabel(
+            tr(
+                "The green line surrounds every place the marker can be at. It should lie within "
+                "both pictures. The line follows from the calibration, not from the picture: after "
+                "moving a camera, calibrate again."
+            )
+        )
         for label in (words, self.losses, self.share):
             label.setWordWrap(True)
         self.losses.setStyleSheet(f"color: {theme.TEXT_DIM};")
@@ -276,10 +283,12 @@ class CamerasFeature(Feature):
     def _without_real(self) -> bool:
         if not self.chosen.simulated:
             return False
-        self.failed.emit(tr(
-            "Only simulated cameras are chosen, which need no aiming and have no latency: choose "
-            "real ones in the menu Cameras, Set up."
-        ))  # fmt: skip
+        self.failed.emit(
+            tr(
+                "Only simulated cameras are chosen, which need no aiming and have no latency: "
+                "choose real ones in the menu Cameras, Set up."
+            )
+        )
         return True
 
 
@@ -297,9 +306,12 @@ class CamerasMenu:
         self.calibrate = self._add(menu, tr("Calibrate…"), cameras.calibrate)
         latency = menu.addMenu(tr("Latency"))
         menu.setToolTipsVisible(True)
-        latency.menuAction().setToolTip(tr(
-            "How late a picture comes: a patch blinks, the camera looks at it, the delay is kept"
-        ))  # fmt: skip
+        latency.menuAction().setToolTip(
+            tr(
+                "How late a picture comes: a patch blinks, the camera looks at it, the delay is "
+                "kept"
+            )
+        )
         for action, help_ in (
             (self.set_up, tr("Which cameras there are: size, rate, exposure, live pictures")),
             (self.aim, tr("Where the needle can be, drawn into both live pictures")),

@@ -210,12 +210,15 @@ class LatencyDialog(QDialog):
             self.measured.emit(self._side, latency)
 
     def _lay_out(self) -> None:
-        words = QLabel(tr(
-            "Point the camera at the patch, a hand's breadth away, so that the patch fills a good "
-            "part of the picture. The patch blinks at random for {seconds:.0f} s. The result "
-            "contains the screen's own delay, usually one or two of its pictures (10 to 30 ms).",
-            seconds=self._seconds,
-        ))  # fmt: skip
+        words = QLabel(
+            tr(
+                "Point the camera at the patch, a hand's breadth away, so that the patch fills a "
+                "good part of the picture. The patch blinks at random for {seconds:.0f} s. The "
+                "result contains the screen's own delay, usually one or two of its pictures (10 "
+                "to 30 ms).",
+                seconds=self._seconds,
+            )
+        )
         words.setWordWrap(True)
         self.outcome.setWordWrap(True)
         self.outcome.setMinimumHeight(3 * theme.FONT_PX)

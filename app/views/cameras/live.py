@@ -282,10 +282,14 @@ class LivePreview(QWidget):
             return opening.run(progress)
 
         task = run_in_background(
-            self, operation, lambda camera: self._take(opening, camera),
-            lambda error: self._refuse(opening, error), self.cancelled.emit,
-            title=tr("Opening the camera") if indicator is not None else "", indicator=indicator,
-        )  # fmt: skip
+            self,
+            operation,
+            lambda camera: self._take(opening, camera),
+            lambda error: self._refuse(opening, error),
+            self.cancelled.emit,
+            title=tr("Opening the camera") if indicator is not None else "",
+            indicator=indicator,
+        )
         self._task = task
         task.progressed.connect(lambda _, text: self._tell_opening(opening, text))
 
@@ -337,7 +341,10 @@ class LivePreview(QWidget):
             self.say(health.text, bad=True)
             return
         figures = health.figures
-        line = tr("{rate:.0f} pictures/s, jitter {jitter:.1f} ms", rate=figures.rate,
-                  jitter=1e3 * figures.jitter)  # fmt: skip
+        line = tr(
+            "{rate:.0f} pictures/s, jitter {jitter:.1f} ms",
+            rate=figures.rate,
+            jitter=1e3 * figures.jitter,
+        )
         refused = [text for text in self.camera.settings() if "did not accept" in text]
         self.say("; ".join([line, *([figures.text] if figures.text else []), *refused]))

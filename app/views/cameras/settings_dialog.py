@@ -132,9 +132,13 @@ class CameraSettingsDialog(SettingsDialog):
         """
         left, right = (side.camera() for side in self.sides)
         changed = self._settings.model_copy(
-            update={"left": left, "right": right, "size": self.size_box.size_px(),
-                    "rate_hz": self.rate.value()}
-        )  # fmt: skip
+            update={
+                "left": left,
+                "right": right,
+                "size": self.size_box.size_px(),
+                "rate_hz": self.rate.value(),
+            }
+        )
         changed.check()
         return changed
 
@@ -144,9 +148,12 @@ class CameraSettingsDialog(SettingsDialog):
             editor.preview.stop()
             try:
                 settings = self._settings.model_copy(
-                    update={side: editor.camera(), "size": self.size_box.size_px(),
-                            "rate_hz": self.rate.value()}
-                )  # fmt: skip
+                    update={
+                        side: editor.camera(),
+                        "size": self.size_box.size_px(),
+                        "rate_hz": self.rate.value(),
+                    }
+                )
                 if editor.camera().origin.kind is SourceKind.SIMULATED:
                     editor.preview.say(tr("simulated: nothing to set up"))
                     continue

@@ -128,14 +128,17 @@ class BoardPage(QWidget):
         except AcusError as error:
             tell(self.state, Verdict.BAD, str(error))
             return
-        words = tr("written to {file}: print it at 100 % and measure the line of 100 mm",
-                   file=path)  # fmt: skip
+        words = tr("written to {file}: print it at 100 % and measure the line of 100 mm", file=path)
         tell(self.state, Verdict.GOOD, words)
 
     def _changed(self) -> None:
         charuco = self.kind.currentData() == BoardKind.CHARUCO  # Qt hands out a plain text
-        for widget in (self.marker, self.dictionary, self._titles["marker"],
-                       self._titles["dictionary"]):  # fmt: skip
+        for widget in (
+            self.marker,
+            self.dictionary,
+            self._titles["marker"],
+            self._titles["dictionary"],
+        ):
             widget.setVisible(charuco)
         self._titles["counts"].setText(tr("Squares") if charuco else tr("Inner corners"))
         try:
@@ -158,14 +161,19 @@ class BoardPage(QWidget):
         problem = self.sheet.show_board(board, self.paper.currentText())
         width, height = (side / MILLIMETRE for side in board.size)
         if problem:
-            words = tr("{why}. A board that you have already can be used all the same.",
-                       why=problem)  # fmt: skip
+            words = tr(
+                "{why}. A board that you have already can be used all the same.", why=problem
+            )
             tell(self.state, Verdict.WARNING, words)
         elif board.ambiguous:
-            tell(self.state, Verdict.WARNING, tr(
-                "This board looks the same after half a turn. The program mends what it can; a "
-                "ChArUco board needs no mending."
-            ))  # fmt: skip
+            tell(
+                self.state,
+                Verdict.WARNING,
+                tr(
+                    "This board looks the same after half a turn. The program mends what it can; a "
+                    "ChArUco board needs no mending."
+                ),
+            )
         else:
             tell(self.state, Verdict.GOOD, tr("{w:.0f} × {h:.0f} mm", w=width, h=height))
 
@@ -214,15 +222,24 @@ class BoardPage(QWidget):
 
     def _lay_out(self) -> None:
         rows = column(self, tr("Which board do you have?"))
-        rows.addWidget(label(tr(
-            "A flat board with squares of a known size. ChArUco may be seen in part and always "
-            "says which way round it lies."
-        ), "dim"))  # fmt: skip
-        rows.addWidget(label(tr(
-            "Measure the line of 100 mm below the board, and type the squares as they are: a print "
-            "at 97 % leaves every residual as good as it was, and makes all that is measured 3 % "
-            "too long."
-        )))  # fmt: skip
+        rows.addWidget(
+            label(
+                tr(
+                    "A flat board with squares of a known size. ChArUco may be seen in part and "
+                    "always says which way round it lies."
+                ),
+                "dim",
+            )
+        )
+        rows.addWidget(
+            label(
+                tr(
+                    "Measure the line of 100 mm below the board, and type the squares as they are: "
+                    "a print at 97 % leaves every residual as good as it was, and makes all that "
+                    "is measured 3 % too long."
+                )
+            )
+        )
         grid = QGridLayout()
         grid.setVerticalSpacing(theme.SPACING)
         counts = QWidget(self)
@@ -231,12 +248,16 @@ class BoardPage(QWidget):
         for part in (self.columns, QLabel("×"), self.rows):
             both.addWidget(part)
         both.addStretch(1)
-        for row, (name, title, widget) in enumerate((
-            ("kind", tr("Kind"), self.kind), ("counts", tr("Squares"), counts),
-            ("square", tr("Side of a square"), self.square),
-            ("marker", tr("Side of a marker"), self.marker),
-            ("dictionary", tr("Markers"), self.dictionary), ("paper", tr("Paper"), self.paper),
-        )):  # fmt: skip
+        for row, (name, title, widget) in enumerate(
+            (
+                ("kind", tr("Kind"), self.kind),
+                ("counts", tr("Squares"), counts),
+                ("square", tr("Side of a square"), self.square),
+                ("marker", tr("Side of a marker"), self.marker),
+                ("dictionary", tr("Markers"), self.dictionary),
+                ("paper", tr("Paper"), self.paper),
+            )
+        ):
             self._titles[name] = QLabel(title, self)
             grid.addWidget(self._titles[name], row, 0)
             grid.addWidget(widget, row, 1)

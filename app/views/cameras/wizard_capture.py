@@ -122,8 +122,12 @@ class CoverageView(QWidget):
 
     def _paint_words(self, painter: QPainter, frame: QRectF) -> None:
         share = round(100.0 * self._coverage.covered)
-        words = tr("{camera}: {n} different views, {share} % covered", camera=self._name,
-                   n=len(self._coverage.views), share=share)  # fmt: skip
+        words = tr(
+            "{camera}: {n} different views, {share} % covered",
+            camera=self._name,
+            n=len(self._coverage.views),
+            share=share,
+        )
         box = QRectF(frame.x(), frame.bottom() - 24.0, frame.width(), 24.0)
         painter.fillRect(box, QColor(0, 0, 0, 150))
         painter.setPen(QColor(theme.IMAGE_TEXT))
@@ -339,11 +343,16 @@ class CapturePage(QWidget):
 
     def _lay_out(self) -> None:
         rows = column(self, tr("Show the board to both cameras"))
-        rows.addWidget(label(tr(
-            "Hold it still for a moment, then move it on: near and far, to every corner of the "
-            "pictures, tilted to all sides. A useful picture is taken by itself. From a folder, "
-            "pictures are paired by name: left01.png with right01.png."
-        ), "dim"))  # fmt: skip
+        rows.addWidget(
+            label(
+                tr(
+                    "Hold it still for a moment, then move it on: near and far, to every corner of "
+                    "the pictures, tilted to all sides. A useful picture is taken by itself. From "
+                    "a folder, pictures are paired by name: left01.png with right01.png."
+                ),
+                "dim",
+            )
+        )
         pictures = QHBoxLayout()
         for view in self.views:
             pictures.addWidget(view, 1)

@@ -125,8 +125,10 @@ class WorldPage(QWidget):
         if world is None:
             self._lines.clear()
             return
-        texts = [f"{verdict.colour_and_symbol[1]} {text}" for verdict, text in
-                 world_lines(self._job.base(), world)]  # fmt: skip
+        texts = [
+            f"{verdict.colour_and_symbol[1]} {text}"
+            for verdict, text in world_lines(self._job.base(), world)
+        ]
         self._lines.setText("\n".join(texts))
 
     def enter(self) -> None:
@@ -195,11 +197,17 @@ class WorldPage(QWidget):
 
     def _lay_out(self) -> None:
         rows = column(self, tr("Lay the board at a known place"))
-        rows.addWidget(label(tr(
-            "The place is that of the first inner corner, in the robot's frame: origin midway "
-            "between the motor axes, x to the right motor, z up. Turned by 180° about x the board "
-            "lies print up with its columns along x. Several places are better than one."
-        ), "dim"))  # fmt: skip
+        rows.addWidget(
+            label(
+                tr(
+                    "The place is that of the first inner corner, in the robot's frame: origin "
+                    "midway between the motor axes, x to the right motor, z up. Turned by 180° "
+                    "about x the board lies print up with its columns along x. Several places are "
+                    "better than one."
+                ),
+                "dim",
+            )
+        )
         grid = QGridLayout()
         names = ("x", "y", "z", tr("about x"), tr("about y"), tr("about z"))
         for i, (name, spin) in enumerate(zip(names, self.fields, strict=True)):

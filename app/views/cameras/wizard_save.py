@@ -108,9 +108,11 @@ class ImportDialog(QDialog):
 
     def _ask_files(self) -> None:
         names, _ = QFileDialog.getOpenFileNames(
-            self, tr("Calibration files, left before right"), "",
+            self,
+            tr("Calibration files, left before right"),
+            "",
             tr("Calibrations (*.yaml *.yml *.xml);;All files (*)"),
-        )  # fmt: skip
+        )
         if names:
             self.set_files([Path(name) for name in sorted(names)])
 
@@ -138,12 +140,17 @@ class ImportDialog(QDialog):
             last.addWidget(one)
         column = QVBoxLayout(self)
         column.setSpacing(theme.MARGIN)
-        column.addWidget(label(tr(
-            "One YAML of Acus; left and right YAML of ICube or ROS; the folder of TemugeB's text "
-            "files; or intrinsics.yml and extrinsics.yml of OpenCV's stereo_calib. Only TemugeB's "
-            "and OpenCV's files need unit and size. What other programs write does not say how "
-            "sure it is, and has no place: find it on the page before."
-        )))  # fmt: skip
+        column.addWidget(
+            label(
+                tr(
+                    "One YAML of Acus; left and right YAML of ICube or ROS; the folder of "
+                    "TemugeB's text files; or intrinsics.yml and extrinsics.yml of OpenCV's "
+                    "stereo_calib. Only TemugeB's and OpenCV's files need unit and size. What "
+                    "other programs write does not say how sure it is, and has no place: find it "
+                    "on the page before."
+                )
+            )
+        )
         column.addLayout(form)
         column.addWidget(self.state)
         column.addLayout(last)
@@ -241,9 +248,11 @@ class SavePage(QWidget):
         elif outcome is None:
             tell(self.state, Verdict.IDLE, tr("There is nothing new to save."))
         elif outcome.world is None:
-            tell(self.state, Verdict.WARNING, tr(
-                "Not saved yet. Without a place (the page before) it cannot be used to track."
-            ))  # fmt: skip
+            tell(
+                self.state,
+                Verdict.WARNING,
+                tr("Not saved yet. Without a place (the page before) it cannot be used to track."),
+            )
         else:
             tell(self.state, Verdict.WARNING, tr("Not saved yet."))
         self._show_history()
@@ -286,8 +295,8 @@ class SavePage(QWidget):
 
     def _ask_why(self) -> None:
         reason, given = QInputDialog.getText(
-            self, tr("Found bad"),
-            tr("What is wrong with it? Attempts made with it will say so."))  # fmt: skip
+            self, tr("Found bad"), tr("What is wrong with it? Attempts made with it will say so.")
+        )
         if given:
             self.reject_chosen(reason)
 
@@ -377,10 +386,15 @@ class SavePage(QWidget):
         first.addWidget(self.import_)
         first.addStretch(1)
         rows.addLayout(first)
-        rows.addWidget(label(tr(
-            "Calibrations so far; none is ever deleted. One that is found bad is used no more, "
-            "and attempts made with it are flagged."
-        ), "dim"))  # fmt: skip
+        rows.addWidget(
+            label(
+                tr(
+                    "Calibrations so far; none is ever deleted. One that is found bad is used no "
+                    "more, and attempts made with it are flagged."
+                ),
+                "dim",
+            )
+        )
         rows.addWidget(self.table, 1)
         rows.addWidget(self._remark)
         last = QHBoxLayout()

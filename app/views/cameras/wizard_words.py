@@ -33,8 +33,10 @@ def pairs_words(pairs: int, different: int | None, refused: Sequence[Rejection])
     else:
         words = tr(
             "{pairs} pairs, all of which are used; {different} of them show the board unlike the "
-            "others: only those count below", pairs=pairs, different=different,
-        )  # fmt: skip
+            "others: only those count below",
+            pairs=pairs,
+            different=different,
+        )
     if refused:
         names = ", ".join(view.name for view in refused[:4])
         more = " …" if len(refused) > 4 else ""
@@ -83,13 +85,26 @@ def figures(calibration: StereoCalibration) -> list[tuple[str, str]]:
     """Titles and values of the result."""
     left, right = calibration.cameras
     rows = [
-        (tr("Residual"), tr(
-            "{pair:.2f} px both, {left:.2f} px {l}, {right:.2f} px {r}", pair=calibration.rms_px,
-            left=left.rms_px, l=left.name, right=right.rms_px, r=right.name)),
-        (tr("Distance of the cameras"), tr(
-            "{mm:.2f} ± {sd:.2f} mm", mm=calibration.baseline / MILLIMETRE,
-            sd=baseline_sd(calibration) / MILLIMETRE)),
-    ]  # fmt: skip
+        (
+            tr("Residual"),
+            tr(
+                "{pair:.2f} px both, {left:.2f} px {l}, {right:.2f} px {r}",
+                pair=calibration.rms_px,
+                left=left.rms_px,
+                l=left.name,
+                right=right.rms_px,
+                r=right.name,
+            ),
+        ),
+        (
+            tr("Distance of the cameras"),
+            tr(
+                "{mm:.2f} ± {sd:.2f} mm",
+                mm=calibration.baseline / MILLIMETRE,
+                sd=baseline_sd(calibration) / MILLIMETRE,
+            ),
+        ),
+    ]
     checked = calibration.validation
     if checked is not None:
         words = tr(
@@ -100,9 +115,16 @@ def figures(calibration: StereoCalibration) -> list[tuple[str, str]]:
             most=checked.max_mm,
         )
         rows.append((tr("Pairs held back"), words))
-        rows.append((tr("Lengths in them"), tr(
-            "{scale:.5f} ± {sd:.5f} times the true ones", scale=checked.scale,
-            sd=checked.scale_sd)))  # fmt: skip
+        rows.append(
+            (
+                tr("Lengths in them"),
+                tr(
+                    "{scale:.5f} ± {sd:.5f} times the true ones",
+                    scale=checked.scale,
+                    sd=checked.scale_sd,
+                ),
+            )
+        )
     return rows
 
 
@@ -165,15 +187,32 @@ def world_lines(calibration: StereoCalibration, world: WorldFrame) -> list[Line]
     lines: list[Line] = []
     for camera, centre in zip(calibration.cameras, world.centres, strict=True):
         x, y, z = centre / MILLIMETRE
-        lines.append((Verdict.GOOD, tr(
-            "{camera} camera at x {x:.0f}, y {y:.0f}, z {z:.0f} mm", camera=camera.name, x=x, y=y,
-            z=z)))  # fmt: skip
+        lines.append(
+            (
+                Verdict.GOOD,
+                tr(
+                    "{camera} camera at x {x:.0f}, y {y:.0f}, z {z:.0f} mm",
+                    camera=camera.name,
+                    x=x,
+                    y=y,
+                    z=z,
+                ),
+            )
+        )
     lines.append((Verdict.GOOD, tr("corners within {px:.2f} px", px=world.rms_px)))
     if world.watched_sd_mm is not None:
-        lines.append((Verdict.GOOD, tr(
-            "at the fulcrum the frame is sure to ± {mm:.2f} mm (standard deviation per axis)",
-            mm=world.watched_sd_mm)))  # fmt: skip
+        lines.append(
+            (
+                Verdict.GOOD,
+                tr(
+                    "at the fulcrum the frame is sure to ± {mm:.2f} mm (standard deviation per "
+                    "axis)",
+                    mm=world.watched_sd_mm,
+                ),
+            )
+        )
     if world.disagreement_mm > 0.0:
-        lines.append((Verdict.GOOD, tr("places agree within {mm:.1f} mm",
-                                       mm=world.disagreement_mm)))  # fmt: skip
+        lines.append(
+            (Verdict.GOOD, tr("places agree within {mm:.1f} mm", mm=world.disagreement_mm))
+        )
     return lines + [(Verdict.WARNING, remark) for remark in world.remarks]

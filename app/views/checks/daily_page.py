@@ -122,10 +122,17 @@ class DailyPage(QDialog):
         """Judge what runs now."""
         run = self._run()
         if run is None or run.inspect is None:
-            self._show((StepResult(
-                "run", tr("Start"), CheckVerdict.WAITING, tr("nothing runs yet"),
-                tr("choose an exercise and a patient: robot and cameras start with them"),
-            ),))  # fmt: skip
+            self._show(
+                (
+                    StepResult(
+                        "run",
+                        tr("Start"),
+                        CheckVerdict.WAITING,
+                        tr("nothing runs yet"),
+                        tr("choose an exercise and a patient: robot and cameras start with them"),
+                    ),
+                )
+            )
             return
         snapshot = run.trainer.snapshot()
         robot: RobotFacts = robot_facts(snapshot, run.board, run.clearance, run.readiness)
@@ -141,9 +148,12 @@ class DailyPage(QDialog):
         now = datetime.now().astimezone()
         seen = run.inspect(False, False) if run.inspect is not None else None
         check = DayCheck.of(
-            self.results, now, run.profile.name, not run.is_real,
+            self.results,
+            now,
+            run.profile.name,
+            not run.is_real,
             seen.calibration if seen is not None else "",
-        )  # fmt: skip
+        )
         save_check(check)
         self._show_day()
         self.kept.emit(check.words(now))

@@ -57,8 +57,9 @@ def agreement_item(
     text = tr("agree within ± {mm:.1f} mm (95 %)", mm=radius)
     help_ = tr(
         "How far the needle on the screen may be from the real one at the target: what the "
-        "registration check found, with the cameras' error. {checked}", checked=checked,
-    )  # fmt: skip
+        "registration check found, with the cameras' error. {checked}",
+        checked=checked,
+    )
     if not known:
         text = tr("{size}; the calibration's own uncertainty is not known", size=text)
         help_ += " " + tr(
@@ -91,12 +92,15 @@ class ChecksFeature(Feature):
         self._conductor.controller.add_items(self.items)
         self._conductor.patient_changed.connect(self.forget)
         self._runs.ready.connect(lambda _: self.forget())
-        *_, errors = add_entries(context.shell.menu(tr("&Checks")), [
-            (tr("Daily check…"), "F9", self.open_daily),
-            (tr("Registration check…"), "", self.open_registration),
-            None,
-            (tr("Draw errors of target and tip"), "", lambda: None),
-        ])  # fmt: skip
+        *_, errors = add_entries(
+            context.shell.menu(tr("&Checks")),
+            [
+                (tr("Daily check…"), "F9", self.open_daily),
+                (tr("Registration check…"), "", self.open_registration),
+                None,
+                (tr("Draw errors of target and tip"), "", lambda: None),
+            ],
+        )
         errors.setCheckable(True)
         errors.setChecked(True)
         errors.toggled.connect(self._viewing.set_shows_errors)
@@ -179,8 +183,11 @@ class ChecksFeature(Feature):
         except AcusError as error:
             return (agreement_item(None, str(error)),)
         self._show_error(run, check)
-        checked = tr("Checked {when} with {plate}.", when=f"{record.created:%Y-%m-%d %H:%M}",
-                     plate=record.plate.name)  # fmt: skip
+        checked = tr(
+            "Checked {when} with {plate}.",
+            when=f"{record.created:%Y-%m-%d %H:%M}",
+            plate=record.plate.name,
+        )
         return (agreement_item(agreement, checked=checked, known=self._known),)
 
     def use_place(self, T_world_patient: RigidTransform) -> None:
@@ -199,11 +206,15 @@ class ChecksFeature(Feature):
             self.failed.emit(error)
             return
         if moved > FURTHEST_MM:
-            self.failed.emit(tr(
-                "By the measured place the needle enters {moved:.0f} mm from the planned entry: "
-                "lay the phantom so that its entry is at the robot's fulcrum (at most {most:.0f} "
-                "mm), then measure again", moved=moved, most=FURTHEST_MM,
-            ))  # fmt: skip
+            self.failed.emit(
+                tr(
+                    "By the measured place the needle enters {moved:.0f} mm from the planned "
+                    "entry: lay the phantom so that its entry is at the robot's fulcrum (at most "
+                    "{most:.0f} mm), then measure again",
+                    moved=moved,
+                    most=FURTHEST_MM,
+                )
+            )
             return
         self._editor.take(DraftPlan.of(plan), placement)
         self.noted.emit(tr("The measured place is used; the entry moved by {mm:.1f} mm", mm=moved))
@@ -218,9 +229,7 @@ class ChecksFeature(Feature):
         ct = volume.series if volume is not None else None
         names = () if ct is None else (ct.pseudonym, ct.former, ct.frame)
         try:
-            record = Registrations.own().newest(
-                seen.calibration, seen.rig, not run.is_real, *names
-            )  # fmt: skip
+            record = Registrations.own().newest(seen.calibration, seen.rig, not run.is_real, *names)
             if record is not None:
                 self._take(record)
         except AcusError as error:

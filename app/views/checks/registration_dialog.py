@@ -53,9 +53,12 @@ class FiducialTable(QTableWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         titles = [
-            tr("Fiducial"), tr("Tip: x  y  z [mm]"), tr("± 95 % [mm]"), tr("CT: L  P  S [mm]"),
+            tr("Fiducial"),
+            tr("Tip: x  y  z [mm]"),
+            tr("± 95 % [mm]"),
+            tr("CT: L  P  S [mm]"),
             tr("Residual [mm]"),
-        ]  # fmt: skip
+        ]
         self.setColumnCount(len(titles))
         self.setHorizontalHeaderLabels(titles)
         self.verticalHeader().hide()
@@ -300,12 +303,17 @@ class RegistrationDialog(QDialog):
         seen, volume, now = run.inspect(False, False), self._around.volume(), datetime.now()
         used = volume.series if volume is not None and self.draft.picked else None
         record = RegistrationRecord(
-            id=new_id(now), created=now.astimezone(), plate=self.plate,
-            touched=self.draft.touched, picked=self.draft.picked,
+            id=new_id(now),
+            created=now.astimezone(),
+            plate=self.plate,
+            touched=self.draft.touched,
+            picked=self.draft.picked,
             series=used.pseudonym if used is not None else "",
             frame=used.frame if used is not None else "",
-            calibration=seen.calibration, rig=seen.rig, simulated=not run.is_real,
-        )  # fmt: skip
+            calibration=seen.calibration,
+            rig=seen.rig,
+            simulated=not run.is_real,
+        )
         try:
             Registrations.own().save(record)
         except OSError as error:
@@ -382,10 +390,15 @@ class RegistrationDialog(QDialog):
 
     def _connect(self) -> None:
         for name, command in (
-            ("touch", self.touch), ("move", self._move), ("pick", self.pick),
-            ("forget", self.forget), ("undo", self.undo), ("redo", self.redo),
-            ("save", self.save), ("place", self.use_place),
-        ):  # fmt: skip
+            ("touch", self.touch),
+            ("move", self._move),
+            ("pick", self.pick),
+            ("forget", self.forget),
+            ("undo", self.undo),
+            ("redo", self.redo),
+            ("save", self.save),
+            ("place", self.use_place),
+        ):
             self.buttons[name].clicked.connect(command)
         for keys, command in (("Ctrl+Z", self.undo), ("Ctrl+Y", self.redo)):
             QShortcut(QKeySequence(keys), self, command)

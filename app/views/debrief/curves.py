@@ -54,19 +54,34 @@ def curves_of(review: Review) -> tuple[Curve, ...]:
     target_mm = 1e3 * review.placed.length
     return (
         Curve(
-            tr("Depth [mm]"), 1e3 * c.depth, theme.NEEDLE.colour, target_mm,
-            tr("target {mm:.0f} mm", mm=target_mm), "mm", tr("depth"),
+            tr("Depth [mm]"),
+            1e3 * c.depth,
+            theme.NEEDLE.colour,
+            target_mm,
+            tr("target {mm:.0f} mm", mm=target_mm),
+            "mm",
+            tr("depth"),
         ),
         Curve(
-            tr("Off the path [mm]"), 1e3 * c.lateral, theme.NEEDLE_TIP.colour, None, "", "mm",
+            tr("Off the path [mm]"),
+            1e3 * c.lateral,
+            theme.NEEDLE_TIP.colour,
+            None,
+            "",
+            "mm",
             tr("off the path"),
         ),
         Curve(
-            tr("Angle error [°]"), np.degrees(c.angle), theme.PATH.colour, None, "", "°",
+            tr("Angle error [°]"),
+            np.degrees(c.angle),
+            theme.PATH.colour,
+            None,
+            "",
+            "°",
             tr("angle"),
         ),
         *([_force_curve(review)] if review.renders else []),
-    )  # fmt: skip
+    )
 
 
 def _force_curve(review: Review) -> Curve:
@@ -74,9 +89,13 @@ def _force_curve(review: Review) -> Curve:
     force, origin = review.measured_force, origin_word(review.measured_force is not None)
     return Curve(
         tr("Force felt, {origin} [N]", origin=origin),
-        review.curves.felt if force is None else np.abs(force), "#f0e442", review.force_limit,
-        tr("limit {n:g} N", n=review.force_limit), "N", tr("{origin} force", origin=origin),
-    )  # fmt: skip
+        review.curves.felt if force is None else np.abs(force),
+        "#f0e442",
+        review.force_limit,
+        tr("limit {n:g} N", n=review.force_limit),
+        "N",
+        tr("{origin} force", origin=origin),
+    )
 
 
 def time_end(time: FloatArray) -> float:
@@ -158,7 +177,7 @@ def draw(plot: pg.PlotItem, review: Review, curve: Curve) -> None:
         options = {"position": 0.5, "color": theme.TARGET.colour, "anchors": [(1, 1), (1, 1)]}
         line = pg.InfiniteLine(
             curve.line, angle=0, pen=pen, label=curve.line_name, labelOpts=options
-        )  # fmt: skip
+        )
         plot.addItem(line)
     time, values = peaks(review.curves.time, curve.values)
     plot.plot(time, values, pen=pg.mkPen(curve.colour, width=2), connect="finite")

@@ -168,9 +168,11 @@ class ScanPictures(QObject):
         known = patient is not None and pseudonym in ("", patient.volume.series.pseudonym)
         if patient is None or not known:
             self._conductor.failed.emit(
-                tr("The slices are made of the CT that was scanned, {ct}: open it first",
-                   ct=pseudonym or tr("which is not open"))
-            )  # fmt: skip
+                tr(
+                    "The slices are made of the CT that was scanned, {ct}: open it first",
+                    ct=pseudonym or tr("which is not open"),
+                )
+            )
             return
         volume, recipe = patient.volume, review.ct.recipe
 
@@ -184,9 +186,13 @@ class ScanPictures(QObject):
             return scan_image(ct, scan.order, scan.needle, bool(scan.streak), scan.shift_mm)
 
         run_in_background(
-            self, make, lambda picture: self._show(picture, scan), self._conductor.failed.emit,
-            title=tr("Making the slices again"), indicator=self._indicator,
-        )  # fmt: skip
+            self,
+            make,
+            lambda picture: self._show(picture, scan),
+            self._conductor.failed.emit,
+            title=tr("Making the slices again"),
+            indicator=self._indicator,
+        )
 
     def _show(self, picture: Volume, scan: ControlScan) -> None:
         review = self._page.review

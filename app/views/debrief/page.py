@@ -104,9 +104,12 @@ def cells(scan: ControlScan, origin: float) -> tuple[str, ...]:
     """Words of one row."""
     low, high = scan.order.range_mm
     slices = tr(
-        "{n} × {mm:g} mm, {low} to {high}", n=scan.order.slices, mm=scan.order.slice_mm,
-        low=axis_words(2, low), high=axis_words(2, high),
-    )  # fmt: skip
+        "{n} × {mm:g} mm, {low} to {high}",
+        n=scan.order.slices,
+        mm=scan.order.slice_mm,
+        low=axis_words(2, low),
+        high=axis_words(2, high),
+    )
     shows = {
         Seen.TIP: tr("● tip"),
         Seen.SHAFT: tr("▲ shaft only"),
@@ -250,8 +253,13 @@ class DebriefPage(QWidget):
         self._problems.setStyleSheet(f"color: {theme.WARNING}; font-size: {theme.SMALL_PX}px;")
         self.retry.setProperty("role", "primary")
         for label in (
-            self._title, self._facts, self.conditions, self._reason, self._problems, self.risks,
-        ):  # fmt: skip
+            self._title,
+            self._facts,
+            self.conditions,
+            self._reason,
+            self._problems,
+            self.risks,
+        ):
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setWordWrap(True)
 

@@ -33,9 +33,11 @@ class PathView(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setMinimumSize(200, 200)
         self.setToolTip(
-            tr("Track of the tip, seen along the planned path; a square where it began, a diamond "
-               "where it ended")
-        )  # fmt: skip
+            tr(
+                "Track of the tip, seen along the planned path; a square where it began, a diamond "
+                "where it ended"
+            )
+        )
 
     def show_review(self, review: Review) -> None:
         """Draw an attempt."""
@@ -81,10 +83,15 @@ def pad_scene(review: Review) -> PadScene:
     placed = review.placed
     limits = HandLimits(1.5, -0.03, 2.0 * placed.length)
     return PadScene(
-        frame=review.frame, scale=review.scale, rings=review.rings, limits=limits,
-        p_entry=placed.p_entry, target_depth=placed.length, depth_tolerance=review.rings[0],
+        frame=review.frame,
+        scale=review.scale,
+        rings=review.rings,
+        limits=limits,
+        p_entry=placed.p_entry,
+        target_depth=placed.length,
+        depth_tolerance=review.rings[0],
         stop_depth=placed.length + review.rings[1],
-    )  # fmt: skip
+    )
 
 
 def paint_track(

@@ -356,9 +356,11 @@ def scans_text(review: Review) -> str:
     tips = sum(scan.seen is Seen.TIP for scan in scans)
     return tr(
         "{n}, {tips} of them with the tip; {dose:.1f} mGy·cm ({estimate})",
-        n=review.scans, tips=tips, dose=sum(scan.dose for scan in scans),
+        n=review.scans,
+        tips=tips,
+        dose=sum(scan.dose for scan in scans),
         estimate=tr(TEACHING_ESTIMATE),
-    )  # fmt: skip
+    )
 
 
 def radius_text(radius: float | None) -> str:
@@ -426,8 +428,9 @@ def _second_page(painter: QPainter, review: Review) -> None:
     note = tr(
         "□ where it began   ◆ where it ended\nRings: {expert:g} mm expert, {passing:g} mm pass\n"
         "Letters: directions of the patient\n▼ control scan",
-        expert=1e3 * review.rings[0], passing=1e3 * review.rings[1],
-    )  # fmt: skip
+        expert=1e3 * review.rings[0],
+        passing=1e3 * review.rings[1],
+    )
     painter.drawText(legend, Qt.TextFlag.TextWordWrap, note)
     paint_path(painter, QRectF(WIDTH - MARGIN - 265.0, top + 4.0, 265.0, 265.0), review)
 

@@ -19,8 +19,13 @@ def risk_line(mark: RiskMark, origin: float) -> str:
     """One structure in a line: sign, distance, limit, when; the time counted from `origin` [s]."""
     when, depth = clock_text(mark.time - origin), max(0.0, -mark.closest_mm)
     if mark.closest_mm <= 0.0:
-        return tr("✖ {name}: needle inside, {depth:.1f} mm deep, at {when} (limit {limit:g} mm)",
-                  name=mark.name, depth=depth, when=when, limit=mark.limit_mm)  # fmt: skip
+        return tr(
+            "✖ {name}: needle inside, {depth:.1f} mm deep, at {when} (limit {limit:g} mm)",
+            name=mark.name,
+            depth=depth,
+            when=when,
+            limit=mark.limit_mm,
+        )
     near = mark.breach_mm > 0.0
     text = (
         tr("▲ {name}: {distance:.1f} mm, at {when}: nearer than {limit:g} mm")
@@ -52,10 +57,14 @@ def hand_word(conditions: Conditions) -> str:
     if conditions.scripted:
         return tr("script ({skill})", skill=conditions.scripted)
     return {
-        "mouse": tr("mouse"), "keyboard": tr("keyboard"), "tablet": tr("tablet"),
-        "gamepad": tr("gamepad"), "robot": tr("hand at the robot"), "pen": tr("pen"),
+        "mouse": tr("mouse"),
+        "keyboard": tr("keyboard"),
+        "tablet": tr("tablet"),
+        "gamepad": tr("gamepad"),
+        "robot": tr("hand at the robot"),
+        "pen": tr("pen"),
         "script": tr("script"),
-    }.get(conditions.hand, "")  # fmt: skip
+    }.get(conditions.hand, "")
 
 
 def dial_text(dial: Assistance | None) -> str:
@@ -102,8 +111,11 @@ def assistance_words(dial: Assistance | None) -> str:
         return tr("{start} as set, throughout", start=start)
     return tr(
         "set {start}; least {least:z.2f}, most {most:z.2f}, over time {mean:z.2f}",
-        start=start, least=dial.least, most=dial.most, mean=dial.mean,
-    )  # fmt: skip
+        start=start,
+        least=dial.least,
+        most=dial.most,
+        mean=dial.mean,
+    )
 
 
 def agreement_words(conditions: Conditions) -> str:
@@ -119,8 +131,9 @@ def agreement_words(conditions: Conditions) -> str:
         return tr("not checked; {calibration}", calibration=calibration)
     return tr(
         "agree within {mm:.1f} mm (95 %); {calibration}",
-        mm=conditions.agreement_mm, calibration=calibration,
-    )  # fmt: skip
+        mm=conditions.agreement_mm,
+        calibration=calibration,
+    )
 
 
 def _exercise(c: Conditions) -> str:
@@ -276,6 +289,9 @@ def _limits(row: Row) -> str:
     expert, good, passing, _ = row.tolerance.knots
     text = tr(
         "expert {expert:g}, good {good:g}, pass {passing:g} {unit}",
-        expert=expert, good=good, passing=passing, unit=row.unit,
-    )  # fmt: skip
+        expert=expert,
+        good=good,
+        passing=passing,
+        unit=row.unit,
+    )
     return text + ("; " + tr("* required to pass") if row.tolerance.required else "")

@@ -83,10 +83,15 @@ class SessionsModel(QAbstractTableModel):
         if orientation is not Qt.Orientation.Horizontal or role != Qt.ItemDataRole.DisplayRole:
             return None
         return (
-            tr("Date"), tr("Student"), tr("Exercise"), tr("Score"), tr("Made with"), tr("State"),
+            tr("Date"),
+            tr("Student"),
+            tr("Exercise"),
+            tr("Score"),
+            tr("Made with"),
+            tr("State"),
             tr("Time"),
             tr("Remark"),
-        )[section]  # fmt: skip
+        )[section]
 
     def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """Text, colour, alignment, sort key or the summary itself."""

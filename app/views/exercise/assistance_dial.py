@@ -53,11 +53,11 @@ class AssistanceDial(QWidget):
         grid.addWidget(_Scale(self), 1, 0)
         self.slider.valueChanged.connect(self._show)
         self.slider.valueChanged.connect(lambda percent: self.changed.emit(percent / _FULL))
-        self._help = (tr(
+        self._help = tr(
             "How the robot helps. To the right it guides the needle back to the planned path, to "
             "the left it pushes the needle away from it, which is harder to master; in the middle "
             "it does nothing. Arrow keys 1 %, Page keys 10 %, Home or double click: off."
-        ))  # fmt: skip
+        )
         self.set_locked("")
         self.setFocusProxy(self.slider)
         self._show(self.slider.value())

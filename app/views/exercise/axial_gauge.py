@@ -50,10 +50,12 @@ class AxialGauge(QWidget):
         super().__init__(parent)
         self._force: float | None = None
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setToolTip(tr(
-            "Force of the tissue along the needle, as the simulation has it: friction on the "
-            "shaft. The robot cannot push along the needle; a simulated hand feels it."
-        ))  # fmt: skip
+        self.setToolTip(
+            tr(
+                "Force of the tissue along the needle, as the simulation has it: friction on the "
+                "shaft. The robot cannot push along the needle; a simulated hand feels it."
+            )
+        )
         self.show_force(None)
 
     def sizeHint(self) -> QSize:

@@ -115,9 +115,12 @@ class DepthBar(QWidget):
         label = max(stop, target + 16)
         self._mark(painter, self.pixel(0.0), self.pixel(0.0), theme.SKIN.colour, tr("Skin"))
         self._mark(
-            painter, target, target, theme.TARGET.colour,
+            painter,
+            target,
+            target,
+            theme.TARGET.colour,
             tr("Target {mm:.0f}", mm=1e3 * scene.target_depth),
-        )  # fmt: skip
+        )
         self._mark(
             painter, stop, label, theme.BAD, tr("Stop {mm:.0f}", mm=1e3 * scene.stop_depth), 4.0
         )
@@ -192,8 +195,10 @@ def lateral(frame: PathFrame, offset: Offset) -> str:
         return tr("off the path: 0.0 mm")
     right, up = 1e3 * float(offset.across @ frame.right), 1e3 * float(offset.across @ frame.up)
     left_letters, right_letters, top, bottom = frame.letters
-    parts = ((abs(right), right_letters if right > 0.0 else left_letters),
-             (abs(up), top if up > 0.0 else bottom))  # fmt: skip
+    parts = (
+        (abs(right), right_letters if right > 0.0 else left_letters),
+        (abs(up), top if up > 0.0 else bottom),
+    )
     sides = "  ".join(f"{letters} {size:.1f}" for size, letters in parts if size >= 0.05)
     return tr("off the path: {length:.1f} mm  ({sides})", length=length, sides=sides)
 
@@ -203,8 +208,11 @@ def ct_words(frame: PathFrame, direction: ArrayLike) -> str:
     needle, path = frame.ct_angles(direction), frame.ct_angles(frame.axis)
     return tr(
         "CT angles: in plane {a:+.1f}° (path {b:+.1f}°)\nout of plane {c:+.1f}° (path {d:+.1f}°)",
-        a=needle[0], b=path[0], c=needle[1], d=path[1],
-    )  # fmt: skip
+        a=needle[0],
+        b=path[0],
+        c=needle[1],
+        d=path[1],
+    )
 
 
 def remaining(offset: Offset, across: float, along: float) -> str:
@@ -262,8 +270,14 @@ class Bullseye(QWidget):
         self._out_of_plane = _label(theme.FONT_PX + 1)
         self._source = _label(theme.SMALL_PX, theme.WARNING)
         self._lateral, self._angles = _label(theme.SMALL_PX), _label(theme.SMALL_PX)
-        self._words = (self._remaining, self._in_plane, self._out_of_plane, self._source,
-                       self._lateral, self._angles)  # fmt: skip
+        self._words = (
+            self._remaining,
+            self._in_plane,
+            self._out_of_plane,
+            self._source,
+            self._lateral,
+            self._angles,
+        )
         self.source = HandChooser(self.pad, self)
         self._intent = QTimer(self, interval=INTENT_MS, singleShot=True)
         self._intent.timeout.connect(self._emit_hand)
@@ -285,9 +299,12 @@ class Bullseye(QWidget):
         across = max(self.width() // 2 - 2 * theme.SPACING, 1)
         beside = max(min(across, self.depth_bar.width()), 1)
         for label, longest, room in (
-            (self._in_plane, 46, across), (self._out_of_plane, 46, across),
-            (self._remaining, 16, beside), (self._lateral, 40, beside), (self._source, 28, beside),
-        ):  # fmt: skip
+            (self._in_plane, 46, across),
+            (self._out_of_plane, 46, across),
+            (self._remaining, 16, beside),
+            (self._lateral, 40, beside),
+            (self._source, 28, beside),
+        ):
             metrics = label.fontMetrics()
             lines = -(-longest * metrics.averageCharWidth() // room)
             label.setMinimumHeight(min(lines, 3) * metrics.lineSpacing())

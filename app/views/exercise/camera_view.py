@@ -101,9 +101,10 @@ def draw_magnified(
     painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.5))
     painter.drawRect(window)
     scale = side / (2 * _HALF + 1)
-    middle = window.topLeft() + QPointF(
-        pixel[0] - column + _HALF + 0.5, pixel[1] - row + _HALF + 0.5
-    ) * scale  # fmt: skip
+    middle = (
+        window.topLeft()
+        + QPointF(pixel[0] - column + _HALF + 0.5, pixel[1] - row + _HALF + 0.5) * scale
+    )
     for colour, width in ((QColor(0, 0, 0, 180), 3.0), (QColor(MARK), 1.2)):
         painter.setPen(QPen(colour, width))
         for arm in (QPointF(1.0, 0.0), QPointF(0.0, 1.0)):
@@ -205,9 +206,7 @@ class CameraView(QWidget):
             draw_curve(painter, [at(pixel) for pixel in shown.epipolar])
         if self.overlays.region and shown.region is not None:
             left, top, right, bottom = shown.region
-            draw_region(
-                painter, QRectF(at(np.array([left, top])), at(np.array([right, bottom])))
-            )  # fmt: skip
+            draw_region(painter, QRectF(at(np.array([left, top])), at(np.array([right, bottom]))))
         pixel = shown.picture.pixel
         if pixel is not None:
             draw_marker(painter, at(pixel))
@@ -221,7 +220,7 @@ class CameraView(QWidget):
         scale = min(self.width() / width, self.height() / height)
         return QPointF(
             (self.width() - scale * width) / 2, (self.height() - scale * height) / 2
-        ), scale  # fmt: skip
+        ), scale
 
 
 def _draw_name(painter: QPainter, corner: QPointF, shown: InspectedPicture) -> None:

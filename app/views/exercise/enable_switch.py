@@ -261,11 +261,14 @@ class EnableSwitch(QAbstractButton):
         painter.drawRoundedRect(filled, 6, 6)
 
     def _explain(self) -> None:
-        self.setToolTip(tr(
-            "The robot gives force only while {key}, a pedal or this button is held; the force "
-            "rises within a second and is gone when you let go, or when the window loses the "
-            "keyboard. After a fault let go and hold again.", key=key_name(self.key.key),
-        ))  # fmt: skip
+        self.setToolTip(
+            tr(
+                "The robot gives force only while {key}, a pedal or this button is held; the force "
+                "rises within a second and is gone when you let go, or when the window loses the "
+                "keyboard. After a fault let go and hold again.",
+                key=key_name(self.key.key),
+            )
+        )
 
     def _hold(self, by_key: bool | None = None, by_button: bool | None = None) -> None:
         before = self.is_held

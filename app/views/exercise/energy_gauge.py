@@ -70,8 +70,15 @@ def energy_figures(snapshot: Snapshot) -> EnergyFigures | None:
     """Energy of a snapshot; None where the robot says nothing, or nothing finite."""
     if snapshot.device is None:
         return None
-    slots = [sv.POTENTIAL, sv.ENERGY_TANK, sv.ENERGY_BOUND, sv.ENERGY_OUT, sv.GUARD_SCALE,
-             sv.GUARD_DAMPING, sv.GUARD_LOSS]  # fmt: skip
+    slots = [
+        sv.POTENTIAL,
+        sv.ENERGY_TANK,
+        sv.ENERGY_BOUND,
+        sv.ENERGY_OUT,
+        sv.GUARD_SCALE,
+        sv.GUARD_DAMPING,
+        sv.GUARD_LOSS,
+    ]
     values = snapshot.device.row[slots]
     return EnergyFigures(*values.tolist()) if np.isfinite(values).all() else None
 
@@ -180,11 +187,14 @@ class EnergyGauge(QWidget):
             return tr("stored –"), tr("left –"), guard, tr("taken out by the guard –")
         return (
             tr("stored {energy}", energy=millijoules(figures.stored)),
-            tr("left {tank} of {bound}", tank=millijoules(figures.tank),
-               bound=millijoules(figures.bound)),
+            tr(
+                "left {tank} of {bound}",
+                tank=millijoules(figures.tank),
+                bound=millijoules(figures.bound),
+            ),
             guard,
             tr("taken out {energy}", energy=millijoules(figures.loss)),
-        )  # fmt: skip
+        )
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw title with the loss, bar, figures, and what the guard does."""

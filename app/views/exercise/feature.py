@@ -53,8 +53,9 @@ class ExerciseFeature(Feature):
         exercise = self.exercises.get(identifier)
         if exercise is None:
             names = ", ".join(self.exercises)
-            self._shell.messages.show_error(tr("There is no exercise {name}; there are: {names}",
-                                             name=identifier, names=names))  # fmt: skip
+            self._shell.messages.show_error(
+                tr("There is no exercise {name}; there are: {names}", name=identifier, names=names)
+            )
         else:
             self._begin(exercise)
 

@@ -109,8 +109,9 @@ def _limit_reason(row: FloatArray) -> str:
         doubt = 0.5 * float(row[sv.DEPTH_MOST] - row[sv.DEPTH_LEAST]) / MILLIMETRE
         return tr(
             "the depth is known only to ± {mm:.0f} mm, and the force stays within its limit for "
-            "all of that", mm=doubt,
-        )  # fmt: skip
+            "all of that",
+            mm=doubt,
+        )
     return tr("the lever is light here: a stronger push could not be stopped in time if you let go")
 
 

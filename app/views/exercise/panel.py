@@ -353,9 +353,16 @@ class ExercisePanel(QWidget):
         column.setSpacing(theme.SPACING - 2)  # with every part shown it still fits 768 lines
         column.addLayout(form)
         for widget in (
-            self.steps, self._note, self.withdrawal, self.buttons, self.enable, self.scan, _line(),
-            self.readouts, self.energy,
-        ):  # fmt: skip
+            self.steps,
+            self._note,
+            self.withdrawal,
+            self.buttons,
+            self.enable,
+            self.scan,
+            _line(),
+            self.readouts,
+            self.energy,
+        ):
             column.addWidget(widget)
         column.addStretch(1)
 

@@ -44,12 +44,16 @@ class ScanRange:
 
     def place(self, plane: SlicePlane, index: float, scale: float) -> None:
         """Draw the lines."""
-        found = [] if self._order is None else [
-            line
-            for z in self._order.range_mm
-            for line in [_cut(plane, index, z)]
-            if line is not None
-        ]  # fmt: skip
+        found = (
+            []
+            if self._order is None
+            else [
+                line
+                for z in self._order.range_mm
+                for line in [_cut(plane, index, z)]
+                if line is not None
+            ]
+        )
         self._item.set_lines(tuple(found))
 
     def hide(self) -> None:

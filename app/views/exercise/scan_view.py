@@ -118,9 +118,13 @@ class ScanPanel(QWidget):
 
     def _show_count(self, number: int) -> None:
         self.count.setText(
-            tr("Scans: {n} · {dose:.1f} mGy·cm ({estimate})", n=number, dose=self._dose,
-               estimate=tr(TEACHING_ESTIMATE))
-        )  # fmt: skip
+            tr(
+                "Scans: {n} · {dose:.1f} mGy·cm ({estimate})",
+                n=number,
+                dose=self._dose,
+                estimate=tr(TEACHING_ESTIMATE),
+            )
+        )
 
     def _step(self, text: str, way: int) -> QToolButton:
         button = QToolButton(self)
@@ -148,9 +152,11 @@ class ScanPanel(QWidget):
         self.slices.setRange(FEWEST, MOST)
         self.slices.setAccessibleName(tr("Slices"))
         self.count.setToolTip(
-            tr("Dose-length product as the exercise sets it: a teaching estimate, no dose of any "
-               "scanner")
-        )  # fmt: skip
+            tr(
+                "Dose-length product as the exercise sets it: a teaching estimate, no dose of any "
+                "scanner"
+            )
+        )
         self.progress.setTextVisible(True)
         self.progress.setFixedHeight(14)
         kept = self.progress.sizePolicy()
@@ -293,9 +299,11 @@ class ScanView(QWidget):
             rows, columns = grey.shape
             borrowed = QImage(grey.data, columns, rows, columns, QImage.Format.Format_Grayscale8)
             picture = QPixmap.fromImage(borrowed.copy()).scaled(
-                THUMB_PX, THUMB_PX, Qt.AspectRatioMode.KeepAspectRatio,
+                THUMB_PX,
+                THUMB_PX,
+                Qt.AspectRatioMode.KeepAspectRatio,
                 Qt.TransformationMode.SmoothTransformation,
-            )  # fmt: skip
+            )
             button = self._thumbs.button(number)
             if button is not None:
                 button.setIcon(QIcon(picture))
@@ -337,6 +345,10 @@ def caption(scan: ControlScan, origin: float) -> str:
     order = scan.order
     return tr(
         "Control scan {n} at {time:.0f} s · {slices} × {mm:g} mm · {dose:.1f} mGy·cm ({estimate})",
-        n=scan.number, time=scan.time - origin, slices=order.slices, mm=order.slice_mm,
-        dose=scan.dose, estimate=tr(TEACHING_ESTIMATE),
-    )  # fmt: skip
+        n=scan.number,
+        time=scan.time - origin,
+        slices=order.slices,
+        mm=order.slice_mm,
+        dose=scan.dose,
+        estimate=tr(TEACHING_ESTIMATE),
+    )

@@ -51,25 +51,40 @@ def loop_item(figures: LoopFigures) -> StatusItem:
         verdict = Verdict.BAD
     text = tr(
         "{rate:.0f} Hz · late {median:.2f} / {p99:.2f} ms · {missing:.1f} % missed",
-        rate=figures.rate, median=1e3 * figures.median, p99=1e3 * figures.p99,
+        rate=figures.rate,
+        median=1e3 * figures.median,
+        p99=1e3 * figures.p99,
         missing=100.0 * figures.missing,
-    )  # fmt: skip
-    return StatusItem(verdict, tr("Robot loop"), text, tr(
-        "Rate of the force loop, its lateness (median / 99th percentile) and the share of "
-        "deadlines it missed in the last {seconds:.0f} s; since the start it missed {missed} of "
-        "{ticks}. If it is late, close other programs; forces stay limited either way.",
-        seconds=MISSED_WINDOW, missed=figures.missed, ticks=figures.ticks,
-    ))  # fmt: skip
+    )
+    return StatusItem(
+        verdict,
+        tr("Robot loop"),
+        text,
+        tr(
+            "Rate of the force loop, its lateness (median / 99th percentile) and the share of "
+            "deadlines it missed in the last {seconds:.0f} s; since the start it missed {missed} "
+            "of {ticks}. If it is late, close other programs; forces stay limited either way.",
+            seconds=MISSED_WINDOW,
+            missed=figures.missed,
+            ticks=figures.ticks,
+        ),
+    )
 
 
 def encoder_item(age: float, fault: str = "") -> StatusItem:
     """Return the encoders' health: age [s], and the fault that holds the force at zero."""
     verdict = Verdict.BAD if fault else _by_age(age, ENCODER_FADE, ENCODER_ZERO)
     text = tr("fault: no force") if fault else age_text(age)
-    return StatusItem(verdict, tr("Encoders"), text, tr(
-        "Age of the robot's joint angles. The force fades from 20 ms and is zero from 100 ms. "
-        "If it stays old, check the robot's cable and power, then start the attempt again."
-    ) + (f"\n{fault}" if fault else ""))  # fmt: skip
+    return StatusItem(
+        verdict,
+        tr("Encoders"),
+        text,
+        tr(
+            "Age of the robot's joint angles. The force fades from 20 ms and is zero from 100 ms. "
+            "If it stays old, check the robot's cable and power, then start the attempt again."
+        )
+        + (f"\n{fault}" if fault else ""),
+    )
 
 
 def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> StatusItem:
@@ -79,13 +94,20 @@ def tracker_item(rate: float, valid_share: float, age: float, problem: str) -> S
         verdict = Verdict.WARNING
     text = problem or tr(
         "{rate:.0f} Hz · {share:.0f} % valid · {age}",
-        rate=rate, share=100 * valid_share, age=age_text(age),
-    )  # fmt: skip
-    return StatusItem(verdict, tr("Cameras"), text, tr(
-        "Rate of the tracker, share of pictures in which both cameras saw the marker, age of the "
-        "last such fix. If the marker is out of view, bring it back between the cameras; look at "
-        "the camera pictures for dirt, light or something in the way."
-    ))  # fmt: skip
+        rate=rate,
+        share=100 * valid_share,
+        age=age_text(age),
+    )
+    return StatusItem(
+        verdict,
+        tr("Cameras"),
+        text,
+        tr(
+            "Rate of the tracker, share of pictures in which both cameras saw the marker, age of "
+            "the last such fix. If the marker is out of view, bring it back between the cameras; "
+            "look at the camera pictures for dirt, light or something in the way."
+        ),
+    )
 
 
 def depth_item(source: str, age: float) -> StatusItem:
@@ -98,21 +120,32 @@ def depth_item(source: str, age: float) -> StatusItem:
         "none": (Verdict.BAD, tr("unknown")),
     }
     verdict, text = known.get(source, known["none"])
-    return StatusItem(verdict, tr("Depth"), text, tr(
-        "The depth is measured by the cameras; by one of them and the needle's line, less exactly, "
-        "while the other does not see the marker. Without a fix it is held for 200 ms. After that, "
-        "and until ten pictures in a row agree, nobody knows it: the force is held back for the "
-        "worst depth that the needle can have. Wait until the cameras see the marker again."
-    ))  # fmt: skip
+    return StatusItem(
+        verdict,
+        tr("Depth"),
+        text,
+        tr(
+            "The depth is measured by the cameras; by one of them and the needle's line, less "
+            "exactly, while the other does not see the marker. Without a fix it is held for 200 "
+            "ms. After that, and until ten pictures in a row agree, nobody knows it: the force is "
+            "held back for the worst depth that the needle can have. Wait until the cameras see "
+            "the marker again."
+        ),
+    )
 
 
 def heartbeat_item(age: float) -> StatusItem:
     """Return the age [s] of this window's sign of life to the loop."""
     verdict = _by_age(age, 0.5 * HEARTBEAT, HEARTBEAT)
-    return StatusItem(verdict, tr("Heartbeat"), age_text(age), tr(
-        "The window's sign of life to the robot. After 1 s without one the force goes to zero. If "
-        "it stops, the window is frozen: wait, or end the program."
-    ))  # fmt: skip
+    return StatusItem(
+        verdict,
+        tr("Heartbeat"),
+        age_text(age),
+        tr(
+            "The window's sign of life to the robot. After 1 s without one the force goes to zero. "
+            "If it stops, the window is frozen: wait, or end the program."
+        ),
+    )
 
 
 def recorder_item(recording: bool, lost: int = 0, failure: str = "") -> StatusItem:
@@ -124,10 +157,16 @@ def recorder_item(recording: bool, lost: int = 0, failure: str = "") -> StatusIt
         verdict, text = Verdict.WARNING, tr("{lost} samples lost", lost=lost)
     if failure:
         verdict, text = Verdict.BAD, tr("failed")
-    return StatusItem(verdict, tr("Recorder"), text, tr(
-        "Every attempt is written to disk, flushed each second. If samples are lost, the disk is "
-        "too slow or full: free some space."
-    ) + (f"\n{failure}" if failure else ""))  # fmt: skip
+    return StatusItem(
+        verdict,
+        tr("Recorder"),
+        text,
+        tr(
+            "Every attempt is written to disk, flushed each second. If samples are lost, the disk "
+            "is too slow or full: free some space."
+        )
+        + (f"\n{failure}" if failure else ""),
+    )
 
 
 def age_text(age: float) -> str:

@@ -138,12 +138,17 @@ class TrackerPanel(QWidget):
         row.setSpacing(4)
         for name, title, help_ in (
             ("mask", tr("Mask"), tr("Pixels that count as the marker's colour")),
-            ("epipolar", tr("Lines"), tr(
-                "Where the marker may lie by what the other camera shows; it should pass through "
-                "the marker")),
+            (
+                "epipolar",
+                tr("Lines"),
+                tr(
+                    "Where the marker may lie by what the other camera shows; it should pass "
+                    "through the marker"
+                ),
+            ),
             ("region", tr("Region"), tr("Where the marker is looked for in the next picture")),
             ("magnifier", tr("Zoom"), tr("The marker's surroundings, enlarged")),
-        ):  # fmt: skip
+        ):
             button = QToolButton(self)
             button.setText(title)
             button.setToolTip(help_)
@@ -207,10 +212,13 @@ class _Figures(QWidget):
         size = "–" if radius is None else tr("± {mm:.2f} mm", mm=1e3 * radius)
         if radius is not None and not known:
             size = tr("{size} + calibration (not known)", size=size)
-            self._values["radius"].setToolTip(tr(
-                "By the pictures alone: the calibration's own uncertainty is not known, as it was "
-                "imported. The true radius is larger; calibrate with pictures of a board to know it"
-            ))  # fmt: skip
+            self._values["radius"].setToolTip(
+                tr(
+                    "By the pictures alone: the calibration's own uncertainty is not known, as it "
+                    "was imported. The true radius is larger; calibrate with pictures of a board "
+                    "to know it"
+                )
+            )
         else:
             self._values["radius"].setToolTip(_HELP["radius"])
         texts = {
@@ -242,16 +250,23 @@ def residual_text(residual_px: float | None) -> str:
 
 
 _TITLES: Final = (
-    ("residual", tr("Residual"), tr(
-        "How far the two pictures disagree; above 1 px the calibration should be checked. It is "
-        "no accuracy: a wrong scale leaves it small")),
-    ("radius", tr("Tip, 95 %"), tr(
-        "Radius round the tip that holds the true one with 95 %, by pictures and calibration")),
+    (
+        "residual",
+        tr("Residual"),
+        tr(
+            "How far the two pictures disagree; above 1 px the calibration should be checked. It "
+            "is no accuracy: a wrong scale leaves it small"
+        ),
+    ),
+    (
+        "radius",
+        tr("Tip, 95 %"),
+        tr("Radius round the tip that holds the true one with 95 %, by pictures and calibration"),
+    ),
     ("rate", tr("Rate"), tr("Pairs of pictures a second")),
     ("valid", tr("Valid"), tr("Share of pairs in which both cameras saw the marker")),
     ("latency", tr("Latency"), tr("From capture to the needle's place, median")),
-    ("skew", tr("Skew"), tr(
-        "Capture of the right picture after the left one; it is made up for")),
-)  # fmt: skip
+    ("skew", tr("Skew"), tr("Capture of the right picture after the left one; it is made up for")),
+)
 
 _HELP: Final = {name: help_ for name, _, help_ in _TITLES}

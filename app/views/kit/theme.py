@@ -130,9 +130,14 @@ def style_sheet() -> str:
     folder = paths.resources() / "theme"
     template = (folder / "window.qss").read_text(encoding="utf-8")
     return Template(template).substitute(
-        _present.colours(), font=FONT_PX, small=SMALL_PX, title=TITLE_PX, inner=CONTROL_HEIGHT - 12,
-        round=SMALL_PX // 2 + 1, check=(folder / f"check-{_present.name}.svg").as_posix(),
-    )  # fmt: skip
+        _present.colours(),
+        font=FONT_PX,
+        small=SMALL_PX,
+        title=TITLE_PX,
+        inner=CONTROL_HEIGHT - 12,
+        round=SMALL_PX // 2 + 1,
+        check=(folder / f"check-{_present.name}.svg").as_posix(),
+    )
 
 
 def apply_theme(application: QApplication, theme: Theme = DARK, size: float = 1.0) -> None:
@@ -175,11 +180,20 @@ def _palette() -> QPalette:
     role = QPalette.ColorRole
     palette = QPalette()
     colours = {
-        role.Window: BACKGROUND, role.WindowText: TEXT, role.Base: _present.field, role.Text: TEXT,
-        role.AlternateBase: SURFACE, role.Button: RAISED, role.ButtonText: TEXT,
-        role.ToolTipBase: RAISED, role.ToolTipText: TEXT, role.Highlight: ACCENT,
-        role.HighlightedText: _present.on_accent, role.PlaceholderText: TEXT_DIM, role.Link: ACCENT,
-    }  # fmt: skip
+        role.Window: BACKGROUND,
+        role.WindowText: TEXT,
+        role.Base: _present.field,
+        role.Text: TEXT,
+        role.AlternateBase: SURFACE,
+        role.Button: RAISED,
+        role.ButtonText: TEXT,
+        role.ToolTipBase: RAISED,
+        role.ToolTipText: TEXT,
+        role.Highlight: ACCENT,
+        role.HighlightedText: _present.on_accent,
+        role.PlaceholderText: TEXT_DIM,
+        role.Link: ACCENT,
+    }
     for name, colour in colours.items():
         palette.setColor(name, QColor(colour))
     return palette

@@ -49,19 +49,51 @@ class Theme:
 
 
 DARK = Theme(
-    "dark", background="#14171a", surface="#1d2125", raised="#282d33", field="#101316",
-    border="#3a4149", disabled="#6b747c", text="#e8ecef", dim="#a5afb8", accent="#4aa3df",
-    on_accent="#0b0d0f", good="#4cc38a", warning="#f2b134", bad="#ff6b5e", entry="#56b4e9",
-    target="#e58fc2", needle="#ff9f1c", tip="#35d6ed", path="#8fc7ff", skin="#d8b59c",
-)  # fmt: skip
+    "dark",
+    background="#14171a",
+    surface="#1d2125",
+    raised="#282d33",
+    field="#101316",
+    border="#3a4149",
+    disabled="#6b747c",
+    text="#e8ecef",
+    dim="#a5afb8",
+    accent="#4aa3df",
+    on_accent="#0b0d0f",
+    good="#4cc38a",
+    warning="#f2b134",
+    bad="#ff6b5e",
+    entry="#56b4e9",
+    target="#e58fc2",
+    needle="#ff9f1c",
+    tip="#35d6ed",
+    path="#8fc7ff",
+    skin="#d8b59c",
+)
 """For the reading room."""
 
 LIGHT = Theme(
-    "light", background="#f1f3f5", surface="#ffffff", raised="#e0e5ea", field="#fcfdfe",
-    border="#87929d", disabled="#6f7a85", text="#0d1115", dim="#3f4a55", accent="#00588f",
-    on_accent="#fefefe", good="#0a6638", warning="#7a4700", bad="#a81712", entry="#005b94",
-    target="#96275f", needle="#8a4b00", tip="#006577", path="#1a5799", skin="#6d4426",
-)  # fmt: skip
+    "light",
+    background="#f1f3f5",
+    surface="#ffffff",
+    raised="#e0e5ea",
+    field="#fcfdfe",
+    border="#87929d",
+    disabled="#6f7a85",
+    text="#0d1115",
+    dim="#3f4a55",
+    accent="#00588f",
+    on_accent="#fefefe",
+    good="#0a6638",
+    warning="#7a4700",
+    bad="#a81712",
+    entry="#005b94",
+    target="#96275f",
+    needle="#8a4b00",
+    tip="#006577",
+    path="#1a5799",
+    skin="#6d4426",
+)
 """For a projector in a lit room; pictures stay on black."""
 
 THEMES = {theme.name: theme for theme in (DARK, LIGHT)}

@@ -53,9 +53,10 @@ def tool_help(tool: MeasureTool) -> str:
         MeasureTool.DISTANCE: tr("Drag from point to point"),
         MeasureTool.ANGLE: tr("Drag along one side to the vertex, then click the other side"),
         MeasureTool.PROBE: tr("Click: the value of that voxel"),
-        MeasureTool.REGION: tr("Drag from corner to corner: mean ± deviation and area of the "
-                               "ellipse"),
-    }.get(tool, "")  # fmt: skip
+        MeasureTool.REGION: tr(
+            "Drag from corner to corner: mean ± deviation and area of the ellipse"
+        ),
+    }.get(tool, "")
 
 
 def kind_word(item: Measurement) -> str:
@@ -113,9 +114,9 @@ class MeasurePanel(QWidget):
             name.setForeground(Qt.GlobalColor.lightGray)
         value = QTableWidgetItem(found.text)
         value.setFlags(value.flags() & ~Qt.ItemFlag.ItemIsEditable)
-        value.setToolTip("\n".join(
-            f"{q.name}: {q.value:.2f} {q.unit}" for q in found if q.value is not None
-        ))  # fmt: skip
+        value.setToolTip(
+            "\n".join(f"{q.name}: {q.value:.2f} {q.unit}" for q in found if q.value is not None)
+        )
         self.table.setItem(row, 0, name)
         self.table.setItem(row, 1, value)
 
@@ -236,9 +237,11 @@ class MeasureFeature(Feature):
     def export(self) -> None:
         """Ask where, and write the list."""
         name, kind = QFileDialog.getSaveFileName(
-            self._window, tr("Export measurements"), str(Path.home() / "measurements.csv"),
+            self._window,
+            tr("Export measurements"),
+            str(Path.home() / "measurements.csv"),
             tr(FILE_KINDS),
-        )  # fmt: skip
+        )
         if name:
             path = Path(name)
             if not path.suffix:
@@ -317,10 +320,13 @@ class MeasureMenu:
         self._viewing.scheme_changed.connect(self.refresh)
         self.refresh()
         menu.addSeparator()
-        add_entries(menu, [
-            (tr("List of measurements"), "", measure.show),
-            (tr("Export measurements…"), "", measure.export),
-        ])  # fmt: skip
+        add_entries(
+            menu,
+            [
+                (tr("List of measurements"), "", measure.show),
+                (tr("Export measurements…"), "", measure.export),
+            ],
+        )
 
     def refresh(self) -> None:
         """Take the keys of the scheme that is chosen."""

@@ -71,10 +71,12 @@ class LensBox(QComboBox):
         self._last = 0
         if settings.calibration is not None:
             self._add(settings.calibration, settings.camera)
-        self.setToolTip(tr(
-            "A guess is good for trying out. `acus calibrate mono --images FOLDER --out lens.yaml` "
-            "measures the lens; of a calibrated pair of cameras either may be taken"
-        ))  # fmt: skip
+        self.setToolTip(
+            tr(
+                "A guess is good for trying out. `acus calibrate mono --images FOLDER --out "
+                "lens.yaml` measures the lens; of a calibrated pair of cameras either may be taken"
+            )
+        )
         self.activated.connect(self._chosen)
 
     def chosen(self) -> Lens:
@@ -166,11 +168,16 @@ class PenChoice(QWidget):
         name = str(self.body.currentData())
         edge, usual = round(self.edge.value(), 1), load_pen(name).body.edge_mm
         calibration, camera = self.lens.chosen()
-        return self._settings.model_copy(update={
-            "source": self.source.source(), "size": self.size_box.size_px(), "pen": name,
-            "edge_mm": None if abs(edge - usual) < 0.05 else edge,
-            "calibration": calibration, "camera": camera,
-        })  # fmt: skip
+        return self._settings.model_copy(
+            update={
+                "source": self.source.source(),
+                "size": self.size_box.size_px(),
+                "pen": name,
+                "edge_mm": None if abs(edge - usual) < 0.05 else edge,
+                "calibration": calibration,
+                "camera": camera,
+            }
+        )
 
     def write(self, path: Path) -> None:
         """Write the net as a PDF; what is wrong is shown."""
@@ -183,10 +190,14 @@ class PenChoice(QWidget):
         except AcusError as error:
             tell(self.note, Verdict.BAD, str(error))
             return
-        tell(self.note, Verdict.GOOD, tr(
-            "written to {file}: print it at 100 %, check the line of 100 mm, cut, fold, glue",
-            file=path.name,
-        ))  # fmt: skip
+        tell(
+            self.note,
+            Verdict.GOOD,
+            tr(
+                "written to {file}: print it at 100 %, check the line of 100 mm, cut, fold, glue",
+                file=path.name,
+            ),
+        )
 
     def _ask(self) -> None:
         folder = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation)
@@ -217,9 +228,9 @@ class PenChoice(QWidget):
         for name in [*names, *([] if settings.pen in names else [settings.pen])]:
             self.body.addItem(Path(name).stem.capitalize(), name)
         self.body.setCurrentIndex(self.body.findData(settings.pen))
-        self.body.setToolTip(tr(
-            "Cube: five faces, also seen from above. Ring: six faces round the shaft"
-        ))  # fmt: skip
+        self.body.setToolTip(
+            tr("Cube: five faces, also seen from above. Ring: six faces round the shaft")
+        )
         self.edge.setRange(10.0, 100.0)
         self.edge.setDecimals(1)
         self.edge.setSuffix(" mm")
@@ -393,9 +404,12 @@ class PenDialog(QDialog):
             return
         buttons = QMessageBox.StandardButton
         box = QMessageBox(
-            QMessageBox.Icon.NoIcon, tr("Measured tip"), tr("Save the measured tip?"),
-            buttons.Save | buttons.Discard | buttons.Cancel, self,
-        )  # fmt: skip
+            QMessageBox.Icon.NoIcon,
+            tr("Measured tip"),
+            tr("Save the measured tip?"),
+            buttons.Save | buttons.Discard | buttons.Cancel,
+            self,
+        )
 
         def answered(answer: int) -> None:
             box.deleteLater()

@@ -153,9 +153,11 @@ class PenMenu:
     def refresh(self) -> None:
         """Show what is chosen."""
         source = self._pen.source
-        text = tr("A pen before a webcam: {source}", source=source) if source else tr(
-            "A pen before a webcam: choose…"
-        )  # fmt: skip
+        text = (
+            tr("A pen before a webcam: {source}", source=source)
+            if source
+            else tr("A pen before a webcam: choose…")
+        )
         self.pen.setText(text)
         self.pen.setChecked(self._pen.used)
         self.robot.setChecked(not self._pen.used)

@@ -54,10 +54,12 @@ class PenStatus(QWidget):
         self.accuracy.setProperty("role", "title")
         self.accuracy.setWordWrap(True)
         self.accuracy.setMinimumHeight(round(2.6 * theme.TITLE_PX))
-        self.accuracy.setToolTip(tr(
-            "Radius round the shown tip that holds the true one in 95 of 100 cases: noise, print, "
-            "lens and the tip's own place are all in it"
-        ))  # fmt: skip
+        self.accuracy.setToolTip(
+            tr(
+                "Radius round the shown tip that holds the true one in 95 of 100 cases: noise, "
+                "print, lens and the tip's own place are all in it"
+            )
+        )
         rows = QVBoxLayout(self)
         rows.setContentsMargins(0, 0, 0, 0)
         rows.addWidget(self.accuracy)

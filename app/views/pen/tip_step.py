@@ -41,10 +41,12 @@ class DirectionsView(QWidget):
         self.covered: frozenset[int] = frozenset()
         self.now: Lean | None = None
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
-        self.setToolTip(tr(
-            "Seen from above, the webcam at the bottom. A sector fills when the pen has leant "
-            "that way; the dot is how it leans now"
-        ))  # fmt: skip
+        self.setToolTip(
+            tr(
+                "Seen from above, the webcam at the bottom. A sector fills when the pen has leant "
+                "that way; the dot is how it leans now"
+            )
+        )
 
     def sizeHint(self) -> QSize:
         """Large enough to be read from a table's other side."""
@@ -192,10 +194,11 @@ class TipStep(QWidget):
             return rocking.collector.finish(settings.profile())
 
         task = self._task = run_in_background(
-            self, operation,
+            self,
+            operation,
             lambda found: self._take(found) if self._task is task else None,
             lambda error: self._refuse(error) if self._task is task else None,
-        )  # fmt: skip
+        )
         tell(self.state, Verdict.IDLE, tr("computing …"))
         self.refresh()
 
@@ -242,8 +245,9 @@ class TipStep(QWidget):
         self.save.setEnabled(not practice)
         self.save.setToolTip(
             tr("A simulated pen's tip is not kept: it would be taken for the real one's")
-            if practice else tr("Keep this tip; it is used from now on")
-        )  # fmt: skip
+            if practice
+            else tr("Keep this tip; it is used from now on")
+        )
         name = "" if self._settings is None else self._settings.kept_name
         self.undo.setEnabled(ready and bool(name) and can_undo(name))
         if not self.running:
@@ -292,10 +296,13 @@ class TipStep(QWidget):
         self.bar.setFixedHeight(10)
         self.undo.setToolTip(tr("Use the tip before this one; once more uses this one again"))
         self.compute.setToolTip(tr("Do not wait for all positions and sides"))
-        words = label(tr(
-            "Stand the tip in a dimple on the sheet, hold it there, and rock the pen slowly to "
-            "every side, by 30°."
-        ), "dim")  # fmt: skip
+        words = label(
+            tr(
+                "Stand the tip in a dimple on the sheet, hold it there, and rock the pen slowly to "
+                "every side, by 30°."
+            ),
+            "dim",
+        )
         beside = QVBoxLayout()
         beside.addWidget(words)
         beside.addWidget(self.bar)

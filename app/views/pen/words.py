@@ -48,11 +48,15 @@ def accuracy_line(seen: PenObservation | None, trouble: str = "") -> Line:
         return Line(Verdict.BAD, tr("The needle is not known: {why}", why=seen.fix.reason))
     radius, cone = seen.needle.tip_radius(), seen.needle.axis_cone()
     verdict = Verdict.GOOD if radius <= WELL else Verdict.WARNING
-    return Line(verdict if radius <= POOR else Verdict.BAD, tr(
-        "The tip is known to ±\N{NO-BREAK SPACE}{mm:.1f} mm (95 %), the direction to "
-        "±\N{NO-BREAK SPACE}{deg:.1f}°",
-        mm=radius / MILLIMETRE, deg=cone / DEGREE,
-    ))  # fmt: skip
+    return Line(
+        verdict if radius <= POOR else Verdict.BAD,
+        tr(
+            "The tip is known to ±\N{NO-BREAK SPACE}{mm:.1f} mm (95 %), the direction to "
+            "±\N{NO-BREAK SPACE}{deg:.1f}°",
+            mm=radius / MILLIMETRE,
+            deg=cone / DEGREE,
+        ),
+    )
 
 
 def status_lines(
@@ -86,22 +90,37 @@ def result_lines(found: PenCalibration) -> tuple[Line, ...]:
     tip, check = found.tip, found.check
     good = Verdict.GOOD if tip.sd_mm <= 1.0 else Verdict.WARNING
     lines = [
-        Line(good, tr("tip known to {sd:.2f} mm (standard deviation, worst direction)",
-                      sd=tip.sd_mm)),
-        Line(Verdict.GOOD, tr(
-            "it stood still to {rms:.2f} mm in {n} positions, {out} left out",
-            rms=tip.rms / MILLIMETRE, n=tip.poses, out=tip.left_out)),
-    ]  # fmt: skip
+        Line(
+            good, tr("tip known to {sd:.2f} mm (standard deviation, worst direction)", sd=tip.sd_mm)
+        ),
+        Line(
+            Verdict.GOOD,
+            tr(
+                "it stood still to {rms:.2f} mm in {n} positions, {out} left out",
+                rms=tip.rms / MILLIMETRE,
+                n=tip.poses,
+                out=tip.left_out,
+            ),
+        ),
+    ]
     if check is None:
         lines.append(Line(Verdict.WARNING, tr("too few positions to hold any back")))
     else:
         held = Verdict.GOOD if check.rms <= 2.0 * tip.rms + 5e-4 else Verdict.WARNING
-        lines.append(Line(held, tr(
-            "{n} positions held back: {rms:.2f} mm off (at most {worst:.1f} mm)",
-            n=check.poses, rms=check.rms / MILLIMETRE, worst=check.worst / MILLIMETRE,
-        )))  # fmt: skip
-    lines.append(Line(Verdict.GOOD, tr("direction of the shaft to {deg:.2f}°",
-                                       deg=found.axis.sd_deg)))  # fmt: skip
+        lines.append(
+            Line(
+                held,
+                tr(
+                    "{n} positions held back: {rms:.2f} mm off (at most {worst:.1f} mm)",
+                    n=check.poses,
+                    rms=check.rms / MILLIMETRE,
+                    worst=check.worst / MILLIMETRE,
+                ),
+            )
+        )
+    lines.append(
+        Line(Verdict.GOOD, tr("direction of the shaft to {deg:.2f}°", deg=found.axis.sd_deg))
+    )
     return tuple(lines)
 
 
@@ -113,11 +132,15 @@ def _faces(seen: PenObservation, pen: PenProfile) -> Line:
     verdict = Verdict.GOOD if faces > 1 and sheet else Verdict.WARNING
     text = tr(
         "{faces} of {all} faces of the {name} and {sheet} markers of the sheet are seen",
-        faces=faces, all=len(body.markers), name=body.name, sheet=sheet,
-    )  # fmt: skip
+        faces=faces,
+        all=len(body.markers),
+        name=body.name,
+        sheet=sheet,
+    )
     if faces == 1 and sheet:
-        text += tr("; two faces tell more: turn a corner of the {name} to the webcam",
-                   name=body.name)  # fmt: skip
+        text += tr(
+            "; two faces tell more: turn a corner of the {name} to the webcam", name=body.name
+        )
     return Line(verdict if faces and sheet else Verdict.BAD, text)
 
 
@@ -132,6 +155,7 @@ def _advice(seen: PenObservation) -> list[Line]:
 def _stillness(speed: float) -> Line:
     if speed <= FAST:
         return Line(Verdict.GOOD, tr("the pen is held still enough"))
-    return Line(Verdict.WARNING, tr(
-        "hold still: at {speed:.0f} mm/s the picture blurs", speed=speed / MILLIMETRE
-    ))  # fmt: skip
+    return Line(
+        Verdict.WARNING,
+        tr("hold still: at {speed:.0f} mm/s the picture blurs", speed=speed / MILLIMETRE),
+    )

@@ -128,10 +128,14 @@ class EntryMapLayer:
         places = (self._map.points_mm - origin) @ frame.T
         near = np.abs(places[:, 2]) <= max(3.5, plane.half_slab_mm)
         self._dots.set_places(
-            [(x, y, n) for (x, y, _), n in zip(places[near].tolist(),
-                                               self._map.classes[near].tolist(), strict=True)],
+            [
+                (x, y, n)
+                for (x, y, _), n in zip(
+                    places[near].tolist(), self._map.classes[near].tolist(), strict=True
+                )
+            ],
             scale,
-        )  # fmt: skip
+        )
 
     def hide(self) -> None:
         """Show nothing."""

@@ -124,8 +124,14 @@ class PlanPanel(QWidget):
         self.verdict.setStyleSheet(f"color: {theme.VERDICTS[words.kind][0]};")
         self.length.setText(words.measures)
         self.remedy.setVisible(words.remedy)
-        for widget in (self.place_entry, self.place_target, self.remedy, self.orientation,
-                       *self.turns, *self._files[:2]):  # fmt: skip
+        for widget in (
+            self.place_entry,
+            self.place_target,
+            self.remedy,
+            self.orientation,
+            *self.turns,
+            *self._files[:2],
+        ):
             widget.setEnabled(not editor.locked)
         self._files[2].setEnabled(draft.complete)
         self._files[3].setEnabled(draft.complete)
@@ -188,8 +194,10 @@ class PlanPanel(QWidget):
     def _points(self) -> QGridLayout:
         grid = QGridLayout()
         grid.setColumnStretch(0, 1)
-        rows = ((theme.ENTRY, "○", tr("Entry"), self.entry, self.place_entry),
-                (theme.TARGET, "◉", tr("Target"), self.target, self.place_target))  # fmt: skip
+        rows = (
+            (theme.ENTRY, "○", tr("Entry"), self.entry, self.place_entry),
+            (theme.TARGET, "◉", tr("Target"), self.target, self.place_target),
+        )
         for row, (mark, symbol, name, value, button) in enumerate(rows):
             head = QLabel(f"{symbol}  {name}")
             head.setStyleSheet(f"color: {theme.now(mark.colour)}; font-weight: 600;")
@@ -280,28 +288,42 @@ class PlanFeature(Feature):
         self.panel = PlanPanel(self._editor, viewing)
         shell.add_panel(self.panel, tr("Plan"))
         for signal, command in (
-            (self.panel.new_wanted, files.new), (self.panel.open_wanted, files.ask_open),
-            (self.panel.save_wanted, files.save), (self.panel.save_as_wanted, files.save_as),
-        ):  # fmt: skip
+            (self.panel.new_wanted, files.new),
+            (self.panel.open_wanted, files.ask_open),
+            (self.panel.save_wanted, files.save),
+            (self.panel.save_as_wanted, files.save_as),
+        ):
             signal.connect(command)
         menu = shell.menu(tr("&File"))
-        add_entries(menu, [
-            (tr("New plan"), "Ctrl+N", files.new),
-            (tr("Open plan…"), "Ctrl+Shift+O", files.ask_open),
-        ])  # fmt: skip
+        add_entries(
+            menu,
+            [
+                (tr("New plan"), "Ctrl+N", files.new),
+                (tr("Open plan…"), "Ctrl+Shift+O", files.ask_open),
+            ],
+        )
         add_recent(menu, tr("Recent plans"), recents.paths, files.open)
-        add_entries(menu, [
-            (tr("Save plan"), "Ctrl+S", files.save),
-            (tr("Save plan as…"), "Ctrl+Shift+S", files.save_as),
-        ])  # fmt: skip
-        add_entries(shell.menu(tr("&File"), tr("3D Slicer")), [
-            (tr("Open plan (.mrk.json)…"), "", files.ask_open),
-            (tr("Save plan as (.mrk.json)…"), "", files.save_as),
-        ])  # fmt: skip
-        add_entries(shell.menu(tr("&Edit")), [
-            (tr("Place entry"), "E", lambda: viewing.set_tool(Tool.ENTRY)),
-            (tr("Place target"), "T", lambda: viewing.set_tool(Tool.TARGET)),
-        ])  # fmt: skip
+        add_entries(
+            menu,
+            [
+                (tr("Save plan"), "Ctrl+S", files.save),
+                (tr("Save plan as…"), "Ctrl+Shift+S", files.save_as),
+            ],
+        )
+        add_entries(
+            shell.menu(tr("&File"), tr("3D Slicer")),
+            [
+                (tr("Open plan (.mrk.json)…"), "", files.ask_open),
+                (tr("Save plan as (.mrk.json)…"), "", files.save_as),
+            ],
+        )
+        add_entries(
+            shell.menu(tr("&Edit")),
+            [
+                (tr("Place entry"), "E", lambda: viewing.set_tool(Tool.ENTRY)),
+                (tr("Place target"), "T", lambda: viewing.set_tool(Tool.TARGET)),
+            ],
+        )
 
     # --- what the window asks -----------------------------------------------------------------
     def over(self) -> tuple[SignalInstance, ...]:

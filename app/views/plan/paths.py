@@ -89,9 +89,11 @@ class PathsPanel(QWidget):
         self.take.setEnabled(False)
         if scores is None:
             self.note.setText(
-                tr("Scores straight paths to the target from all over the skin: length, angle to "
-                   "the skin, bone, distance to structures that warn, and the robot's reach.")
-            )  # fmt: skip
+                tr(
+                    "Scores straight paths to the target from all over the skin: length, angle to "
+                    "the skin, bone, distance to structures that warn, and the robot's reach."
+                )
+            )
             return
         for row, number in enumerate(numbers):
             self._show_row(row, scores, number)
@@ -115,8 +117,12 @@ class PathsPanel(QWidget):
         if scores.nearest[number] >= 0:
             name = scores.names[int(scores.nearest[number])]
             nearest = f"{scores.nearest_mm[number]:.0f} {name}"
-        texts = (f"{scores.score[number]:.0f}", f"{scores.length_mm[number]:.0f}",
-                 f"{scores.angle_deg[number]:.0f}", nearest)  # fmt: skip
+        texts = (
+            f"{scores.score[number]:.0f}",
+            f"{scores.length_mm[number]:.0f}",
+            f"{scores.angle_deg[number]:.0f}",
+            nearest,
+        )
         for column, text in enumerate(texts):
             item = QTableWidgetItem(text)
             item.setToolTip(text)
@@ -250,14 +256,26 @@ class PathsFeature(Feature):
                 from app.imaging.skin import skin_points
                 from app.planning.paths import score_paths
             skin = skin_points(patient.body, progress=progress.part(0.0, 0.3))
-            return score_paths(target, skin, patient.body, _warning(fields), edit.placement,
-                               limits, progress=progress.part(0.3, 1.0))  # fmt: skip
+            return score_paths(
+                target,
+                skin,
+                patient.body,
+                _warning(fields),
+                edit.placement,
+                limits,
+                progress=progress.part(0.3, 1.0),
+            )
 
         self.panel.make.setEnabled(False)
         self._task = run_in_background(
-            self, work, lambda scores: self._show(scores, standing), self._failed, self._ended,
-            title=tr("Scoring paths"), indicator=self.context.shell.progress,
-        )  # fmt: skip
+            self,
+            work,
+            lambda scores: self._show(scores, standing),
+            self._failed,
+            self._ended,
+            title=tr("Scoring paths"),
+            indicator=self.context.shell.progress,
+        )
 
     def _show(self, scores: PathScores, standing: tuple[object, ...]) -> None:
         self._ended()

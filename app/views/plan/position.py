@@ -37,11 +37,14 @@ class PositionFeature(Feature):
         super().__init__(context)
         self._editor, self._conductor = context.editors.plan, context.conductor
         self._window = context.shell.dialog_parent
-        add_entries(context.shell.menu(tr("&File"), tr("3D Slicer")), [
-            None,
-            (tr("Import position of the patient (.tfm)…"), "", self.ask_open),
-            (tr("Export position of the patient (.tfm)…"), "", self.ask_export),
-        ])  # fmt: skip
+        add_entries(
+            context.shell.menu(tr("&File"), tr("3D Slicer")),
+            [
+                None,
+                (tr("Import position of the patient (.tfm)…"), "", self.ask_open),
+                (tr("Export position of the patient (.tfm)…"), "", self.ask_export),
+            ],
+        )
 
     def over(self) -> tuple[SignalInstance, ...]:
         """Return what ends a message of this feature."""
@@ -109,9 +112,12 @@ class PositionFeature(Feature):
             other_mm = _mm(T_patient_world.inverse() @ fulcrum - p_entry)
         if off_mm > _FAR_MM and other_mm < _NEAR_MM:
             raise TransformError(
-                tr("{name} goes from the patient to the robot; needed is the other direction: "
-                   "invert it in Slicer", name=path.name)
-            )  # fmt: skip
+                tr(
+                    "{name} goes from the patient to the robot; needed is the other direction: "
+                    "invert it in Slicer",
+                    name=path.name,
+                )
+            )
         self._editor.set_placement(placement_of(T_patient_world.inverse().rotation))
         self.noted.emit(self._note(path, off_mm))
 
@@ -121,8 +127,9 @@ class PositionFeature(Feature):
         return tr(
             "Rotation taken from {name}. Its shift would put the robot's fulcrum {off} mm from the "
             "entry of this plan and was left out: the entry lies on the fulcrum.",
-            name=path.name, off=f"{off_mm:.1f}",
-        )  # fmt: skip
+            name=path.name,
+            off=f"{off_mm:.1f}",
+        )
 
 
 def _kinds() -> str:

@@ -52,31 +52,64 @@ class Layout:
 _THIRDS: tuple[Cell, ...] = tuple((row, column, 1, 4) for row in (0, 1) for column in (0, 4, 8))
 _SLICES = (AXIAL, SAGITTAL, CORONAL)
 
-FOUR = Layout(LayoutName.FOUR, (
-    (AXIAL, (0, 0, 1, 6)), (SAGITTAL, (0, 6, 1, 6)), (CORONAL, (1, 0, 1, 6)), (SCENE, (1, 6, 1, 6)),
-))  # fmt: skip
-FIVE = Layout(LayoutName.FOUR, (
-    (AXIAL, (0, 0, 5, 4)), (SAGITTAL, (0, 4, 5, 4)), (CORONAL, (0, 8, 5, 4)),
-    (SCENE, (5, 0, 6, 4)), (BULLSEYE, (5, 4, 6, 8)),
-))  # fmt: skip
-ONE_AND_THREE = Layout(LayoutName.ONE_AND_THREE, (
-    (AXIAL, (0, 0, 3, 8)), (SAGITTAL, (0, 8, 1, 4)), (CORONAL, (1, 8, 1, 4)), (SCENE, (2, 8, 1, 4)),
-))  # fmt: skip
-ONE_AND_BULLSEYE = Layout(LayoutName.ONE_AND_THREE, (
-    (AXIAL, (0, 0, 12, 6)), (SAGITTAL, (0, 6, 5, 3)), (CORONAL, (0, 9, 5, 3)),
-    (BULLSEYE, (5, 6, 7, 6)),
-))  # fmt: skip
-SIX = Layout(LayoutName.SIX, tuple(
-    zip((*_SLICES, IN_PLANE, IN_PLANE_90, SCENE), _THIRDS, strict=True)
-))  # fmt: skip
-SIX_AND_BULLSEYE = Layout(LayoutName.SIX, (
-    *zip(_SLICES, ((0, 0, 5, 4), (0, 4, 5, 4), (0, 8, 5, 4)), strict=True),
-    (IN_PLANE, (5, 0, 6, 3)), (IN_PLANE_90, (5, 3, 6, 3)), (BULLSEYE, (5, 6, 6, 6)),
-))  # fmt: skip
+FOUR = Layout(
+    LayoutName.FOUR,
+    (
+        (AXIAL, (0, 0, 1, 6)),
+        (SAGITTAL, (0, 6, 1, 6)),
+        (CORONAL, (1, 0, 1, 6)),
+        (SCENE, (1, 6, 1, 6)),
+    ),
+)
+FIVE = Layout(
+    LayoutName.FOUR,
+    (
+        (AXIAL, (0, 0, 5, 4)),
+        (SAGITTAL, (0, 4, 5, 4)),
+        (CORONAL, (0, 8, 5, 4)),
+        (SCENE, (5, 0, 6, 4)),
+        (BULLSEYE, (5, 4, 6, 8)),
+    ),
+)
+ONE_AND_THREE = Layout(
+    LayoutName.ONE_AND_THREE,
+    (
+        (AXIAL, (0, 0, 3, 8)),
+        (SAGITTAL, (0, 8, 1, 4)),
+        (CORONAL, (1, 8, 1, 4)),
+        (SCENE, (2, 8, 1, 4)),
+    ),
+)
+ONE_AND_BULLSEYE = Layout(
+    LayoutName.ONE_AND_THREE,
+    (
+        (AXIAL, (0, 0, 12, 6)),
+        (SAGITTAL, (0, 6, 5, 3)),
+        (CORONAL, (0, 9, 5, 3)),
+        (BULLSEYE, (5, 6, 7, 6)),
+    ),
+)
+SIX = Layout(
+    LayoutName.SIX, tuple(zip((*_SLICES, IN_PLANE, IN_PLANE_90, SCENE), _THIRDS, strict=True))
+)
+SIX_AND_BULLSEYE = Layout(
+    LayoutName.SIX,
+    (
+        *zip(_SLICES, ((0, 0, 5, 4), (0, 4, 5, 4), (0, 8, 5, 4)), strict=True),
+        (IN_PLANE, (5, 0, 6, 3)),
+        (IN_PLANE_90, (5, 3, 6, 3)),
+        (BULLSEYE, (5, 6, 6, 6)),
+    ),
+)
 NEEDLE = Layout(LayoutName.NEEDLE, ((IN_PLANE, (0, 0, 1, 6)), (PROBE, (0, 6, 1, 6))))
-NEEDLE_AND_BULLSEYE = Layout(LayoutName.NEEDLE, (
-    (IN_PLANE, (0, 0, 12, 6)), (PROBE, (0, 6, 5, 6)), (BULLSEYE, (5, 6, 7, 6)),
-))  # fmt: skip
+NEEDLE_AND_BULLSEYE = Layout(
+    LayoutName.NEEDLE,
+    (
+        (IN_PLANE, (0, 0, 12, 6)),
+        (PROBE, (0, 6, 5, 6)),
+        (BULLSEYE, (5, 6, 7, 6)),
+    ),
+)
 
 LAYOUTS: dict[str, tuple[Layout, Layout]] = {
     plain.name: (plain, guided)

@@ -244,9 +244,13 @@ class WorkspacePage(QWidget):
     def exercise_views(self) -> ExerciseViews:
         """The widgets that the exercise controller feeds."""
         return ExerciseViews(
-            self.bullseye, self.exercise_panel, self.status, self.tracker_panel, self.messages,
+            self.bullseye,
+            self.exercise_panel,
+            self.status,
+            self.tracker_panel,
+            self.messages,
             self.needle_cell.gauge,
-        )  # fmt: skip
+        )
 
     def _set_up_needle_panes(self) -> None:
         planes, viewing = self.needle_planes, self.viewing

@@ -38,14 +38,32 @@ if TYPE_CHECKING:
 
 
 MODIFIERS = (
-    Qt.Key.Key_Shift, Qt.Key.Key_Control, Qt.Key.Key_Alt, Qt.Key.Key_AltGr, Qt.Key.Key_Meta,
-    Qt.Key.Key_CapsLock, Qt.Key.Key_NumLock, Qt.Key.Key_unknown,
-)  # fmt: skip
+    Qt.Key.Key_Shift,
+    Qt.Key.Key_Control,
+    Qt.Key.Key_Alt,
+    Qt.Key.Key_AltGr,
+    Qt.Key.Key_Meta,
+    Qt.Key.Key_CapsLock,
+    Qt.Key.Key_NumLock,
+    Qt.Key.Key_unknown,
+)
 MOVING = (
-    Qt.Key.Key_Escape, Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Tab, Qt.Key.Key_Backtab,
-    Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp,
-    Qt.Key.Key_PageDown, Qt.Key.Key_Home, Qt.Key.Key_End, Qt.Key.Key_S, Qt.Key.Key_F5,
-)  # fmt: skip
+    Qt.Key.Key_Escape,
+    Qt.Key.Key_Return,
+    Qt.Key.Key_Enter,
+    Qt.Key.Key_Tab,
+    Qt.Key.Key_Backtab,
+    Qt.Key.Key_Left,
+    Qt.Key.Key_Right,
+    Qt.Key.Key_Up,
+    Qt.Key.Key_Down,
+    Qt.Key.Key_PageUp,
+    Qt.Key.Key_PageDown,
+    Qt.Key.Key_Home,
+    Qt.Key.Key_End,
+    Qt.Key.Key_S,
+    Qt.Key.Key_F5,
+)
 """Keys that mean something during an attempt."""
 
 
@@ -78,10 +96,12 @@ class KeyDialog(QDialog):
         self._shown.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._note.setWordWrap(True)
         self._note.setMinimumHeight(3 * theme.FONT_PX)
-        words = QLabel(tr(
-            "Press the key or pedal that shall switch the forces on while it is held. A pedal on "
-            "USB counts as a keyboard."
-        ))  # fmt: skip
+        words = QLabel(
+            tr(
+                "Press the key or pedal that shall switch the forces on while it is held. A pedal "
+                "on USB counts as a keyboard."
+            )
+        )
         words.setWordWrap(True)
         kinds = QDialogButtonBox.StandardButton
         buttons = QDialogButtonBox(kinds.Ok | kinds.Cancel | kinds.RestoreDefaults, parent=self)
@@ -197,9 +217,12 @@ class RobotFeature(Feature):
         """Ask for a port that the system does not list, such as an emulated robot's."""
         dialog = QInputDialog(self._window)
         dialog.setWindowTitle(tr("Other port"))
-        dialog.setLabelText(tr(
-            "Port of the robot, for example /dev/ttyUSB0, or what `acus device emulate` has printed"
-        ))  # fmt: skip
+        dialog.setLabelText(
+            tr(
+                "Port of the robot, for example /dev/ttyUSB0, or what `acus device emulate` has "
+                "printed"
+            )
+        )
         dialog.setTextValue(self.port)
         dialog.textValueSelected.connect(self._choose_typed)
         dialog.finished.connect(dialog.deleteLater)
@@ -230,10 +253,12 @@ class RobotFeature(Feature):
             return
         port, profile = self.port, self._conductor.profile
         if not port:
-            self.failed.emit(tr(
-                "The simulated robot needs no commissioning: choose the robot's port in the menu "
-                "Robot, Use. `acus device emulate` brings one to practise on."
-            ))  # fmt: skip
+            self.failed.emit(
+                tr(
+                    "The simulated robot needs no commissioning: choose the robot's port in the "
+                    "menu Robot, Use. `acus device emulate` brings one to practise on."
+                )
+            )
             return
         if profile is None:
             self.failed.emit(tr("Choose an exercise first: it names the device."))
@@ -247,9 +272,14 @@ class RobotFeature(Feature):
             return services.open_robot(port, profile, progress)
 
         run_in_background(
-            self, operation, self._commission, self._not_opened, lambda: self._not_opened(None),
-            title=tr("Opening the robot"), indicator=self.context.shell.progress,
-        )  # fmt: skip
+            self,
+            operation,
+            self._commission,
+            self._not_opened,
+            lambda: self._not_opened(None),
+            title=tr("Opening the robot"),
+            indicator=self.context.shell.progress,
+        )
 
     def _commission(self, bench: Bench) -> None:
         self._opening = False

@@ -46,31 +46,44 @@ def wire_items(
     status = link_item(int(row[sv.LINK_STATUS]), run.is_real)
     error = int(row[sv.BOARD_ERROR])
     board = StatusItem(
-        Verdict.BAD if error else Verdict.GOOD, tr("Board's error"),
-        tr("{words} (code {code})", words=describe_error(error), code=error) if error else
-        tr("none"),
+        Verdict.BAD if error else Verdict.GOOD,
+        tr("Board's error"),
+        tr("{words} (code {code})", words=describe_error(error), code=error)
+        if error
+        else tr("none"),
         tr("Error that the board reports; docs/protocol.md lists the codes."),
-    )  # fmt: skip
+    )
     if wire is None or (not run.is_real and wire.replies == 0.0):
         return (status, board)
     trip = NONE
     if wire.median is not None and wire.p99 is not None:
         trip = tr("{median:.2f} / {p99:.2f} ms", median=1e3 * wire.median, p99=1e3 * wire.p99)
     trips = StatusItem(
-        Verdict.IDLE if wire.median is None else Verdict.GOOD, tr("Round trip"), trip,
+        Verdict.IDLE if wire.median is None else Verdict.GOOD,
+        tr("Round trip"),
+        trip,
         tr("From command to answer, median / 99th percentile of the last {s:.0f} s.", s=WINDOW),
-    )  # fmt: skip
+    )
     troubled = wire.errors > 0.0 or wire.lost > 0.0
     counts = StatusItem(
-        Verdict.WARNING if troubled else Verdict.GOOD, tr("Answers"),
-        tr("{replies:.0f}/s · {errors:.1f}/s broken · {lost:.1f}/s lost",
-           replies=wire.replies, errors=wire.errors, lost=wire.lost),
-        tr("Answers of the board, frames with a wrong checksum, and commands without an answer, "
-           "over the last {s:.0f} s; since the start {replies}, {errors}, {lost}. Broken frames: "
-           "a shorter cable, away from motor leads, a ferrite.", s=WINDOW,
-           replies=int(row[sv.LINK_REPLIES]), errors=int(row[sv.LINK_ERRORS]),
-           lost=int(row[sv.LINK_LOST])),
-    )  # fmt: skip
+        Verdict.WARNING if troubled else Verdict.GOOD,
+        tr("Answers"),
+        tr(
+            "{replies:.0f}/s · {errors:.1f}/s broken · {lost:.1f}/s lost",
+            replies=wire.replies,
+            errors=wire.errors,
+            lost=wire.lost,
+        ),
+        tr(
+            "Answers of the board, frames with a wrong checksum, and commands without an answer, "
+            "over the last {s:.0f} s; since the start {replies}, {errors}, {lost}. Broken frames: "
+            "a shorter cable, away from motor leads, a ferrite.",
+            s=WINDOW,
+            replies=int(row[sv.LINK_REPLIES]),
+            errors=int(row[sv.LINK_ERRORS]),
+            lost=int(row[sv.LINK_LOST]),
+        ),
+    )
     return (status, trips, counts, board)
 
 
@@ -79,13 +92,22 @@ def link_item(status: int, real: bool) -> StatusItem:
     words = {
         LinkStatus.FINE: (Verdict.GOOD, tr("connected") if real else tr("in memory"), ""),
         LinkStatus.CONNECTING: (Verdict.WARNING, tr("connecting"), tr("Wait a moment.")),
-        LinkStatus.SILENT: (Verdict.BAD, tr("no answer"), tr(
-            "Check cable and power; the robot is looked for again by itself.")),
-        LinkStatus.CLOSED: (Verdict.BAD, tr("closed"), tr(
-            "The port is gone: plug the cable in, or choose the robot anew.")),
-        LinkStatus.WRONG_VERSION: (Verdict.BAD, tr("wrong protocol version"), tr(
-            "The board speaks another version; load the firmware that fits (docs/protocol.md).")),
-    }  # fmt: skip
+        LinkStatus.SILENT: (
+            Verdict.BAD,
+            tr("no answer"),
+            tr("Check cable and power; the robot is looked for again by itself."),
+        ),
+        LinkStatus.CLOSED: (
+            Verdict.BAD,
+            tr("closed"),
+            tr("The port is gone: plug the cable in, or choose the robot anew."),
+        ),
+        LinkStatus.WRONG_VERSION: (
+            Verdict.BAD,
+            tr("wrong protocol version"),
+            tr("The board speaks another version; load the firmware that fits (docs/protocol.md)."),
+        ),
+    }
     unknown = (Verdict.BAD, tr("status {code}", code=status), "")
     known = status in set(LinkStatus)
     verdict, text, todo = words[LinkStatus(status)] if known else unknown
@@ -97,8 +119,9 @@ def loop_items(run: ExerciseRun, snapshot: Snapshot, rates: Rates) -> tuple[Stat
     items = []
     timing, device = snapshot.timing, snapshot.device
     if timing is not None:
-        figures = LoopFigures(rates.loop, timing.median, timing.p99, rates.missing,
-                              timing.missed, timing.ticks)  # fmt: skip
+        figures = LoopFigures(
+            rates.loop, timing.median, timing.p99, rates.missing, timing.missed, timing.ticks
+        )
         items.append(loop_item(figures))
     items.append(encoder_item(snapshot.pose.orientation_age))
     if device is not None and all(isfinite(angle) for angle in device.q):
@@ -106,9 +129,14 @@ def loop_items(run: ExerciseRun, snapshot: Snapshot, rates: Rates) -> tuple[Stat
         angles = tr("left {left:.1f}°, right {right:.1f}°", left=left, right=right)
         items.append(StatusItem(Verdict.IDLE, tr("Joints"), angles, tr("Joint angles now.")))
     if run.velocity:
-        items.append(StatusItem(Verdict.IDLE, tr("Velocity by"), run.velocity, tr(
-            "How joint velocities are estimated; `acus study velocity` compares the ways."
-        )))  # fmt: skip
+        items.append(
+            StatusItem(
+                Verdict.IDLE,
+                tr("Velocity by"),
+                run.velocity,
+                tr("How joint velocities are estimated; `acus study velocity` compares the ways."),
+            )
+        )
     return tuple(items)
 
 
@@ -124,9 +152,15 @@ def health(run: ExerciseRun, snapshot: Snapshot, rates: Rates) -> tuple[HealthGr
     """Everything a technician asks, most urgent first."""
     device = snapshot.device
     if device is None:
-        nothing = StatusItem(Verdict.BAD, tr("Robot"), tr("says nothing"), tr(
-            "The loop has not ticked yet. Wait a moment; if it stays so, start the exercise again."
-        ))  # fmt: skip
+        nothing = StatusItem(
+            Verdict.BAD,
+            tr("Robot"),
+            tr("says nothing"),
+            tr(
+                "The loop has not ticked yet. Wait a moment; if it stays so, start the exercise "
+                "again."
+            ),
+        )
         return (HealthGroup(tr("Robot"), (nothing,)),)
     row = device.row
     return (
@@ -144,20 +178,27 @@ def force_items(run: ExerciseRun, snapshot: Snapshot) -> tuple[StatusItem, ...]:
     row = device.row if device is not None else sv.empty_state()
     fault = fault_text(int(device.fault)) if device is not None else ""
     fault_line = StatusItem(
-        Verdict.BAD if fault else Verdict.GOOD, tr("Fault"), fault or tr("none"),
+        Verdict.BAD if fault else Verdict.GOOD,
+        tr("Fault"),
+        fault or tr("none"),
         tr("While there is a fault the robot gives no force. Its message says what to do."),
-    )  # fmt: skip
+    )
     percent = tr("{percent:.0f} %", percent=100 * row[sv.ARMING])
     armed = StatusItem(
-        Verdict.GOOD if snapshot.armed else Verdict.IDLE, tr("Armed"),
+        Verdict.GOOD if snapshot.armed else Verdict.IDLE,
+        tr("Armed"),
         percent if snapshot.armed else tr("off"),
         tr("The force rises from 0 to 100 % within a second after arming, and is off at once."),
-    )  # fmt: skip
+    )
     return (
-        fault_line, armed, cap_item(run, snapshot), governor_item(row), let_go_item(run.profile),
+        fault_line,
+        armed,
+        cap_item(run, snapshot),
+        governor_item(row),
+        let_go_item(run.profile),
         depth_item(run, row),
         *energy_items(snapshot),
-    )  # fmt: skip
+    )
 
 
 def cap_item(run: ExerciseRun, snapshot: Snapshot) -> StatusItem:
@@ -166,14 +207,19 @@ def cap_item(run: ExerciseRun, snapshot: Snapshot) -> StatusItem:
     clearance = snapshot.clearance or run.clearance
     reason = clearance.reason if clearance is not None else ""
     if not reason:
-        return StatusItem(Verdict.GOOD, tr("Force limit"), tr("{n:g} N", n=limit), tr(
-            "Largest force at the hand: the device's own limit, nothing holds it lower."
-        ))  # fmt: skip
+        return StatusItem(
+            Verdict.GOOD,
+            tr("Force limit"),
+            tr("{n:g} N", n=limit),
+            tr("Largest force at the hand: the device's own limit, nothing holds it lower."),
+        )
     held = clearance.force_cap if clearance is not None else limit
     return StatusItem(
-        Verdict.WARNING if held > 0.0 else Verdict.BAD, tr("Force limit"), tr("{n:g} N", n=held),
+        Verdict.WARNING if held > 0.0 else Verdict.BAD,
+        tr("Force limit"),
+        tr("{n:g} N", n=held),
         reason,
-    )  # fmt: skip
+    )
 
 
 def governor_item(row: FloatArray) -> StatusItem:
@@ -184,10 +230,13 @@ def governor_item(row: FloatArray) -> StatusItem:
     text = tr("at rest") if calm else tr("force at {percent:.0f} %", percent=100 * scale)
     return StatusItem(
         Verdict.IDLE if not known else Verdict.GOOD if calm else Verdict.WARNING,
-        tr("Speed governor"), text if known else NONE,
-        tr("Weakens the force when the needle moves faster than a hand would move it, and ends it "
-           "when the needle has been let go."),
-    )  # fmt: skip
+        tr("Speed governor"),
+        text if known else NONE,
+        tr(
+            "Weakens the force when the needle moves faster than a hand would move it, and ends it "
+            "when the needle has been let go."
+        ),
+    )
 
 
 def let_go_item(profile: DeviceProfile) -> StatusItem:
@@ -196,12 +245,15 @@ def let_go_item(profile: DeviceProfile) -> StatusItem:
     text = tr("{v:g} m/s, {e:g} mJ", v=limit.speed, e=limit.energy_mj)
     return StatusItem(
         Verdict.GOOD if stated else Verdict.WARNING,
-        tr("Limit when let go"), text if stated else tr("{limit} (by default)", limit=text),
-        tr("What the robot's forces may at most give a needle that is let go. ") + (
-            tr("It stands in the profile of the robot.") if stated else
-            tr("The robot's profile states none (limits.let_go), so it is held to 0.25 m/s.")
+        tr("Limit when let go"),
+        text if stated else tr("{limit} (by default)", limit=text),
+        tr("What the robot's forces may at most give a needle that is let go. ")
+        + (
+            tr("It stands in the profile of the robot.")
+            if stated
+            else tr("The robot's profile states none (limits.let_go), so it is held to 0.25 m/s.")
         ),
-    )  # fmt: skip
+    )
 
 
 def depth_item(run: ExerciseRun, row: FloatArray) -> StatusItem:
@@ -212,13 +264,17 @@ def depth_item(run: ExerciseRun, row: FloatArray) -> StatusItem:
     shortest = run.profile.geometry.needle_length - max(most, least)
     share = 100.0 * MILLIMETRE / max(shortest, MILLIMETRE)
     return StatusItem(
-        Verdict.WARNING if whole else Verdict.GOOD, tr("Depth is between"),
+        Verdict.WARNING if whole else Verdict.GOOD,
+        tr("Depth is between"),
         tr("{low:.0f} and {high:.0f} mm", low=least / MILLIMETRE, high=most / MILLIMETRE),
-        tr("Force and let-go are limited for every depth in it. An error that is the same in every "
-           "picture (a needle of another length, a band that has slipped, cameras that were moved) "
-           "cannot be seen: each millimetre of it makes the force wrong by up to {share:.1f} % "
-           "here. Measure needle and band with calipers.", share=share),
-    )  # fmt: skip
+        tr(
+            "Force and let-go are limited for every depth in it. An error that is the same in "
+            "every picture (a needle of another length, a band that has slipped, cameras that "
+            "were moved) cannot be seen: each millimetre of it makes the force wrong by up to "
+            "{share:.1f} % here. Measure needle and band with calipers.",
+            share=share,
+        ),
+    )
 
 
 def energy_items(snapshot: Snapshot) -> tuple[StatusItem, ...]:
@@ -230,9 +286,11 @@ def energy_items(snapshot: Snapshot) -> tuple[StatusItem, ...]:
         return (guard,)
     text = tr(
         "{stored} stored, {tank} of {bound} left, {loss} taken out",
-        stored=millijoules(figures.stored), tank=millijoules(figures.tank),
-        bound=millijoules(figures.bound), loss=millijoules(figures.loss),
-    )  # fmt: skip
+        stored=millijoules(figures.stored),
+        tank=millijoules(figures.tank),
+        bound=millijoules(figures.bound),
+        loss=millijoules(figures.loss),
+    )
     return (guard, StatusItem(Verdict.IDLE, tr("Energy"), text, gauge_help()))
 
 
@@ -240,21 +298,38 @@ def device_items(run: ExerciseRun) -> tuple[StatusItem, ...]:
     """Who is at the other end."""
     board = run.board
     kind = tr("real, {port}", port=run.port or "?") if run.is_real else tr("simulated")
-    where = StatusItem(Verdict.GOOD, tr("Robot"), f"{run.profile.name}, {kind}", tr(
-        "Device profile, and whether there is a robot of metal. Choose it in the menu Robot."
-    ))  # fmt: skip
+    where = StatusItem(
+        Verdict.GOOD,
+        tr("Robot"),
+        f"{run.profile.name}, {kind}",
+        tr("Device profile, and whether there is a robot of metal. Choose it in the menu Robot."),
+    )
     if board is None:
         return (where,)
     facts = (
-        (tr("Board"), board.serial or tr("no serial number"),
-         tr("Serial number of the board; calibrations are kept by it.")),
-        (tr("Firmware"), tr("{version}, protocol {protocol}", version=board.firmware or NONE,
-                            protocol=board.protocol or NONE),
-         tr("Program on the board and the version of the wire protocol that it speaks.")),
-        (tr("Power cycle"), str(board.boot) if board.boot else tr("not numbered"),
-         tr("How often the board was switched on. Homing and sign check count for one power "
-            "cycle only.")),
-    )  # fmt: skip
+        (
+            tr("Board"),
+            board.serial or tr("no serial number"),
+            tr("Serial number of the board; calibrations are kept by it."),
+        ),
+        (
+            tr("Firmware"),
+            tr(
+                "{version}, protocol {protocol}",
+                version=board.firmware or NONE,
+                protocol=board.protocol or NONE,
+            ),
+            tr("Program on the board and the version of the wire protocol that it speaks."),
+        ),
+        (
+            tr("Power cycle"),
+            str(board.boot) if board.boot else tr("not numbered"),
+            tr(
+                "How often the board was switched on. Homing and sign check count for one power "
+                "cycle only."
+            ),
+        ),
+    )
     return (where, *(StatusItem(Verdict.IDLE, *fact) for fact in facts), gauge_item(run))
 
 
@@ -262,25 +337,32 @@ def gauge_item(run: ExerciseRun) -> StatusItem:
     """Say whether the force is measured or estimated on this robot."""
     measured = run.board is not None and run.board.gauge
     text = tr("force is {origin}", origin=origin_word(measured))
-    return StatusItem(Verdict.GOOD if measured else Verdict.IDLE, tr("Force gauge"), text,
-                      origin_help(measured))  # fmt: skip
+    return StatusItem(
+        Verdict.GOOD if measured else Verdict.IDLE, tr("Force gauge"), text, origin_help(measured)
+    )
 
 
 def readiness_items(run: ExerciseRun) -> tuple[StatusItem, ...]:
     """Say what was commissioned, and when."""
     if not run.is_real:
-        return (StatusItem(Verdict.IDLE, tr("Simulated"), tr("nothing to commission"), tr(
-            "A simulated robot is homed, its signs are right and its forces are true."
-        )),)  # fmt: skip
+        return (
+            StatusItem(
+                Verdict.IDLE,
+                tr("Simulated"),
+                tr("nothing to commission"),
+                tr("A simulated robot is homed, its signs are right and its forces are true."),
+            ),
+        )
     done = run.readiness
     boot = run.board.boot if run.board is not None else 0
     homed = done is not None and boot != 0 and done.homed_boot == boot
     signs = done is not None and boot != 0 and done.signs_boot == boot
     todo = tr("Menu Robot, Commissioning; it is needed each time the robot was switched on.")
     return (
-        _yes_no(homed, tr("Homed"), todo), _yes_no(signs, tr("Signs checked"), todo),
+        _yes_no(homed, tr("Homed"), todo),
+        _yes_no(signs, tr("Signs checked"), todo),
         scale_item(run),
-    )  # fmt: skip
+    )
 
 
 def scale_item(run: ExerciseRun) -> StatusItem:
@@ -292,9 +374,7 @@ def scale_item(run: ExerciseRun) -> StatusItem:
     )
     if done is None or done.force_factor is None:
         return StatusItem(Verdict.WARNING, tr("Force scale"), tr("never measured"), help_text)
-    verified = (
-        abs(done.force_factor - 1.0) <= SCALE_TOLERANCE and done.profile == run.profile.name
-    )  # fmt: skip
+    verified = abs(done.force_factor - 1.0) <= SCALE_TOLERANCE and done.profile == run.profile.name
     text = tr("{factor:.3f} on {date}", factor=done.force_factor, date=done.force_date[:10])
     return StatusItem(
         Verdict.GOOD if verified else Verdict.WARNING, tr("Force scale"), text, help_text

@@ -182,8 +182,10 @@ class HealthPanel(QWidget):
 
     def report(self, when: datetime) -> str:
         """Everything on the page as plain text."""
-        lines = [tr("Acus {version}: health of the robot", version=__version__),
-                 when.isoformat(timespec="seconds")]  # fmt: skip
+        lines = [
+            tr("Acus {version}: health of the robot", version=__version__),
+            when.isoformat(timespec="seconds"),
+        ]
         for group in self.groups:
             lines += ["", group.title]
             lines += [

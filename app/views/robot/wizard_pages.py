@@ -56,8 +56,10 @@ def step_words(step: RoutineName) -> StepWords:
     return {
         RoutineName.HOMING: StepWords(
             tr("Homing"),
-            tr("The encoders only count. Bringing both links to a known pose tells the program "
-               "where they stand. Needed each time the robot was switched on."),
+            tr(
+                "The encoders only count. Bringing both links to a known pose tells the program "
+                "where they stand. Needed each time the robot was switched on."
+            ),
             tr("The robot gives no force in this step."),
         ),
         RoutineName.OFFSETS: StepWords(
@@ -67,36 +69,46 @@ def step_words(step: RoutineName) -> StepWords:
         ),
         RoutineName.SIGNS: StepWords(
             tr("Sign check"),
-            tr("Finds out whether each encoder counts the right way and each motor pushes the "
-               "right joint the right way. A robot with a wrong sign runs away instead of "
-               "guiding. Needed each time the robot was switched on."),
+            tr(
+                "Finds out whether each encoder counts the right way and each motor pushes the "
+                "right joint the right way. A robot with a wrong sign runs away instead of "
+                "guiding. Needed each time the robot was switched on."
+            ),
             tr("Blunt needle. One hand at the switch of the motor supply. Small pulses."),
         ),
         RoutineName.FORCE: StepWords(
             tr("Force scale"),
-            tr("Finds out whether a commanded newton is a newton. Until it is measured on this "
-               "device, forces stay below 1 N."),
+            tr(
+                "Finds out whether a commanded newton is a newton. Until it is measured on this "
+                "device, forces stay below 1 N."
+            ),
             tr("A kitchen scale that shows grams. The robot pushes with 0.2, 0.5 and 0.9 N."),
         ),
         RoutineName.LATENCY: StepWords(
             tr("Latency"),
-            tr("Measures the round trip of the wire and the time from a torque to the motion. "
-               "Stiffness that is stable depends on it."),
+            tr(
+                "Measures the round trip of the wire and the time from a torque to the motion. "
+                "Stiffness that is stable depends on it."
+            ),
             tr("Hands off the needle. Small pulses."),
         ),
         RoutineName.FRICTION: StepWords(
             tr("Friction"),
-            tr("Measures the torque at which each joint begins to move, and its friction in "
-               "motion, so that it can be compensated."),
+            tr(
+                "Measures the torque at which each joint begins to move, and its friction in "
+                "motion, so that it can be compensated."
+            ),
             tr("Hands off the needle. Slow movements."),
         ),
         RoutineName.GAUGE: StepWords(
             tr("Force gauge"),
-            tr("Calibrates the board's own gauge by weights, so that the force is measured "
-               "instead of estimated."),
+            tr(
+                "Calibrates the board's own gauge by weights, so that the force is measured "
+                "instead of estimated."
+            ),
             tr("Two or more known weights and a thread."),
         ),
-    }[step]  # fmt: skip
+    }[step]
 
 
 def steps_of(bench: Bench) -> tuple[RoutineName, ...]:
@@ -156,11 +168,13 @@ class ConnectionPage(QWidget):
         rows.addLayout(grid)
         rows.addWidget(self._clearance)
         note = label(role="dim")
-        note.setText(tr(
-            "The program's stop is not safety-rated: use a blunt needle, and keep a hand at the "
-            "switch of the motor supply (docs/hardware.md). Cancel ends every step at once, with "
-            "the forces off."
-        ))  # fmt: skip
+        note.setText(
+            tr(
+                "The program's stop is not safety-rated: use a blunt needle, and keep a hand at "
+                "the switch of the motor supply (docs/hardware.md). Cancel ends every step at "
+                "once, with the forces off."
+            )
+        )
         rows.addWidget(note)
         rows.addStretch(1)
         self.refresh()

@@ -21,10 +21,19 @@ LIGHT_BACKGROUND = "#eef2f5"
 """For projectors: black pictures drown in a lit room."""
 
 ORGAN_COLOURS: Mapping[str, str] = {
-    "lungs": "#a8d4ee", "heart": "#c23b4e", "liver": "#8a5230", "gallbladder": "#a9c93c",
-    "stomach": "#e9b7c0", "spleen": "#5b3a86", "kidneys": "#178a72", "pancreas": "#f2dd62",
-    "arteries": "#f4563e", "veins": "#2f62b8", "cartilage": "#b9c6a4", "lesion": "#f7f3ff",
-}  # fmt: skip
+    "lungs": "#a8d4ee",
+    "heart": "#c23b4e",
+    "liver": "#8a5230",
+    "gallbladder": "#a9c93c",
+    "stomach": "#e9b7c0",
+    "spleen": "#5b3a86",
+    "kidneys": "#178a72",
+    "pancreas": "#f2dd62",
+    "arteries": "#f4563e",
+    "veins": "#2f62b8",
+    "cartilage": "#b9c6a4",
+    "lesion": "#f7f3ff",
+}
 """Colours of organs: neighbours differ in lightness too, so that colour-blind people tell them."""
 
 SEEN_INTO = {"lungs": 0.34, "liver": 0.5}
@@ -97,8 +106,10 @@ class Section:
         """Whether the other one gives the same picture at the same place."""
         if (self.patient, self.window) != (other.patient, other.window):
             return False
-        pairs = ((getattr(self.frame, name), getattr(other.frame, name))
-                 for name in ("origin_mm", "right", "down"))  # fmt: skip
+        pairs = (
+            (getattr(self.frame, name), getattr(other.frame, name))
+            for name in ("origin_mm", "right", "down")
+        )
         return all((one == another).all() for one, another in pairs)
 
 
@@ -111,10 +122,17 @@ def rgb(name: str) -> Rgb:
 def organ_title(name: str) -> str:
     """Name of an organ for people."""
     titles = {
-        "lungs": tr("Lungs"), "heart": tr("Heart"), "liver": tr("Liver"),
-        "gallbladder": tr("Gallbladder"), "stomach": tr("Stomach"), "spleen": tr("Spleen"),
-        "kidneys": tr("Kidneys"), "pancreas": tr("Pancreas"), "arteries": tr("Arteries"),
-        "veins": tr("Veins"), "lesion": tr("Lesion"),
+        "lungs": tr("Lungs"),
+        "heart": tr("Heart"),
+        "liver": tr("Liver"),
+        "gallbladder": tr("Gallbladder"),
+        "stomach": tr("Stomach"),
+        "spleen": tr("Spleen"),
+        "kidneys": tr("Kidneys"),
+        "pancreas": tr("Pancreas"),
+        "arteries": tr("Arteries"),
+        "veins": tr("Veins"),
+        "lesion": tr("Lesion"),
         "cartilage": tr("Cartilage"),
-    }  # fmt: skip
+    }
     return titles[name]

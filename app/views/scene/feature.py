@@ -137,27 +137,40 @@ class SceneMenu:
     def __init__(self, menu: QMenu, scene: SceneView) -> None:
         self._scene = scene
         menu.setToolTipsVisible(True)
-        self.standpoints = self._entries(menu, (
-            ("A", tr("From the front"), tr("What is at the patient's right is on the left.")),
-            ("P", tr("From behind"), tr("Onto the back.")),
-            ("L", tr("From the patient's left"), tr("The face looks to the left.")),
-            ("R", tr("From the patient's right"), tr("The face looks to the right; Shift+R.")),
-            ("S", tr("From the head"), tr("The front is on top.")),
-            ("I", tr("From the feet"), tr("The front is on top, as in axial slices.")),
-            ("N", tr("From the needle"), tr("Along the needle, or the path: what lies ahead.")),
-            ("W", tr("From the operator"), tr("From behind the robot, as one stands at it.")),
-            ("Space", tr("Whole patient"), tr("Patient and robot, a little from the side.")),
-            ("Backspace", tr("Back"), tr("From where one looked before.")),
-        ))  # fmt: skip
+        self.standpoints = self._entries(
+            menu,
+            (
+                ("A", tr("From the front"), tr("What is at the patient's right is on the left.")),
+                ("P", tr("From behind"), tr("Onto the back.")),
+                ("L", tr("From the patient's left"), tr("The face looks to the left.")),
+                ("R", tr("From the patient's right"), tr("The face looks to the right; Shift+R.")),
+                ("S", tr("From the head"), tr("The front is on top.")),
+                ("I", tr("From the feet"), tr("The front is on top, as in axial slices.")),
+                ("N", tr("From the needle"), tr("Along the needle, or the path: what lies ahead.")),
+                ("W", tr("From the operator"), tr("From behind the robot, as one stands at it.")),
+                ("Space", tr("Whole patient"), tr("Patient and robot, a little from the side.")),
+                ("Backspace", tr("Back"), tr("From where one looked before.")),
+            ),
+        )
         menu.addSeparator()
-        self.switches = self._entries(menu, (
-            ("X", tr("X-ray"), tr("Needle, path and target before everything, the body faint.")),
-            ("C", tr("Cut along the needle"),
-             tr("What lies before the needle's plane goes; the CT is on the cut.")),
-            ("M", tr("Slices"), tr("Axial, sagittal and coronal slice where they are.")),
-            ("Y", tr("Organs"), tr("The lungs; of the built-in patient all organs.")),
-            ("Q", tr("Light background"), tr("For projectors.")),
-        ))  # fmt: skip
+        self.switches = self._entries(
+            menu,
+            (
+                (
+                    "X",
+                    tr("X-ray"),
+                    tr("Needle, path and target before everything, the body faint."),
+                ),
+                (
+                    "C",
+                    tr("Cut along the needle"),
+                    tr("What lies before the needle's plane goes; the CT is on the cut."),
+                ),
+                ("M", tr("Slices"), tr("Axial, sagittal and coronal slice where they are.")),
+                ("Y", tr("Organs"), tr("The lungs; of the built-in patient all organs.")),
+                ("Q", tr("Light background"), tr("For projectors.")),
+            ),
+        )
         for action in self.switches.values():
             action.setCheckable(True)
         self._volume = menu.addMenu(tr("Volume rendering"))
@@ -186,8 +199,13 @@ class SceneMenu:
     def refresh(self) -> None:
         """Check what is shown; say why the volume cannot be rendered, where it cannot."""
         display, why = self._scene.display, self._scene.why_no_volume
-        states = {"X": display.xray, "C": display.cut, "M": display.slices,
-                  "Y": display.organs, "Q": display.light}  # fmt: skip
+        states = {
+            "X": display.xray,
+            "C": display.cut,
+            "M": display.slices,
+            "Y": display.organs,
+            "Q": display.light,
+        }
         for key, action in self.switches.items():
             action.setChecked(states[key])
         for name, action in self.presets.items():

@@ -199,8 +199,10 @@ class SceneFeed(QObject):
         renderer = self._renderer
         if renderer.has_volume:
             return ""
-        return tr("Volume rendering needs a graphics card; here {driver} draws.",
-                  driver=renderer.driver or tr("nothing yet"))  # fmt: skip
+        return tr(
+            "Volume rendering needs a graphics card; here {driver} draws.",
+            driver=renderer.driver or tr("nothing yet"),
+        )
 
     def set_paused(self, paused: bool) -> None:
         """Ask for no pictures while nobody may see them."""

@@ -191,9 +191,10 @@ class Stage:
         for solid in self._solids():
             solid.show(display)
         for actor, part in (
-            (self._skin, "skin"), (self._bone, "bone"),
+            (self._skin, "skin"),
+            (self._bone, "bone"),
             *((actor, "organ") for actor in (*self._organs.values(), *self._structures)),
-        ):  # fmt: skip
+        ):
             usual = actor.usual_opacity
             actor.set_opacity(min(usual, XRAY_OPACITY[part]) if display.xray else usual)
         if self._cut_frame is not None and not display.xray:  # one looks in through the cut
@@ -233,9 +234,17 @@ class Stage:
 
     def _solids(self) -> tuple[Rod | Ball | Ring, ...]:
         return (
-            *self._links, self._fulcrum, *self._needle, self._tip, self._error, self._path,
-            *self._beads, self._entry, self._target, *self._rings,
-        )  # fmt: skip
+            *self._links,
+            self._fulcrum,
+            *self._needle,
+            self._tip,
+            self._error,
+            self._path,
+            *self._beads,
+            self._entry,
+            self._target,
+            *self._rings,
+        )
 
     # --- plan, needle, robot ------------------------------------------------------------------
     def set_plan(self, draft: DraftPlan) -> None:

@@ -83,16 +83,20 @@ def extract_surfaces(
     progress.report(0.1, "skin")
     level = body.skin_level
     soft, affine = reduced(
-        lambda k: _air_to_tissue(volume.hu[k], mask[k], level), volume, SKIN_STEP_MM,
+        lambda k: _air_to_tissue(volume.hu[k], mask[k], level),
+        volume,
+        SKIN_STEP_MM,
         progress.part(0.1, 0.2),
-    )  # fmt: skip
+    )
     soft = _blurred(_closed(soft, level - AIR), SKIN_SIGMA)
     skin = isosurface(soft, _shifted(affine), level, SKIN_TRIANGLES, progress.part(0.2, 0.3))
     progress.report(0.3, "bone")
     hard, affine = reduced(
-        lambda k: np.where(mask[k], volume.hu[k], -1000), volume, BONE_STEP_MM,
+        lambda k: np.where(mask[k], volume.hu[k], -1000),
+        volume,
+        BONE_STEP_MM,
         progress.part(0.3, 0.45),
-    )  # fmt: skip
+    )
     hard = _blurred(without_marrow(_closed(hard, -1000.0), affine), BONE_SIGMA)
     bone = isosurface(hard, _shifted(affine), BONE_HU, BONE_TRIANGLES, progress.part(0.5, 0.8))
     progress.report(0.8, "organs")
@@ -166,8 +170,10 @@ def reduced(
         Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
-    factors = [max(1, min(ceil(step_mm / s - 0.5), n // 4 or 1))
-               for s, n in zip(volume.spacing_mm, volume.size, strict=True)]  # fmt: skip
+    factors = [
+        max(1, min(ceil(step_mm / s - 0.5), n // 4 or 1))
+        for s, n in zip(volume.spacing_mm, volume.size, strict=True)
+    ]
     i, j, k = factors
     depth, height, width = (n // f for n, f in zip(volume.hu.shape, (k, j, i), strict=True))
     small = np.empty((depth, height, width), np.float32)

@@ -131,11 +131,17 @@ class SceneView(QWidget):
             return lambda: self.set_display(self.display.switched(part))
 
         return {letter: side(letter) for letter in SIDES} | {
-            "N": self.view_along_needle, "W": self.view_as_operator,
-            "Space": lambda: self.view_from(self._home), "Backspace": self.view_back,
-            "X": switch("xray"), "C": switch("cut"), "M": switch("slices"),
-            "Y": switch("organs"), "Q": switch("light"), "V": self.show_next_preset,
-        }  # fmt: skip
+            "N": self.view_along_needle,
+            "W": self.view_as_operator,
+            "Space": lambda: self.view_from(self._home),
+            "Backspace": self.view_back,
+            "X": switch("xray"),
+            "C": switch("cut"),
+            "M": switch("slices"),
+            "Y": switch("organs"),
+            "Q": switch("light"),
+            "V": self.show_next_preset,
+        }
 
     def set_menu(self, menu: QMenu) -> None:
         """Offer a menu in the corner, and at a right click."""

@@ -65,9 +65,10 @@ def draw_words(
 def title(display: Display) -> str:
     """Say what the pane shows."""
     how = (
-        (display.xray, tr("x-ray")), (display.cut, tr("cut along the needle")),
+        (display.xray, tr("x-ray")),
+        (display.cut, tr("cut along the needle")),
         (display.slices, tr("with slices")),
-    )  # fmt: skip
+    )
     return ", ".join([tr("3D"), *(words for on, words in how if on)])
 
 

@@ -115,8 +115,9 @@ class SeriesIntake(QObject):
         self._work(
             lambda progress: _read(candidate.series, progress),
             lambda pictures: self._review(replace(candidate, pictures=pictures), pictures),
-            candidate, tr("Reading the pictures"),
-        )  # fmt: skip
+            candidate,
+            tr("Reading the pictures"),
+        )
 
     def _review(
         self, candidate: Candidate, pictures: Pictures, boxes: Boxes = (), note: str = ""
@@ -131,17 +132,29 @@ class SeriesIntake(QObject):
     def _take(self, candidate: Candidate, boxes: Boxes) -> None:
         self._work(
             lambda progress: candidate.take(boxes, progress),
-            self._tell, candidate, tr("Importing, de-identified"), boxes,
-        )  # fmt: skip
+            self._tell,
+            candidate,
+            tr("Importing, de-identified"),
+            boxes,
+        )
 
     def _work(
-        self, work: Callable[[Progress], T], then: Callable[[T], object], candidate: Candidate,
-        title: str, boxes: Boxes = (),
-    ) -> None:  # fmt: skip
+        self,
+        work: Callable[[Progress], T],
+        then: Callable[[T], object],
+        candidate: Candidate,
+        title: str,
+        boxes: Boxes = (),
+    ) -> None:
         self._task = run_in_background(
-            self, work, then, lambda error: self._fail(error, candidate, boxes),
-            candidate.give_up, title=title, indicator=self._indicator,
-        )  # fmt: skip
+            self,
+            work,
+            then,
+            lambda error: self._fail(error, candidate, boxes),
+            candidate.give_up,
+            title=title,
+            indicator=self._indicator,
+        )
 
     def _tell(self, imported: Imported) -> None:
         report = ImportReport(imported, self._window)
@@ -154,8 +167,10 @@ class SeriesIntake(QObject):
         from app.imaging.privacy.errors import AnnotatedError  # pydicom is loaded by now
 
         if isinstance(error, AnnotatedError) and candidate.pictures is not None:
-            note = tr("The files say that there is writing in their pictures: every picture that "
-                      "says so needs a box over it.")  # fmt: skip
+            note = tr(
+                "The files say that there is writing in their pictures: every picture that "
+                "says so needs a box over it."
+            )
             self._review(candidate, candidate.pictures, boxes, note)
             return
         candidate.give_up()
@@ -211,12 +226,15 @@ def _words(imported: Imported) -> str:
     if imported.again and given < before:
         return tr(
             "{label}: all {before} images are in the library already; the {given} given are a part",
-            label=label, before=before, given=given,
-        )  # fmt: skip
+            label=label,
+            before=before,
+            given=given,
+        )
     if imported.again:
         return tr("{label}: it was in the library already", label=label)
-    words = tr("{label}: {count} files, de-identified and checked", label=label,
-               count=imported.entry.files)  # fmt: skip
+    words = tr(
+        "{label}: {count} files, de-identified and checked", label=label, count=imported.entry.files
+    )
     if 0 < before < given:
         words += tr("; they replace the {before} of them that lay there", before=before)
     return words
@@ -264,9 +282,13 @@ class LibraryImport(QObject):
         """Take in a series of a folder, archive, DICOMDIR or file; of several one is asked for."""
         NAMES.learn(path)
         self._task = run_in_background(
-            self, lambda progress: _scan(path, progress), self._choose, self.failed.emit,
-            title=tr("Looking for CT series"), indicator=self._indicator,
-        )  # fmt: skip
+            self,
+            lambda progress: _scan(path, progress),
+            self._choose,
+            self.failed.emit,
+            title=tr("Looking for CT series"),
+            indicator=self._indicator,
+        )
 
     def ask_pacs(self) -> None:
         """Open the browser of the PACS."""
@@ -319,10 +341,13 @@ class LibraryImport(QObject):
 
     def _retrieve(self, settings: PacsSettings, series: FoundSeries) -> None:
         self._task = run_in_background(
-            self, lambda progress: _fetch(settings, series, progress),
-            lambda fetched: self.intake.begin(of_pacs(fetched)), self.failed.emit,
-            title=tr("Retrieving from {name}", name=settings.name), indicator=self._indicator,
-        )  # fmt: skip
+            self,
+            lambda progress: _fetch(settings, series, progress),
+            lambda fetched: self.intake.begin(of_pacs(fetched)),
+            self.failed.emit,
+            title=tr("Retrieving from {name}", name=settings.name),
+            indicator=self._indicator,
+        )
 
 
 def _scan(path: Path, progress: Progress) -> Listing:
@@ -351,11 +376,14 @@ class SeriesFeature(Feature):
         self.library.failed.connect(self._patients.failed)
         self._patients.failed.connect(self.failed)
         menu = shell.menu(tr("&File"))
-        add_entries(menu, [
-            (tr("Open CT folder…"), "Ctrl+O", self._patients.ask),
-            (tr("Open CT archive or file…"), "", self._patients.ask_file),
-            (tr("Series of the folder…"), "", self._patients.browse),
-        ])  # fmt: skip
+        add_entries(
+            menu,
+            [
+                (tr("Open CT folder…"), "Ctrl+O", self._patients.ask),
+                (tr("Open CT archive or file…"), "", self._patients.ask_file),
+                (tr("Series of the folder…"), "", self._patients.browse),
+            ],
+        )
         add_recent(menu, tr("Recent CTs"), self._patients.recents.paths, self._patients.open_folder)
         self._library_menu = menu.addMenu(tr("Library of CTs"))
         self._library_menu.aboutToShow.connect(lambda: self._fill(self._library_menu))
@@ -384,13 +412,16 @@ class SeriesFeature(Feature):
         """Offer the ways into the library, and what it holds."""
         menu.clear()
         library = self.library
-        add_entries(menu, [
-            (tr("Import CT folder, de-identified…"), "", library.ask),
-            (tr("Import CT archive or file, de-identified…"), "", library.ask_file),
-            (tr("From the PACS…"), "", library.ask_pacs),
-            (tr("Configure PACS…"), "", library.configure_pacs),
-            None,
-        ])  # fmt: skip
+        add_entries(
+            menu,
+            [
+                (tr("Import CT folder, de-identified…"), "", library.ask),
+                (tr("Import CT archive or file, de-identified…"), "", library.ask_file),
+                (tr("From the PACS…"), "", library.ask_pacs),
+                (tr("Configure PACS…"), "", library.configure_pacs),
+                None,
+            ],
+        )
         for name, folder in library.entries():
             action = menu.addAction(NAMES.shown(name))
             action.triggered.connect(lambda _=False, f=folder: self._patients.open_folder(f))

@@ -310,9 +310,10 @@ class MaskDialog(QDialog):
         grey = to_grey(values, self.windows.currentData())
         self.canvas.show_picture(255 - grey if seen.inverted else grey, seen.aspect)
         self.where.setText(
-            tr("all {count} at once", count=seen.count) if everything
+            tr("all {count} at once", count=seen.count)
+            if everything
             else tr("picture {number} of {count}", number=self.number, count=seen.count)
-        )  # fmt: skip
+        )
         self._show_boxes()
 
     def _show_boxes(self) -> None:
@@ -347,18 +348,23 @@ class MaskDialog(QDialog):
         self.brightest.toggled.connect(self._refresh)
         self.list.currentRowChanged.connect(self._choose)
         for button, command in (
-            (self.undo_button, self.undo), (self.redo_button, self.redo),
-            (self.remove_button, self.remove), (self.clear_button, self.clear),
-        ):  # fmt: skip
+            (self.undo_button, self.undo),
+            (self.redo_button, self.redo),
+            (self.remove_button, self.remove),
+            (self.clear_button, self.clear),
+        ):
             button.setAutoDefault(False)
             button.clicked.connect(lambda _=False, command=command: command())
         self.buttons.accepted.connect(self._want)
         self.buttons.rejected.connect(self.reject)
         for keys, command in (
-            ("Ctrl+Z", self.undo), ("Ctrl+Y", self.redo), ("Ctrl+Shift+Z", self.redo),
+            ("Ctrl+Z", self.undo),
+            ("Ctrl+Y", self.redo),
+            ("Ctrl+Shift+Z", self.redo),
             ("Delete", self.remove),
-            ("PgUp", lambda: self.step(-10)), ("PgDown", lambda: self.step(10)),
-        ):  # fmt: skip
+            ("PgUp", lambda: self.step(-10)),
+            ("PgDown", lambda: self.step(10)),
+        ):
             QShortcut(QKeySequence(keys), self, command)
         for keys, pictures in (("Up", -1), ("Down", 1)):
             shortcut = QShortcut(QKeySequence(keys), self.canvas)

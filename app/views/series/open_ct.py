@@ -147,9 +147,14 @@ class OpenCt(QObject):
         if self._task is not None:
             self._task.drop()
         task = run_in_background(
-            self, operation, on_success, self._fail, self._cancelled, title=title,
+            self,
+            operation,
+            on_success,
+            self._fail,
+            self._cancelled,
+            title=title,
             indicator=self._indicator,
-        )  # fmt: skip
+        )
         self._set_task(task)
 
     def _choose(

@@ -92,10 +92,14 @@ class PacsPanel(QDialog):
         self.search.setEnabled(False)
         self.note.setText(tr("Searching…"))
         self._task = run_in_background(
-            self, lambda progress: _find(settings, query, progress), self.show_found, self._fail,
-            self._stopped, title=tr("Searching {name}", name=settings.name),
+            self,
+            lambda progress: _find(settings, query, progress),
+            self.show_found,
+            self._fail,
+            self._stopped,
+            title=tr("Searching {name}", name=settings.name),
             indicator=self.strip,
-        )  # fmt: skip
+        )
 
     def selected(self) -> FoundSeries | None:
         """Series that is marked."""
@@ -125,8 +129,9 @@ class PacsPanel(QDialog):
         form.addRow(tr("PACS"), server)
         for title, field in (
             (tr("Patient ID"), self.patient),
-            (tr("Name"), self.name), (tr("Date of the study"), self.date),
-        ):  # fmt: skip
+            (tr("Name"), self.name),
+            (tr("Date of the study"), self.date),
+        ):
             form.addRow(title, field)
         private = QLabel(tr("Names are shown here only; nothing of them is stored."), self)
         for label in (self.note, private):
@@ -220,10 +225,16 @@ def _row(series: FoundSeries, here: int) -> QTreeWidgetItem:
     count = "?" if series.instances is None else str(series.instances)
     if here:
         count = tr("{here} of {count} here, to be resumed", here=here, count=count)
-    item = QTreeWidgetItem([
-        NAMES.shown(study.patient_name), NAMES.shown(study.patient_id), study.date,
-        NAMES.shown(study.description),
-        f"{series.number}  {NAMES.shown(series.description)}".strip(), series.body_part, count,
-    ])  # fmt: skip
+    item = QTreeWidgetItem(
+        [
+            NAMES.shown(study.patient_name),
+            NAMES.shown(study.patient_id),
+            study.date,
+            NAMES.shown(study.description),
+            f"{series.number}  {NAMES.shown(series.description)}".strip(),
+            series.body_part,
+            count,
+        ]
+    )
     item.setData(0, _ROLE, series)
     return item

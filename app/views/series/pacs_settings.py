@@ -42,9 +42,16 @@ if TYPE_CHECKING:
 Values = dict[str, object]
 _FILES = ("authority", "certificate", "key")
 _DEFAULTS: Values = {
-    "name": "", "host": "", "port": 104, "title": "", "own_title": "ACUS", "own_host": "",
-    "own_port": 11112, "timeout_s": 30.0, "retrieve": "get",
-}  # fmt: skip
+    "name": "",
+    "host": "",
+    "port": 104,
+    "title": "",
+    "own_title": "ACUS",
+    "own_host": "",
+    "own_port": 11112,
+    "timeout_s": 30.0,
+    "retrieve": "get",
+}
 
 
 class PacsForm(QWidget):
@@ -100,9 +107,11 @@ class PacsForm(QWidget):
         """Return the settings as they would stand in the file."""
         values: Values = {name: field.text().strip() for name, field in self.fields.items()}
         values |= {
-            "port": self.port.value(), "own_port": self.own_port.value(),
-            "timeout_s": self.timeout.value(), "retrieve": self.retrieve.currentData(),
-        }  # fmt: skip
+            "port": self.port.value(),
+            "own_port": self.own_port.value(),
+            "timeout_s": self.timeout.value(),
+            "retrieve": self.retrieve.currentData(),
+        }
         if self.tls.isChecked():
             files = {name: field.text().strip() for name, field in self.files.items()}
             values["tls"] = {**files, "check_name": self.check_name.isChecked()}
@@ -130,7 +139,7 @@ class PacsForm(QWidget):
             (tr("Own address"), fields["own_host"], tr("empty: the one that leads to the archive")),
             (tr("Own port"), self.own_port, ""),
             (tr("Longest silence"), self.timeout, ""),
-        ):  # fmt: skip
+        ):
             if isinstance(widget, QLineEdit):
                 widget.setPlaceholderText(hint)
                 widget.setToolTip(hint)
@@ -150,9 +159,12 @@ class PacsForm(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.addLayout(form)
         note = QLabel(
-            tr("Own address and port are where C-MOVE's pictures come; the port is open only "
-               "while a retrieval lasts."), self,
-        )  # fmt: skip
+            tr(
+                "Own address and port are where C-MOVE's pictures come; the port is open only "
+                "while a retrieval lasts."
+            ),
+            self,
+        )
         note.setProperty("role", "dim")
         note.setWordWrap(True)
         column.addWidget(note)
@@ -234,14 +246,17 @@ class PacsSettingsDialog(SettingsDialog):
         self.say(tr("Asking {name}…", name=settings.name))
         self.test_button.setEnabled(False)
         self._task = run_in_background(
-            self, lambda progress: _echo(settings, progress),
+            self,
+            lambda progress: _echo(settings, progress),
             lambda seconds: self.say(
                 tr("{name} answers in {time} ms", name=settings.name, time=f"{1e3 * seconds:.1f}"),
                 Verdict.GOOD,
             ),
-            lambda error: self.say(str(error), Verdict.BAD), lambda: self.say(tr("Cancelled")),
-            title=tr("Asking {name}", name=settings.name), indicator=self.strip,
-        )  # fmt: skip
+            lambda error: self.say(str(error), Verdict.BAD),
+            lambda: self.say(tr("Cancelled")),
+            title=tr("Asking {name}", name=settings.name),
+            indicator=self.strip,
+        )
         self._task.finished.connect(self._enable)
 
     def check(self) -> None:
@@ -281,9 +296,12 @@ class PacsSettingsDialog(SettingsDialog):
     def _may_lose(self) -> bool:
         buttons = QMessageBox.StandardButton
         answer = QMessageBox.question(
-            self, tr("PACS: configuration"), tr("The changes are not saved. Save them first?"),
-            buttons.Save | buttons.Discard | buttons.Cancel, buttons.Save,
-        )  # fmt: skip
+            self,
+            tr("PACS: configuration"),
+            tr("The changes are not saved. Save them first?"),
+            buttons.Save | buttons.Discard | buttons.Cancel,
+            buttons.Save,
+        )
         if answer == buttons.Save:
             self.save()
             return False  # it is closed already, or says what is wrong
@@ -341,9 +359,10 @@ class PacsSettingsDialog(SettingsDialog):
         self.list.currentRowChanged.connect(self._choose)
         self.form.fields["name"].textEdited.connect(self._renamed)
         for button, command in (
-            (self.add_button, self.add), (self.remove_button, self.remove),
+            (self.add_button, self.add),
+            (self.remove_button, self.remove),
             (self.test_button, self.test),
-        ):  # fmt: skip
+        ):
             button.setAutoDefault(False)
             button.clicked.connect(lambda _=False, command=command: command())
         self.finished.connect(lambda _: self._stop())

@@ -103,11 +103,14 @@ class Remembered:
     def _work(self) -> dict[str, Any]:
         projector, viewing = self._projector, self._workspace.viewing
         return {
-            "scheme": viewing.scheme.name, "reversed": viewing.level_reversed,
-            "left_handed": self._workspace.is_left_handed, "traces": viewing.shows_traces,
-            "light": projector.is_light, "large": projector.is_large,
+            "scheme": viewing.scheme.name,
+            "reversed": viewing.level_reversed,
+            "left_handed": self._workspace.is_left_handed,
+            "traces": viewing.shows_traces,
+            "light": projector.is_light,
+            "large": projector.is_large,
             "kept": {name: [w.width, w.level] for name, w in viewing.greys.kept.items()},
-        }  # fmt: skip
+        }
 
     def _set_work(self, state: Mapping[str, Any]) -> None:
         workspace, viewing = self._workspace, self._workspace.viewing
@@ -128,14 +131,15 @@ def reading(workspace: WorkspacePage) -> dict[str, Any]:
         presentation = viewing.presentation(pane)
         slab, turn = presentation.slab, presentation.turn
         if presentation != Presentation():
-            presentations[str(pane)] = [
-                slab.kind, slab.thickness_mm, turn.quarters, turn.mirrored
-            ]  # fmt: skip
+            presentations[str(pane)] = [slab.kind, slab.thickness_mm, turn.quarters, turn.mirrored]
     return {
-        "window": [greys.common.width, greys.common.level], "linked": greys.is_linked,
-        "inverted": greys.is_inverted, "layout": workspace.layout_name, "looks": presentations,
+        "window": [greys.common.width, greys.common.level],
+        "linked": greys.is_linked,
+        "inverted": greys.is_inverted,
+        "layout": workspace.layout_name,
+        "looks": presentations,
         "locked": greys.is_locked and not greys.is_fixed,
-    }  # fmt: skip
+    }
 
 
 def set_reading(workspace: WorkspacePage, state: Mapping[str, Any]) -> None:

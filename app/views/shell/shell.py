@@ -19,9 +19,17 @@ if TYPE_CHECKING:
 def menu_titles() -> tuple[str, ...]:
     """Return the titles of the menu bar in their order; others stand before the last."""
     return (
-        tr("&File"), tr("&Edit"), tr("&View"), tr("&Measure"), tr("&Robot"), tr("&Cameras"),
-        tr("&Pen"), tr("&Checks"), tr("&Sessions"), tr("&Help"),
-    )  # fmt: skip
+        tr("&File"),
+        tr("&Edit"),
+        tr("&View"),
+        tr("&Measure"),
+        tr("&Robot"),
+        tr("&Cameras"),
+        tr("&Pen"),
+        tr("&Checks"),
+        tr("&Sessions"),
+        tr("&Help"),
+    )
 
 
 class Shell:

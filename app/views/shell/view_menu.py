@@ -202,11 +202,13 @@ class ViewMenu:
         self.follow.setShortcut(QKeySequence(scheme.menu_keys["follow"]))
         self.bullseye.setShortcut(QKeySequence(scheme.menu_keys["bullseye"]))
         for switch, state in (
-            (self.bullseye, workspace.has_bullseye), (self._left_handed, workspace.is_left_handed),
-            (self._linked, greys.is_linked), (self._locked, greys.is_locked),
+            (self.bullseye, workspace.has_bullseye),
+            (self._left_handed, workspace.is_left_handed),
+            (self._linked, greys.is_linked),
+            (self._locked, greys.is_locked),
             (self._inverted, greys.is_inverted),
             (self._reversed, workspace.viewing.level_reversed),
-        ):  # fmt: skip
+        ):
             if switch.isChecked() != state:
                 switch.setChecked(state)
 

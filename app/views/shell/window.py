@@ -195,13 +195,25 @@ class MainWindow(QMainWindow):
         self.projector, self.start_page = Projector(self), StartPage(self)
         self._lay_out()
         shell = Shell(
-            self, self.settings, self.pages, self.workspace, self.workspace.side, self.message_bar,
-            self.progress, self.may_go,
-        )  # fmt: skip
+            self,
+            self.settings,
+            self.pages,
+            self.workspace,
+            self.workspace.side,
+            self.message_bar,
+            self.progress,
+            self.may_go,
+        )
         self.context = Context(
-            services, self.workspace.views, self.editors, self.runs, self.conductor, self.equipment,
-            self.open_ct, shell,
-        )  # fmt: skip
+            services,
+            self.workspace.views,
+            self.editors,
+            self.runs,
+            self.conductor,
+            self.equipment,
+            self.open_ct,
+            shell,
+        )
         self._begin_menus(shell)
         self.features = tuple(feature(self.context) for feature in features)
         self._end_menus(shell)
@@ -296,11 +308,14 @@ class MainWindow(QMainWindow):
     def _begin_menus(self, shell: Shell) -> None:
         """Add what stands above the entries of features."""
         add_entries(shell.menu(tr("&File")), [(tr("Start page"), "", self.show_start)])
-        self.undo_action, self.redo_action = add_entries(shell.menu(tr("&Edit")), [
-            (tr("Undo"), "Ctrl+Z", self.undo.undo),
-            (tr("Redo"), "Ctrl+Y | Ctrl+Shift+Z", self.undo.redo),
-            None,
-        ])  # fmt: skip
+        self.undo_action, self.redo_action = add_entries(
+            shell.menu(tr("&Edit")),
+            [
+                (tr("Undo"), "Ctrl+Z", self.undo.undo),
+                (tr("Redo"), "Ctrl+Y | Ctrl+Shift+Z", self.undo.redo),
+                None,
+            ],
+        )
         add_entries(shell.menu(tr("&Sessions")), [(tr("Workspace"), "F6", self.show_workspace)])
 
     def _end_menus(self, shell: Shell) -> None:
@@ -310,13 +325,16 @@ class MainWindow(QMainWindow):
         self.view_menu = ViewMenu(
             shell.menu(tr("&View")), self.workspace, self.conductor, self.editor, self.projector
         )
-        add_entries(shell.menu(tr("&Help")), [
-            (tr("Help on this part"), "F1", self.show_help),
-            (tr("User guide"), "", lambda: show_help(self)),
-            (tr("Keys and mouse"), "?", self.show_shortcuts),
-            (tr("Report a problem…"), "", self.report_problem),
-            (tr("About Acus"), "", self.show_about),
-        ])  # fmt: skip
+        add_entries(
+            shell.menu(tr("&Help")),
+            [
+                (tr("Help on this part"), "F1", self.show_help),
+                (tr("User guide"), "", lambda: show_help(self)),
+                (tr("Keys and mouse"), "?", self.show_shortcuts),
+                (tr("Report a problem…"), "", self.report_problem),
+                (tr("About Acus"), "", self.show_about),
+            ],
+        )
 
     def _connect(self) -> None:
         conductor, start, open_ct = self.conductor, self.start_page, self.open_ct

@@ -115,50 +115,88 @@ class Scheme:
 _WHEELS = {NONE: Wheel.SCROLL, CTRL: Wheel.ZOOM, SHIFT: Wheel.SLAB}
 
 _KEYS = {
-    "Up": Action.NEXT, "Down": Action.PREVIOUS,
-    "PgUp": Action.TEN_ON, "PgDown": Action.TEN_BACK, "Home": Action.FIRST, "End": Action.LAST,
-    "+": Action.ZOOM_IN, "-": Action.ZOOM_OUT, "=": Action.FIT, "Space": Action.RESET,
-    "Esc": Action.CANCEL, "Z": Action.ZOOM_TOOL, "I": Action.INVERT,
-    "M": Action.MIRROR, "K": Action.SLAB_KIND, "]": Action.THICKER, "[": Action.THINNER,
-    "C": Action.CINE, "X": Action.MAXIMISE, "Return": Action.PLACE, "Enter": Action.PLACE,
-    "Ctrl+Left": Action.LEFT, "Ctrl+Right": Action.RIGHT, "Ctrl+Up": Action.UP,
-    "Ctrl+Down": Action.DOWN, "Menu": Action.MENU, "Shift+F10": Action.MENU,
-}  # fmt: skip
+    "Up": Action.NEXT,
+    "Down": Action.PREVIOUS,
+    "PgUp": Action.TEN_ON,
+    "PgDown": Action.TEN_BACK,
+    "Home": Action.FIRST,
+    "End": Action.LAST,
+    "+": Action.ZOOM_IN,
+    "-": Action.ZOOM_OUT,
+    "=": Action.FIT,
+    "Space": Action.RESET,
+    "Esc": Action.CANCEL,
+    "Z": Action.ZOOM_TOOL,
+    "I": Action.INVERT,
+    "M": Action.MIRROR,
+    "K": Action.SLAB_KIND,
+    "]": Action.THICKER,
+    "[": Action.THINNER,
+    "C": Action.CINE,
+    "X": Action.MAXIMISE,
+    "Return": Action.PLACE,
+    "Enter": Action.PLACE,
+    "Ctrl+Left": Action.LEFT,
+    "Ctrl+Right": Action.RIGHT,
+    "Ctrl+Up": Action.UP,
+    "Ctrl+Down": Action.DOWN,
+    "Menu": Action.MENU,
+    "Shift+F10": Action.MENU,
+}
 
 _MEASURE = {"distance": "D", "angle": "G", "probe": "U", "region": "O"}
 """Keys of the menu *Measure*: alike in all schemes, as neither model has a habit to keep."""
 
 OHIF = Scheme(
-    "ohif", "OHIF", False,
+    "ohif",
+    "OHIF",
+    False,
     {
-        (_B.LeftButton, NONE): Drag.WINDOW, (_B.MiddleButton, NONE): Drag.PAN,
-        (_B.RightButton, NONE): Drag.ZOOM, (_B.LeftButton, CTRL): Drag.PAN,
-        (_B.LeftButton, SHIFT): Drag.CROSSHAIR, (_B.LeftButton, CTRL | SHIFT): Drag.BOX,
+        (_B.LeftButton, NONE): Drag.WINDOW,
+        (_B.MiddleButton, NONE): Drag.PAN,
+        (_B.RightButton, NONE): Drag.ZOOM,
+        (_B.LeftButton, CTRL): Drag.PAN,
+        (_B.LeftButton, SHIFT): Drag.CROSSHAIR,
+        (_B.LeftButton, CTRL | SHIFT): Drag.BOX,
     },
     _WHEELS,
-    _KEYS | {
-        "Right": Action.PANE_ON, "Left": Action.PANE_BACK, "R": Action.TURN_RIGHT,
-        "L": Action.TURN_LEFT, "V": Action.MIRROR_UPRIGHT,
+    _KEYS
+    | {
+        "Right": Action.PANE_ON,
+        "Left": Action.PANE_BACK,
+        "R": Action.TURN_RIGHT,
+        "L": Action.TURN_LEFT,
+        "V": Action.MIRROR_UPRIGHT,
     },
     {"follow": "F", "bullseye": "B"} | _MEASURE,
-)  # fmt: skip
+)
 """OHIF and cornerstone: dragging down raises the level."""
 
 SLICER = Scheme(
-    "slicer", "3D Slicer", True,
+    "slicer",
+    "3D Slicer",
+    True,
     {
-        (_B.LeftButton, NONE): Drag.WINDOW, (_B.MiddleButton, NONE): Drag.PAN,
-        (_B.RightButton, NONE): Drag.ZOOM, (_B.LeftButton, SHIFT): Drag.PAN,
+        (_B.LeftButton, NONE): Drag.WINDOW,
+        (_B.MiddleButton, NONE): Drag.PAN,
+        (_B.RightButton, NONE): Drag.ZOOM,
+        (_B.LeftButton, SHIFT): Drag.PAN,
         (_B.LeftButton, CTRL): Drag.BOX,
     },
     _WHEELS,
-    _KEYS | {
-        "Right": Action.NEXT, "Left": Action.PREVIOUS, "F": Action.NEXT, "B": Action.PREVIOUS,
-        "R": Action.RESET, "Shift+R": Action.TURN_RIGHT, "Shift+L": Action.TURN_LEFT,
+    _KEYS
+    | {
+        "Right": Action.NEXT,
+        "Left": Action.PREVIOUS,
+        "F": Action.NEXT,
+        "B": Action.PREVIOUS,
+        "R": Action.RESET,
+        "Shift+R": Action.TURN_RIGHT,
+        "Shift+L": Action.TURN_LEFT,
         "Shift+M": Action.MIRROR_UPRIGHT,
     },
     {"follow": "Shift+F", "bullseye": "Shift+B"} | _MEASURE,
-)  # fmt: skip
+)
 """3D Slicer: dragging up raises the level."""
 
 SCHEMES = {scheme.name: scheme for scheme in (OHIF, SLICER)}
@@ -189,27 +227,39 @@ def digit(event: QKeyEvent) -> int | None:
 def action_words() -> dict[Action, str]:
     """Return what each action does, in the order of the sheet."""
     return {
-        Action.NEXT: tr("one slice on, back"), Action.TEN_ON: tr("ten slices on, back"),
-        Action.FIRST: tr("first, last slice"), Action.ZOOM_IN: tr("zoom in, out"),
-        Action.FIT: tr("fit to pane"), Action.RESET: tr("reset zoom, window and slab"),
-        Action.ZOOM_TOOL: tr("left drag zooms, until Esc"), Action.INVERT: tr("invert grey"),
+        Action.NEXT: tr("one slice on, back"),
+        Action.TEN_ON: tr("ten slices on, back"),
+        Action.FIRST: tr("first, last slice"),
+        Action.ZOOM_IN: tr("zoom in, out"),
+        Action.FIT: tr("fit to pane"),
+        Action.RESET: tr("reset zoom, window and slab"),
+        Action.ZOOM_TOOL: tr("left drag zooms, until Esc"),
+        Action.INVERT: tr("invert grey"),
         Action.TURN_RIGHT: tr("turn right, left by 90°"),
         Action.MIRROR: tr("mirror left-right, top-bottom"),
-        Action.THINNER: tr("slab thinner, thicker"), Action.SLAB_KIND: tr("slab: mean, MIP, MinIP"),
-        Action.CINE: tr("cine: start, stop"), Action.MAXIMISE: tr("maximise or restore the pane"),
-        Action.PANE_BACK: tr("previous, next pane"), Action.LEFT: tr("move the crosshair"),
+        Action.THINNER: tr("slab thinner, thicker"),
+        Action.SLAB_KIND: tr("slab: mean, MIP, MinIP"),
+        Action.CINE: tr("cine: start, stop"),
+        Action.MAXIMISE: tr("maximise or restore the pane"),
+        Action.PANE_BACK: tr("previous, next pane"),
+        Action.LEFT: tr("move the crosshair"),
         Action.PLACE: tr("with E or T before: place at the crosshair"),
-        Action.MENU: tr("menu of the pane"), Action.CANCEL: tr("stop what is going on"),
-    }  # fmt: skip
+        Action.MENU: tr("menu of the pane"),
+        Action.CANCEL: tr("stop what is going on"),
+    }
 
 
 _TOGETHER: dict[Action, tuple[Action, ...]] = {
-    Action.NEXT: (Action.PREVIOUS,), Action.TEN_ON: (Action.TEN_BACK,),
+    Action.NEXT: (Action.PREVIOUS,),
+    Action.TEN_ON: (Action.TEN_BACK,),
     Action.FIRST: (Action.LAST,),
-    Action.ZOOM_IN: (Action.ZOOM_OUT,), Action.TURN_RIGHT: (Action.TURN_LEFT,),
-    Action.MIRROR: (Action.MIRROR_UPRIGHT,), Action.THINNER: (Action.THICKER,),
-    Action.PANE_BACK: (Action.PANE_ON,), Action.LEFT: (Action.RIGHT, Action.UP, Action.DOWN),
-}  # fmt: skip
+    Action.ZOOM_IN: (Action.ZOOM_OUT,),
+    Action.TURN_RIGHT: (Action.TURN_LEFT,),
+    Action.MIRROR: (Action.MIRROR_UPRIGHT,),
+    Action.THINNER: (Action.THICKER,),
+    Action.PANE_BACK: (Action.PANE_ON,),
+    Action.LEFT: (Action.RIGHT, Action.UP, Action.DOWN),
+}
 """Actions that share a row of the sheet with the one before."""
 
 _ARROWS = {"Up": "↑", "Down": "↓", "Left": "←", "Right": "→"}
@@ -236,13 +286,16 @@ def mouse_rows(scheme: Scheme) -> list[tuple[str, str]]:
     level = tr("up") if scheme.level_rises_upwards else tr("down")
     words = {
         Drag.WINDOW: tr("window (right: wider) and level ({way}: higher)", way=level),
-        Drag.PAN: tr("pan"), Drag.ZOOM: tr("zoom"), Drag.CROSSHAIR: tr("crosshair in all views"),
+        Drag.PAN: tr("pan"),
+        Drag.ZOOM: tr("zoom"),
+        Drag.CROSSHAIR: tr("crosshair in all views"),
         Drag.BOX: tr("best window for the box"),
-    }  # fmt: skip
+    }
     wheels = {
-        Wheel.SCROLL: tr("scroll through slices"), Wheel.ZOOM: tr("zoom"),
+        Wheel.SCROLL: tr("scroll through slices"),
+        Wheel.ZOOM: tr("zoom"),
         Wheel.SLAB: tr("slab thinner, thicker"),
-    }  # fmt: skip
+    }
     rows = [
         (", ".join(_drag_name(*at) for at, does in scheme.drags.items() if does is drag), text)
         for drag, text in words.items()
@@ -258,8 +311,11 @@ def mouse_rows(scheme: Scheme) -> list[tuple[str, str]]:
 
 
 def _drag_name(button: Qt.MouseButton, modifiers: Qt.KeyboardModifier) -> str:
-    names = {_B.LeftButton: tr("Left drag"), _B.MiddleButton: tr("Middle drag"),
-             _B.RightButton: tr("Right drag")}  # fmt: skip
+    names = {
+        _B.LeftButton: tr("Left drag"),
+        _B.MiddleButton: tr("Middle drag"),
+        _B.RightButton: tr("Right drag"),
+    }
     return _with(names[button], modifiers)
 
 

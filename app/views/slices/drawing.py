@@ -74,8 +74,16 @@ def stroke(
         alphas: opacity at either end, besides that of the ink.
     """
     width, colour, opacity, smooth, dashes = ink
-    return (*start, *end, width, *colour, opacity * alphas[0], opacity * alphas[1],
-            float(smooth), *dashes)  # fmt: skip
+    return (
+        *start,
+        *end,
+        width,
+        *colour,
+        opacity * alphas[0],
+        opacity * alphas[1],
+        float(smooth),
+        *dashes,
+    )
 
 
 def ellipse(

@@ -192,8 +192,11 @@ class Labels:
             for want in [mark.wanted(at)]
             if want is not None
         ]
-        state = (size_px, [end.toPoint() for line in lines for end in line],
-                 [(mark, at.toPoint(), want.width) for mark, at, want in shown])  # fmt: skip
+        state = (
+            size_px,
+            [end.toPoint() for line in lines for end in line],
+            [(mark, at.toPoint(), want.width) for mark, at, want in shown],
+        )
         if state == self._arranged:
             return
         self._arranged = state

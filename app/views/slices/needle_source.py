@@ -181,9 +181,13 @@ def fill_needle_menu(menu: QMenu, planes: NeedlePlanes, viewing: Viewing) -> Non
         (tr("Follow the needle"), Along.NEEDLE, planes.follow_needle, True),
         (tr("Hold here"), Along.HELD, planes.hold, planes.frame is not None),
         (tr("Along the planned path"), Along.PATH, planes.show_path, planes.path_mm is not None),
-        (tr("Through two points…"), Along.POINTS, lambda: viewing.set_tool(Tool.PLANE),
-         viewing.volume is not None),
-    )  # fmt: skip
+        (
+            tr("Through two points…"),
+            Along.POINTS,
+            lambda: viewing.set_tool(Tool.PLANE),
+            viewing.volume is not None,
+        ),
+    )
     menu.addSeparator()
     for text, along, command, enabled in entries:
         action = menu.addAction(text)

@@ -29,8 +29,11 @@ RATES = (5, 10, 15, 25)
 """Slices a second to choose from."""
 
 _ENDS_IT = (
-    QEvent.Type.MouseButtonPress, QEvent.Type.Wheel, QEvent.Type.KeyPress, QEvent.Type.Hide,
-)  # fmt: skip
+    QEvent.Type.MouseButtonPress,
+    QEvent.Type.Wheel,
+    QEvent.Type.KeyPress,
+    QEvent.Type.Hide,
+)
 
 
 class Cine(QObject):
@@ -229,24 +232,35 @@ class PaneActions:
         self._pane = pane
         scroll, zoom, nudge = self._scroll, self._zoom, self._nudge
         self._table: dict[Action, Callable[[], object]] = {
-            Action.NEXT: lambda: scroll(1), Action.PREVIOUS: lambda: scroll(-1),
-            Action.TEN_ON: lambda: scroll(PAGE), Action.TEN_BACK: lambda: scroll(-PAGE),
-            Action.FIRST: lambda: scroll(-END), Action.LAST: lambda: scroll(END),
-            Action.ZOOM_IN: lambda: zoom(1), Action.ZOOM_OUT: lambda: zoom(-1),
-            Action.FIT: pane.canvas.fit, Action.RESET: self.reset,
-            Action.ZOOM_TOOL: self._zoom_tool, Action.INVERT: self.invert,
-            Action.TURN_RIGHT: lambda: self.turn(1), Action.TURN_LEFT: lambda: self.turn(-1),
+            Action.NEXT: lambda: scroll(1),
+            Action.PREVIOUS: lambda: scroll(-1),
+            Action.TEN_ON: lambda: scroll(PAGE),
+            Action.TEN_BACK: lambda: scroll(-PAGE),
+            Action.FIRST: lambda: scroll(-END),
+            Action.LAST: lambda: scroll(END),
+            Action.ZOOM_IN: lambda: zoom(1),
+            Action.ZOOM_OUT: lambda: zoom(-1),
+            Action.FIT: pane.canvas.fit,
+            Action.RESET: self.reset,
+            Action.ZOOM_TOOL: self._zoom_tool,
+            Action.INVERT: self.invert,
+            Action.TURN_RIGHT: lambda: self.turn(1),
+            Action.TURN_LEFT: lambda: self.turn(-1),
             Action.MIRROR: lambda: self.mirror(False),
             Action.MIRROR_UPRIGHT: lambda: self.mirror(True),
-            Action.SLAB_KIND: self.next_kind, Action.THICKER: lambda: thicken(pane.canvas, 1),
-            Action.THINNER: lambda: thicken(pane.canvas, -1), Action.CINE: pane.cine.toggle,
+            Action.SLAB_KIND: self.next_kind,
+            Action.THICKER: lambda: thicken(pane.canvas, 1),
+            Action.THINNER: lambda: thicken(pane.canvas, -1),
+            Action.CINE: pane.cine.toggle,
             Action.PANE_ON: lambda: pane.leave_wanted.emit(True),
             Action.PANE_BACK: lambda: pane.leave_wanted.emit(False),
             Action.MAXIMISE: pane.maximise_wanted.emit,
-            Action.LEFT: lambda: nudge(-1, 0), Action.RIGHT: lambda: nudge(1, 0),
-            Action.UP: lambda: nudge(0, -1), Action.DOWN: lambda: nudge(0, 1),
+            Action.LEFT: lambda: nudge(-1, 0),
+            Action.RIGHT: lambda: nudge(1, 0),
+            Action.UP: lambda: nudge(0, -1),
+            Action.DOWN: lambda: nudge(0, 1),
             Action.MENU: self._menu,
-        }  # fmt: skip
+        }
 
     def do(self, action: Action) -> bool:
         """Carry it out; False if it means nothing now and the key is somebody else's."""
@@ -376,10 +390,18 @@ def build_menu(pane: SlicePane) -> QMenu:
             _entry(forget, name, partial(greys.forget, name))
     menu.addSeparator()
     _switch(menu, tr("Invert grey") + "\tI", greys.is_inverted, pane.actions_of.invert)
-    _switch(menu, tr("One window for all panes"), greys.is_linked,
-            lambda: greys.set_linked(not greys.is_linked))  # fmt: skip
-    lock = _switch(menu, tr("Lock window and level"), greys.is_locked,
-                   lambda: greys.set_locked(not greys.is_locked))  # fmt: skip
+    _switch(
+        menu,
+        tr("One window for all panes"),
+        greys.is_linked,
+        lambda: greys.set_linked(not greys.is_linked),
+    )
+    lock = _switch(
+        menu,
+        tr("Lock window and level"),
+        greys.is_locked,
+        lambda: greys.set_locked(not greys.is_locked),
+    )
     lock.setEnabled(not greys.is_fixed)
     menu.addSeparator()
     slabs = menu.addMenu(tr("Slab"))
@@ -390,8 +412,12 @@ def build_menu(pane: SlicePane) -> QMenu:
     _switch(cine, tr("Run through the slices") + "\tC", pane.cine.is_running, pane.cine.toggle)
     cine.addSeparator()
     for rate in RATES:
-        _switch(cine, tr("{rate} slices a second", rate=rate), rate == pane.cine.rate,
-                partial(pane.cine.set_rate, rate))  # fmt: skip
+        _switch(
+            cine,
+            tr("{rate} slices a second", rate=rate),
+            rate == pane.cine.rate,
+            partial(pane.cine.set_rate, rate),
+        )
     menu.addSeparator()
     _entry(menu, tr("Fit to pane") + "\t=", pane.canvas.fit)
     _entry(menu, tr("Reset view") + "\t" + tr("Space"), pane.reset)

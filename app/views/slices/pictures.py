@@ -68,8 +68,12 @@ class Screen:
     def place(self, rect: Rect) -> Rect:
         """Where a rectangle of the plane [mm] lies [px]."""
         left, top, width, height = rect
-        return ((left - self.left) * self.scale, (top - self.top) * self.scale,
-                width * self.scale, height * self.scale)  # fmt: skip
+        return (
+            (left - self.left) * self.scale,
+            (top - self.top) * self.scale,
+            width * self.scale,
+            height * self.scale,
+        )
 
     @property
     def rect_mm(self) -> QRectF:

@@ -16,8 +16,16 @@ from app.views.kit.text import tr
 from app.views.slices.panes import PaneId
 
 KEYED = (
-    "Soft tissue", "Lung", "Bone", "Brain", "Mediastinum", "Liver", "Angio", "Spine", "Needle",
-)  # fmt: skip
+    "Soft tissue",
+    "Lung",
+    "Bone",
+    "Brain",
+    "Mediastinum",
+    "Liver",
+    "Angio",
+    "Spine",
+    "Needle",
+)
 """Presets with a digit as their key: 1 to 4 as in OHIF, then what a puncture needs."""
 
 OWN_KEY = 0

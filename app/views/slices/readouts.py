@@ -59,8 +59,12 @@ class Readouts(QObject):
         self.window = Overlay(canvas, _A.AlignRight | _A.AlignTop)
         self.cursor = Overlay(canvas, _A.AlignLeft | _A.AlignBottom)
         self.slice = Overlay(canvas, _A.AlignRight | _A.AlignBottom)
-        edges = (_A.AlignLeft | _A.AlignVCenter, _A.AlignRight | _A.AlignVCenter,
-                 _A.AlignHCenter | _A.AlignTop, _A.AlignHCenter | _A.AlignBottom)  # fmt: skip
+        edges = (
+            _A.AlignLeft | _A.AlignVCenter,
+            _A.AlignRight | _A.AlignVCenter,
+            _A.AlignHCenter | _A.AlignTop,
+            _A.AlignHCenter | _A.AlignBottom,
+        )
         self.letters = tuple(
             Overlay(canvas, edge, theme.IMAGE_WARNING, bold=True, larger=3) for edge in edges
         )

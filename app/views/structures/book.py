@@ -125,8 +125,15 @@ class StructureBook(QObject):
         old = next((one for one in self.structures if one.name == name), None)
         if old is None:
             colour = COLOURS[len(self.structures) % len(COLOURS)]
-            new = Structure(name, StructureKind.RISK, colour, mask, corner, self.volume.affine_mm,
-                            StructureKind.RISK.warn_mm)  # fmt: skip
+            new = Structure(
+                name,
+                StructureKind.RISK,
+                colour,
+                mask,
+                corner,
+                self.volume.affine_mm,
+                StructureKind.RISK.warn_mm,
+            )
         else:
             new = old.changed(mask=mask, corner=corner)
         self.chosen = name

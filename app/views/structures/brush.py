@@ -174,8 +174,7 @@ class BrushGrip:
         centres = start + np.outer(np.arange(1, steps + 1) / steps, at - start)
         limits = (settings.low, settings.high) if settings.limited else None
         old = next((one for one in self._book.structures if one.name == self._name), None)
-        new = brushed(old, volume, centres, settings.radius_mm,
-                      settings.mode is Mode.PAINT, limits)  # fmt: skip
+        new = brushed(old, volume, centres, settings.radius_mm, settings.mode is Mode.PAINT, limits)
         if new is None:
             if old is not None:
                 self._book.remove(self._name)

@@ -78,9 +78,13 @@ class StructureFiles(QObject):
                 self._panel.set_note("\n".join(found.notes))
 
         run_in_background(
-            self, lambda progress: read_parts(wanted, volume, progress), take, self.failed.emit,
-            title=tr("Reading the exercise's structures"), indicator=self._indicator,
-        )  # fmt: skip
+            self,
+            lambda progress: read_parts(wanted, volume, progress),
+            take,
+            self.failed.emit,
+            title=tr("Reading the exercise's structures"),
+            indicator=self._indicator,
+        )
 
     def ask_open(self) -> None:
         """Ask for a file of structures and read it."""
@@ -106,8 +110,14 @@ class StructureFiles(QObject):
                 said = tr("{name}: {count} structures", name=path.name, count=len(found))
                 self._panel.set_note("\n".join((said, *found.notes)))
 
-        run_in_background(self, read, take, self.failed.emit,
-                          title=tr("Reading structures"), indicator=self._indicator)  # fmt: skip
+        run_in_background(
+            self,
+            read,
+            take,
+            self.failed.emit,
+            title=tr("Reading structures"),
+            indicator=self._indicator,
+        )
 
     def ask_save(self) -> None:
         """Ask where to write the structures, and write them."""
@@ -129,9 +139,13 @@ class StructureFiles(QObject):
             write_structures(path, structures, volume, progress)
 
         run_in_background(
-            self, write, lambda _: self._panel.set_note(tr("Written: {name}", name=path.name)),
-            self.failed.emit, title=tr("Writing structures"), indicator=self._indicator,
-        )  # fmt: skip
+            self,
+            write,
+            lambda _: self._panel.set_note(tr("Written: {name}", name=path.name)),
+            self.failed.emit,
+            title=tr("Writing structures"),
+            indicator=self._indicator,
+        )
 
 
 def read_parts(parts: Sequence[StructurePart], volume: Volume, progress: Progress) -> StructureSet:
@@ -313,8 +327,9 @@ class StructuresFeature(Feature):
         if patient is None:
             return
         names = [one.name for one in self.book.structures]
-        name = free_name(tr("{low:.0f} to {high:.0f} HU", low=settings.low, high=settings.high),
-                         names)  # fmt: skip
+        name = free_name(
+            tr("{low:.0f} to {high:.0f} HU", low=settings.low, high=settings.high), names
+        )
 
         def work(progress: Progress) -> tuple[Mask, Index]:
             from app.imaging.body import body_mask
@@ -329,8 +344,9 @@ class StructuresFeature(Feature):
             if self.book.volume is patient.volume:
                 self.book.put(name, *found)
 
-        run_in_background(self, work, take, self._refused,
-                          title=tr("Threshold"), indicator=self._progress)  # fmt: skip
+        run_in_background(
+            self, work, take, self._refused, title=tr("Threshold"), indicator=self._progress
+        )
 
     def close(self) -> None:
         """End what runs; idempotent."""

@@ -166,8 +166,15 @@ class StructureOutline(Shape):
             self._draw(painter)
             return
         dx, dy = ratio * to_pixels.dx(), ratio * to_pixels.dy()
-        drawn_for = (to_pixels.m11(), to_pixels.m12(), to_pixels.m21(), to_pixels.m22(), ratio,
-                     round(dx - floor(dx), 2), round(dy - floor(dy), 2))  # fmt: skip
+        drawn_for = (
+            to_pixels.m11(),
+            to_pixels.m12(),
+            to_pixels.m21(),
+            to_pixels.m22(),
+            ratio,
+            round(dx - floor(dx), 2),
+            round(dy - floor(dy), 2),
+        )
         if drawn_for != self._drawn_for:
             picture = QImage(place.size() * ratio, QImage.Format.Format_ARGB32_Premultiplied)
             picture.setDevicePixelRatio(ratio)
@@ -245,8 +252,11 @@ class StructureLayer:
             ):
                 if axes is None:
                     origin = plane.lps_mm(0.0, 0.0, index)
-                    axes = (origin, plane.lps_mm(1.0, 0.0, index) - origin,
-                            plane.lps_mm(0.0, 1.0, index) - origin)  # fmt: skip
+                    axes = (
+                        origin,
+                        plane.lps_mm(1.0, 0.0, index) - origin,
+                        plane.lps_mm(0.0, 1.0, index) - origin,
+                    )
                 item.set_lines(structure, contours(structure, *axes))
                 self._shown[structure.name] = (structure.mask, plane, index)
             item.set_style(structure, scale, structure.name == self._book.chosen)

@@ -67,8 +67,9 @@ class StructureTable(QTableWidget):
         visible = self._book.is_visible(structure.name)
         item.setCheckState(Qt.CheckState.Checked if visible else Qt.CheckState.Unchecked)
         item.setIcon(_swatch(structure))
-        item.setToolTip(tr("{ml:.2f} ml. Tick: drawn. Double click: rename.",
-                           ml=structure.millilitres))  # fmt: skip
+        item.setToolTip(
+            tr("{ml:.2f} ml. Tick: drawn. Double click: rename.", ml=structure.millilitres)
+        )
         self.setItem(row, NAME, item)
         box = self.cellWidget(row, KIND)
         spin = self.cellWidget(row, WARN)
@@ -98,8 +99,12 @@ class StructureTable(QTableWidget):
             colour, sign = NEARNESS_STYLES[clearance.nearness]
             item.setText(f"{sign} {clearance.distance_mm:z.1f}")
             item.setForeground(QColor(theme.now(colour)))
-            item.setToolTip(tr("The path comes nearest {depth:.0f} mm behind its entry",
-                               depth=clearance.depth_mm))  # fmt: skip
+            item.setToolTip(
+                tr(
+                    "The path comes nearest {depth:.0f} mm behind its entry",
+                    depth=clearance.depth_mm,
+                )
+            )
         item.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
         with QSignalBlocker(self):
             self.setItem(row, PATH, item)
@@ -208,8 +213,10 @@ class StructurePanel(QWidget):
         self.remove.setEnabled(book.selected is not None and not book.locked)
         for widget in (self.open, self.threshold, *self.modes.values()):
             widget.setEnabled(book.volume is not None and not book.locked)
-        hint = tr("No structures. Open a DICOM SEG, RTSTRUCT, .seg.nrrd or NIfTI label file, or "
-                  "mark one with the brush.")  # fmt: skip
+        hint = tr(
+            "No structures. Open a DICOM SEG, RTSTRUCT, .seg.nrrd or NIfTI label file, or "
+            "mark one with the brush."
+        )
         if not len(structures):
             self.note.setText(hint)
         elif self.note.text() == hint:
@@ -262,9 +269,13 @@ class StructurePanel(QWidget):
         column.addWidget(_heading(tr("Mark the chosen one, or a new one")))
         column.addLayout(_row(*self.modes.values()))
         grid = QGridLayout()
-        for row, (text, widget) in enumerate((
-            (tr("Radius"), self.radius), (tr("From"), self.low), (tr("To"), self.high),
-        )):  # fmt: skip
+        for row, (text, widget) in enumerate(
+            (
+                (tr("Radius"), self.radius),
+                (tr("From"), self.low),
+                (tr("To"), self.high),
+            )
+        ):
             grid.addWidget(QLabel(text), row, 0)
             grid.addWidget(widget, row, 1)
         grid.addWidget(self.limited, 3, 0, 1, 2)

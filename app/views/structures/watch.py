@@ -112,8 +112,11 @@ def words(clearance: PathClearance) -> str:
     """Say how near something is."""
     name = clearance.structure.name
     if clearance.nearness is Nearness.HIT:
-        return tr("needle in {name}, {depth:.1f} mm deep",
-                  name=name, depth=max(0.0, -clearance.distance_mm))  # fmt: skip
+        return tr(
+            "needle in {name}, {depth:.1f} mm deep",
+            name=name,
+            depth=max(0.0, -clearance.distance_mm),
+        )
     return tr("{distance:.1f} mm from {name}", distance=clearance.distance_mm, name=name)
 
 

@@ -203,8 +203,9 @@ def read_opencv(
     where = found["R"][0]
     if values["R"].size == 3:
         values["R"] = cv2.Rodrigues(values["R"])[0]
-    placed = np.hstack([_shaped(where, "R", values["R"], (3, 3)),
-                        _shaped(where, "T", values["T"], (3, 1))])  # fmt: skip
+    placed = np.hstack(
+        [_shaped(where, "R", values["R"], (3, 3)), _shaped(where, "T", values["T"], (3, 1))]
+    )
     poses = (RigidTransform.identity(), pose(placed, unit, f"{where}: R"))
     notes: list[str] = []
     cameras = []
@@ -268,8 +269,12 @@ def _five(
     ahead = np.column_stack([x, y, np.ones_like(x)])
     bent = cv2.projectPoints(ahead, np.zeros(3), np.zeros(3), np.eye(3), values)[0][:, 0]
     r2 = x * x + y * y
-    rows = np.array([[x * r2, x * r2**2, 2 * x * y, r2 + 2 * x * x, x * r2**3],
-                     [y * r2, y * r2**2, r2 + 2 * y * y, 2 * x * y, y * r2**3]])  # fmt: skip
+    rows = np.array(
+        [
+            [x * r2, x * r2**2, 2 * x * y, r2 + 2 * x * x, x * r2**3],
+            [y * r2, y * r2**2, r2 + 2 * y * y, 2 * x * y, y * r2**3],
+        ]
+    )
     design = np.concatenate([rows[0], rows[1]], axis=1).T
     to_pixels = np.diag(matrix)[:2].repeat(x.size)
     wanted = np.concatenate([bent[:, 0] - x, bent[:, 1] - y])

@@ -55,9 +55,11 @@ def documents(calibration: StereoCalibration) -> tuple[dict[str, Any], dict[str,
     left, right = calibration.cameras
     focal = float(np.mean([left.focal_px[1], right.focal_px[1]]))
     projection = np.zeros((3, 4))
-    projection[:, :3] = [[focal, 0.0, (left.image_size[0] - 1) / 2.0],
-                         [0.0, focal, (left.image_size[1] - 1) / 2.0],
-                         [0.0, 0.0, 1.0]]  # fmt: skip
+    projection[:, :3] = [
+        [focal, 0.0, (left.image_size[0] - 1) / 2.0],
+        [0.0, focal, (left.image_size[1] - 1) / 2.0],
+        [0.0, 0.0, 1.0],
+    ]
     other = projection.copy()
     other[0, 3] = -focal * calibration.baseline
     return _document(left, R_left, projection), _document(right, R_right, other)

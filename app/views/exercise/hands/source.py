@@ -306,8 +306,10 @@ SIDE_BUTTONS: Final = Qt.MouseButton.RightButton | Qt.MouseButton.MiddleButton
 """Held while pressing, they pull instead of pushing."""
 
 _DOWN, _MOVE, _UP = (
-    QEvent.Type.TabletPress, QEvent.Type.TabletMove, QEvent.Type.TabletRelease,
-)  # fmt: skip
+    QEvent.Type.TabletPress,
+    QEvent.Type.TabletMove,
+    QEvent.Type.TabletRelease,
+)
 _GONE = (QEvent.Type.Hide, QEvent.Type.WindowDeactivate, QEvent.Type.TabletLeaveProximity)
 
 
