@@ -115,8 +115,7 @@ def find_body(volume: Volume, progress: Progress | None = None) -> Body:
     body = _largest(opened[_PAD:-_PAD, _PAD:-_PAD, _PAD:-_PAD])
     progress.report(0.7, "filling the lungs")
     axis = 2 - nearest_axes(volume.direction)[0][2]  # array axis that runs along the patient
-    for plane in np.moveaxis(body, axis, 0):
-        plane[...] = ndimage.binary_fill_holes(plane)
+    body = _filled(body, axis)
     progress.report(1.0, "body found")
     return Body(volume, (i, j, k), read_only(body), level)
 
@@ -161,6 +160,18 @@ def _largest(mask: Mask) -> Mask:
     sizes[0] = 0
     largest: Mask = labels == int(np.argmax(sizes))
     return largest
+
+
+def _filled(mask: Mask, axis: int) -> Mask:
+    """Fill what each plane across an axis encloses, all planes in one pass."""
+    joined = ndimage.generate_binary_structure(3, 1)
+    joined[(slice(None),) * axis + ([0, 2],)] = False  # neighbours within a plane only
+    pieces, count = ndimage.label(~mask, joined)
+    is_open = np.zeros(count + 1, bool)
+    for across in {0, 1, 2} - {axis}:  # what reaches the edge of its plane is outside
+        is_open[np.moveaxis(pieces, across, 0)[[0, -1]]] = True
+    is_open[0] = False  # the mask itself
+    return ~is_open[pieces]
 
 
 def body_mask(volume: Volume, body: Body | None = None) -> Mask:

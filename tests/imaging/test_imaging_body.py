@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from scipy import ndimage
 
 from app.imaging.body import (
+    _filled,
     body_mask,
     find_body,
     is_inside,
@@ -102,3 +104,12 @@ def test_the_skin_of_the_real_chest_is_without_its_table(shared_data):
     back = skin_entry(body, middle + np.array([0, 160, 0]), middle)
     assert 200.0 < back[1] - front[1] < 260.0
     assert volume.hu_at(front) == pytest.approx(-400.0, abs=20.0)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_what_a_plane_encloses_is_filled_as_plane_by_plane(axis):
+    rng = np.random.default_rng(axis)
+    for _ in range(20):
+        mask = rng.random(rng.integers(1, 14, 3)) > 0.4
+        truth = [ndimage.binary_fill_holes(plane) for plane in np.moveaxis(mask, axis, 0)]
+        assert np.array_equal(np.moveaxis(_filled(mask, axis), axis, 0), truth)

@@ -12,6 +12,7 @@ from PySide6.QtTest import QSignalSpy, QTest
 from scipy.spatial import cKDTree
 from window_rig import plan
 
+import app.views.scene.surfaces as surfaces_module
 from app.core.progress import Cancelled, Progress
 from app.core.transform import RigidTransform
 from app.imaging.body import find_body
@@ -139,6 +140,14 @@ def test_block_means_keep_their_place(volume):
     middle = small[5, 5, 6]
     place = affine @ [6, 5, 5, 1]
     assert volume.voxel(place[:3])[0] == pytest.approx(middle, abs=0.01)
+
+
+def test_a_taller_patient_has_larger_cells_not_more(volume, monkeypatch):
+    monkeypatch.setattr(surfaces_module, "MOST_CELLS", 2000)
+    small, affine = reduced(lambda k: volume.hu[k], volume, 4.0)
+    cell = np.linalg.norm(affine[:3, :3], axis=0)
+    assert small.size <= 2.5 * 2000  # whole voxels to a cell
+    assert cell.prod() > 4.0**3
 
 
 def test_skin_and_bone_of_a_block_stay_where_the_block_is(volume):

@@ -32,6 +32,10 @@ SKIN_STEP_MM, BONE_STEP_MM, LUNG_STEP_MM, ORGAN_STEP_MM = 3.5, 2.4, 3.5, 3.0
 BONE_HU = 240.0
 """Above organs with contrast agent, below cancellous bone."""
 
+MOST_CELLS = 5_000_000
+"""Of a grid that a surface is taken from: a taller patient has larger cells, not more of them, for
+its surfaces have no more triangles either."""
+
 SKIN_SIGMA, BONE_SIGMA = 1.0, 0.7
 """Blur of the grids that surfaces are taken from [cells]."""
 
@@ -163,13 +167,15 @@ def reduced(
     Args:
         slab: values of some slices, shape (n, J, I), on the grid of `volume`.
         volume: gives size, spacing and affine.
-        step_mm: wanted spacing.
+        step_mm: wanted spacing; larger where it would make more than `MOST_CELLS`.
         progress: reports, and may be cancelled.
 
     Raises:
         Cancelled: if `progress` was cancelled.
     """
     progress = progress or Progress()
+    extent_mm = np.asarray(volume.spacing_mm) * volume.size
+    step_mm = max(step_mm, float(extent_mm.prod() / MOST_CELLS) ** (1.0 / 3.0))
     factors = [
         max(1, min(ceil(step_mm / s - 0.5), n // 4 or 1))
         for s, n in zip(volume.spacing_mm, volume.size, strict=True)
