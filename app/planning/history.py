@@ -35,6 +35,10 @@ class UndoHistory(Generic[V]):
         """Replace the present without a new step: the moves of one drag are one step."""
         return replace(self, present=value, future=())
 
+    def newest(self, steps: int) -> UndoHistory[V]:
+        """Forget all but the newest steps that can be undone."""
+        return replace(self, past=self.past[max(0, len(self.past) - steps) :])
+
     @property
     def can_undo(self) -> bool:
         """Whether there is something to go back to."""

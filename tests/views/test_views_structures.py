@@ -6,6 +6,7 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QImage, QMouseEvent, QPainter, QTransform
 from window_rig import plan
 
+import app.views.structures.book as book_module
 from app.exercises.parts import StructurePart
 from app.imaging.structures.distance import SignedDistance
 from app.imaging.structures.structure import Structure, StructureKind, StructureSet
@@ -74,6 +75,29 @@ def test_nothing_changes_while_an_attempt_runs(book):
     book.undo()
     assert len(book.structures) == 1
     assert "attempt runs" in str(said[0])
+
+
+def test_steps_of_large_structures_are_forgotten_before_they_fill_the_memory(
+    book, volume, monkeypatch
+):
+    mask, corner = ball(volume, centre_of(book), 12.0)
+    monkeypatch.setattr(book_module, "MOST_KEPT", 4 * mask.nbytes)
+    for _ in range(20):
+        book.put("vessel", mask.copy(), corner)
+        book.change("vessel", warn_mm=len(book._history.past) % 7)  # shares its mask
+    held = {id(one.mask): one.mask.nbytes for past in book._history.past for one in past}
+    assert sum(held.values()) <= 5 * mask.nbytes
+    for _ in range(6):
+        assert book.can_undo
+        book.undo()
+
+
+def test_a_step_that_is_too_large_can_be_undone_still(book, volume, monkeypatch):
+    monkeypatch.setattr(book_module, "MOST_KEPT", 0)
+    before = book.structures.find("vessel").mask
+    book.put("vessel", *ball(volume, centre_of(book), 12.0))
+    book.undo()
+    assert book.structures.find("vessel").mask is before
 
 
 def test_a_bad_name_is_refused_and_a_taken_one_gets_a_number(book):

@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from app.planning.clearance import Field
 
 
+MOST_KEPT = 512 * 1024**2
+"""Bytes of masks that steps to undo may hold; the last step is kept in any case."""
+
+
 class StructureBook(QObject):
     """Holds the set and its history; every change of the set is one step to undo.
 
@@ -194,6 +198,20 @@ class StructureBook(QObject):
             return
         before = self._history
         self._history = before.do(structures) if starts_step else before.amend(structures)
+        self._history = self._history.newest(max(1, self._fitting()))
         if starts_step and self._history is not before:
             self.stepped.emit(self)
         self.changed.emit()
+
+    def _fitting(self) -> int:
+        """How many steps, from the newest, hold no more than `MOST_KEPT` of other masks."""
+        seen = {id(one.mask) for one in self.structures}
+        held = 0
+        for number, structures in enumerate(reversed(self._history.past)):
+            for one in structures:
+                if id(one.mask) not in seen:
+                    seen.add(id(one.mask))
+                    held += one.mask.nbytes
+            if held > MOST_KEPT:
+                return number
+        return len(self._history.past)
