@@ -68,3 +68,17 @@ def test_a_label_keeps_its_place_while_nothing_speaks_against_it():
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
 def test_a_mark_without_a_place_has_no_label(bad):
     assert arrange([label(bad, 10.0)], PANE) == [None]
+
+
+def test_a_label_stays_off_other_words_even_far_from_its_mark():
+    corner = (0.0, 0.0, 300.0, 200.0)
+    (placed,) = arrange([label(100, 90)], PANE, taken=[corner])
+    x, y, w, h = placed.rect
+    assert not overlap(placed.rect, corner)
+    assert 0 <= x <= PANE[0] - w
+    assert 0 <= y <= PANE[1] - h
+
+
+def test_a_label_is_left_out_where_other_words_leave_no_room():
+    assert arrange([label(100, 90)], PANE, taken=[(0.0, 0.0, 390.0, 295.0)]) == [None]
+    assert arrange([label(40, 40, width=120.0)], (72.0, 72.0)) == [None]

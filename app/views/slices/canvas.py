@@ -426,11 +426,12 @@ class SliceCanvas(PlaneView):
             self.update()
 
     def _write(self) -> None:
-        """Write the read-outs, and find the names of marks their places."""
+        """Write the read-outs, and find the names of marks their places beside them."""
+        self.changed.emit()
         plane, (width, height) = self.plane, self._size
         if plane is not None:
-            self.layers.arrange_labels(plane, self.index, (width, height), self.pixel_at)
-        self.changed.emit()
+            taken = [one.geometry().united(one.held) for one in self.written if not one.is_empty]
+            self.layers.arrange_labels(plane, self.index, (width, height), self.pixel_at, taken)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the picture, the shapes over it, and the words over both."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +21,8 @@ CLEAR_PX = 3.0
 OUTSIDE, COVERED_LABEL, COVERED_MARK, COVERED_LINE, SAME_PLACE = 400.0, 100.0, 40.0, 2.0, -1.5
 BAD = 20.0
 """Cost from which a label that can be done without is left out."""
+STEP_PX = 6.0
+"""How finely places are tried away from the mark."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +58,7 @@ def arrange(
     wanted: Sequence[Wanted],
     pane: tuple[float, float],
     lines: ArrayLike = (),
+    taken: Sequence[Rect] = (),
 ) -> list[PlacedLabel | None]:
     """Give each label its best place, the first ones first.
 
@@ -62,15 +66,19 @@ def arrange(
         wanted: labels, the most important first.
         pane: width and height [px].
         lines: points of lines that should stay free [px], shape (n, 2).
+        taken: places of other words [px], which no label covers.
 
     Returns:
-        A place for each; None where the mark lies outside the pane, or no good place is left.
+        A place for each; None where the mark lies outside the pane, or no good place is left: for
+        an optional label, or beside `taken`.
     """
     if not wanted:
         return []
     labels = np.array([(w.x, w.y, w.width, w.height, w.radius) for w in wanted]).T
     rects = _candidates(labels)
     costs = _costs(wanted, labels, rects, pane, np.asarray(lines, np.float64).reshape(-1, 2))
+    for words in taken:
+        costs += COVERED_LABEL * _overlap(rects, words)
     placed: list[PlacedLabel | None] = []
     for number, label in enumerate(wanted):
         if not (0.0 <= label.x <= pane[0] and 0.0 <= label.y <= pane[1]):
@@ -83,8 +91,36 @@ def arrange(
         best = int(np.argmin(own))
         x, y, w, h = choices[:, best].tolist()
         rect = max(0.0, min(x, pane[0] - w)), max(0.0, min(y, pane[1] - h)), w, h
-        placed.append(None if label.optional and own[best] >= BAD else PlacedLabel(rect, best))
+        others = [one.rect for one in placed if one is not None]
+        found: Rect | None = rect
+        if (label.optional and own[best] >= BAD) or w > pane[0] or h > pane[1]:
+            found = None
+        elif _covers(rect, taken):
+            found = _nearest_free(label, pane, [*taken, *others])
+        elif _covers(rect, others):
+            found = _nearest_free(label, pane, [*taken, *others]) or rect
+        placed.append(None if found is None else PlacedLabel(found, best))
     return placed
+
+
+def _covers(rect: Rect, others: Sequence[Rect]) -> bool:
+    own = np.array(rect)
+    return any(_overlap(own, other) for other in others)
+
+
+def _nearest_free(label: Wanted, pane: tuple[float, float], taken: Sequence[Rect]) -> Rect | None:
+    """Return the place in the pane that covers nothing taken, nearest to the mark; None if none."""
+    spare = pane[0] - label.width, pane[1] - label.height
+    x, y = (np.linspace(0.0, most, 1 + ceil(most / STEP_PX)) for most in spare)
+    left, top = (axis.ravel() for axis in np.meshgrid(x, y))
+    sizes = np.full(len(left), label.width), np.full(len(left), label.height)
+    rects = np.stack([left, top, *sizes])
+    free = ~np.any([_overlap(rects, other) for other in taken], axis=0)
+    if not free.any():
+        return None
+    middle = left + label.width / 2 - label.x, top + label.height / 2 - label.y
+    best = int(np.argmin(np.where(free, np.hypot(*middle), np.inf)))
+    return float(left[best]), float(top[best]), label.width, label.height
 
 
 _SIDE = np.array([1, 1, -1, -1, 1, -1, 0, 0, 1, 1, -1, -1])

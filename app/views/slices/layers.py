@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
-from PySide6.QtCore import QPointF
+from PySide6.QtCore import QPointF, QRect
 
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
@@ -177,6 +177,7 @@ class Labels:
         size_px: tuple[float, float],
         pixel_at: Callable[[float, float], QPointF],
         lines: Sequence[tuple[QPointF, QPointF]],
+        taken: Sequence[QRect],
     ) -> None:
         """Give every label its place, unless nothing has moved by a pixel.
 
@@ -184,6 +185,7 @@ class Labels:
             size_px: of the pane.
             pixel_at: pixel of a plane point [mm].
             lines: ends [px] of lines that labels keep off.
+            taken: places of other words [px], which no label covers.
         """
         shown = [
             (mark, at, want)
@@ -196,13 +198,19 @@ class Labels:
             size_px,
             [end.toPoint() for line in lines for end in line],
             [(mark, at.toPoint(), want.width) for mark, at, want in shown],
+            list(taken),
         )
         if state == self._arranged:
             return
         self._arranged = state
         points = np.array([(end.x(), end.y()) for line in lines for end in line]).reshape(-1, 2, 2)
         along = points[:, :1] + _SHARES * (points[:, 1:] - points[:, :1])
-        places = arrange([want for _, _, want in shown], size_px, along)
+        places = arrange(
+            [want for _, _, want in shown],
+            size_px,
+            along,
+            [(one.x(), one.y(), one.width(), one.height()) for one in taken],
+        )
         for (mark, at, _), place in zip(shown, places, strict=True):
             mark.place_label(at, place)
 
@@ -363,12 +371,21 @@ class LayerStack:
         index: float,
         size_px: tuple[float, float],
         pixel_at: Callable[[float, float], QPointF],
+        taken: Sequence[QRect] = (),
     ) -> None:
-        """Put the names of the marks where they cover nothing and nothing cuts them."""
+        """Put the names of the marks where they cover nothing and nothing cuts them.
+
+        Args:
+            plane: of the pane.
+            index: of the slice.
+            size_px: of the pane.
+            pixel_at: pixel of a plane point [mm].
+            taken: places of other words [px].
+        """
         draft, needle = self._viewing.shown_draft, self._viewing.needle
         lines = [] if needle is None else list(pairwise(needle.points_mm))
         if draft.entry_mm is not None and draft.target_mm is not None:
             lines.append((np.asarray(draft.entry_mm), np.asarray(draft.target_mm)))
         places = [[plane.point(point, index) for point in line] for line in lines]
         ends = [(pixel_at(a.x, a.y), pixel_at(b.x, b.y)) for a, b in places]
-        self._labels.arrange(size_px, pixel_at, ends)
+        self._labels.arrange(size_px, pixel_at, ends, taken)

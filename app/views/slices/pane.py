@@ -10,7 +10,7 @@ from dataclasses import replace
 from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt, QTimer, Signal
-from PySide6.QtGui import QAction, QColor, QKeyEvent, QPainter, QPaintEvent
+from PySide6.QtGui import QAction, QColor, QHelpEvent, QKeyEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QInputDialog, QMenu, QVBoxLayout, QWidget
 
 from app.views.kit import theme
@@ -191,9 +191,11 @@ class SlicePane(QFrame):
 
     # --- looks --------------------------------------------------------------------------------
     def eventFilter(self, watched: object, event: QEvent) -> bool:
-        """Show which pane has the keyboard."""
+        """Show which pane has the keyboard, and the whole of read-outs that are cut."""
         if event.type() in (QEvent.Type.FocusIn, QEvent.Type.FocusOut):
             self.update()
+        if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
+            return self.readouts.explain(event)
         return False
 
     def paintEvent(self, event: QPaintEvent) -> None:

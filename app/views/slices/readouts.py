@@ -1,10 +1,17 @@
-"""Where the numbers of a pane stand and what they say."""
+"""Where the numbers of a pane stand and what they say.
+
+None covers another in a pane of any size: where there is no room the least important line goes
+first, and the whole text is in the tooltip of what is left.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
 
-from PySide6.QtCore import QObject, Qt
+from PySide6.QtCore import QObject, QRect, Qt
+from PySide6.QtGui import QHelpEvent
+from PySide6.QtWidgets import QToolTip
 
 from app.core.arrays import FloatArray
 from app.imaging.volume import Volume
@@ -16,13 +23,12 @@ from app.views.slices.canvas import SliceCanvas
 from app.views.slices.needle_source import Along
 from app.views.slices.panes import PANE_MARKS, PaneId, pane_name
 from app.views.slices.plane import SlicePlane
-from app.views.slices.words import PADDING, Overlay, Ruler
+from app.views.slices.words import PADDING, Line, Overlay, Ruler, Worth, Written
 
 _A = Qt.AlignmentFlag
 
-_ROOMY = 22
-"""Width of a pane in heights of its letters from which the zoom is written too."""
-
+APART = 6
+"""Least gap between words that stand beside each other [px]."""
 
 SHOWN_TILT_DEG = 0.5
 """From this angle to the patient's axes a plane is called oblique."""
@@ -69,10 +75,10 @@ class Readouts(QObject):
             Overlay(canvas, edge, theme.IMAGE_WARNING, bold=True, larger=3) for edge in edges
         )
         self.ruler = Ruler(canvas)
-        for one in (self.title, self.window, self.cursor, self.slice, *self.letters, self.ruler):
+        self._corners = (self.title, self.window, self.cursor, self.slice)
+        for one in (*self._corners, *self.letters, self.ruler):
             canvas.written.append(one)
-        self._room: tuple[object, ...] = ()
-        self._size: tuple[object, ...] = ()
+        self._arranged: tuple[object, ...] = ()
         self._is_new = True
         canvas.changed.connect(self.refresh)
         canvas.left.connect(self.clear_cursor)
@@ -88,20 +94,22 @@ class Readouts(QObject):
         """Write what stays the same for a plane; nothing where there is none."""
         plane, volume = self._canvas.plane, self._canvas.viewing.volume
         pane = self._canvas.pane
-        colour = PANE_MARKS[pane].colour
+        title, colour = (pane_name(pane), Worth.TITLE), PANE_MARKS[pane].colour
         if plane is None or volume is None:
             for overlay in (self.window, self.cursor, self.slice, *self.letters):
                 overlay.set_lines()
-            self.title.set_lines(pane_name(pane), self._note, first=colour)
+            self.title.set_lines(title, (self._note, Worth.WARNING), first=colour)
             self.ruler.setVisible(False)
             return
-        self.ruler.setVisible(True)
-        note = self._note or tr("{step:.2f} mm slices", step=plane.step_mm)
-        name = NAMES.shown(volume.series.pseudonym)
-        lines = [pane_name(pane), name, note, *_made(volume), *self._special_view(plane)]
-        self.title.set_lines(*lines, first=colour)
-        for overlay, letter in zip(self.letters, plane.letters(), strict=True):
-            overlay.set_lines(letter)
+        note = (self._note, Worth.WARNING)
+        if not self._note:
+            note = (tr("{step:.2f} mm slices", step=plane.step_mm), Worth.THICKNESS)
+        name = (NAMES.shown(volume.series.pseudonym), Worth.NAME)
+        special = [(words, Worth.WARNING) for words in (*_made(volume), *self._special_view(plane))]
+        self.title.set_lines(title, name, note, *special, first=colour)
+        worths = (Worth.LETTER, Worth.LETTER, Worth.UPRIGHT_LETTER, Worth.UPRIGHT_LETTER)
+        for overlay, letter, worth in zip(self.letters, plane.letters(), worths, strict=True):
+            overlay.set_lines((letter, worth))
 
     def _special_view(self, plane: SlicePlane) -> list[str]:
         """Say what a reader must not overlook: that it is a slab, that it is turned."""
@@ -111,12 +119,6 @@ class Readouts(QObject):
             slab = replace(slab, thickness_mm=round(plane.thickness_mm, 2))
         notes = (("▣", slab.words()), ("↻", presentation.turn.words()))
         return [f"{sign} {words}" for sign, words in notes if words]
-
-    def _zoom(self) -> list[str]:
-        """Say the zoom where there is room for it beside the title."""
-        if self._canvas.width() < _ROOMY * theme.SMALL_PX:
-            return []
-        return [tr("Zoom {zoom:.1f} px/mm", zoom=self._canvas.camera.scale)]
 
     def set_note(self, note: str, along: Along = Along.NEEDLE) -> None:
         """Say something else below the title than how thick the slices are.
@@ -136,21 +138,23 @@ class Readouts(QObject):
             self._write_plane()
         plane = self._canvas.plane
         if plane is None:
-            self._place()
+            self._arrange()
             return
         greys, index = self._canvas.viewing.greys, self._canvas.index
         window = greys.of(self._canvas.pane)
-        notes = [tr("locked")] if greys.is_locked else []
-        notes += [tr("inverted")] if greys.is_inverted else []
         self.window.set_lines(
-            tr("W {width:.0f}  L {level:.0f}", width=window.width, level=window.level),
-            *notes,
-            *self._zoom(),
+            (
+                tr("W {width:.0f}  L {level:.0f}", width=window.width, level=window.level),
+                Worth.WINDOW,
+            ),
+            (tr("locked") if greys.is_locked else "", Worth.WINDOW),
+            (tr("inverted") if greys.is_inverted else "", Worth.WARNING),
+            (tr("Zoom {zoom:.1f} px/mm", zoom=self._canvas.camera.scale), Worth.ZOOM),
         )
         self.slice.set_lines(*self._slice_words(plane, index))
         self.ruler.set_scale(self._canvas.camera.scale)
         self._follow_slice()
-        self._place()
+        self._arrange()
 
     def _follow_slice(self) -> None:
         """Keep the read-out under a resting mouse true while the slices scroll below it."""
@@ -167,24 +171,27 @@ class Readouts(QObject):
         unit = "" if volume is None or not volume.unit else f" {volume.unit}"
         self._hovered = lps_mm
         self.cursor.set_lines(
-            tr("outside the image") if hu is None else f"{hu:.0f}{unit}",
-            lps_words(lps_mm),
+            (tr("outside the image") if hu is None else f"{hu:.0f}{unit}", Worth.VALUE),
+            (lps_words(lps_mm), Worth.PLACE),
         )
+        self._arrange()
 
     def clear_cursor(self) -> None:
         """Forget the mouse."""
         self._hovered = None
         self.cursor.set_lines()
+        self._arrange()
 
-    def _slice_words(self, plane: SlicePlane, index: float) -> tuple[str, ...]:
+    def _slice_words(self, plane: SlicePlane, index: float) -> tuple[Line, ...]:
         if plane.pane.is_needle:
-            return (needle_slice_words(plane, index, self._along),)
-        tilt = plane.tilt_deg
+            return ((needle_slice_words(plane, index, self._along), Worth.POSITION),)
+        tilt, number = plane.tilt_deg, round(index) + 1
+        oblique = tr("{angle:.0f}° oblique", angle=tilt) if tilt > SHOWN_TILT_DEG else ""
         return (
-            tr("{angle:.0f}° oblique", angle=tilt) if tilt > SHOWN_TILT_DEG else "",
-            tr("{position} mm", position=self._position()),
-            tr("Slice {number} / {count}", number=round(index) + 1, count=plane.count),
-        )[tilt <= SHOWN_TILT_DEG :]
+            (oblique, Worth.TILT),
+            (tr("{position} mm", position=self._position()), Worth.POSITION),
+            (tr("Slice {number} / {count}", number=number, count=plane.count), Worth.COUNT),
+        )
 
     def _position(self) -> str:
         """Patient coordinate of the slice along its own axis, with the axis' letter."""
@@ -195,24 +202,85 @@ class Readouts(QObject):
         value = float(cursor[axis])
         return f"{'RLAPIS'[2 * axis + (value >= 0)]} {abs(value):.1f}"
 
-    def _place(self) -> None:
-        canvas, below, words = self._canvas, self.letters[3], self.slice
-        size = (canvas.width(), canvas.height(), theme.SMALL_PX, canvas.devicePixelRatioF())
-        room = (size, below.lines, words.lines)
-        if room == self._room:
+    # --- room ---------------------------------------------------------------------------------
+    def _arrange(self) -> None:
+        """Put all where it covers nothing; leave out line by line what finds no room."""
+        canvas, words = self._canvas, (*self._corners, *self.letters)
+        room = (canvas.width(), canvas.height(), theme.SMALL_PX, canvas.devicePixelRatioF())
+        arranged = (room, canvas.plane is None, *(one.lines for one in words))
+        if arranged == self._arranged:
             return
-        self._room = room
-        if size != self._size:  # else who changed has placed itself
-            self._size = size
-            for overlay in (self.title, self.window, self.cursor, words, *self.letters):
-                overlay.place()
-        below.place()
-        if below.geometry().intersects(words.geometry()):  # a narrow pane: the letter gives way
-            left = words.pos().x() - below.geometry().width() - PADDING
-            below.move(max(PADDING, left), below.pos().y())
-        bar = self.ruler.geometry()
-        above = self.slice.pos().y() - bar.height() - 2
-        self.ruler.move(self._canvas.width() - PADDING - bar.width(), above)
+        self._arranged = arranged
+        for overlay in words:
+            overlay.leave_out()
+            overlay.place()
+        self.ruler.setVisible(canvas.plane is not None)
+        while True:
+            self._place_beside()
+            going = [(line, one) for one in self._crowded() if (line := one.least) is not None]
+            if not going:
+                break
+            line, one = min(going, key=lambda found: found[0][1])
+            one.leave_out(*one.left_out, line)
+        self._hold_cursor()
+
+    def _place_beside(self) -> None:
+        """Let the upper and the lower letter stand between the corners, the ruler above its own."""
+        self._place_between(self.letters[2], self.title, self.window)
+        self._place_between(self.letters[3], self.cursor, self.slice)
+        bar, words = self.ruler.geometry(), self.slice
+        base = self._canvas.height() - PADDING if words.is_empty else words.pos().y() - 2
+        self.ruler.move(self._canvas.width() - PADDING - bar.width(), base - bar.height())
+
+    def _place_between(self, letter: Overlay, left: Overlay, right: Overlay) -> None:
+        """Put a letter in the middle of the pane, or of the gap between two corners."""
+        letter.place()
+        if not any(_touch(letter, one) for one in (left, right)):
+            return
+        begin = PADDING if left.is_empty else left.geometry().right() + 1
+        end = self._canvas.width() - PADDING if right.is_empty else right.pos().x()
+        letter.move((begin + end - letter.geometry().width()) // 2, letter.pos().y())
+
+    def _crowded(self) -> list[Written]:
+        """Return what covers another's place, or has none in the pane."""
+        everything = (*self._corners, *self.letters, self.ruler)
+        shown = [one for one in everything if not one.is_empty]
+        pane, crowded = self._canvas.rect(), set[Written]()
+        for one, other in combinations(shown, 2):
+            if _touch(one, other):
+                crowded |= {one, other}
+        return [one for one in shown if one in crowded or not pane.contains(one.geometry())]
+
+    def _hold_cursor(self) -> None:
+        """Keep the names of marks off what the mouse says, and off as much as it has said."""
+        said = QRect() if self.cursor.is_empty else self.cursor.geometry()
+        held = said.united(self.cursor.held) if said.isValid() else said
+        if held != self.cursor.held:
+            self.cursor.held = held
+            self._canvas.rewrite()
+
+    def explain(self, event: QHelpEvent) -> bool:
+        """Show the whole text where the mouse rests on words that are not all there.
+
+        Returns:
+            Whether it did.
+        """
+        words = [one for one in (*self._corners, *self.letters) if not one.is_empty]
+        rests = any(one.geometry().contains(event.pos()) for one in words)
+        if not rests or not any(one.is_cut for one in self._corners):
+            return False
+        QToolTip.showText(event.globalPos(), self.whole_text(), self._canvas)
+        return True
+
+    def whole_text(self) -> str:
+        """Return all that the corners have to say, whether there is room for it or not."""
+        return "\n".join(text for one in self._corners for text, _ in one.lines)
+
+
+def _touch(one: Written, other: Written) -> bool:
+    """Whether two words cover each other, or stand beside each other without a gap."""
+    near = one.geometry().adjusted(-APART, 0, APART, 0)
+    return not (one.is_empty or other.is_empty) and near.intersects(other.geometry())
 
 
 def _made(volume: Volume) -> list[str]:

@@ -5,7 +5,9 @@ Each is drawn once, as a picture, and copied with every painting of the slice be
 
 from __future__ import annotations
 
+from enum import IntEnum, auto
 from functools import lru_cache
+from operator import itemgetter
 
 from PySide6.QtCore import QPoint, QPointF, QRect, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen, QPixmap
@@ -71,11 +73,40 @@ def rimmed(text: str, pixels: int, colour: str, ratio: float) -> QPixmap:
     return with_rim(letters, size, Qt.GlobalColor.black)
 
 
+class Worth(IntEnum):
+    """How much a line is worth: where there is no room for all, the least goes first."""
+
+    ZOOM = auto()
+    RULER = auto()
+    NAME = auto()
+    THICKNESS = auto()
+    PLACE = auto()
+    COUNT = auto()
+    TILT = auto()
+    WINDOW = auto()
+    VALUE = auto()
+    UPRIGHT_LETTER = auto()
+    POSITION = auto()
+    LETTER = auto()
+    WARNING = auto()
+    TITLE = auto()
+
+
+Line = tuple[str, Worth]
+
+
 class Written:
-    """A picture of words at a place in a pane."""
+    """A picture of words at a place in a pane.
+
+    Attributes:
+        held: place that it may need soon, to be kept free; none at first.
+        left_out: the lines for which there is no room; changed by `leave_out`.
+    """
 
     def __init__(self, pane: QWidget) -> None:
         self._pane = pane
+        self.held = QRect()
+        self.left_out: frozenset[Line] = frozenset()
         self._rect = QRect()
         self._picture = QPixmap()
         self._visible = True
@@ -109,17 +140,40 @@ class Written:
         if self._visible and not self._picture.isNull():
             painter.drawPixmap(self._rect.topLeft(), self._picture)
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether it shows nothing."""
+        return not self._visible
+
+    @property
+    def least(self) -> Line | None:
+        """The line that goes first where there is no room; None if what is left must stay."""
+        raise NotImplementedError
+
+    def leave_out(self, *lines: Line) -> None:
+        """Show all lines but these."""
+        raise NotImplementedError
+
     def _blank(self, size: QSize) -> QPixmap:
         """Become so large; return a transparent picture of that size in the screen's pixels."""
         self._rect.setSize(size)
         return blank(size, self._pane.devicePixelRatioF())
 
 
+@lru_cache(maxsize=16)
+def _metrics(family: str, pixels: int, bold: bool) -> QFontMetrics:
+    """Measures of a font."""
+    font = QFont(family)
+    font.setPixelSize(pixels)
+    font.setBold(bold)
+    return QFontMetrics(font)
+
+
 class Overlay(Written):
-    """Lines of text in a corner or on an edge of a pane.
+    """Lines of text in a corner or on an edge of a pane, none wider than the pane.
 
     Attributes:
-        lines: what is shown; changed by `set_lines`.
+        lines: what it has to say; changed by `set_lines`.
     """
 
     def __init__(
@@ -137,34 +191,53 @@ class Overlay(Written):
         self._colour = QColor(colour)
         self._larger, self._bold = larger, bold
         self._drawn: tuple[object, ...] = ()
-        self._placed: tuple[object, ...] = ()
-        self._at = QPoint()
-        self.lines: tuple[str, ...] = ()
+        self.lines: tuple[Line, ...] = ()
+        self._shown: tuple[str, ...] = ()
         self._first: QColor | None = None
 
-    def set_lines(self, *lines: str, first: str = "") -> None:
-        """Show these lines, the first of them in the colour `first` if given."""
+    def set_lines(self, *lines: Line, first: str = "") -> None:
+        """Say these lines, the first in the colour `first` if given; empty ones fall out."""
+        lines = tuple(line for line in lines if line[0])
         if lines != self.lines:
-            self.lines = lines
+            self.lines, self.left_out = lines, frozenset()
             self._first = QColor(first) if first else self._first
             self.place()
 
+    def leave_out(self, *lines: Line) -> None:
+        """Show all lines but these."""
+        if self.left_out != frozenset(lines):
+            self.left_out = frozenset(lines)
+            self.place()
+
+    @property
+    def least(self) -> Line | None:
+        """The line that goes first where there is no room; None if only the title is left."""
+        left = [line for line in self.lines if line not in self.left_out]
+        return min(
+            (line for line in left if line[1] < Worth.TITLE), key=itemgetter(1), default=None
+        )
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether there is more to read than is shown."""
+        return bool(self.left_out) or any(self._elided(line) != line for line in self._shown)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether it shows nothing."""
+        return not self._shown or not self._visible
+
     def text(self) -> str:
         """Return what is shown."""
-        return "\n".join(self.lines)
+        return "\n".join(self._shown)
 
     def place(self) -> None:
-        """Stand at one's corner or edge of the pane, drawn for the screen and size of text."""
-        pane = self._pane
-        drawn = (self.lines, theme.SMALL_PX, pane.devicePixelRatioF())
-        placed = (*drawn, pane.width(), pane.height())
-        if placed == self._placed and self._at == self._rect.topLeft():
-            return
-        if drawn != self._drawn:
-            self._drawn = drawn
-            self._draw()
-        self._placed = placed
-        width, height = self._rect.width(), self._rect.height()
+        """Stand at one's corner or edge of the pane, as large as what is shown."""
+        self._shown = tuple(line[0] for line in self.lines if line not in self.left_out)
+        metrics, most = self._metrics, self._most
+        widths = (min(metrics.horizontalAdvance(line), most) for line in self._shown)
+        width, height = max(widths, default=0) + 4, metrics.height() * len(self._shown) + 2
+        self._rect.setSize(QSize(width, height))
         outer = self._pane.rect().adjusted(PADDING, PADDING, -PADDING, -PADDING)
         x, y = outer.center().x() - width // 2, outer.center().y() - height // 2
         left, right, top, bottom = self._edges
@@ -176,27 +249,49 @@ class Overlay(Written):
             y = outer.top()
         elif bottom:
             y = outer.bottom() - height + 1
-        self._at = QPoint(x, y)
         self.move(x, y)
+        if self._looks != self._drawn:
+            self._pane.update()
+
+    def paint(self, painter: QPainter) -> None:
+        """Copy the picture; draw it first where it says something else than before."""
+        if not self._shown:
+            return
+        if self._looks != self._drawn:
+            self._drawn = self._looks
+            self._draw()
+        super().paint(painter)
+
+    @property
+    def _metrics(self) -> QFontMetrics:
+        return _metrics(self._pane.font().family(), theme.SMALL_PX + self._larger, self._bold)
+
+    @property
+    def _most(self) -> int:
+        """Width that a line may have [px]."""
+        return max(1, self._pane.width() - 2 * PADDING - 4)
+
+    @property
+    def _looks(self) -> tuple[object, ...]:
+        return (self._shown, self._most, theme.SMALL_PX, self._pane.devicePixelRatioF())
+
+    def _elided(self, line: str) -> str:
+        return self._metrics.elidedText(line, Qt.TextElideMode.ElideRight, self._most)
 
     def _draw(self) -> None:
         font = QFont(self._pane.font())
         font.setPixelSize(theme.SMALL_PX + self._larger)
         font.setBold(self._bold)
-        metrics = QFontMetrics(font)
-        height = metrics.height()
-        width = max((metrics.horizontalAdvance(line) for line in self.lines), default=0) + 4
-        size = QSize(width, height * len(self.lines) + 2)
+        height, size = self._metrics.height(), self._rect.size()
         letters = self._blank(size)
         with QPainter(letters) as painter:
             painter.setFont(font)
-            for number, line in enumerate(self.lines):
-                box = QRect(1, 1 + number * height, width - 2, height)
+            for number, line in enumerate(self._shown):
+                box = QRect(1, 1 + number * height, size.width() - 2, height)
                 first = self._first if number == 0 and self._first is not None else self._colour
                 painter.setPen(first)
-                painter.drawText(box, self._flags, line)
+                painter.drawText(box, self._flags, self._elided(line))
         self._picture = with_rim(letters, size, _RIM_COLOUR)
-        self._pane.update()
 
 
 class Ruler(Written):
@@ -212,7 +307,8 @@ class Ruler(Written):
         state = (scale, self._pane.devicePixelRatioF(), theme.SMALL_PX)
         if state != self._state:
             self._state, self._length = state, ruler(scale, RULER_PX)
-            picture = self._blank(self._rect.size())
+            letters = _metrics(self._pane.font().family(), theme.SMALL_PX, False).height()
+            picture = self._blank(QSize(int(RULER_PX) + 8, letters + 10))
             with QPainter(picture) as painter:
                 self._draw_on(painter, scale)
             self._picture = picture
@@ -223,6 +319,16 @@ class Ruler(Written):
         if self._length >= 10.0:
             return tr("{length:g} cm", length=self._length / 10.0)
         return tr("{length:g} mm", length=self._length)
+
+    @property
+    def least(self) -> Line | None:
+        """It has one line only."""
+        return (self.text(), Worth.RULER)
+
+    def leave_out(self, *lines: Line) -> None:
+        """Vanish, or come back."""
+        self.left_out = frozenset(lines)
+        self.setVisible(not lines)
 
     def _draw_on(self, painter: QPainter, scale: float) -> None:
         """Draw the bar between two ticks, light on dark."""
