@@ -16,7 +16,7 @@ from app.commands.answer import Commands
 NOUNS = (
     *("run", "demo", "check", "ct", "pacs", "structures", "transform", "session"),
     *("device", "camera", "calibrate", "registration", "pen", "urdf", "explain"),
-    *("law", "plugin", "study"),
+    *("exercise", "law", "plugin", "study"),
 )
 
 

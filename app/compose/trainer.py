@@ -128,7 +128,7 @@ def _conditions(exercise: Exercise) -> dict[str, str]:
 
 def _anonymous(exercise: Exercise) -> Exercise:
     """Without folders, files and series, which may name a patient; the record has a pseudonym."""
-    ct = exercise.ct.model_copy(update={"folder": None, "series": None})
+    ct = exercise.ct.model_copy(update={"folder": None, "series": None, "digest": None})
     structures = tuple(
         part.model_copy(update={"file": Path(f"structures-{number}")})
         for number, part in enumerate(exercise.structures, 1)

@@ -1,6 +1,8 @@
 """Strict YAML: one loader for settings, profiles and exercises."""
 
+from collections.abc import Sequence
 from copy import deepcopy
+from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeVar
@@ -68,6 +70,15 @@ def read_yaml(path: Path) -> Any:
         ConfigurationError: if the file cannot be read, is larger than `LARGEST_FILE` or is not
             YAML; names the file and the line.
     """
+    return parse_yaml(read_text(path), str(path))
+
+
+def read_text(path: Path) -> str:
+    """Read the text of a file of settings.
+
+    Raises:
+        ConfigurationError: if the file cannot be read, is larger than `LARGEST_FILE` or is no text.
+    """
     try:
         with path.open("rb") as file:
             data = file.read(LARGEST_FILE + 1)
@@ -78,10 +89,9 @@ def read_yaml(path: Path) -> Any:
             f"{path} is larger than {LARGEST_FILE >> 20} MB; no file of settings is: choose another"
         )
     try:
-        text = data.decode("utf-8")
+        return data.decode("utf-8")
     except UnicodeDecodeError as error:
         raise ConfigurationError(f"{path} is not valid YAML: {_one_line(error)}") from error
-    return parse_yaml(text, str(path))
 
 
 def parse_yaml(text: str, origin: str) -> Any:
@@ -141,17 +151,52 @@ def _count_values(node: yaml.Node, known: dict[int, int]) -> int:
     return count
 
 
+@dataclass(frozen=True, slots=True)
+class FieldProblem:
+    """What is wrong with one field of a document.
+
+    Attributes:
+        field: where it stands: names of fields, and places in lists; empty for the whole document.
+        text: what is wrong, the value, and what would be valid; without the field.
+        missing: whether it is required and not there.
+    """
+
+    field: tuple[str | int, ...]
+    text: str
+    missing: bool = False
+
+    @property
+    def name(self) -> str:
+        """The field for people, such as `tolerances.angle_error.pass`."""
+        return ".".join(map(str, self.field)) or "(document)"
+
+
 def load(path: Path, model: type[M]) -> M:
     """Read a YAML file into a `Strict` model.
 
     Raises:
-        ConfigurationError: naming the file, the field, the value and what would be valid.
+        ConfigurationError: naming the file, the field, its line, the value and what would be valid.
     """
-    return parse(read_yaml(path), model, str(path))
+    return parse_text(read_text(path), model, str(path))
 
 
-def parse(document: Any, model: type[M], origin: str) -> M:
+def parse_text(text: str, model: type[M], origin: str) -> M:
+    """Check a YAML document that is in memory as text; `origin` names it in messages.
+
+    Raises:
+        ConfigurationError: as `load`.
+    """
+    return parse(parse_yaml(text, origin), model, origin, text)
+
+
+def parse(document: Any, model: type[M], origin: str, text: str = "") -> M:
     """Check a document that is already in memory; `origin` names it in messages.
+
+    Args:
+        document: as YAML or JSON gives it.
+        model: what it should be.
+        origin: for messages.
+        text: the YAML that it was read from, for the lines in messages; empty where there is none.
 
     Raises:
         ConfigurationError: naming every field that is wrong or missing, its value and what would
@@ -160,23 +205,59 @@ def parse(document: Any, model: type[M], origin: str) -> M:
     try:
         return model.model_validate(document)
     except ValidationError as error:
-        problems = error.errors(include_url=False)
-        missing = [_field(one) for one in problems if one["type"] == "missing"]
+        problems = _problems(error, model)
+        missing = [one.name for one in problems if one.missing]
         said = [f"required and missing: {', '.join(missing)}"] if missing else []
-        said += [_problem(one, model) for one in problems if one["type"] != "missing"]
+        for one in problems:
+            if not one.missing:
+                line = line_of(text, one.field)
+                said.append(f"{one.name}: {one.text}" + (f" (line {line})" if line else ""))
         if len(said) > MOST_PROBLEMS:
             said[MOST_PROBLEMS:] = [f"and {len(said) - MOST_PROBLEMS} more like these"]
         raise ConfigurationError(f"{origin}: {'; '.join(said)}") from error
 
 
-def _field(problem: ErrorDetails) -> str:
-    return ".".join(str(part) for part in problem["loc"]) or "(document)"
+def field_problems(document: Any, model: type[Strict]) -> tuple[FieldProblem, ...]:
+    """Say what is wrong with a document, field by field; nothing where all is right."""
+    try:
+        model.model_validate(document)
+    except ValidationError as error:
+        return _problems(error, model)
+    return ()
 
 
-def _problem(problem: ErrorDetails, model: type[Strict]) -> str:
+def line_of(text: str, field: Sequence[str | int]) -> int | None:
+    """Line, from 1, of a field in a YAML text, or of what is nearest around it; None without any.
+
+    Args:
+        text: the document.
+        field: names of fields and places in lists; names that no mapping has are passed over.
+    """
+    if not text or not field:
+        return None
+    node, line = yaml.compose(text, Loader=_UniqueKeyLoader), None
+    for part in field:
+        if isinstance(node, yaml.MappingNode):
+            for key, value in node.value:
+                if key.value == str(part):
+                    node, line = value, key.start_mark.line + 1
+                    break
+        elif isinstance(node, yaml.SequenceNode) and part in range(len(node.value)):
+            node = node.value[int(part)]
+            line = node.start_mark.line + 1
+    return line
+
+
+def _problems(error: ValidationError, model: type[Strict]) -> tuple[FieldProblem, ...]:
+    return tuple(_problem(one, model) for one in error.errors(include_url=False))
+
+
+def _problem(problem: ErrorDetails, model: type[Strict]) -> FieldProblem:
     """Say what is wrong with one field; of a mapping or a list its kind, not all that it holds."""
+    if problem["type"] == "missing":
+        return FieldProblem(problem["loc"], "required and missing", missing=True)
     value = problem.get("input")
-    text = f"{_field(problem)}: {problem['msg']}, got "
+    text = f"{problem['msg']}, got "
     if isinstance(value, dict | list):
         text += f"a {'mapping' if isinstance(value, dict) else 'list'} of {len(value)}"
     else:
@@ -184,7 +265,13 @@ def _problem(problem: ErrorDetails, model: type[Strict]) -> str:
     if problem["type"] == "extra_forbidden" and len(problem["loc"]) == 1:
         valid = (field.alias or name for name, field in model.model_fields.items())
         text += f"; valid names: {', '.join(valid)}"
-    return text
+    return FieldProblem(problem["loc"] or _first_word(problem["msg"], model), text)
+
+
+def _first_word(message: str, model: type[Strict]) -> tuple[str, ...]:
+    """Field that a message about the whole document begins with; empty if it names none."""
+    word = message.removeprefix("Value error, ").split()[:1]
+    return tuple(name for name in (one.rstrip(":") for one in word) if name in model.model_fields)
 
 
 def shown(value: object) -> str:

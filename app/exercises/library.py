@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Final
 
 from app.core import paths
-from app.core.configuration import load
+from app.core.configuration import line_of, parse_text, read_text
 from app.core.errors import ConfigurationError
 from app.exercises.errors import ExerciseError, UnknownExerciseError
 from app.exercises.schema import Exercise
+
+EARLIER: Final = re.compile(r"([a-z0-9-]+)@([0-9]+)")
+"""Name of a file (without its ending) that keeps an earlier version: `id@version`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,10 +33,12 @@ class Library:
     Attributes:
         exercises: by level; within one, shipped before the user's, then by file name.
         broken: files that cannot be used: to be shown, not hidden.
+        files: where each lies, by its id.
     """
 
     exercises: tuple[Exercise, ...]
     broken: tuple[Broken, ...]
+    files: Mapping[str, Path] = field(default_factory=dict)
 
     def __iter__(self) -> Iterator[Exercise]:
         return iter(self.exercises)
@@ -52,8 +59,11 @@ def folders() -> tuple[Path, Path]:
 def library() -> Library:
     """Read every exercise; a broken file is listed as such and hides no other."""
     found: dict[str, Exercise] = {}
+    files: dict[str, Path] = {}
     broken: list[Broken] = []
     for path in (path for folder in folders() for path in sorted(folder.glob("*.yaml"))):
+        if EARLIER.fullmatch(path.stem):
+            continue
         try:
             exercise = read_exercise(path)
         except ConfigurationError as error:
@@ -62,13 +72,15 @@ def library() -> Library:
         if exercise.id in found:
             broken.append(Broken(path, f"{path}: id: {exercise.id!r} is taken by another exercise"))
         else:
-            found[exercise.id] = exercise
+            found[exercise.id], files[exercise.id] = exercise, path
     by_level = sorted(found.values(), key=lambda exercise: exercise.level)
-    return Library(tuple(by_level), tuple(broken))
+    return Library(tuple(by_level), tuple(broken), files)
 
 
 def load_exercise(name_or_path: str | Path) -> Exercise:
     """Return an exercise of the library by its id, or any exercise by the path of its file.
+
+    `id@version` is that version of it, which may be an earlier one.
 
     Raises:
         UnknownExerciseError: if there is none; lists those that there are.
@@ -80,8 +92,10 @@ def load_exercise(name_or_path: str | Path) -> Exercise:
         return read_exercise(path)
     known = library()
     for exercise in known:
-        if exercise.id == str(name_or_path):
+        if str(name_or_path) in (exercise.id, f"{exercise.id}@{exercise.version}"):
             return exercise
+    if earlier := EARLIER.fullmatch(str(name_or_path)):
+        return _earlier(earlier[1], int(earlier[2]), known)
     for file in known.broken:
         if file.path.stem == str(name_or_path):
             raise ExerciseError(file.reason)
@@ -91,15 +105,38 @@ def load_exercise(name_or_path: str | Path) -> Exercise:
     )
 
 
+def versions(identifier: str, known: Library | None = None) -> tuple[int, ...]:
+    """Versions of an exercise that there are, ascending; the last one is the present one."""
+    found = {one.version for one in known or library() if one.id == identifier}
+    for path in folders()[1].glob(f"{identifier}@*.yaml"):
+        match = EARLIER.fullmatch(path.stem)
+        if match is not None and match[1] == identifier:
+            found.add(int(match[2]))
+    return tuple(sorted(found))
+
+
+def _earlier(identifier: str, version: int, known: Library) -> Exercise:
+    path = folders()[1] / f"{identifier}@{version}.yaml"
+    if path.is_file():
+        return read_exercise(path)
+    there = ", ".join(map(str, versions(identifier, known))) or "none"
+    raise UnknownExerciseError(
+        f"there is no version {version} of the exercise {identifier!r}; there are: {there}"
+    )
+
+
 def read_exercise(path: Path) -> Exercise:
     """Read one exercise file; paths in it (CT, device, cameras) are taken from its own folder.
 
     Raises:
-        ConfigurationError: naming the file, the field, the value and what would be valid.
+        ConfigurationError: naming the file, the field, its line, the value and what would be valid.
     """
-    exercise = load(path, Exercise)
-    _check_profile(path, "device", exercise.device, "devices")
-    _check_profile(path, "rig", exercise.rig, "cameras")
+    text = read_text(path)
+    exercise = parse_text(text, Exercise, str(path))
+    for name in ("device", "rig"):
+        if why := unknown_profile(name, getattr(exercise, name)):
+            line = line_of(text, (name,))
+            raise ExerciseError(f"{path}: {name}: {why}" + (f" (line {line})" if line else ""))
     found = {
         field: str(path.parent.resolve() / name)
         for field, name in (("device", exercise.device), ("rig", exercise.rig))
@@ -125,10 +162,17 @@ def _is_path(profile: str) -> bool:
     return Path(profile).suffix in (".yaml", ".yml")
 
 
-def _check_profile(path: Path, field: str, value: str, folder: str) -> None:
-    names = sorted(file.stem for file in (paths.resources() / folder).glob("*.yaml"))
-    if value not in names and not _is_path(value):
-        raise ExerciseError(
-            f"{path}: {field}: {value!r} is not known; valid names are {', '.join(names)}, "
-            "or the path of a .yaml file"
-        )
+def unknown_profile(field: str, value: str) -> str:
+    """Say why a `device` or `rig` is none, and what is valid; empty where it is one."""
+    names = profile_names(field)
+    if value in names or _is_path(value):
+        return ""
+    return (
+        f"{value!r} is not known; valid names are {', '.join(names)}, or the path of a .yaml file"
+    )
+
+
+def profile_names(field: str) -> tuple[str, ...]:
+    """Names that the field `device` or `rig` may hold."""
+    folder = {"device": "devices", "rig": "cameras"}[field]
+    return tuple(sorted(file.stem for file in (paths.resources() / folder).glob("*.yaml")))

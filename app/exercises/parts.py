@@ -62,12 +62,15 @@ class Ct(Strict):
         folder: a folder; relative to the exercise file.
         series: SeriesInstanceUID, where the folder holds several.
         remedy: what is asked for in reading it, of a folder: `resample`, `straighten` or `halve`.
+        digest: SHA-256 of the geometry and voxels that the exercise was made on, of a folder
+            (`Volume.digest`): another CT in that folder is refused. None where nobody has looked.
     """
 
     phantom: PhantomCt | None = None
     folder: Path | None = None
     series: str | None = None
     remedy: Remedy = Remedy.NONE
+    digest: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = None
 
     @model_validator(mode="after")
     def _one_of_two(self) -> "Ct":
@@ -77,6 +80,8 @@ class Ct(Strict):
             raise ValueError("folder holds a character that no path has")
         if self.series is not None and self.folder is None:
             raise ValueError("series goes with folder; the phantom has one series only")
+        if self.digest is not None and self.phantom is not None:
+            raise ValueError("digest goes with folder; the phantom is known by its seed")
         if self.remedy is not Remedy.NONE and self.folder is None and self.phantom is not None:
             raise ValueError("remedy goes with folder; the phantom is read as it is")
         return self

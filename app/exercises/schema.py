@@ -8,6 +8,7 @@ from typing import Annotated
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from app.core.configuration import Strict
+from app.exercises.fading import FadingPart
 from app.exercises.guidance import GuidanceMode, GuidancePart, Purpose
 from app.exercises.locks import EVERY_LOCK, HandName, Lock
 from app.exercises.parts import (
@@ -51,6 +52,7 @@ class Exercise(Strict):
         joint: ball joint mounted on the device; empty for the profile's own.
         rig: name or path of a camera rig profile.
         assistance: dial at the start, 1 guides fully, 0 does nothing, -1 repels fully.
+        fading: how that dial changes over a student's attempts; None keeps it.
         laws: name -> parameters of the force laws that act on the hand; none if empty.
         effects: name -> parameters of what is asked for; the scene compiler keeps what somebody
             consumes.
@@ -83,6 +85,7 @@ class Exercise(Strict):
     joint: str = ""
     rig: str = "wide"
     assistance: Annotated[float, Field(ge=-1.0, le=1.0)] = 0.7
+    fading: FadingPart | None = None
     laws: Mapping[str, LawPart] = Field(default_factory=lambda: {"fixture": LawPart()})
     effects: Mapping[str, EffectPart] = Field(default_factory=dict)
     layers: tuple[LayerPart, ...] = ()
@@ -140,6 +143,15 @@ class Exercise(Strict):
                     f"locks: an assessment locks all controls, and {', '.join(free)} is missing: "
                     "leave locks out, or use purpose: practice"
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _fading_can_be_followed(self) -> Exercise:
+        if self.fading is not None and self.purpose is Purpose.ASSESSMENT:
+            raise ValueError(
+                "fading: an assessment is the same for everybody: leave fading out, or use "
+                "purpose: practice"
+            )
         return self
 
     @model_validator(mode="after")

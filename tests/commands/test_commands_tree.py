@@ -31,7 +31,8 @@ NEEDS_MORE = {
     "calibrate export", "calibrate import", "calibrate mono", "calibrate redo", "calibrate reject",
     "calibrate show", "calibrate stereo", "calibrate undo", "calibrate use", "calibrate views",
     "calibrate world", "ct digest", "ct import", "ct list", "ct point", "device calibrate",
-    "device show", "device test", "pacs echo", "pacs find", "pacs get", "pacs move",
+    "device show", "exercise pack", "exercise unpack",
+    "device test", "pacs echo", "pacs find", "pacs get", "pacs move",
     "pen calibrate", "registration check", "session compare", "session replay", "session show",
     "session verify", "structures distance", "structures export", "structures list",
     "transform export", "transform show", "urdf import", "camera test", "library remove",
@@ -102,6 +103,10 @@ EXAMPLES = {
     "camera use": ("--left", "simulated", "--right", "simulated"),
     "check": ("--last",),
     "device list": (),
+    "exercise list": (),
+    "exercise new": ("A title",),
+    "exercise schema": (),
+    "exercise validate": ("first-insertion", "scans-only"),
     "explain": ("first-insertion",),
     "law list": (),
     "library list": (),
@@ -129,6 +134,7 @@ def test_every_command_is_tried_here_or_by_tests_of_its_own():
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_json_is_one_object_of_the_root_form(name, monkeypatch, capsys, tmp_path):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ACUS_DATA", str(tmp_path))
     (tmp_path / "sessions").mkdir()
     if name == "pacs remove":
         assert acus(monkeypatch, capsys, "pacs", "add", *EXAMPLES["pacs add"])[0] == 0

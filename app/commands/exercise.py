@@ -1,0 +1,251 @@
+"""`acus exercise`: what exercises there are; begin, check, carry one to another computer."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from app.commands import completion
+from app.commands.answer import Answer, Commands
+
+if TYPE_CHECKING:
+    from app.core.progress import Progress
+    from app.exchange.acusx import PackageManifest, UnpackedExercise
+    from app.exercises.schema import Exercise
+    from app.imaging.volume import Volume
+
+app = Commands(help="Exercises: list, new, validate, schema, pack, unpack.")
+
+Name = Annotated[
+    str, typer.Argument(metavar="EXERCISE", autocompletion=completion.exercises,
+                        help="Name, name@version, or file of an exercise.")
+]  # fmt: skip
+Uid = Annotated[str | None, typer.Option(help="SeriesInstanceUID, where several fit.")]
+
+
+def register(root: typer.Typer) -> None:
+    """Add the group."""
+    root.add_typer(app, name="exercise")
+
+
+@app.command("list")
+def list_exercises() -> Answer:
+    """List all exercises, by level. With versions, files, and those that cannot be used."""
+    from app.exercises.library import folders, library, versions
+
+    known = library()
+    rows: list[dict[str, Any]] = []
+    for one in known:
+        path = known.files[one.id]
+        rows.append(
+            {
+                "id": one.id,
+                "version": one.version,
+                "versions": list(versions(one.id, known)),
+                "level": one.level,
+                "title": one.title,
+                "purpose": one.purpose.value,
+                "shipped": path.parent == folders()[0],
+                "file": str(path),
+            }
+        )
+    broken = [{"file": str(file.path), "reason": file.reason} for file in known.broken]
+    lines = [
+        f"{row['level']}  {row['id']}  version {row['version']}  {row['title']}"
+        + ("" if row["shipped"] else "  (your own)")
+        for row in rows
+    ]
+    lines += [f"✖ cannot be used: {file['reason']}" for file in broken]
+    return Answer({"exercises": rows, "broken": broken, "folder": str(folders()[1])}, lines)
+
+
+@app.command()
+def new(
+    title: Annotated[str, typer.Argument(metavar="TITLE", help="One line for people.")],
+    like: Annotated[
+        str, typer.Option("--from", metavar="EXERCISE", autocompletion=completion.exercises,
+                          help="Exercise to begin with.")
+    ] = "first-insertion",
+    ct: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder of the CT; needs --plan.")
+    ] = None,
+    series: Uid = None,
+    plan: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Entry and target, .mrk.json.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Where to write; your folder otherwise.")
+    ] = None,
+) -> Answer:  # fmt: skip
+    """Begin an exercise as a copy of another. On another CT and plan, if they are given."""
+    from app.core.configuration import parse
+    from app.core.errors import ConfigurationError
+    from app.exercises.library import folders, load_exercise
+    from app.exercises.schema import Exercise
+    from app.exercises.writing import exercise_document, free_id, save, taken_ids, write_exercise
+
+    if ct is not None and plan is None:
+        raise ConfigurationError("--ct DIR needs --plan FILE: entry and target lie in that CT")
+    document = exercise_document(load_exercise(like))
+    document |= {"id": free_id(title, taken_ids()), "version": 1, "title": title}
+    if plan is not None:
+        from app.exchange.markups import read_plan
+
+        points = read_plan(plan)
+        document["plan"] = {
+            "entry_mm": points.entry_mm.tolist(),
+            "target_mm": points.target_mm.tolist(),
+            "name": points.name,
+        }
+    if ct is not None:
+        from app.imaging.reading import load_ct
+
+        digest = load_ct(ct, series).digest
+        document["ct"] = {"folder": str(ct.resolve()), "series": series, "digest": digest}
+        document.pop("structures", None)
+        document.pop("target_organ", None)
+    exercise = parse(document, Exercise, title)
+    if out is None:
+        exercise = save(exercise)
+        out = folders()[1] / f"{exercise.id}.yaml"
+    else:
+        write_exercise(out, exercise)
+    facts = {"id": exercise.id, "version": exercise.version, "file": str(out)}
+    return Answer(facts, [f"{exercise.id}: {out}"])
+
+
+@app.command()
+def validate(
+    exercises: Annotated[
+        list[str], typer.Argument(metavar="EXERCISE…", autocompletion=completion.exercises,
+                                  help="Names or files of exercises.")
+    ],
+) -> Answer:  # fmt: skip
+    """Check exercises to the last effect. Every mistake with its field and line; code 3 if any."""
+    from app.compose.explaining import quick_explanation
+    from app.core.errors import AcusError
+    from app.exercises.library import load_exercise
+
+    rows: list[dict[str, Any]] = []
+    for name in exercises:
+        row: dict[str, Any] = {"exercise": name, "id": "", "version": None, "problems": []}
+        rows.append(row)
+        try:
+            found = load_exercise(name)
+        except AcusError as error:
+            row["problems"] = [str(error)]
+            continue
+        wrong = quick_explanation(found)[1]
+        row |= {"id": found.id, "version": found.version}
+        row["problems"] = [f"{name}: {field}: {why}{_line(name, field)}" for field, why in wrong]
+    lines = []
+    for row in rows:
+        lines += [f"✖ {problem}" for problem in row["problems"]] or [
+            f"✔ {row['exercise']}: {row['id']}, version {row['version']}"
+        ]
+    return Answer({"exercises": rows}, lines, yes=not any(row["problems"] for row in rows))
+
+
+@app.command()
+def schema(
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Where to write; printed otherwise.")
+    ] = None,
+) -> Answer:
+    """Print the JSON Schema of an exercise file. Editors complete and check by it."""
+    from app.exercises.writing import schema_document, schema_text
+
+    if out is None:
+        return Answer({"schema": schema_document(), "files": []}, [schema_text().rstrip()])
+    from app.core.files import write_atomically
+
+    write_atomically(out, schema_text())
+    return Answer({"schema": schema_document(), "files": [str(out)]}, [str(out)])
+
+
+@app.command()
+def pack(
+    exercise: Name,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="File to write; NAME.acusx otherwise.")
+    ] = None,
+    with_ct: Annotated[
+        bool, typer.Option("--with-ct", help="Put the CT in too, de-identified.")
+    ] = False,
+) -> Answer:
+    """Make one file of an exercise. Plan, structures, the CT's digest, on request the CT."""
+    from app.commands.calibrate_parts import with_progress
+    from app.exchange.acusx import SUFFIX
+    from app.exchange.acusx import pack as write
+    from app.exercises.library import load_exercise
+
+    chosen = load_exercise(exercise)
+    target = out or Path(f"{chosen.id}{SUFFIX}")
+
+    def work(progress: "Progress") -> "PackageManifest":
+        volume = _volume(chosen, progress.part(0.0, 0.3))
+        return write(target, chosen, volume, with_ct, progress.part(0.3, 1.0))
+
+    manifest = with_progress(work)
+    facts = {"file": str(target), "manifest": manifest.model_dump(mode="json")}
+    return Answer(facts, [f"{target}: {chosen.id}, version {chosen.version}",
+                          f"  CT {manifest.ct.digest[:12]}…"
+                          + (" is in the file" if with_ct else " is not in the file")])  # fmt: skip
+
+
+@app.command()
+def unpack(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="An exercise's file, .acusx.")],
+    ct: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder of its CT, if not in the file.")
+    ] = None,
+    series: Uid = None,
+    name: Annotated[
+        str, typer.Option("--as", metavar="NAME", help="Keep it under another name.")
+    ] = "",
+    replace: Annotated[
+        bool, typer.Option("--replace", help="As a new version of the one of its name.")
+    ] = False,
+) -> Answer:
+    """Take an exercise in from its file. Its CT must be the same, by its digest."""
+    from app.commands.calibrate_parts import with_progress
+    from app.exchange.acusx import unpack as read
+
+    def work(progress: "Progress") -> "UnpackedExercise":
+        return read(file, ct, series, name, replace, progress)
+
+    found = with_progress(work)
+    facts = {
+        "id": found.exercise.id,
+        "version": found.exercise.version,
+        "known": found.known,
+        "ct": None if found.ct is None else str(found.ct),
+        "structures": [str(path) for path in found.structures],
+    }
+    there = " was there already" if found.known else " taken in"
+    return Answer(facts, [f"{found.exercise.id}, version {found.exercise.version}{there}"])
+
+
+def _line(name: str, field: str) -> str:
+    """Say where a field stands in a file; nothing for an exercise that was named otherwise."""
+    from app.core.configuration import line_of, read_text
+    from app.exercises.library import library
+
+    path = Path(name) if Path(name).is_file() else library().files.get(name)
+    line = None if path is None else line_of(read_text(path), (field,))
+    return f" (line {line})" if line else ""
+
+
+def _volume(exercise: "Exercise", progress: "Progress") -> "Volume":
+    """Read the CT of an exercise in its way."""
+    from app.imaging.reading import choose, load_ct
+    from app.imaging.resampling import read_with
+    from app.imaging.scanning import scan_folder
+
+    ct = exercise.ct
+    if ct.folder is None:
+        from app.imaging.phantom.series import phantom_series
+
+        return load_ct(phantom_series(ct.phantom.seed if ct.phantom else 1, progress))
+    listing = scan_folder(ct.folder, progress.part(0.0, 0.3))
+    return read_with(choose(listing, ct.series, ct.remedy), ct.remedy, progress.part(0.3, 1.0))

@@ -1,0 +1,152 @@
+"""What an exercise simulates, why, and at what cost; and whether all that it names can be used."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from app.compose.declared_views import declared_views
+from app.core.arrays import FloatArray
+from app.core.errors import AcusError
+from app.exercises.scene import compile_exercise, device_of, law_requests
+from app.exercises.schema import Exercise
+from app.mechanisms.profile import DeviceProfile
+from app.simulation.plan import SimulationPlan
+
+
+def explanation(exercise: Exercise, simulated: bool = True) -> dict[str, Any]:
+    """Return what an exercise simulates and why, its laws, and what each costs (docs/json.md).
+
+    Compiles what is simulated: up to a minute the first time, else a second.
+
+    Raises:
+        AcusError: for a device, law, effect or parameter that there is not; names what is valid.
+    """
+    profile = device_of(exercise)
+    plan = compile_exercise(exercise, profile, declared_views(), simulated)
+    document = _document(exercise.id, exercise.device, simulated, plan)
+    document["assistance"] = exercise.assistance
+    document["laws"] = _laws(law_requests(exercise), profile)
+    return document
+
+
+def quick_explanation(exercise: Exercise) -> tuple[dict[str, str], tuple[tuple[str, str], ...]]:
+    """Return why each effect is simulated or left out, and what is wrong; compiles nothing.
+
+    Returns:
+        Effect -> why, beginning with ✔ or ✖; and pairs of a field and what is wrong with it.
+    """
+    wrong, why = [], {}
+    try:
+        profile = device_of(exercise)
+    except AcusError as error:
+        return {}, (("joint" if exercise.joint else "device", str(error)),)
+    try:
+        plan = compile_exercise(exercise, profile, declared_views())
+        why = {kept.name: f"✔ {kept.why}" for kept in plan.kept}
+        why |= {dropped.name: f"✖ {dropped.why}" for dropped in plan.dropped}
+    except AcusError as error:
+        wrong.append(("effects", str(error)))
+    try:
+        _check_laws(exercise, profile)
+    except AcusError as error:
+        wrong.append(("laws", str(error)))
+    missing = [part.file for part in exercise.structures if not part.file.is_file()]
+    wrong += [("structures", f"there is no file {path}") for path in missing]
+    if exercise.ct.folder is not None and not exercise.ct.folder.exists():
+        wrong.append(("ct", f"there is no folder {exercise.ct.folder}: name that of the CT"))
+    return why, tuple(wrong)
+
+
+def _check_laws(exercise: Exercise, profile: DeviceProfile) -> None:
+    from app.device.control.law import KIND
+
+    for name, given in law_requests(exercise).items():
+        KIND.find(name).checked(given, profile)
+
+
+def _document(exercise: str, device: str, simulated: bool, plan: SimulationPlan) -> dict[str, Any]:
+    costs = _costs(plan)
+    return {
+        "exercise": exercise,
+        "device": device,
+        "simulated_device": simulated,
+        "simulated": [
+            {
+                "effect": kept.name,
+                "title": kept.declaration.title,
+                "model": kept.model,
+                "model_description": kept.declaration.models[kept.model],
+                "other_models": [name for name in kept.declaration.models if name != kept.model],
+                "parameters": kept.parameters,
+                "consumers": list(kept.consumers),
+                "why": kept.why,
+                "energy": kept.declaration.energy[0],
+                "cost_ns": round(costs[kept.name] * 1e9, 1),
+            }
+            for kept in plan.kept
+        ],
+        "dropped": [{"effect": dropped.name, "why": dropped.why} for dropped in plan.dropped],
+    }
+
+
+def _laws(requests: dict[str, dict[str, float]], profile: DeviceProfile) -> list[dict[str, Any]]:
+    """Describe each force law: its statement, the energy it may store, its time in a tick."""
+    from app.device.control import laws
+    from app.device.control.cost import stage_cost
+
+    bounds, rows = laws.energy_bounds(requests, profile), []
+    for name, function, parameters in laws.stages_of(requests, profile):
+        law, state = laws.declaration(name), _held_pose(profile)
+        rows.append(
+            {
+                "law": name,
+                "title": law.title,
+                "parameters": law.checked(requests[name], profile),
+                "energy": law.energy[0],
+                "energy_statement": law.energy[1],
+                "energy_bound_j": round(bounds[name], 6),
+                "cost_ns": round(stage_cost(function, parameters, state) * 1e9, 1),
+            }
+        )
+    return rows
+
+
+def _costs(plan: SimulationPlan) -> dict[str, float]:
+    """Measured time of each effect in a tick [s], with the needle 60 mm deep in the tissue."""
+    from app.device.control.cost import stage_cost
+
+    state, costs = _working_state(), {}
+    for name, function, parameters in plan.stages():
+        function(state.copy(), parameters)  # the first tick lays the tissue down to this depth
+        costs[name] = stage_cost(function, parameters, state)
+    return costs
+
+
+def _working_state() -> FloatArray:
+    from app.core import state_vector as sv
+
+    state = sv.empty_state()
+    state[sv.TIME], state[sv.DT] = 1.0, 1e-3
+    state[sv.AXIS_X], state[sv.AXIS_Z] = 0.2, -(0.96**0.5)
+    state[sv.DEPTH], state[sv.PLANT_DEPTH], state[sv.L_OUT] = 0.06, 0.06, 0.14
+    state[sv.DEPTH_SOURCE] = 1.0
+    return state
+
+
+def _held_pose(profile: DeviceProfile) -> FloatArray:
+    """Return the same with all that a force law reads: joints, path, dial and a moving hand."""
+    from app.core import state_vector as sv
+    from app.mechanisms.pantograph import inverse, jacobian
+
+    state, fulcrum = _working_state(), profile.pantograph.fulcrum
+    axis = state[sv.AXIS]
+    state[sv.L_IN] = -fulcrum[2] / axis[2]
+    p3 = fulcrum + state[sv.L_IN] * axis
+    q = inverse(profile.pantograph, p3[:2])
+    rates = jacobian(profile.pantograph, q)
+    state[sv.P3] = p3[:2]
+    state[[sv.Q_LEFT, sv.Q_RIGHT]], state[[sv.QD_LEFT, sv.QD_RIGHT]] = q, (0.3, -0.2)
+    state[[sv.J_XL, sv.J_XR, sv.J_YL, sv.J_YR]] = rates.ravel()
+    state[sv.P3_V] = rates @ (0.3, -0.2)
+    state[sv.PATH_Z], state[sv.ASSISTANCE], state[sv.HUB_VX] = -1.0, 0.7, 0.02
+    return state
