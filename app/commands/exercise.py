@@ -17,9 +17,13 @@ if TYPE_CHECKING:
 app = Commands(help="Exercises: list, new, validate, schema, pack, unpack.")
 
 Name = Annotated[
-    str, typer.Argument(metavar="EXERCISE", autocompletion=completion.exercises,
-                        help="Name, name@version, or file of an exercise.")
-]  # fmt: skip
+    str,
+    typer.Argument(
+        metavar="EXERCISE",
+        autocompletion=completion.exercises,
+        help="Name, name@version, or file of an exercise.",
+    ),
+]
 Uid = Annotated[str | None, typer.Option(help="SeriesInstanceUID, where several fit.")]
 
 
@@ -63,8 +67,13 @@ def list_exercises() -> Answer:
 def new(
     title: Annotated[str, typer.Argument(metavar="TITLE", help="One line for people.")],
     like: Annotated[
-        str, typer.Option("--from", metavar="EXERCISE", autocompletion=completion.exercises,
-                          help="Exercise to begin with.")
+        str,
+        typer.Option(
+            "--from",
+            metavar="EXERCISE",
+            autocompletion=completion.exercises,
+            help="Exercise to begin with.",
+        ),
     ] = "first-insertion",
     ct: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder of the CT; needs --plan.")
@@ -76,7 +85,7 @@ def new(
     out: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Where to write; your folder otherwise.")
     ] = None,
-) -> Answer:  # fmt: skip
+) -> Answer:
     """Begin an exercise as a copy of another. On another CT and plan, if they are given."""
     from app.core.configuration import parse
     from app.core.errors import ConfigurationError
@@ -117,10 +126,14 @@ def new(
 @app.command()
 def validate(
     exercises: Annotated[
-        list[str], typer.Argument(metavar="EXERCISE…", autocompletion=completion.exercises,
-                                  help="Names or files of exercises.")
+        list[str],
+        typer.Argument(
+            metavar="EXERCISE…",
+            autocompletion=completion.exercises,
+            help="Names or files of exercises.",
+        ),
     ],
-) -> Answer:  # fmt: skip
+) -> Answer:
     """Check exercises to the last effect. Every mistake with its field and line; code 3 if any."""
     from app.compose.explaining import quick_explanation
     from app.core.errors import AcusError
@@ -188,9 +201,14 @@ def pack(
 
     manifest = with_progress(work)
     facts = {"file": str(target), "manifest": manifest.model_dump(mode="json")}
-    return Answer(facts, [f"{target}: {chosen.id}, version {chosen.version}",
-                          f"  CT {manifest.ct.digest[:12]}…"
-                          + (" is in the file" if with_ct else " is not in the file")])  # fmt: skip
+    return Answer(
+        facts,
+        [
+            f"{target}: {chosen.id}, version {chosen.version}",
+            f"  CT {manifest.ct.digest[:12]}…"
+            + (" is in the file" if with_ct else " is not in the file"),
+        ],
+    )
 
 
 @app.command()

@@ -426,9 +426,12 @@ def _bytes(archive: zipfile.ZipFile, name: str, path: Path) -> bytes:
 
 
 def _extract(
-    archive: zipfile.ZipFile, manifest: PackageManifest, folder: Path, path: Path,
+    archive: zipfile.ZipFile,
+    manifest: PackageManifest,
+    folder: Path,
+    path: Path,
     progress: Progress,
-) -> None:  # fmt: skip
+) -> None:
     """Write every member below a folder, each as its digest says."""
     _require_room(archive, folder, path)
     for number, (name, wanted) in enumerate(manifest.files.items()):
@@ -448,9 +451,13 @@ def _extract(
 
 
 def _ct_folder(
-    folder: Path, exercise: Exercise, manifest: PackageManifest,
-    given: tuple[Path | None, str | None], path: Path, progress: Progress,
-) -> Path:  # fmt: skip
+    folder: Path,
+    exercise: Exercise,
+    manifest: PackageManifest,
+    given: tuple[Path | None, str | None],
+    path: Path,
+    progress: Progress,
+) -> Path:
     """Find the exercise's CT in the folder and series given, or take it into the library."""
     from app.imaging.library import CtLibrary, discard
     from app.imaging.reading import choose

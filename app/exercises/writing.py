@@ -106,9 +106,13 @@ def exercise_text(exercise: Exercise, folder: Path | None = None) -> str:
     document = exercise_document(exercise, folder)
     for dumper in (_Dumper, _QuotingDumper):
         text = HEAD + yaml.dump(
-            document, Dumper=dumper, sort_keys=False, allow_unicode=True, width=_WIDTH,
+            document,
+            Dumper=dumper,
+            sort_keys=False,
+            allow_unicode=True,
+            width=_WIDTH,
             default_flow_style=None,
-        )  # fmt: skip
+        )
         raw = text.encode()
         if len(raw) > LARGEST_FILE:
             raise ExerciseError(
@@ -230,8 +234,9 @@ def _wait_for(lock: int) -> None:
 
 def _parts(parts: Mapping[str, BaseModel]) -> dict[str, Any]:
     """Effects or laws: of each what is not its default."""
-    return {name: part.model_dump(mode="json", exclude_defaults=True)
-            for name, part in parts.items()}  # fmt: skip
+    return {
+        name: part.model_dump(mode="json", exclude_defaults=True) for name, part in parts.items()
+    }
 
 
 def _from(folder: Path | None, path: Path, other: Path | None = None) -> str:
