@@ -13,7 +13,7 @@ from app.core.arrays import angle_between
 from app.device.state import DeviceState
 from app.session.pad.hand import HandPose
 from app.views.exercise.bullseye import Bullseye
-from app.views.exercise.pad_canvas import PadArea, free_corner, spring
+from app.views.exercise.pad_canvas import PadArea, free_corner, is_inside, spring
 from app.views.exercise.readings import hand_pose, pad_view
 from app.views.kit import theme
 
@@ -218,8 +218,49 @@ def test_the_sizes_of_the_rings_stand_beside_each_other(pixels, size):
         box = free_corner(area, radius, QSizeF(*size), taken)
         if box is not None:
             assert not any(box.intersects(other) for other in taken)
+            assert is_inside(box, area)  # words across the rim are hard to read
             taken.append(box)
-    assert len(taken) >= 3
+    assert len(taken) >= (3 if pixels > 180.0 else 2)  # smaller letters find room for the rest
+
+
+@pytest.mark.parametrize("large", [False, True])
+@pytest.mark.parametrize("pixels", [90, 130, 180, 260])
+def test_words_on_an_empty_pad_stay_within_its_rim(pad, qt, pixels, large):
+    try:
+        theme.apply_theme(qt, size=theme.LARGE if large else 1.0)
+        pad.hide_needle(True)
+        pad.pad.setMinimumSize(pixels, pixels)
+        pad.pad.resize(pixels, pixels)
+        picture = pad.pad.grab().toImage()
+        area = pad.pad.area
+        for x in range(picture.width()):
+            for y in range(picture.height()):
+                if np.hypot(x - area.centre.x(), y - area.centre.y()) > area.radius + 3.0:
+                    assert picture.pixelColor(x, y) == picture.pixelColor(0, 0)
+        assert "not shown" in pad.pad.toolTip()
+    finally:
+        theme.apply_theme(qt)
+
+
+@pytest.mark.parametrize("large", [False, True])
+def test_on_the_smallest_pad_every_ring_has_its_size_written(pad, qt, large):
+    try:
+        theme.apply_theme(qt, size=theme.LARGE if large else 1.0)
+        pad.pad.resize(180, 180)
+        pad.pad.grab()
+        assert pad.pad.toolTip() == ""
+    finally:
+        theme.apply_theme(qt)
+
+
+def test_sizes_of_rings_without_room_are_in_the_tooltip(pad, qt):
+    pad.pad.setMinimumSize(60, 60)
+    pad.pad.resize(100, 100)
+    pad.pad.grab()
+    assert "30°" in pad.pad.toolTip()
+    pad.pad.resize(400, 400)
+    pad.pad.grab()
+    assert pad.pad.toolTip() == ""
 
 
 def words_are_whole(label):

@@ -4,7 +4,7 @@ hand.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, hypot, radians
+from math import atan2, copysign, hypot, radians
 from typing import Final
 
 import numpy as np
@@ -29,11 +29,14 @@ from app.views.kit.text import tr
 
 _ANGLES_DEG: Final = (10, 30)
 HAND_COLOUR: Final = "#ffffff"
-_CORNERS: Final = ((1, -1), (1, 1), (-1, 1), (-1, -1))
-"""Where a ring's size may stand, to the right and downwards from the middle."""
+_DIAGONALS: Final = ((0.7071, -0.7071), (0.7071, 0.7071), (-0.7071, 0.7071), (-0.7071, -0.7071))
+"""Where a ring's size may stand, to the right and downwards from the middle, in its radius."""
 
 RING_POINTS: Final = 48
 """Corners of a ring that is drawn beside the middle."""
+
+SMALLEST_PX: Final = 10
+"""Smallest letters within the rim."""
 
 _LEAD: Final = radians(0.15)
 """Below this angle between hand and needle no spring is drawn [rad]."""
@@ -59,7 +62,10 @@ class PadArea:
 
 
 def paint_hidden(painter: QPainter, area: PadArea, words: str) -> None:
-    """Rim and words: a field to move the hand in that says nothing of where it is."""
+    """Rim and words: a field to move the hand in that says nothing of where it is.
+
+    The words are as large as fits into the rim, and left out where even small ones do not.
+    """
     painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.5))
     painter.setBrush(QColor("#0e1114"))
     painter.drawEllipse(area.centre, area.radius, area.radius)
@@ -67,22 +73,30 @@ def paint_hidden(painter: QPainter, area: PadArea, words: str) -> None:
     half = 0.7 * area.radius
     box = QRectF(area.centre.x() - half, area.centre.y() - half, 2 * half, 2 * half)
     flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
-    painter.drawText(box, flags, words)
+    for pixels in range(theme.FONT_PX, SMALLEST_PX - 1, -1):
+        painter.setFont(_font(painter, pixels))
+        if box.contains(painter.boundingRect(box, flags, words)):
+            painter.drawText(box, flags, words)
+            return
 
 
 def paint_background(
     painter: QPainter, area: PadArea, scene: PadScene, view: PadView | None = None
-) -> None:
+) -> list[str]:
     """Rim, rings with their sizes, cross, letters, target.
 
     With a `view` whose target has moved, target and rings stand where it is now: the rings as the
     ovals that the pad's scale makes of circles beside its middle.
+
+    Returns:
+        Sizes of rings for which there is no room.
     """
     painter.setPen(QPen(QColor(theme.IMAGE_LINE), 1.5))
     painter.setBrush(QColor("#0e1114"))
     painter.drawEllipse(area.centre, area.radius, area.radius)
     _cross(painter, area)
     taken: list[QRectF] = []
+    unnamed: list[str] = []
     moved = view if view is not None and view.frame(scene) is not scene.frame else None
     for i, ring in reversed(list(enumerate(scene.rings))):
         if moved is not None:
@@ -93,16 +107,19 @@ def paint_background(
         radius = scene.scale.radius(atan2(ring, scene.scale.length))
         _ring(painter, area, radius, theme.TARGET.colour, 2.5 if i == 0 else 1.6)
         name = tr("{mm:g} mm", mm=1e3 * ring)
-        _ring_name(painter, area, radius, theme.TARGET.colour, name, taken)
+        if not _ring_name(painter, area, radius, theme.TARGET.colour, name, taken):
+            unnamed.append(name)
     for angle_deg in _ANGLES_DEG:
         radius = scene.scale.radius(radians(angle_deg))
         _ring(painter, area, radius, theme.IMAGE_LINE, 1.0)
-        _ring_name(painter, area, radius, theme.IMAGE_DIM, f"{angle_deg}°", taken)
+        if not _ring_name(painter, area, radius, theme.IMAGE_DIM, f"{angle_deg}°", taken):
+            unnamed.append(f"{angle_deg}°")
     _letters(painter, area, scene.frame.letters)
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(theme.TARGET.qcolor())
     at = area.centre if moved is None else area.point(moved.place(scene, np.zeros(3)))
     painter.drawEllipse(at, 3.5, 3.5)
+    return unnamed
 
 
 def moved_ring(area: PadArea, scene: PadScene, view: PadView, radius: float) -> QPolygonF:
@@ -183,24 +200,34 @@ def _ring(painter: QPainter, area: PadArea, radius: float, colour: str, width: f
 
 def _ring_name(
     painter: QPainter, area: PadArea, radius: float, colour: str, name: str, taken: list[QRectF]
-) -> None:
-    """Write a ring's size beside it, where no other one's stands."""
-    painter.setFont(_font(painter, theme.SMALL_PX))
-    metrics = painter.fontMetrics()
-    size = QSizeF(metrics.horizontalAdvance(name) + 4.0, float(metrics.height()))
-    box = free_corner(area, radius, size, taken)
-    if box is None:
-        return
+) -> bool:
+    """Write a ring's size beside it where no other one's stands, in smaller letters if need be.
+
+    Returns:
+        Whether there was room.
+    """
+    for pixels in range(theme.SMALL_PX, SMALLEST_PX - 1, -1):
+        painter.setFont(_font(painter, pixels))
+        metrics = painter.fontMetrics()
+        size = QSizeF(metrics.horizontalAdvance(name) + 4.0, float(metrics.height()))
+        box = free_corner(area, radius, size, taken)
+        if box is not None:
+            break
+    else:
+        return False
     taken.append(box)
     painter.fillRect(box, QColor(theme.IMAGE_GROUND))
     painter.setPen(QColor(colour))
     painter.drawText(box, Qt.AlignmentFlag.AlignCenter, name)
+    return True
 
 
 def free_corner(
     area: PadArea, radius: float, size: QSizeF, taken: Sequence[QRectF]
 ) -> QRectF | None:
-    """Return the first corner of a ring in which a text covers none that is taken.
+    """Return the first place at a ring for a text that covers none that is taken.
+
+    Outside the ring, else on its line; never across the rim nor over the middle.
 
     Args:
         area: of the pad.
@@ -208,15 +235,38 @@ def free_corner(
         size: of the text [px].
         taken: places of other texts.
     """
-    reach = 0.7071 * radius * area.radius
-    for x, y in _CORNERS:
-        corner = area.centre + QPointF(x * reach, y * reach)
-        left = corner.x() + 3.0 if x > 0 else corner.x() - 3.0 - size.width()
-        top = corner.y() if y > 0 else corner.y() - size.height()
-        box = QRectF(QPointF(left, top), size)
-        if not any(box.intersects(other) for other in taken):
+    reach = radius * area.radius
+    on_line = [*(QPointF(reach * x, reach * y) for x, y in _DIAGONALS), QPointF(0.0, -reach)]
+    on_line.append(QPointF(0.0, reach))
+    outside = [
+        QPointF(
+            at.x() + copysign(3.0 + size.width() / 2, at.x()),
+            at.y() + copysign(size.height() / 2, at.y()),
+        )
+        for at in on_line[: len(_DIAGONALS)]
+    ]
+    for middle in (*outside, *on_line):
+        box = QRectF(QPointF(), size)
+        box.moveCenter(area.centre + middle)
+        centred = _distance(box, area.centre) < reach / 2
+        covers = any(box.intersects(other) for other in taken)
+        if is_inside(box, area) and not covers and not centred:
             return box
     return None
+
+
+def _distance(box: QRectF, point: QPointF) -> float:
+    """How far a point is from a rectangle; 0 within it."""
+    x = max(box.left() - point.x(), 0.0, point.x() - box.right())
+    y = max(box.top() - point.y(), 0.0, point.y() - box.bottom())
+    return hypot(x, y)
+
+
+def is_inside(box: QRectF, area: PadArea) -> bool:
+    """Whether a rectangle lies within the pad's rim."""
+    corners = (box.topLeft(), box.topRight(), box.bottomLeft(), box.bottomRight())
+    ends = (corner - area.centre for corner in corners)
+    return all(hypot(end.x(), end.y()) < area.radius for end in ends)
 
 
 def _letters(painter: QPainter, area: PadArea, letters: Sequence[str]) -> None:
@@ -331,9 +381,12 @@ class PadCanvas(QWidget):
             painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, tr("No planned path"))
             return
         if self._hides_needle:
-            paint_hidden(painter, self.area, tr("Move the hand here: it is not shown"))
+            words = tr("Move the hand here: it is not shown")
+            self.setToolTip(words)
+            paint_hidden(painter, self.area, words)
             return
-        paint_background(painter, self.area, self._scene, self._view)
+        unnamed = paint_background(painter, self.area, self._scene, self._view)
+        self.setToolTip(tr("Rings: {sizes}", sizes=", ".join(unnamed)) if unnamed else "")
         if self._view is not None:
             paint_needle(painter, self.area, self._scene, self._view)
             if self._hand is not None:
