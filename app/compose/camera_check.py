@@ -24,8 +24,7 @@ from app.tracking.errors import CameraError
 from app.tracking.markers.choice import extractors
 from app.tracking.markers.colour import RED
 from app.tracking.markers.extractor import MarkerFix
-from app.tracking.optics.rig import RangeProfile, RigProfile, load_rig
-from app.tracking.optics.view_cone import ViewCone, view_cone
+from app.tracking.optics.rig import RangeProfile, RigProfile, ViewCone, load_rig, view_cone
 from app.tracking.stereo.epipolar import check_order
 
 _MOMENT = 0.5

@@ -5,8 +5,7 @@ import pytest
 
 from app.core.transform import RigidTransform
 from app.tracking.errors import RigError
-from app.tracking.optics.rig import RangeProfile
-from app.tracking.optics.view_cone import view_cone
+from app.tracking.optics.rig import RangeProfile, view_cone
 
 MM = 1e-3
 
