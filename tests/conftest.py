@@ -9,6 +9,7 @@ import pytest
 from hypothesis import settings
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+os.environ.setdefault("SDL_AUDIODRIVER", "dummy")  # tests are not heard
 # Each process of the tests shares the cores with the others: threads of its linear algebra would
 # only wait for each other, and take the processor meanwhile. Read when numpy is imported.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -55,19 +56,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: rank.get(item.path, len(rank)))
 
 
-# A program that is killed has its files as the system has them; what a disk keeps when the power
-# fails is no test's claim, and waiting for it would take longer than all else about a record.
-os.fsync = lambda _: None
-
 # What hundreds of test files import stays to the end: no collection of garbage looks at it.
 gc.disable()
 
 
 def pytest_collection_finish() -> None:
-    """Leave modules and tests to themselves, and collect garbage from here on, a little less often
-    than usual: what tests throw away is much, and seldom large."""
+    """Leave modules and tests to themselves, and collect garbage from here on."""
     gc.freeze()
-    gc.set_threshold(5_000, 20, 20)
     gc.enable()
 
 

@@ -79,8 +79,10 @@ def messages(sample: Sample, stamp: dict[str, int]) -> list[tuple[str, bytes]]:
         ("/tracking/quality", _quality(sample, stamp)),
     ]
     if sample.pose_valid:
-        transform = _needle_tf(sample.pose, stamp)
-        documents += [("/tf", transform), ("/needle/tip", _tip(transform))]
+        documents += [
+            ("/tf", _needle_tf(sample.pose, stamp)),
+            ("/needle/tip", _tip(sample.pose, stamp)),
+        ]
     if sample.device is not None:
         documents += [
             ("/haptic/joints", _joints(sample.device, stamp)),
@@ -165,12 +167,12 @@ def _needle_tf(pose: NeedlePose, stamp: dict[str, int]) -> dict[str, Any]:
     return _transform(FrameName.NEEDLE, T_world_needle, stamp)
 
 
-def _tip(transform: dict[str, Any]) -> dict[str, Any]:
-    """Return the needle's transform as the pose of its tip."""
+def _tip(pose: NeedlePose, stamp: dict[str, int]) -> dict[str, Any]:
+    orientation = quaternion(needle_rotation(pose.axis))
     return {
-        "timestamp": transform["timestamp"],
-        "frame_id": transform["parent_frame_id"],
-        "pose": {"position": transform["translation"], "orientation": transform["rotation"]},
+        "timestamp": stamp,
+        "frame_id": FrameName.WORLD.value,
+        "pose": {"position": _vector(pose.p_tip), "orientation": orientation},
     }
 
 

@@ -17,6 +17,7 @@ from app.views.robot.feature import RobotFeature
 from app.views.scene.feature import SceneFeature
 from app.views.series.feature import SeriesFeature
 from app.views.shell.feature import Feature
+from app.views.sounds.feature import SoundsFeature
 from app.views.structures.feature import StructuresFeature
 
 FEATURES: Final[tuple[type[Feature], ...]] = (
@@ -32,6 +33,7 @@ FEATURES: Final[tuple[type[Feature], ...]] = (
     StructuresFeature,
     SceneFeature,
     PositionFeature,
+    SoundsFeature,
     DebriefFeature,
 )
 """A dropped file is offered to them from the last to the first."""

@@ -299,6 +299,7 @@ PAGES: Final = {
     "exercise": "user-guide.md#the-students-path",
     "measure": "planning.md#measuring",
     "pen": "pen.md#in-the-window",
+    "sounds": "user-guide.md#what-is-heard",
     "plan": "planning.md",
     "reading": "reading.md",
     "robot": "hardware.md#in-the-trainer",
