@@ -1,4 +1,5 @@
 from dataclasses import replace
+from itertools import combinations
 from math import radians
 
 import numpy as np
@@ -6,6 +7,7 @@ import pytest
 from PySide6.QtCore import QPoint, QPointF, QSizeF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QWidget
 from views_exercise_fakes import FakeTrainer, run, snapshot
 
 from app.core import state_vector as sv
@@ -299,4 +301,40 @@ def test_no_word_is_cut_in_large_text_where_the_depth_is_not_measured(pad, qt, w
         qt.processEvents()
         assert all(words_are_whole(label) for label in pad._words if label.isVisible())
     finally:
+        theme.apply_theme(qt)
+
+
+@pytest.mark.parametrize("large", [False, True])
+@pytest.mark.parametrize("measured", [False, True])
+@pytest.mark.parametrize(
+    ("width", "height"), [(525, 338), (525, 310), (394, 366), (394, 310), (430, 420), (900, 600)]
+)
+def test_in_a_cell_of_any_height_words_cover_neither_pad_nor_each_other(
+    pad, qt, width, height, measured, large
+):
+    cell = QWidget()
+    try:
+        theme.apply_theme(qt, size=theme.LARGE if large else 1.0)
+        pad.suit_text()
+        pad.setParent(cell)
+        cell.resize(1000, 700)
+        cell.show()
+        pad.show()
+        pad.setGeometry(0, 0, width, height)
+        view = pad_view(snapshot(), 0.2, 5.0)
+        pad.show_view(replace(view, measured=measured))
+        qt.processEvents()
+        assert pad.size().toTuple() == (width, height)
+        shown = [*pad._words, pad.pad, pad.depth_bar, pad.source]
+        places = [one.geometry() for one in shown if one.isVisible()]
+        for place in places:
+            assert pad.rect().contains(place)
+        for one, other in combinations(places, 2):
+            assert not one.intersects(other)
+        assert all(words_are_whole(label) for label in pad._words if label.isVisible())
+        assert pad.pad.height() >= 130
+        assert ("towards" in pad._in_plane.text()) == (pad._in_plane.toolTip() == "")
+    finally:
+        pad.setParent(None)
+        cell.deleteLater()
         theme.apply_theme(qt)

@@ -1,11 +1,21 @@
 """The view `bullseye`: pad, depth bar, corrections in words; and the simulated hand."""
 
+from enum import IntEnum, auto
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF, QResizeEvent
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetrics,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPolygonF,
+    QResizeEvent,
+)
 from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from app.planning.off_path import Offset
@@ -156,12 +166,13 @@ def towards(letters: str) -> str:
     return f"{words[letters[0]]} ({letters})"
 
 
-def corrections(frame: PathFrame, needle_tilts: ArrayLike) -> tuple[str, str]:
+def corrections(frame: PathFrame, needle_tilts: ArrayLike, short: bool = False) -> tuple[str, str]:
     """How to turn the tip onto the path: in the plane of the slice, and out of it.
 
     Args:
         frame: axes of the pad.
         needle_tilts: the needle's tilts against the path [rad], shape (2,).
+        short: with the letters of a direction only.
     """
     right, up = np.degrees(np.asarray(needle_tilts, dtype=np.float64)).tolist()
     left_letters, right_letters, top, bottom = frame.letters
@@ -169,28 +180,34 @@ def corrections(frame: PathFrame, needle_tilts: ArrayLike) -> tuple[str, str]:
         (tr("In plane"), tr("Out of plane")) if frame.axial else (tr("Sideways"), tr("Up / down"))
     )
     return (
-        _correction(first, -right, right_letters, left_letters),
-        _correction(second, -up, top, bottom),
+        _correction(first, -right, right_letters, left_letters, short),
+        _correction(second, -up, top, bottom, short),
     )
 
 
-def _correction(name: str, angle_deg: float, positive: str, negative: str) -> str:
+def _correction(name: str, angle_deg: float, positive: str, negative: str, short: bool) -> str:
     if abs(angle_deg) < STRAIGHT_DEG:
         return tr("{name}: ✔ on path", name=name)
-    where = towards(positive if angle_deg > 0.0 else negative)
+    letters = positive if angle_deg > 0.0 else negative
+    if short:
+        return tr("{name}: {angle:.1f}° to {to}", name=name, angle=abs(angle_deg), to=letters)
+    where = towards(letters)
     return tr(
         "{name}: tip {angle:.1f}° towards {where}", name=name, angle=abs(angle_deg), where=where
     )
 
 
-def lateral(frame: PathFrame, offset: Offset) -> str:
+def lateral(frame: PathFrame, offset: Offset, short: bool = False) -> str:
     """How far the tip is off the path, and to which side.
 
     Args:
         frame: of the path to the target as it is now.
         offset: of the tip from it.
+        short: without the sides.
     """
     length = 1e3 * offset.lateral
+    if short:
+        return tr("{length:.1f} mm off path", length=length)
     if length < 0.05:
         return tr("off the path: 0.0 mm")
     right, up = 1e3 * float(offset.across @ frame.right), 1e3 * float(offset.across @ frame.up)
@@ -241,11 +258,24 @@ WIDE: Final = 42
 TALL: Final = 29
 """Width and height, in heights of the small letters, from which every word has its place."""
 
+USUAL_PAD: Final = 180
+SMALLEST_PAD: Final = 130
+"""Least width and height of the pad beside its words, and where there is no room [px]."""
+
 NARROW_WIDTH: Final = 250
 """Widest that an empty pad needs to be [px]."""
 
 QWIDGETSIZE_MAX: Final = 16777215
 """Qt's own constant for no limit, which PySide does not export."""
+
+
+class Brevity(IntEnum):
+    """How much is said beside the pad, and in what letters: as much as there is room for."""
+
+    FULL = auto()
+    WITHOUT_ANGLES = auto()
+    SMALL = auto()
+    SHORT = auto()
 
 
 class Bullseye(QWidget):
@@ -279,6 +309,7 @@ class Bullseye(QWidget):
             self._angles,
         )
         self.source = HandChooser(self.pad, self)
+        self._brevity = Brevity.FULL
         self._intent = QTimer(self, interval=INTENT_MS, singleShot=True)
         self._intent.timeout.connect(self._emit_hand)
         self._lay_out()
@@ -295,22 +326,57 @@ class Bullseye(QWidget):
         self._fit_words()
 
     def _fit_words(self) -> None:
-        """Reserve the lines that the longest words take; leave out what can be done without."""
-        across = max(self.width() // 2 - 2 * theme.SPACING, 1)
-        beside = max(min(across, self.depth_bar.width()), 1)
-        for label, longest, room in (
-            (self._in_plane, 46, across),
-            (self._out_of_plane, 46, across),
-            (self._remaining, 16, beside),
-            (self._lateral, 40, beside),
-            (self._source, 28, beside),
-        ):
-            metrics = label.fontMetrics()
-            lines = -(-longest * metrics.averageCharWidth() // room)
-            label.setMinimumHeight(min(lines, 3) * metrics.lineSpacing())
-        self._angles.setVisible(not self._hides_needle and self.height() >= TALL * theme.SMALL_PX)
+        """Say as much as there is room for: in full, without the angles, smaller, or in short."""
+        for brevity in Brevity:
+            self._take_brevity(brevity)
+            if self._needed_height() <= self.height():
+                break
         if not self._hides_needle:
             self.source.set_brief(self.width() < WIDE * theme.SMALL_PX)
+        if self._scene is not None and self._view is not None:
+            self._write(self._scene, self._view)
+
+    def _take_brevity(self, brevity: Brevity) -> None:
+        """Take fonts, and reserve the lines that the longest words take in them."""
+        self._brevity = brevity
+        small, short = brevity >= Brevity.SMALL, brevity >= Brevity.SHORT
+        beside = self.depth_bar.sizeHint().width()
+        across = max(self.width() - beside - 3 * theme.SPACING, 1)
+        turn = theme.SMALL_PX if small else theme.FONT_PX + 1
+        distance = theme.FONT_PX if small else theme.FONT_PX + 6
+        for label, pixels, longest, room in (
+            (self._in_plane, turn, 26 if short else 46, across),
+            (self._out_of_plane, turn, 26 if short else 46, across),
+            (self._remaining, distance, 16, beside),
+            (self._lateral, theme.SMALL_PX, 14 if short else 40, beside),
+            (self._source, theme.SMALL_PX, 14 if short else 28, beside),
+        ):
+            colour = theme.WARNING if label is self._source else theme.TEXT
+            style = _label_style(pixels, colour)
+            if label.styleSheet() != style:
+                label.setStyleSheet(style)
+            font = QFont(label.font())
+            font.setPixelSize(pixels)
+            metrics = QFontMetrics(font)
+            lines = -(-longest * metrics.averageCharWidth() // room)
+            label.setMinimumHeight(min(lines, 3) * metrics.lineSpacing())
+        tall = self.height() >= TALL * theme.SMALL_PX and brevity is Brevity.FULL
+        self._angles.setVisible(not self._hides_needle and tall)
+        pad = SMALLEST_PAD if short else USUAL_PAD
+        self.pad.setMinimumSize(pad, pad)
+        self.depth_bar.setMinimumHeight(pad - 20)
+
+    def _needed_height(self) -> int:
+        """Height that pad, words and chooser take [px]."""
+        turns = (self._in_plane, self._out_of_plane)
+        left = sum(label.minimumHeight() for label in turns) + 2
+        if not self._angles.isHidden():
+            left += 2 + self._angles.heightForWidth(self._angles.width())
+        beside = (self._remaining, self._lateral, self._source)
+        right = sum(label.minimumHeight() for label in beside) + 2 * theme.SPACING
+        words = 0 if self._hides_needle else max(left, right)
+        around = 4 * theme.SPACING
+        return self.pad.minimumHeight() + words + self.source.minimumSizeHint().height() + around
 
     # --- what the controller calls ----------------------------------------------------------------
     def set_scene(
@@ -373,17 +439,29 @@ class Bullseye(QWidget):
         hand = self._hand
         self.pad.show_view(view, hand.tilts if hand and not self._depth_only else None)
         self.depth_bar.show_depth(view.depth, view.measured, hand.pose.depth if hand else None)
-        frame = view.frame(scene)
-        in_plane, out_of_plane = corrections(frame, frame.tilts(view.direction))
-        self._in_plane.setText(in_plane)
-        self._out_of_plane.setText(out_of_plane)
+        self._write(scene, view)
+
+    def _write(self, scene: PadScene, view: PadView) -> None:
+        """Say in words what the pad shows; what is said in short stands in full in the tooltip."""
+        frame, short = view.frame(scene), self._brevity >= Brevity.SHORT
+        tilts = frame.tilts(view.direction)
+        turns = (self._in_plane, self._out_of_plane)
+        whole, said = corrections(frame, tilts), corrections(frame, tilts, short)
+        for label, text, words in zip(turns, said, whole, strict=True):
+            label.setText(text)
+            label.setToolTip(words if short else "")
         self._angles.setText(ct_words(frame, view.direction))
         distance = remaining(view.offset, scene.rings[0], scene.depth_tolerance)
         # A guess is never said as if it were known.
         self._remaining.setText(distance if view.measured else "–")
         beside = lateral(frame, view.offset)
-        self._lateral.setText(beside if view.measured else "–")
-        self._source.setText("" if view.measured else tr("◇ depth not measured now"))
+        said_beside = lateral(frame, view.offset, short)
+        self._lateral.setText(said_beside if view.measured else "–")
+        self._lateral.setToolTip(beside if view.measured and short else "")
+        guessed = tr("◇ depth not measured now")
+        said_guessed = tr("◇ not measured") if short else guessed
+        self._source.setText("" if view.measured else said_guessed)
+        self._source.setToolTip(guessed if not view.measured and short else "")
 
     def _connect_source(self) -> None:
         self.source.moved.connect(self._move)
@@ -435,7 +513,11 @@ class Bullseye(QWidget):
 
 def _label(pixels: int, colour: str = "") -> QLabel:
     label, colour = QLabel(), colour or theme.TEXT
-    label.setStyleSheet(f"font-size: {pixels}px; color: {colour};")
+    label.setStyleSheet(_label_style(pixels, colour))
     label.setTextFormat(Qt.TextFormat.PlainText)
     label.setWordWrap(True)  # in a small cell with large text nothing is cut
     return label
+
+
+def _label_style(pixels: int, colour: str) -> str:
+    return f"font-size: {pixels}px; color: {colour};"
