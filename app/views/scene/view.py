@@ -340,9 +340,8 @@ class SceneView(QWidget):
         draw_compass(painter, self.orbit, QPointF(50.0, self.height() - 50.0), display)
         error = self._feed.error and tr("3D view off: {why}", why=self._feed.error)
         scale, note = self._enlargement.scale, error or self.note
-        draw_words(
-            painter, self.rect(), display, scale, (*self.legend, *self._organ_legend()), note
-        )
+        legend, button = (*self.legend, *self._organ_legend()), self._button.geometry()
+        draw_words(painter, self.rect(), display, scale, legend, note, button)
 
     def _organ_legend(self) -> tuple[Entry, ...]:
         if not self.display.organs or self.display.volume:

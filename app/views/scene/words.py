@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRect, QRectF, Qt
+from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen
 
 from app.core.arrays import FloatArray
@@ -28,6 +28,7 @@ def draw_words(
     error_scale: float,
     legend: tuple[Entry, ...],
     note: str,
+    taken: QRect | None = None,
 ) -> None:
     """Write into a pane.
 
@@ -38,21 +39,32 @@ def draw_words(
         error_scale: how much larger than true the tip's error is drawn; 0 where it is not.
         legend: of the structures, as many as there is room for; then says how many more.
         note: at the bottom.
+        taken: place at the upper right, such as a button's, which no line covers.
     """
     height = QFontMetrics(painter.font()).height() + GAP
     line = QRect(LEFT, TOP, pane.width() - 2 * LEFT, height)
-    _write(painter, line, display, display.text, title(display))
+
+    def beside() -> QRect:
+        """Return the line as far as nothing else stands there."""
+        if taken is None or not line.intersects(taken):
+            return line
+        return QRect(line.topLeft(), QSize(max(0, taken.left() - LEFT - line.left()), height))
+
+    _write(painter, beside(), display, display.text, title(display))
     if error_scale > 0.0:
         line.translate(0, height)
         tip = display.colour(theme.NEEDLE_TIP.colour)
-        _write(painter, line, display, tip, error_note(error_scale))
+        room, letters = beside(), QFontMetrics(painter.font())
+        notes = error_note(error_scale), error_note(error_scale, short=True)
+        fitting = [text for text in notes if letters.horizontalAdvance(text) <= room.width()]
+        _write(painter, room, display, tip, (*fitting, notes[-1])[0])
     room = max(0, (pane.height() - COMPASS_PX - line.bottom()) // height)
     for rgb, text in fitted(legend, room):
         line.translate(0, height)
         shade = QColor(*rgb)
         _write(
             painter,
-            line,
+            beside(),
             display,
             (shade.darker(150) if display.light else shade.lighter(125)).name(),
             text,
@@ -84,8 +96,10 @@ def fitted(legend: tuple[Entry, ...], room: int) -> tuple[Entry, ...]:
     return (*kept, ((grey.red(), grey.green(), grey.blue()), rest))
 
 
-def error_note(scale: float) -> str:
-    """Say how large the tip's error is drawn."""
+def error_note(scale: float, short: bool = False) -> str:
+    """Say how large the tip's error is drawn, in short where there is little room."""
+    if short:
+        return tr("Error 95 %, {scale:.0f}×", scale=scale)
     if scale == 1.0:
         return tr("Tip error 95 %, true to scale")
     return tr("Tip error 95 %, {scale:.0f}× enlarged", scale=scale)
