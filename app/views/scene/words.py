@@ -54,10 +54,10 @@ def draw_words(
     if error_scale > 0.0:
         line.translate(0, height)
         tip = display.colour(theme.NEEDLE_TIP.colour)
-        room, letters = beside(), QFontMetrics(painter.font())
+        place, letters = beside(), QFontMetrics(painter.font())
         notes = error_note(error_scale), error_note(error_scale, short=True)
-        fitting = [text for text in notes if letters.horizontalAdvance(text) <= room.width()]
-        _write(painter, room, display, tip, (*fitting, notes[-1])[0])
+        fitting = [text for text in notes if letters.horizontalAdvance(text) <= place.width()]
+        _write(painter, place, display, tip, (*fitting, notes[-1])[0])
     room = max(0, (pane.height() - COMPASS_PX - line.bottom()) // height)
     for rgb, text in fitted(legend, room):
         line.translate(0, height)
