@@ -9,6 +9,7 @@ import hashlib
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cache
 from pathlib import Path
 from typing import Any, Final
 
@@ -77,7 +78,7 @@ def run_context(
     return RunContext(
         folder=folder,
         seed=seed,
-        metadata={**metadata, CONDITIONS: _conditions(anonymous), BUILD: build()},
+        metadata={**metadata, CONDITIONS: _conditions(anonymous), BUILD: dict(_build())},
         attachments=tuple(
             _attachment(f"{name}.json", document.model_dump(mode="json"))
             for name, document in attached.items()
@@ -85,6 +86,12 @@ def run_context(
         plan_files=lambda placed: (_attachment("plan.mrk.json", plan_document(placed.plan)),),
         agreement=agreement,
     )
+
+
+@cache
+def _build() -> Mapping[str, str]:
+    """Return the build that this process runs: a file that changes now is not loaded any more."""
+    return build()
 
 
 def agreement_of(

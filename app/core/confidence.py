@@ -1,10 +1,13 @@
 """How far a true value may be from a measured one: quantiles, and radii and axes of covariances."""
 
+from functools import lru_cache
+
 import numpy as np
 
 from app.core.arrays import FloatArray
 
 
+@lru_cache(64)
 def chi_square_quantile(probability: float, freedom: int) -> float:
     """Value that a chi-square variable stays below with a probability.
 

@@ -79,10 +79,8 @@ def messages(sample: Sample, stamp: dict[str, int]) -> list[tuple[str, bytes]]:
         ("/tracking/quality", _quality(sample, stamp)),
     ]
     if sample.pose_valid:
-        documents += [
-            ("/tf", _needle_tf(sample.pose, stamp)),
-            ("/needle/tip", _tip(sample.pose, stamp)),
-        ]
+        transform = _needle_tf(sample.pose, stamp)
+        documents += [("/tf", transform), ("/needle/tip", _tip(transform))]
     if sample.device is not None:
         documents += [
             ("/haptic/joints", _joints(sample.device, stamp)),
@@ -167,12 +165,12 @@ def _needle_tf(pose: NeedlePose, stamp: dict[str, int]) -> dict[str, Any]:
     return _transform(FrameName.NEEDLE, T_world_needle, stamp)
 
 
-def _tip(pose: NeedlePose, stamp: dict[str, int]) -> dict[str, Any]:
-    orientation = quaternion(needle_rotation(pose.axis))
+def _tip(transform: dict[str, Any]) -> dict[str, Any]:
+    """Return the needle's transform as the pose of its tip."""
     return {
-        "timestamp": stamp,
-        "frame_id": FrameName.WORLD.value,
-        "pose": {"position": _vector(pose.p_tip), "orientation": orientation},
+        "timestamp": transform["timestamp"],
+        "frame_id": transform["parent_frame_id"],
+        "pose": {"position": transform["translation"], "orientation": transform["rotation"]},
     }
 
 

@@ -100,28 +100,34 @@ class FakeLoop:
         self.opened = 0
 
     def step(self, n: int = 1) -> None:
+        state = self._state()
         for _ in range(n):
             self.clock.sleep(0.001)
             if not self.frozen:
-                self._one()
+                self.tick += 1
+                state = state.copy()
+                state[sv.TIME], state[sv.TICK] = self.clock.now(), self.tick
+                if "q_time" not in self.extra:
+                    state[sv.Q_TIME] = state[sv.TIME]
+                self.history.append(state)
         del self.history[: -self.ring]
 
-    def _one(self) -> None:
-        self.tick += 1
+    def _state(self) -> FloatArray:
+        """Where the hand wants the needle now, as the next ticks have it."""
         values = self.inbox.values
         x, y = values.get("hand_x", 0.0), values.get("hand_y", 0.0)
         axis = np.array([x, y, -np.sqrt(1.0 - x * x - y * y)])
-        depth = values.get("hand_depth", -0.02)
-        state = row(self.clock.now(), self.tick, axis, depth)
+        state = row(0.0, 0, axis, values.get("hand_depth", -0.02))
         for name, value in (values | self.extra).items():
             state[sv.INDEX[name]] = value
-        self.history.append(state)
+        return state
 
     def latest(self) -> DeviceState:
         return DeviceState.from_row(self.history[-1] if self.history else sv.empty_state())
 
     def rows(self, since_tick: int) -> FloatArray:
-        kept = [r for r in self.history if r[sv.TICK] > since_tick]
+        newer = self.tick - since_tick  # no tick is left out
+        kept = self.history[-newer:] if newer > 0 else []
         return np.array(kept).reshape(len(kept), sv.SLOTS)
 
     def checkpoint(self) -> Checkpoint:
