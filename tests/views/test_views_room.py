@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from app.imaging.window import PRESETS, WindowLevel
 from app.planning.placement import PatientOrientation
 from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
-from app.views.exercise.status import StatusStrip
+from app.views.exercise.status import StatusCell, StatusStrip
 from app.views.exercise.status_items import depth_item
 from app.views.kit import theme
 from app.views.kit.names import NAMES
@@ -25,6 +26,7 @@ from app.views.kit.themes import DARK, LIGHT, THEMES, restyled, translated
 from app.views.plan.paths import PathsFeature
 from app.views.robot.feature import RobotFeature
 from app.views.robot.health_panel import _Line
+from app.views.shell.remembered import SMALLEST
 from app.views.shell.window import MainWindow
 from app.views.slices.panes import PANE_MARKS, PaneId
 from app.views.slices.plane import own_plane, presented
@@ -115,6 +117,28 @@ def test_what_the_status_strip_said_in_usual_text_has_room_in_large_text(
         for label in strip.findChildren(QLabel):
             needed = label.fontMetrics().horizontalAdvance(label.text())
             assert label.width() >= needed, (label.text(), large)
+    strip.close()
+
+
+def test_in_the_smallest_window_every_title_of_the_status_strip_is_whole_in_large_text(
+    application, desk_again, settle
+):
+    theme.apply_theme(application, DARK, theme.LARGE)
+    strip, item = StatusStrip(), depth_item("tracked", 0.01)
+    titles = ("Screen and needle", "Robot loop", "Encoders", "Cameras", "Depth", "Heartbeat")
+    said = "1012 Hz · late 0.04 / 0.12 ms · 0.2 % missed"
+    strip.show_items([replace(item, title=one, text=said) for one in (*titles, "Recorder")])
+    strip.setFixedWidth(SMALLEST[0])
+    strip.show()
+    settle(timeout=0.1)
+    cells = [cell for cell in strip.findChildren(StatusCell) if cell.isVisible()]
+    assert len(cells) == 7
+    for cell, after in pairwise(cells):
+        assert cell.geometry().right() < after.geometry().left()
+    assert strip.rect().contains(cells[-1].geometry())
+    for cell in cells:
+        assert not cell.findChildren(QLabel)[0].text().endswith("…")
+        assert said in cell.toolTip()
     strip.close()
 
 

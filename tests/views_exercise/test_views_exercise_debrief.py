@@ -374,6 +374,33 @@ def test_a_stored_score_that_cannot_be_read_becomes_a_problem_line():
     assert shown.force_limit == 5.0
 
 
+@pytest.mark.parametrize("large", [False, True])
+def test_the_name_of_a_level_stands_beside_that_of_its_curve(qt, large):
+    view = CurvesView()
+    try:
+        theme.apply_theme(qt, size=theme.LARGE if large else 1.0)
+        view.resize(600, 640)
+        view.show_review(review())
+        while len(view._cursors) < len(view._curves):
+            view._draw_next()
+        view.show()
+        qt.processEvents()
+        levels = 0
+        for plot, curve in zip(view._plots, view._curves, strict=True):
+            texts = [one for one in plot.getViewBox().childItems() if isinstance(one, pg.TextItem)]
+            (title,) = [one for one in texts if one.toPlainText() == curve.title]
+            for line in plot.items:
+                if isinstance(line, pg.InfiniteLine) and getattr(line, "label", None):
+                    levels += 1
+                    place = line.label.mapRectToScene(line.label.boundingRect())
+                    assert not place.intersects(title.mapRectToScene(title.boundingRect()))
+                    assert plot.sceneBoundingRect().right() >= place.right()
+        assert levels == 2
+    finally:
+        theme.apply_theme(qt)
+        view.deleteLater()
+
+
 def test_a_long_curve_is_drawn_by_its_extremes_without_losing_a_peak_or_a_gap():
     time = np.arange(180_000) / 50.0
     values = np.sin(time)

@@ -170,11 +170,16 @@ def peaks(time: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]
     return time[keep], values[keep]
 
 
-def draw(plot: pg.PlotItem, review: Review, curve: Curve) -> None:
-    """Draw a curve, its level and the times of the events."""
+def draw(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None:
+    """Draw a curve, its level and the times of the events.
+
+    The level's name stands at the right, away from the curve's; in the middle, away from those of
+    the events, where `names` says that these are written.
+    """
     if curve.line is not None:
         pen = pg.mkPen(theme.TARGET.colour, width=1.5, style=Qt.PenStyle.DashLine)
-        options = {"position": 0.5, "color": theme.TARGET.colour, "anchors": [(1, 1), (1, 1)]}
+        place = 0.5 if names else 0.99
+        options = {"position": place, "color": theme.TARGET.colour, "anchors": [(1, 1), (1, 1)]}
         line = pg.InfiniteLine(
             curve.line, angle=0, pen=pen, label=curve.line_name, labelOpts=options
         )
@@ -301,7 +306,7 @@ class CurvesView(QWidget):
             self._plots.append(self._new_plot(row, curve))
         plot = self._plots[row]
         shade(plot, review, curve, names=row == 0)
-        draw(plot, review, curve)
+        draw(plot, review, curve, names=row == 0)
         self._cursors.append(cursor_of(plot))
 
     def _new_plot(self, row: int, curve: Curve) -> pg.PlotItem:

@@ -29,6 +29,9 @@ from app.views.kit.verdict import StatusItem, Verdict
 LONGEST: Final = 200
 """Lines kept; older ones are in the record."""
 
+TITLE_PX: Final = 170
+"""Width [px] up to which a title is whole, whatever is left for the values."""
+
 _LINE: Final = Qt.ItemDataRole.UserRole
 _COLOUR: Final = Qt.ItemDataRole.UserRole + 1
 """The line as it came, names and all, and its colour in any theme."""
@@ -120,7 +123,8 @@ class StatusCell(QWidget):
         super().__init__(parent)
         self._item: StatusItem | None = None
         self._widest = 0
-        self._title, self._text = ElidedLabel(parent=self), ElidedLabel(parent=self)
+        self._title = ElidedLabel(parent=self, narrowest=TITLE_PX)
+        self._text = ElidedLabel(parent=self)
         for label in (self._title, self._text):  # neither holds the other to its own width
             label.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Preferred)
         self._text.setStyleSheet(f"font-size: {theme.SMALL_PX}px;")

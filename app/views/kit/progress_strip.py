@@ -23,11 +23,17 @@ NARROWEST_PX = 60
 
 
 class ElidedLabel(QLabel):
-    """A label of one line that never asks for more room than there is."""
+    """A label of one line that never asks for more room than there is.
 
-    def __init__(self, text: str = "", parent: QWidget | None = None) -> None:
+    Attributes:
+        narrowest: width [px] at the usual size of the text that it asks for in any case.
+    """
+
+    def __init__(
+        self, text: str = "", parent: QWidget | None = None, narrowest: int = NARROWEST_PX
+    ) -> None:
         super().__init__(parent)
-        self._whole = ""
+        self._whole, self.narrowest = "", narrowest
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Preferred)
         self.set_whole(text)
@@ -48,8 +54,8 @@ class ElidedLabel(QLabel):
         return QSize(self.fontMetrics().horizontalAdvance(self._whole) + 2, self._height())
 
     def minimumSizeHint(self) -> QSize:
-        """Return what a few letters take."""
-        return QSize(min(NARROWEST_PX, self.sizeHint().width()), self._height())
+        """Return what a few letters take, or more where more is asked for."""
+        return QSize(min(theme.px(self.narrowest), self.sizeHint().width()), self._height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Show more or less of it."""
