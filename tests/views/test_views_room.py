@@ -1,6 +1,7 @@
 """The room: projector mode, what is remembered, the operator's side, colours for everybody."""
 
 import json
+import threading
 from dataclasses import replace
 from itertools import pairwise
 
@@ -21,6 +22,7 @@ from app.views.exercise.feature import ExerciseFeature
 from app.views.exercise.status import StatusCell, StatusStrip
 from app.views.exercise.status_items import depth_item
 from app.views.kit import theme
+from app.views.kit.background import BackgroundTask
 from app.views.kit.names import NAMES
 from app.views.kit.themes import DARK, LIGHT, THEMES, restyled, translated
 from app.views.plan.paths import PathsFeature
@@ -140,6 +142,25 @@ def test_in_the_smallest_window_every_title_of_the_status_strip_is_whole_in_larg
         assert not cell.findChildren(QLabel)[0].text().endswith("…")
         assert said in cell.toolTip()
     strip.close()
+
+
+def test_in_the_smallest_window_work_beside_it_leaves_the_menus_free_in_large_text(
+    application, window, desk_again, settle
+):
+    theme.apply_theme(application, DARK, theme.LARGE)
+    window.resize(*SMALLEST)
+    gate = threading.Event()
+    task = BackgroundTask(window, lambda progress: gate.wait(20), print, print)
+    try:
+        window.progress.show_task(task.open(), "Starting robot and cameras: compiling the loop")
+        settle(timeout=0.2)
+        assert window.notices.isVisible()
+        bar = window.menuBar()
+        for action in bar.actions():
+            assert not window.notices.geometry().intersects(bar.actionGeometry(action))
+    finally:
+        gate.set()
+        settle(lambda: window.progress.count == 0)
 
 
 def test_a_status_strip_without_room_ends_its_words_in_an_ellipsis(application, settle):

@@ -26,7 +26,7 @@ from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 
 GAP_PX = 12
-NARROWEST_PX = 480
+NARROWEST_PX = 340
 """Where the menus leave less room the notices lie over them."""
 
 
