@@ -68,7 +68,7 @@ def pytest_collection_finish() -> None:
     """Leave modules and tests to themselves, and collect garbage from here on, a little less often
     than usual: what tests throw away is much, and seldom large."""
     gc.freeze()
-    gc.set_threshold(5_000, 20, 20)
+    gc.set_threshold(2_000)
     gc.enable()
 
 

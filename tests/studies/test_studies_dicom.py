@@ -80,6 +80,19 @@ def pydicoms():
     return tuple(file_cases(pydicom_files(), Progress()))
 
 
+@pytest.fixture(scope="module")
+def facts(pydicoms, peer):
+    """What the peer says of the files of a case, asked once."""
+    known = {}
+
+    def of(case):
+        if case.name not in known:
+            known[case.name] = peer.facts(case.files)
+        return known[case.name]
+
+    return of
+
+
 def test_each_of_pydicoms_files_is_refused_for_the_reason_that_stands_in_the_table(pydicoms):
     expected = {name: reason for reason, names in REFUSED.items() for name in names.split()}
     assert len({case.name for case in pydicoms}) == len(pydicoms)
@@ -90,21 +103,20 @@ def test_each_of_pydicoms_files_is_refused_for_the_reason_that_stands_in_the_tab
     assert own <= {case.name for case in pydicoms}
 
 
-def test_every_one_of_those_reasons_is_confirmed_by_pydicom(pydicoms, peer):
+def test_every_one_of_those_reasons_is_confirmed_by_pydicom(pydicoms, facts):
     for case in pydicoms:
-        assert justified(case.found.reason, peer.facts(case.files)), case.name
+        assert justified(case.found.reason, facts(case)), case.name
         assert meaning(case.found.reason), case.found.reason
 
 
-def test_hardly_another_reason_would_have_been_confirmed(pydicoms, peer):
+def test_hardly_another_reason_would_have_been_confirmed(pydicoms, facts):
     """No other modality for any file, and nothing at all but "a single slice" for a sound slice."""
     for case in pydicoms[::3]:
-        facts = peer.facts(case.files)
         alone = case.found.reason.startswith("a single slice")
         for other in REFUSED:
             other_kind = "modality" in other and "none given" not in other
             if not case.found.reason.startswith(other) and (alone or other_kind):
-                assert not justified(other, facts), (case.name, other)
+                assert not justified(other, facts(case)), (case.name, other)
 
 
 def test_a_wrong_reason_is_not_taken_for_right(peer):

@@ -1,12 +1,14 @@
-"""A window in a process of its own, scaled: clicks on what is seen and tells where that arrived.
+"""Windows in processes of their own, scaled: click on what is seen and tell where that arrived.
 
-Run by `test_views_scaling` with QT_SCALE_FACTOR in the environment.
+`scaled_window.py [[FACTOR, WIDTH, HEIGHT], …]`, run by `test_views_scaling`: Qt takes its factor
+once in a process, so that each window has one, forked when everything is loaded.
 """
 
 import json
 import os
 import sys
 import tempfile
+import traceback
 from pathlib import Path
 from time import monotonic
 
@@ -111,5 +113,21 @@ def main(width, height):
     os._exit(0)
 
 
+def each(screens):
+    """Show one after the other, each in a child; ends with the code of the last that fails."""
+    code = 0
+    for factor, width, height in screens:
+        child = os.fork()
+        if child == 0:
+            os.environ["QT_SCALE_FACTOR"] = str(factor)
+            try:
+                main(width, height)
+            finally:  # it ends itself where all is well
+                traceback.print_exc()
+                os._exit(1)
+        code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) or code
+    return code
+
+
 if __name__ == "__main__":
-    main(int(sys.argv[1]), int(sys.argv[2]))
+    sys.exit(each(json.loads(sys.argv[1])))

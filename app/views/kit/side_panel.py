@@ -42,9 +42,15 @@ class SidePanel(QWidget):
         column.addLayout(self._names)
         column.addWidget(self._panels, 1)
 
-    def addTab(self, panel: QWidget, name: str) -> int:
-        """Take one more panel; returns its index."""
-        index = self._panels.addWidget(panel)
+    def addTab(self, panel: QWidget, name: str, scrolls: bool = False) -> int:
+        """Take one more panel; returns its index.
+
+        Args:
+            panel: to add.
+            name: on its button.
+            scrolls: whether it scrolls up and down where there is too little room.
+        """
+        index = self._panels.addWidget(scrolled(panel, self._panels) if scrolls else panel)
         button = QPushButton(name, self)
         button.setObjectName("side-name")
         button.setCheckable(True)
@@ -102,9 +108,9 @@ class SidePanel(QWidget):
             super().keyPressEvent(event)
 
 
-def scrolled(panel: QWidget) -> QScrollArea:
+def scrolled(panel: QWidget, parent: QWidget | None = None) -> QScrollArea:
     """Return a panel in an area that scrolls up and down where there is too little room."""
-    area = QScrollArea()
+    area = QScrollArea(parent)
     area.setFrameShape(QFrame.Shape.NoFrame)
     area.setWidgetResizable(True)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

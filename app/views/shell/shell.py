@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QBoxLayout, QMainWindow, QMenu, QStackedWidget, QWidget
 
 from app.views.kit.background import Indicator
-from app.views.kit.side_panel import SidePanel, scrolled
+from app.views.kit.side_panel import SidePanel
 from app.views.kit.text import tr
 from app.views.shell.message_bar import MessageBar
 
@@ -103,7 +103,7 @@ class Shell:
                 column.insertWidget(column.count() - 1, panel)  # before the stretch at its end
             return
         self._panels[title] = panel
-        self._side.addTab(scrolled(panel) if scrolls else panel, title)
+        self._side.addTab(panel, title, scrolls)
 
     def show_panel(self, panel: QWidget) -> None:
         """Bring a panel that was added, and the page with it, to the front."""

@@ -186,14 +186,16 @@ class MainWindow(QMainWindow):
         self.editors = Editors(PlanEditor(self), MeasureEditor(self), StructureBook(self))
         self.editor = self.editors.plan
         self.message_bar, self.progress = MessageBar(self), ProgressStrip(self)
-        self.workspace = WorkspacePage(self.editor, self)
+        self._lay_out()
+        self.workspace = WorkspacePage(self.editor, self.pages)
         self.runs = Runs(services, self.progress, self)
         self.conductor = Conductor(self.workspace, self.editor, self.runs, self.progress, self)
         self.equipment = Equipment(self.settings, self.conductor, self)
         self.open_ct = OpenCt(Recents(self.settings, "recent/cts"), self.progress, self)
         self.undo = UndoOrder((self.editor, self.editors.measures, self.editors.structures), self)
-        self.projector, self.start_page = Projector(self), StartPage(self)
-        self._lay_out()
+        self.projector, self.start_page = Projector(self), StartPage(self.pages)
+        for page in (self.start_page, self.workspace):
+            self.pages.addWidget(page)
         shell = Shell(
             self,
             self.settings,
@@ -294,10 +296,9 @@ class MainWindow(QMainWindow):
 
     # --- set-up -------------------------------------------------------------------------------
     def _lay_out(self) -> None:
-        self.pages = QStackedWidget(self)
-        for page in (self.start_page, self.workspace):
-            self.pages.addWidget(page)
+        """Make the place of the pages before them: a page that moves is styled once more."""
         centre = QWidget(self)
+        self.pages = QStackedWidget(centre)
         column = QVBoxLayout(centre)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
