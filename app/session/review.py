@@ -1,6 +1,7 @@
 """What the debrief shows of one attempt, as values; page and report draw the same ones."""
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -8,11 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.core.arrays import FloatArray
+from app.core.errors import AcusError
+from app.core.loading import ONE_AT_A_TIME
+from app.core.units import DEGREE
+from app.exercises.scene import scene_of
+from app.exercises.schema import Exercise
+from app.mechanisms.profile import DeviceProfile
 from app.planning.placement import PlacedPlan
 from app.scoring.conditions import Conditions
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
 from app.session.calibration_flag import CalibrationFlags
+from app.session.conditions import EXERCISE_FILE
 from app.session.control_scan import ControlScan
 from app.session.ct_facts import UNKNOWN_CT, CtFacts
 from app.session.curves import Curves, at_rest, curves
@@ -23,10 +31,12 @@ from app.session.pad.view import rings
 from app.session.recording import Recording
 from app.session.result import AttemptResult
 from app.session.risks import risk_marks
+from app.session.samples import Samples
 from app.session.scored import renders_force
 from app.session.summary import derive
 from app.session.timeline import Span, TimeMark, marks, spans
 from app.session.verify import verify
+from app.simulation.scene import Binding
 
 __all__ = [
     "Review",
@@ -42,11 +52,94 @@ __all__ = [
 SHOWN_EVENTS: Final = ("scan", "fault", "abort")
 """Kinds of events that are marked on the curves."""
 
+TURN_S: Final = 2.0
+"""A correction is a turn of the needle within this time [s]."""
+
+SMALLEST_TURN: Final = 1.0 * DEGREE
+"""Less is no correction, but a hand [rad]."""
+
+TISSUE_BEGINS: Final = 0.01
+"""Nearer to the skin than this a needle turns freely [m]."""
+
 DEVICE_FILE: Final = "device.json"
 """Attachment that holds the device profile."""
 
 FORCE_LIMIT: Final = 5.0
 """Limit of the force at the hand [N] where the record names none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Correction:
+    """The largest turn of the needle in the tissue, and what it would have cost earlier.
+
+    Attributes:
+        depth: at which the needle was turned [m].
+        angle: by which [rad].
+        earlier: a third of that depth [m].
+        share: of the side force at the hand that the same turn takes there, for a needle pushed in
+            straight, by the attempt's own tissue and needle; None where no tissue was simulated.
+    """
+
+    depth: float
+    angle: float
+    earlier: float
+    share: float | None
+
+
+def correction(
+    samples: Samples,
+    measured: NDArray[np.bool_],
+    force: Callable[[float], float] | None,
+) -> Correction | None:
+    """Find the largest turn within `TURN_S` in the tissue; None where there is none to speak of.
+
+    Args:
+        samples: of the attempt.
+        measured: whether the cameras vouch for the depth, shape (n,).
+        force: side force at the hand for each radian at a depth [m]: [N/rad]; None if not known.
+    """
+    inside = np.flatnonzero(measured & (samples.depth > TISSUE_BEGINS))
+    if inside.size < 2:
+        return None
+    time, axis, depth = samples.time[inside], samples.axis[inside], samples.depth[inside]
+    later = np.searchsorted(time, time + TURN_S, side="right") - 1
+    across = np.linalg.norm(np.cross(axis, axis[later]), axis=1)
+    turned = np.arctan2(across, np.einsum("ij,ij->i", axis, axis[later]))
+    best = int(np.argmax(turned))
+    if not turned[best] >= SMALLEST_TURN:
+        return None
+    at = float(depth[best] + depth[later[best]]) / 2.0
+    earlier = max(at / 3.0, TISSUE_BEGINS)
+    there = force(at) if force is not None else 0.0
+    share = force(earlier) / there if force is not None and there > 0.0 else None
+    return Correction(at, float(turned[best]), earlier, share)
+
+
+def side_force(recording: Recording) -> Callable[[float], float] | None:
+    """Side force of an attempt's tissue on its needle: depth [m] -> [N/rad] at the hand.
+
+    None where the exercise has no side stiffness, or the record does not say what it was.
+    """
+    with ONE_AT_A_TIME:  # compiled: loaded only where a record has tissue
+        from app.simulation.effects import lateral_tissue
+    try:
+        said = json.loads(recording.attachments[EXERCISE_FILE])
+        exercise = Exercise.model_validate(said | {"ct": {"phantom": {}}})  # no part of the tissue
+        profile = DeviceProfile.model_validate_json(recording.attachments[DEVICE_FILE])
+        part = exercise.effects["lateral_tissue"]
+        known = lateral_tissue.DECLARATION["parameters"]
+        values = {name: facts[0] for name, facts in known.items()} | dict(part.parameters)
+        binding = Binding(scene_of(exercise, profile), model=part.model or "beam")
+        tissue = lateral_tissue.parameters(values, binding)
+    except (KeyError, TypeError, ValueError, AcusError):  # another version's; the debrief says less
+        return None
+    length, shortest = profile.geometry.needle_length, values["shortest_lever"]
+
+    def force(depth: float) -> float:
+        moment = float(lateral_tissue.rotational_stiffness(tissue, depth))
+        return moment / max(length - depth, shortest)
+
+    return force
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,6 +174,7 @@ class Review:
         risks: structures of risk, and how near the needle came.
         conditions: what the score was made under; None where nothing is known.
         tip_radius: round the tip that holds the true one with 95 %, median [m]; None if not known.
+        correction: the largest turn of the needle in the tissue; None if there was none.
     """
 
     id: str
@@ -108,6 +202,7 @@ class Review:
     ct: CtFacts = UNKNOWN_CT
     risks: tuple[RiskMark, ...] = ()
     conditions: Conditions | None = None
+    correction: Correction | None = None
 
     @property
     def rings(self) -> tuple[float, float]:
@@ -180,6 +275,7 @@ def review(recording: Recording) -> Review:
         origin=origin,
         ct=recording.ct,
         risks=risk_marks(recording.events),
+        correction=correction(samples, measured, side_force(recording)),
     )
 
 

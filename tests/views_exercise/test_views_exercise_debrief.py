@@ -15,13 +15,13 @@ from app.scoring.risks import RiskMark
 from app.session.curves import Curves
 from app.session.facts import plan_record
 from app.session.recording import Inputs, Recording
-from app.session.review import Span, TimeMark, marks, only_measured, spans
+from app.session.review import Correction, Span, TimeMark, marks, only_measured, spans
 from app.session.review import review as review_of
 from app.session.samples import Samples
 from app.views.debrief.curves import CurvesView, curves_of, peaks, value_range
 from app.views.debrief.page import DebriefPage, date_text
 from app.views.debrief.report import polylines, report_bytes, ticks, write_report
-from app.views.debrief.score_words import number, row_texts, verdict
+from app.views.debrief.score_words import _lost, lessons, number, row_texts, verdict
 from app.views.kit import theme
 
 
@@ -432,3 +432,62 @@ def test_the_page_is_there_before_its_curves_and_each_plot_has_its_turn(qt):
     assert len(view._plots) == 4
     assert not view.grab().isNull()
     view.deleteLater()
+
+
+def test_curves_cannot_be_zoomed_or_moved_to_nonsense_and_all_is_shown_again(qt):
+    view = CurvesView()
+    view.resize(800, 600)
+    view.show_review(review())
+    for _ in range(8):
+        view._draw_next()
+    end = view._review.curves.time[-1]
+    box = view._plots[1].getViewBox()
+    for _ in range(40):
+        box.scaleBy((0.5, 0.5))
+    low, high = box.viewRange()[0]
+    assert high - low >= min(0.5, end) - 1e-6
+    for _ in range(40):
+        box.scaleBy((2.0, 2.0))
+        box.translateBy((end, 0.0))
+    low, high = box.viewRange()[0]
+    assert -0.05 * end < low < high < 1.05 * end
+    box.setXRange(0.2 * end, 0.4 * end)
+    view.show_all()
+    for plot in view._plots:
+        low, high = plot.getViewBox().viewRange()[0]
+        assert low <= 0.0 < end <= high
+
+
+def test_what_cost_points_is_said_with_the_attempts_own_numbers(page):
+    shown = replace(review(), correction=Correction(0.06, np.radians(3.0), 0.02, 0.08))
+    said = lessons(shown)
+    assert 1 <= len(said) <= 3
+    lost = [row for row in shown.score.rows if row.weight and row.utility < 0.95]
+    assert any(row.label in said[0] for row in lost)
+    assert "or less costs none" in said[0]
+    turned = "You turned the needle by 3.0° at 60 mm depth. The same turn at 20 mm takes 8 % of"
+    assert turned in " ".join(said)
+    page.show_review(shown)
+    assert page.lessons.text() == "\n".join(said)
+    assert not page.lessons.isHidden()
+
+
+def test_points_of_100_that_are_told_are_those_that_are_missing():
+    shown = review()
+    lost = sum(points for points, _ in _lost(shown.score))
+    assert lost == pytest.approx(100.0 - shown.score.total, abs=len(shown.score.rows))
+
+
+def test_who_lost_nothing_is_told_so_and_who_was_not_judged_nothing(page):
+    assert lessons(review(score=all_expert(score()))) == ("Nothing cost points.",)
+    assert lessons(review(score=score(void=True))) == ()
+    assert lessons(review(score=None)) == ()
+    page.show_review(review(score=None))
+    assert page.lessons.isHidden()
+
+
+def all_expert(judged):
+    rows = tuple(
+        replace(row, value=row.tolerance.expert) if row.tolerance else row for row in judged.rows
+    )
+    return replace(judged, rows=rows).recomputed()

@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 import pyqtgraph as pg
+from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QPen
 from PySide6.QtWidgets import QGraphicsRectItem, QLabel, QVBoxLayout, QWidget
@@ -111,6 +112,9 @@ def value_range(curve: Curve) -> tuple[float, float]:
     return low - 0.2 * (high - low), high + 0.28 * (high - low)
 
 
+NEAREST_S: Final = 0.5
+"""Curves are zoomed no nearer than this [s] or a tenth of the attempt, and no farther than all."""
+
 _STRETCHES: Final = 1000
 """A long curve is drawn as the extremes of so many stretches: about one a pixel."""
 
@@ -192,7 +196,10 @@ def draw(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None:
     low, high = value_range(curve)
     plot.setYRange(low, high, padding=0.0)
     if len(review.curves.time):
-        plot.setXRange(0.0, time_end(review.curves.time), padding=0.01)
+        end = time_end(review.curves.time)
+        room = 0.02 * end
+        plot.setLimits(xMin=-room, xMax=end + room, minXRange=min(NEAREST_S, 0.1 * end))
+        plot.setXRange(0.0, end, padding=0.01)
 
 
 def shade(plot: pg.PlotItem, review: Review, curve: Curve, names: bool) -> None:
@@ -277,6 +284,7 @@ class CurvesView(QWidget):
         self.graphics.setBackground(theme.IMAGE_GROUND)
         self.graphics.ci.layout.setSpacing(2)
         self.graphics.scene().sigMouseMoved.connect(self._hover)
+        self.graphics.scene().sigMouseClicked.connect(self._clicked)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self.readout)
@@ -291,7 +299,9 @@ class CurvesView(QWidget):
             self._plots = []
         for plot in self._plots:
             plot.clear()
-        self.readout.setText(tr("Point at the curves to read them."))
+        self.readout.setText(
+            tr("Point at the curves to read them; the wheel zooms, a double click shows all.")
+        )
         self._turn.start()
 
     def _draw_next(self) -> None:
@@ -324,6 +334,15 @@ class CurvesView(QWidget):
         for plot in self._plots:
             if plot.getViewBox() is not moved:
                 plot.setXRange(*span, padding=0.0)
+
+    def show_all(self) -> None:
+        """Show the whole attempt again."""
+        if self._review is not None and self._plots and len(self._review.curves.time):
+            self._plots[0].setXRange(0.0, time_end(self._review.curves.time), padding=0.01)
+
+    def _clicked(self, event: MouseClickEvent) -> None:
+        if event.double():
+            self.show_all()
 
     def read_out(self, time: float) -> str:
         """Say all figures at a time [s]."""

@@ -28,6 +28,7 @@ from app.views.debrief.path_view import PathView
 from app.views.debrief.score_words import (
     counting,
     facts_of,
+    lessons,
     risk_lines,
     row_texts,
     short_words,
@@ -193,6 +194,7 @@ class DebriefPage(QWidget):
         self._title, self._facts, self.conditions = QLabel(self), QLabel(self), QLabel(self)
         self._verdict, self._total, self._reason = QLabel(self), QLabel(self), QLabel(self)
         self._problems, self.risks = QLabel(self), QLabel(self)
+        self.lessons = QLabel(self)
         self.table = ScoreTable(self)
         self.scans = ScanList(self)
         self.path = PathView(self)
@@ -216,6 +218,9 @@ class DebriefPage(QWidget):
         lines = risk_lines(review)
         self.risks.setText("\n".join((tr("Closest to structures of risk"), *lines)))
         self.risks.setVisible(bool(lines))
+        said = lessons(review)
+        self.lessons.setText("\n".join(said))
+        self.lessons.setVisible(bool(said))
         self.table.show_score(review.score)
         self.scans.show_review(review)
         self.path.show_review(review)
@@ -259,6 +264,7 @@ class DebriefPage(QWidget):
             self._reason,
             self._problems,
             self.risks,
+            self.lessons,
         ):
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setWordWrap(True)
@@ -274,7 +280,7 @@ class DebriefPage(QWidget):
         column.addWidget(self._facts)
         column.addWidget(self.conditions)
         column.addLayout(headline)
-        for widget in (self._reason, self._problems):
+        for widget in (self._reason, self._problems, self.lessons):
             column.addWidget(widget)
         column.addWidget(self.table, 3)
         column.addWidget(self.risks)

@@ -2,8 +2,10 @@
 under.
 """
 
+import math
 from dataclasses import dataclass
 
+from app.core.units import MILLIMETRE
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
 from app.scoring.result import Score
 from app.scoring.risks import RiskMark
@@ -220,6 +222,64 @@ def row_texts(row: Row, score: Score) -> RowTexts:
         colour=colour,
         help=row.note or (_limits(row) if score.total is not None else tr("Void: not judged.")),
     )
+
+
+STEERED = frozenset({"lateral_error", "angle_error", "path_ratio", "tip_error"})
+"""Metrics that a turn in the depth spoils."""
+
+MOST_LESSONS = 2
+"""So many metrics are told of: who reads more remembers none."""
+
+
+def lessons(review: Review) -> tuple[str, ...]:
+    """Say in two or three sentences what cost points, and what would have cost less.
+
+    Every number is the attempt's own; empty where nothing was judged.
+    """
+    score = review.score
+    if score is None or score.total is None:
+        return ()
+    lost = sorted(_lost(score), key=lambda one: -one[0])
+    said = [_loss(points, row) for points, row in lost[:MOST_LESSONS]]
+    turn = review.correction
+    if turn is not None and any(row.name in STEERED for _, row in lost):
+        words = tr(
+            "You turned the needle by {angle:.1f}° at {depth:.0f} mm depth.",
+            angle=math.degrees(turn.angle),
+            depth=turn.depth / MILLIMETRE,
+        )
+        if turn.share is not None:
+            words += " " + tr(
+                "The same turn at {earlier:.0f} mm takes {share:.0f} % of the side force.",
+                earlier=turn.earlier / MILLIMETRE,
+                share=100.0 * turn.share,
+            )
+        said.append(words)
+    return tuple(said) or (tr("Nothing cost points."),)
+
+
+def _lost(score: Score) -> list[tuple[float, Row]]:
+    """Points of 100 that each row lost, where it is one or more."""
+    weight = sum(row.weight for row in score.rows)
+    found = [
+        (100.0 * row.weight / weight * (1.0 - row.utility), row)
+        for row in score.rows
+        if row.utility is not None and row.weight > 0.0
+    ]
+    return [one for one in found if one[0] >= 1.0]
+
+
+def _loss(points: float, row: Row) -> str:
+    expert = row.tolerance.knots[0] if row.tolerance else 0.0
+    more = row.tolerance is not None and row.tolerance.knots[0] > row.tolerance.knots[2]
+    text = (
+        tr("{label}: {value} cost {points:.0f} points; {expert} or more costs none.")
+        if more
+        else tr("{label}: {value} cost {points:.0f} points; {expert} or less costs none.")
+    )
+    value = "–" if row.value is None else with_unit(row.value, row.unit)
+    limit = with_unit(expert, row.unit)
+    return text.format(label=row.label, value=value, points=points, expert=limit)
 
 
 def number(value: float) -> str:
