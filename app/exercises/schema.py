@@ -8,8 +8,7 @@ from typing import Annotated
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from app.core.configuration import Strict
-from app.exercises.fading import FadingPart
-from app.exercises.guidance import GuidanceMode, GuidancePart, Purpose
+from app.exercises.guidance import FadingPart, GuidanceMode, GuidancePart, Purpose
 from app.exercises.locks import EVERY_LOCK, HandName, Lock
 from app.exercises.parts import (
     TELLING,

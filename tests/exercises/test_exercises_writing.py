@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from app.core.configuration import field_problems, parse_text
 from app.core.errors import ConfigurationError
 from app.exercises.errors import ExerciseError, UnknownExerciseError
-from app.exercises.fading import FadingPart, starting_dial
+from app.exercises.guidance import FadingPart, starting_dial
 from app.exercises.library import folders, library, load_exercise, read_exercise, versions
 from app.exercises.schema import Exercise
 from app.exercises.writing import (
