@@ -14,7 +14,7 @@ from app import __version__
 from app.commands.answer import Commands
 
 NOUNS = (
-    *("run", "demo", "check", "ct", "pacs", "structures", "transform", "session"),
+    *("run", "demo", "check", "ct", "pacs", "structures", "transform", "session", "store"),
     *("device", "camera", "calibrate", "registration", "pen", "urdf", "explain"),
     *("exercise", "law", "plugin", "study"),
 )

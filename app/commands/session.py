@@ -95,15 +95,24 @@ def verify(
     session_id: Id,
     folder: FolderOption = None,
 ) -> Answer:
-    """Compute the score anew and say what differs.
+    """Compute the score anew and say what differs, and what is signed.
 
-    Looks at the score in the record and at the file beside it. Ends with code 3 if one differs.
+    Looks at the score in the record and at the files beside it. Ends with code 3 if the score
+    differs or the record was altered after it was signed. *verified* means: written by this
+    station, not that the owner of its disk could not forge it.
     """
     from app.session.sidecar import verify_record
+    from app.session.signature import Verdict, judge_whole, this_station
     from app.session.store import find
 
-    found = verify_record(find(_folder(folder), session_id))
-    return Answer(found.document(), list(found.sentences()), yes=found.confirmed)
+    path = find(_folder(folder), session_id)
+    found, signed = verify_record(path), judge_whole(path, this_station())
+    facts = {"signature": signed.verdict.value, "signature_reason": signed.why}
+    return Answer(
+        found.document() | facts,
+        [*found.sentences(), f"signature: {signed.sentence()}"],
+        yes=found.confirmed and signed.verdict is not Verdict.ALTERED,
+    )
 
 
 def compare(
@@ -154,14 +163,9 @@ def export(
 
 
 def _folder(folder: Path | None) -> Path:
-    from app.core.paths import sessions
-    from app.session.errors import SessionError
+    from app.session.store import records_folder
 
-    if folder is None:
-        return sessions()
-    if not folder.is_dir():
-        raise SessionError(f"{folder} is not a folder: give the folder that holds the records")
-    return folder
+    return records_folder(folder)
 
 
 def _scores(folder: Path, ids: list[str] | None) -> tuple[str, int]:
@@ -214,7 +218,7 @@ def _print_table(summaries: list[Any]) -> None:
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)
-    for title in ("id", "student", "exercise", "state", "duration", "score", ""):
+    for title in ("id", "student", "exercise", "state", "duration", "score", "signature", ""):
         table.add_column(title, overflow="fold", no_wrap=title == "id")
     for s in summaries:
         note = s.reason or "; ".join(s.problems)
@@ -225,6 +229,7 @@ def _print_table(summaries: list[Any]) -> None:
             s.state,
             f"{s.duration:.0f} s",
             _total(s.score),
+            s.signature,
             note,
         )
         table.add_row(*(_plain(cell) for cell in cells))

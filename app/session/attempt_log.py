@@ -27,6 +27,7 @@ from app.session.sample_columns import attachment
 from app.session.samples import SampleHistory, Samples
 from app.session.scored import renders_force, score_document, trajectory
 from app.session.sidecar import write_summary
+from app.session.signature import SignatureError, StationKey, sign
 from app.session.summary import Summary
 from app.session.transitions import excused
 from app.session.verify import SCORE_FILE
@@ -179,15 +180,27 @@ class AttemptLog:
                 score.version if score is not None else 0,
             ),
         )
-        return self._write(summary)
+        return self._write(summary, files)
 
-    def _write(self, summary: Summary) -> Summary:
-        """Write the sidecar of a record that exists and is ours."""
+    def _write(self, summary: Summary, files: tuple[Attachment, ...]) -> Summary:
+        """Write sidecar and signature of a record that exists and is ours."""
         status = self.recorder.status()
         if not status.published:
             return summary
         with suppress(OSError):  # the list derives it from the record, which is complete
             write_summary(status.path, summary)
+        return self._sign(summary, files)
+
+    def _sign(self, summary: Summary, files: tuple[Attachment, ...]) -> Summary:
+        """Sign the record with the station's key; what hinders that is told with the attempt."""
+        status = self.recorder.status()
+        if status.failure:
+            return summary
+        held = {a.name: a.data for a in (*self.recorder.header.attachments, *files)}
+        try:
+            sign(status.path, summary, held, StationKey.of())
+        except SignatureError as error:
+            return replace(summary, problems=(*summary.problems, str(error)))
         return summary
 
 

@@ -97,13 +97,42 @@ def read_summary(path: Path) -> Summary:
 
     Never raises. A record that cannot be read gives a summary of state `broken` with the reason.
     """
+    return read_kept(path).summary
+
+
+def read_kept(path: Path) -> Cached:
+    """Return what a list may trust of a record: what is kept, or else is computed and kept now.
+
+    Never raises; what cannot be kept has no digest.
+    """
     found = cached(path)
     try:
         if found is not None and found.fits(path):
-            return found.summary
+            return found
     except OSError:
         pass  # the record has gone: reading it says why
-    return fresh_summary(path)
+    return fresh_kept(path)
+
+
+def fresh_kept(path: Path) -> Cached:
+    """Compute the summary of a record anew, whatever is kept; never raises."""
+    try:
+        size, modified_ns = _size_and_time(path)
+    except OSError:
+        size, modified_ns = 0, 0
+    summary = fresh_summary(path)
+    found = cached(path)
+    if (
+        found is not None
+        and found.intact
+        and (found.size, found.modified_ns) == (size, modified_ns)
+    ):
+        return found
+    digest = ""
+    if summary.state not in (BROKEN, UNFINISHED):
+        with suppress(OSError):
+            digest = file_digest(path)
+    return Cached(summary, size, modified_ns, digest, intact=False)
 
 
 def fresh_summary(path: Path) -> Summary:

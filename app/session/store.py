@@ -5,10 +5,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
+from app.core.paths import sessions
 from app.session.calibration_flag import CalibrationFlags
 from app.session.errors import SessionError, SessionNotFoundError
 from app.session.header import TRASH as TRASH
-from app.session.sidecar import fresh_summary, read_summary, sidecar
+from app.session.sidecar import Cached, fresh_kept, read_kept, sidecar
+from app.session.signature import judged, signature_file, this_station
 from app.session.summary import Summary
 
 SUFFIX: Final = ".mcap"
@@ -19,12 +21,12 @@ def list_sessions(folder: Path) -> list[Summary]:
     """All sessions, newest first; unreadable files are in the list, with the reason.
 
     A folder that does not exist holds none. Those made with a calibration of the cameras that was
-    later found bad say so among their problems.
+    later found bad say so among their problems, and each says what its signature says.
 
     Raises:
         SessionError: if the folder cannot be read.
     """
-    return _sorted(folder, read_summary)
+    return _sorted(folder, read_kept)
 
 
 def computed(folder: Path) -> list[Summary]:
@@ -33,7 +35,7 @@ def computed(folder: Path) -> list[Summary]:
     Raises:
         SessionError: if the folder cannot be read.
     """
-    return _sorted(folder, fresh_summary)
+    return _sorted(folder, fresh_kept)
 
 
 def find(folder: Path, session_id: str) -> Path:
@@ -42,7 +44,7 @@ def find(folder: Path, session_id: str) -> Path:
     Raises:
         SessionNotFoundError: if none or several fit; names some that exist.
     """
-    names = {path.stem: path for path in _records(folder)}
+    names = {path.stem: path for path in records(folder)}
     alike = [name for name in names if name.startswith(session_id)]
     fitting = [session_id] if session_id in names else alike
     if len(fitting) == 1 and session_id:
@@ -73,13 +75,31 @@ def restore(folder: Path, session_id: str) -> Path:
     return _move(find(folder / TRASH, session_id), folder)
 
 
-def _sorted(folder: Path, summary_of: Callable[[Path], Summary]) -> list[Summary]:
-    flags = CalibrationFlags.read()
-    summaries = [flags.flagged(summary_of(path)) for path in _records(folder)]
+def _sorted(folder: Path, kept_of: Callable[[Path], Cached]) -> list[Summary]:
+    flags, key = CalibrationFlags.read(), this_station()
+    summaries = [flags.flagged(judged(path, kept_of(path), key)) for path in records(folder)]
     return sorted(summaries, key=lambda summary: (summary.started, summary.id), reverse=True)
 
 
-def _records(folder: Path) -> list[Path]:
+def records_folder(chosen: Path | None) -> Path:
+    """Return the folder of the records: the one that was chosen, else this user's.
+
+    Raises:
+        SessionError: if the chosen one is no folder.
+    """
+    if chosen is None:
+        return sessions()
+    if not chosen.is_dir():
+        raise SessionError(f"{chosen} is not a folder: give the folder that holds the records")
+    return chosen
+
+
+def records(folder: Path) -> list[Path]:
+    """Return the files of all records in a folder, by name; none where there is no such folder.
+
+    Raises:
+        SessionError: if the folder cannot be read.
+    """
     try:
         return sorted(path for path in folder.iterdir() if path.suffix == SUFFIX and path.is_file())
     except FileNotFoundError:
@@ -89,14 +109,15 @@ def _records(folder: Path) -> list[Path]:
 
 
 def _move(path: Path, folder: Path) -> Path:
-    """Move record and sidecar; the record last, so that a session is never without its record."""
+    """Move a record and what stands beside it; the record last: it is never without them."""
     target = folder / path.name
     if target.exists():
         raise SessionError(f"{target} exists already: move it away first")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        if sidecar(path).exists():
-            os.replace(sidecar(path), sidecar(target))
+        for beside in (sidecar, signature_file):
+            if beside(path).exists():
+                os.replace(beside(path), beside(target))
         os.replace(path, target)
     except OSError as error:
         raise SessionError(f"cannot move {path} to {folder}: {error.strerror or error}") from error

@@ -45,6 +45,8 @@ class Summary:
         problems: what the record lacks, one line each.
         software: version that recorded it.
         conditions: what the score was made under; None where nothing is known.
+        signature: `verified`, `altered` or `unsigned` where a list has looked, else empty; no part
+            of the attempt, and kept nowhere.
     """
 
     id: str
@@ -60,6 +62,7 @@ class Summary:
     problems: tuple[str, ...] = ()
     software: str = field(default=__version__)
     conditions: Conditions | None = None
+    signature: str = field(default="", compare=False)
 
     @property
     def calibration(self) -> str:
@@ -68,7 +71,7 @@ class Summary:
 
     def document(self) -> dict[str, Any]:
         """JSON-ready mapping; the keys stand in docs/json.md."""
-        return {
+        document: dict[str, Any] = {
             "version": _VERSION,
             "id": self.id,
             "started": self.started,
@@ -85,6 +88,7 @@ class Summary:
             "conditions": None if self.conditions is None else finite(self.conditions.document()),
             "note": DISCLAIMER,
         }
+        return document | {"signature": self.signature} if self.signature else document
 
     @classmethod
     def of(cls, document: Mapping[str, Any], name: str) -> "Summary":

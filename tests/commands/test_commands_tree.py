@@ -120,6 +120,8 @@ EXAMPLES = {
     "registration list": (),
     "session export": ("--out", "all.csv"),
     "session list": (),
+    "store rebuild": (),
+    "store status": (),
     "study": ("list",),
     "urdf export": ("--out", "robot.urdf"),
 }

@@ -97,6 +97,7 @@ def test_deleting_can_be_undone(store: Path) -> None:
     assert sorted(os.listdir(store / TRASH)) == [
         "20260115-093122-0002.json",
         "20260115-093122-0002.mcap",
+        "20260115-093122-0002.sig",
     ]
     restore(store, "20260115-093122-0002")
     assert [s.document() for s in list_sessions(store)] == before

@@ -1,0 +1,174 @@
+"""SQLite files that several programs may use at once: opened, checked, read and written.
+
+Write-ahead logging lets readers go on while one program writes; a writer waits up to
+`BUSY_SECONDS` for another one. Whatever is written is one transaction: whole, or not at all, also
+when the program is killed in the middle of it. SQLAlchemy is imported when a file is opened.
+"""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from app.session.errors import SessionError
+
+if TYPE_CHECKING:
+    from sqlalchemy import Connection, Engine, MetaData
+
+BUSY_SECONDS: Final = 10.0
+"""So long a program waits for another one that writes [s]."""
+
+
+_MENDED: Final = (
+    "is damaged: `acus store rebuild` makes the index anew, people come back from a backup"
+    " (`acus store restore`)"
+)
+
+
+class DatabaseError(SessionError):
+    """A database is locked, full, read-only, damaged or of a newer version; says what to do."""
+
+    @property
+    def damaged(self) -> bool:
+        """Whether the file is no database, or a broken one."""
+        return _MENDED in str(self)
+
+
+class Database:
+    """One SQLite file with its tables, made when it is first used.
+
+    Args:
+        path: the file; None keeps everything in memory.
+        tables: of SQLAlchemy, made where they are missing.
+        version: of the tables; a file of a later one is left alone.
+        what: it holds, for messages, such as "index".
+        busy: seconds to wait for another program.
+    """
+
+    def __init__(
+        self,
+        path: Path | None,
+        tables: MetaData,
+        version: int,
+        what: str,
+        busy: float = BUSY_SECONDS,
+    ) -> None:
+        self.path, self._tables, self._version = path, tables, version
+        self._what, self._busy = what, busy
+
+    @contextmanager
+    def read(self) -> Iterator[Connection]:
+        """Read: all of it as it stood at one moment.
+
+        Raises:
+            DatabaseError: if it cannot be read.
+        """
+        with self._errors(), self._engine.connect() as connection:
+            yield connection
+
+    @contextmanager
+    def write(self) -> Iterator[Connection]:
+        """Write in one transaction, alone among all programs; an exception takes it all back.
+
+        Raises:
+            DatabaseError: if it cannot be written.
+        """
+        with self._errors(), self._engine.connect() as connection:
+            connection.exec_driver_sql("ROLLBACK")
+            connection.exec_driver_sql("BEGIN IMMEDIATE")
+            yield connection
+            connection.commit()
+
+    def close(self) -> None:
+        """Let go of the file; idempotent."""
+        if "_engine" in self.__dict__:
+            self._engine.dispose()
+            del self.__dict__["_engine"]
+
+    def discard(self) -> None:
+        """Delete the file: of what can be made anew only.
+
+        Raises:
+            DatabaseError: if it cannot be deleted.
+        """
+        self.close()
+        if self.path is not None:
+            try:
+                for end in ("", "-wal", "-shm"):
+                    self.path.with_name(self.path.name + end).unlink(missing_ok=True)
+            except OSError as error:
+                raise self._error(f"cannot be deleted: {error.strerror or error}") from error
+
+    @cached_property
+    def _engine(self) -> Engine:
+        from sqlalchemy import create_engine, event
+        from sqlalchemy.pool import NullPool, StaticPool
+
+        if self.path is not None:
+            self.path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        engine = create_engine(
+            "sqlite://" if self.path is None else f"sqlite:///{self.path}",
+            poolclass=StaticPool if self.path is None else NullPool,
+            connect_args={"timeout": self._busy, "check_same_thread": False},
+        )
+        event.listen(engine, "connect", self._prepare)
+        event.listen(engine, "begin", _begin)
+        with engine.connect() as connection:
+            found = int(connection.exec_driver_sql("PRAGMA user_version").scalar() or 0)
+        if found > self._version:
+            raise self._error(
+                f"was written by a newer version of Acus (form {found}, this one knows "
+                f"{self._version}): use that version"
+            )
+        if found < self._version:
+            with engine.connect() as connection:
+                connection.exec_driver_sql("ROLLBACK")
+                connection.exec_driver_sql("BEGIN IMMEDIATE")
+                self._tables.create_all(connection)
+                connection.exec_driver_sql(f"PRAGMA user_version = {self._version}")
+                connection.commit()
+        return engine
+
+    def _prepare(self, connection: Any, _: object) -> None:
+        connection.isolation_level = None  # transactions begin where `_begin` and `write` say so
+        connection.execute(f"PRAGMA busy_timeout = {round(1e3 * self._busy)}")
+        if self.path is not None:
+            with suppress(sqlite3.OperationalError):  # a folder that can only be read
+                connection.execute("PRAGMA journal_mode = WAL")
+        connection.execute("PRAGMA synchronous = FULL")
+        connection.execute("PRAGMA foreign_keys = ON")
+
+    @contextmanager
+    def _errors(self) -> Iterator[None]:
+        """Say in one line what SQLite says of the file."""
+        from sqlalchemy.exc import DatabaseError as Refused
+
+        try:
+            yield
+        except Refused as error:
+            raise self._error(_reason(str(error.orig), self._busy)) from error
+        except (sqlite3.DatabaseError, OSError) as error:
+            raise self._error(_reason(str(error), self._busy)) from error
+
+    def _error(self, why: str) -> DatabaseError:
+        return DatabaseError(f"the {self._what} {self.path or 'in memory'} {why}")
+
+
+def _begin(connection: Any) -> None:
+    connection.exec_driver_sql("BEGIN")
+
+
+def _reason(text: str, busy: float) -> str:
+    reasons = {
+        "database is locked": f"is in use by another program for {busy:g} s: close it, try again",
+        "readonly": "can only be read: give this user the right to write there",
+        "disk is full": "cannot be written, the disk is full: make room, nothing is lost",
+        "not a database": _MENDED,
+        "malformed": _MENDED,
+        "unable to open": "cannot be opened: look whether its folder exists and may be written",
+    }
+    return next((said for key, said in reasons.items() if key in text), f"cannot be used: {text}")

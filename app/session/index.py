@@ -1,0 +1,315 @@
+"""The index of attempts: an SQLite file beside the records, which it can be made of at any time.
+
+The records are the truth. A list asks `refresh` first: what has come, gone or changed since the
+last look (by size and time of record and signature) is read, all else is taken as it is; `rebuild`
+forgets all and reads every record. Both end with the same rows. A program that is killed in between
+leaves whole rows only, and the next look reads what is missing. Where the folder cannot be written
+the index is kept in memory.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from datetime import UTC, datetime
+from functools import cache, cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from app.core.progress import Progress
+from app.scoring.conditions import Conditions, DeviceKind
+from app.session.database import BUSY_SECONDS, Database, DatabaseError
+from app.session.sidecar import Cached, fresh_kept, read_kept
+from app.session.signature import StationKey, judged, signature_file, this_station
+from app.session.store import SUFFIX, records
+from app.session.summary import UNFINISHED, Summary
+
+if TYPE_CHECKING:
+    from sqlalchemy import Table
+
+INDEX: Final = "index.sqlite"
+"""Name of the file in the folder of the records."""
+
+_VERSION: Final = 1
+_AT_ONCE: Final = 100
+"""Rows that are written in one transaction."""
+
+_STILL_WRITTEN: Final = 10.0
+"""An unfinished record that changed within this time [s] is under way and comes in later."""
+
+
+@dataclass(frozen=True)
+class Indexed:
+    """One attempt in the index.
+
+    Attributes:
+        id: of the attempt.
+        started: ISO 8601, UTC.
+        student: as the record names who did it.
+        exercise: id.
+        version: of the exercise.
+        state: `ended`, `aborted`, `unfinished` or `broken`.
+        duration: [s].
+        total: points; None where it was not scored or is void.
+        passed: whether the score passes; None without one.
+        verdict: of the signature.
+        counts: whether it counts for a person: scored, and neither scripted nor emulated.
+        document: the summary as `Summary.document` gives it, as text.
+    """
+
+    id: str
+    started: str
+    student: str
+    exercise: str
+    version: int
+    state: str
+    duration: float
+    total: float | None
+    passed: bool | None
+    verdict: str
+    counts: bool
+    document: str
+
+    @cached_property
+    def summary(self) -> Summary:
+        """The attempt as lists show it."""
+        summary = Summary.of(json.loads(self.document), self.id)
+        return replace(summary, signature=self.verdict)
+
+    @cached_property
+    def conditions(self) -> Conditions:
+        """What the score was made under."""
+        known = json.loads(self.document)["conditions"]
+        return Conditions(self.exercise) if known is None else Conditions.of(known)
+
+    @property
+    def time(self) -> datetime:
+        """When it began; the beginning of 1970 where the record does not say."""
+        try:
+            found = datetime.fromisoformat(self.started)
+        except ValueError:
+            return datetime.fromtimestamp(0.0, UTC)
+        return found if found.tzinfo else found.replace(tzinfo=UTC)
+
+
+@dataclass(frozen=True, slots=True)
+class Refreshed:
+    """What a look at the folder changed.
+
+    Attributes:
+        read: records that were read into the index.
+        gone: rows whose record has gone.
+        total: rows now.
+    """
+
+    read: int
+    gone: int
+    total: int
+
+
+Mark = tuple[int, int, int, str]
+"""Size and time of a record, time of its signature, and the station whose key judged that."""
+
+
+class Index:
+    """The index of one folder of records.
+
+    Args:
+        folder: of the records; one that does not exist holds none.
+        busy: seconds to wait for another program that writes.
+    """
+
+    def __init__(self, folder: Path, busy: float = BUSY_SECONDS) -> None:
+        self.folder = folder
+        path = folder / INDEX
+        writable = os.access(path if path.exists() else folder, os.W_OK)
+        where = path if writable and os.access(folder, os.W_OK) else None
+        self.database = Database(where, _attempts().metadata, _VERSION, "index", busy)
+
+    @property
+    def path(self) -> Path | None:
+        """The file; None where the index is kept in memory."""
+        return self.database.path
+
+    def refresh(self, progress: Progress | None = None) -> Refreshed:
+        """Bring the index up to date with the folder.
+
+        Raises:
+            DatabaseError: if it cannot be read or written.
+            SessionError: if the folder cannot be read.
+            Cancelled: if that was asked for; what was read by then stays.
+        """
+        progress, key = progress or Progress(), this_station()
+        there, known = self._there(key), self._known()
+        changed = [name for name, mark in there.items() if known.get(name) != mark]
+        gone = [name for name in known if name not in there]
+        read = 0
+        for begin in range(0, len(changed) + 1, _AT_ONCE):
+            rows: list[dict[str, Any]] = []
+            for name in changed[begin : begin + _AT_ONCE]:
+                progress.report((begin + len(rows)) / len(changed), name)
+                rows += _rows(self.folder, name, there[name], read_kept, key)
+            if rows or (gone and begin == 0):
+                self._put(rows, gone if begin == 0 else ())
+            read += len(rows)
+        return Refreshed(read, len(gone), len(self._known()))
+
+    def rebuild(self, progress: Progress | None = None) -> Refreshed:
+        """Make the index anew from the records, whatever it and their summaries say.
+
+        Until all are read the old one stands; a damaged file is replaced. Raises as `refresh`.
+        """
+        progress, key = progress or Progress(), this_station()
+        there = self._there(key)
+        rows: list[dict[str, Any]] = []
+        for number, (name, mark) in enumerate(there.items()):
+            progress.report(number / len(there), name)
+            rows += _rows(self.folder, name, mark, fresh_kept, key)
+        try:
+            gone = len(set(self._known()) - set(there))
+            self._put(rows, None)
+        except DatabaseError as error:
+            if not error.damaged:
+                raise
+            self.database.discard()
+            gone = 0
+            self._put(rows, None)
+        return Refreshed(len(rows), gone, len(rows))
+
+    def attempts(self, students: Sequence[str] | None = None) -> list[Indexed]:
+        """Return what is in the index, oldest first; only that of some students if asked.
+
+        Raises:
+            DatabaseError: if it cannot be read.
+        """
+        from sqlalchemy import select
+
+        table = _attempts()
+        names = [field.name for field in fields(Indexed)]
+        wanted = select(*(table.c[name] for name in names)).order_by(table.c.started, table.c.id)
+        with self.database.read() as connection:
+            found = [Indexed(*row) for row in connection.execute(wanted)]
+        if students is None:
+            return found
+        asked = set(students)
+        return [one for one in found if one.student in asked]
+
+    def content(self) -> str:
+        """Return a digest of all rows: the same for two indexes that say the same."""
+        from sqlalchemy import select
+
+        table = _attempts()
+        digest = hashlib.sha256()
+        with self.database.read() as connection:
+            for row in connection.execute(select(table).order_by(table.c.id)):
+                digest.update(repr(tuple(row)).encode())
+        return digest.hexdigest()
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _there(self, key: StationKey | None) -> dict[str, Mark]:
+        """Return the marks of the records in the folder now."""
+        station, marks = key.station if key else "", {}
+        for path in records(self.folder):
+            try:
+                stat = path.stat()
+            except OSError:
+                continue  # it has gone meanwhile
+            try:
+                signed = signature_file(path).stat().st_mtime_ns
+            except OSError:
+                signed = 0
+            marks[path.stem] = (stat.st_size, stat.st_mtime_ns, signed, station)
+        return marks
+
+    def _known(self) -> dict[str, Mark]:
+        from sqlalchemy import select
+
+        c = _attempts().c
+        wanted = select(c.id, c.size, c.modified_ns, c.signed_ns, c.station)
+        with self.database.read() as connection:
+            return {row[0]: (row[1], row[2], row[3], row[4]) for row in connection.execute(wanted)}
+
+    def _put(self, rows: Sequence[Mapping[str, Any]], gone: Sequence[str] | None) -> None:
+        """Write rows and take those out that have gone; None takes out all others."""
+        from sqlalchemy import delete
+        from sqlalchemy.dialects.sqlite import insert
+
+        table = _attempts()
+        with self.database.write() as connection:
+            if gone is None:
+                connection.execute(delete(table))
+            for begin in range(0, len(gone or ()), _AT_ONCE):
+                some = (gone or ())[begin : begin + _AT_ONCE]
+                connection.execute(delete(table).where(table.c.id.in_(some)))
+            if rows:
+                put = insert(table)
+                new = {column.name: put.excluded[column.name] for column in table.columns}
+                connection.execute(put.on_conflict_do_update(["id"], set_=new), rows)
+
+
+def _rows(
+    folder: Path,
+    name: str,
+    mark: Mark,
+    kept_of: Callable[[Path], Cached],
+    key: StationKey | None,
+) -> list[dict[str, Any]]:
+    """Return the row of a record; none of one that is under way."""
+    path = folder / f"{name}{SUFFIX}"
+    kept = kept_of(path)
+    summary = judged(path, kept, key)
+    if summary.state == UNFINISHED and time.time() - mark[1] * 1e-9 < _STILL_WRITTEN:
+        return []
+    score, known = summary.score or {}, summary.conditions
+    total = score.get("total")
+    person = known is not None and not known.scripted and known.kind is not DeviceKind.EMULATED
+    return [
+        {
+            "id": name,
+            "size": mark[0],
+            "modified_ns": mark[1],
+            "signed_ns": mark[2],
+            "station": mark[3],
+            "started": summary.started,
+            "student": summary.student,
+            "exercise": summary.exercise_id,
+            "version": known.version if known is not None else 0,
+            "state": summary.state,
+            "duration": summary.duration,
+            "total": total,
+            "passed": score.get("passed") if total is not None else None,
+            "verdict": summary.signature,
+            "counts": person and total is not None and not score.get("void_reason"),
+            "document": json.dumps(summary.document(), sort_keys=True, ensure_ascii=False),
+        }
+    ]
+
+
+@cache
+def _attempts() -> Table:
+    from sqlalchemy import BigInteger, Boolean, Column, Float, Integer, MetaData, String, Table
+
+    return Table(
+        "attempts",
+        MetaData(),
+        Column("id", String, primary_key=True),
+        Column("size", BigInteger, nullable=False),
+        Column("modified_ns", BigInteger, nullable=False),
+        Column("signed_ns", BigInteger, nullable=False),
+        Column("station", String, nullable=False),
+        Column("started", String, nullable=False, index=True),
+        Column("student", String, nullable=False, index=True),
+        Column("exercise", String, nullable=False),
+        Column("version", Integer, nullable=False),
+        Column("state", String, nullable=False),
+        Column("duration", Float, nullable=False),
+        Column("total", Float),
+        Column("passed", Boolean),
+        Column("verdict", String, nullable=False),
+        Column("counts", Boolean, nullable=False),
+        Column("document", String, nullable=False),
+    )
