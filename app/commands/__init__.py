@@ -14,7 +14,8 @@ from app import __version__
 from app.commands.answer import Commands
 
 NOUNS = (
-    *("run", "demo", "check", "ct", "pacs", "structures", "transform", "session", "store"),
+    *("run", "demo", "check", "ct", "pacs", "structures", "transform", "session"),
+    *("store", "people", "results"),
     *("device", "camera", "calibrate", "registration", "pen", "urdf", "explain"),
     *("exercise", "law", "plugin", "study"),
 )

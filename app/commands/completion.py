@@ -24,6 +24,20 @@ def sessions(incomplete: str) -> list[str]:
     return _fitting(sorted(path.stem for path in folder().glob("*.mcap")), incomplete)
 
 
+def courses(incomplete: str) -> list[str]:
+    """Return the courses that begin so."""
+    from app.session.course import courses as known
+
+    return _fitting([course.id for course in known()[0]], incomplete)
+
+
+def students(incomplete: str) -> list[str]:
+    """Return the pseudonyms that begin so."""
+    from app.session.people import People
+
+    return _fitting([person.pseudonym for person in People().everybody()], incomplete)
+
+
 def profiles(incomplete: str) -> list[str]:
     """Return the device profiles that begin so."""
     from app.mechanisms.profile import profile_names

@@ -21,7 +21,7 @@ FolderOption = Annotated[
 
 
 def register(app: typer.Typer) -> None:
-    """Add `session list`, `session show`, `replay`, `verify`, `compare` and `export`."""
+    """Add `session list`, `show`, `replay`, `verify`, `compare`, `export`, `delete`."""
     session = Commands(help="Recorded attempts.")
     session.command("list")(list_)
     session.command("show")(show)
@@ -29,6 +29,8 @@ def register(app: typer.Typer) -> None:
     session.command("verify")(verify)
     session.command("compare")(compare)
     session.command("export")(export)
+    session.command("delete")(delete)
+    session.command("restore")(restore)
     app.add_typer(session, name="session")
 
 
@@ -102,7 +104,7 @@ def verify(
     station, not that the owner of its disk could not forge it.
     """
     from app.session.sidecar import verify_record
-    from app.session.signature import Verdict, judge_whole, this_station
+    from app.session.signature import Signed, judge_whole, this_station
     from app.session.store import find
 
     path = find(_folder(folder), session_id)
@@ -111,7 +113,7 @@ def verify(
     return Answer(
         found.document() | facts,
         [*found.sentences(), f"signature: {signed.sentence()}"],
-        yes=found.confirmed and signed.verdict is not Verdict.ALTERED,
+        yes=found.confirmed and signed.verdict is not Signed.ALTERED,
     )
 
 
@@ -138,6 +140,34 @@ def compare(
     lines = [f"{summary.id}  {_total(summary.score)}" for summary in pair]
     lines += [f"not comparable: {reason}" for reason in reasons] or ["comparable"]
     return Answer(facts, lines, yes=not reasons)
+
+
+def delete(session_id: Id, folder: FolderOption = None) -> Answer:
+    """Delete an attempt (instructor); restore it within 30 days."""
+    from app.commands.people import instructor
+    from app.session import store
+    from app.session.people import People
+
+    instructor(People())
+    path = store.delete(_folder(folder), session_id)
+    return Answer(
+        {"id": path.stem, "file": path},
+        [f"{path.stem} deleted: `acus session restore {path.stem}` brings it back"],
+    )
+
+
+def restore(
+    session_id: Annotated[str, typer.Argument(metavar="ID", help="Id of a deleted attempt.")],
+    folder: FolderOption = None,
+) -> Answer:
+    """Bring a deleted attempt back (instructor)."""
+    from app.commands.people import instructor
+    from app.session import store
+    from app.session.people import People
+
+    instructor(People())
+    path = store.restore(_folder(folder), session_id)
+    return Answer({"id": path.stem, "file": path}, [f"{path.stem} is back"])
 
 
 def export(

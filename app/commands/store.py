@@ -11,15 +11,18 @@ FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of t
 
 
 def register(app: typer.Typer) -> None:
-    """Add `store status` and `store rebuild`."""
-    store = Commands(help="The folder of records: its index.")
+    """Add `store status`, `rebuild`, `backup`, `restore` and `empty-trash`."""
+    store = Commands(help="The folder of records: index, backup, trash.")
     store.command("status")(status)
     store.command("rebuild")(rebuild)
+    store.command("backup")(backup)
+    store.command("restore")(restore)
+    store.command("empty-trash")(empty)
     app.add_typer(store, name="store")
 
 
 def status(folder: FolderOption = None) -> Answer:
-    """Say how many attempts there are, and what their signatures say.
+    """Say how many attempts there are and what is signed.
 
     Brings the index up to date first. *verified*: written by this station and unchanged; it does
     not mean that the owner of the disk could not forge it.
@@ -27,7 +30,7 @@ def status(folder: FolderOption = None) -> Answer:
     from collections import Counter
 
     from app.session.index import Index
-    from app.session.signature import Verdict
+    from app.session.signature import Signed
     from app.session.store import TRASH, records, records_folder
 
     place = records_folder(folder)
@@ -41,21 +44,21 @@ def status(folder: FolderOption = None) -> Answer:
         "read": seen.read,
         "gone": seen.gone,
         "attempts": len(found),
-        "signatures": {verdict.value: verdicts[verdict.value] for verdict in Verdict},
+        "signatures": {verdict.value: verdicts[verdict.value] for verdict in Signed},
         "states": dict(sorted(states.items())),
         "deleted": len(records(place / TRASH)),
     }
     lines = [
         f"{len(found)} attempts in {place}, {facts['deleted']} deleted",
         f"index: {index.path or 'in memory, the folder can only be read'}",
-        "signatures: " + ", ".join(f"{verdicts[v.value]} {v.value}" for v in Verdict),
+        "signatures: " + ", ".join(f"{verdicts[v.value]} {v.value}" for v in Signed),
         "states: " + (", ".join(f"{n} {state}" for state, n in sorted(states.items())) or "none"),
     ]
     return Answer(facts, lines)
 
 
 def rebuild(folder: FolderOption = None) -> Answer:
-    """Make the index anew from the records; they are read, and never changed."""
+    """Make the index anew from the records."""
     from app.commands.calibrate_parts import with_progress
     from app.session.index import Index
     from app.session.store import records_folder
@@ -64,3 +67,93 @@ def rebuild(folder: FolderOption = None) -> Answer:
     done = with_progress(index.rebuild)
     facts = {"folder": index.folder, "index": index.path, "attempts": done.total, "gone": done.gone}
     return Answer(facts, [f"{done.total} attempts indexed, {done.gone} of the old index are gone"])
+
+
+def backup(
+    out: Annotated[Path, typer.Option("--out", help="File to write.")],
+    folder: FolderOption = None,
+) -> Answer:
+    """Write everything into one file (instructor).
+
+    It holds names, and is readable by you only. The station's key is in it only where an
+    instructor's password is set, encrypted by the recovery key that was printed then.
+    """
+    from app.commands.calibrate_parts import with_progress
+    from app.commands.people import instructor
+    from app.session import archive
+    from app.session.people import People
+    from app.session.store import records_folder
+
+    people, place = People(), records_folder(folder)
+    instructor(people)
+    count = with_progress(lambda progress: archive.backup(out, place, people, progress))
+    key = bool(people.wrapped_key())
+    lines = [f"{count} records written to {out}"]
+    if not key:
+        lines.append(
+            "without the station's key: set a password first (`acus people instructor`) if its "
+            "records are to be verified on another computer"
+        )
+    return Answer({"files": [out], "records": count, "key": key}, lines)
+
+
+def restore(
+    source: Annotated[Path, typer.Argument(metavar="FILE", help="A backup.")],
+    folder: FolderOption = None,
+    key: Annotated[
+        bool, typer.Option("--key", help="The station's key too; asks for the recovery key.")
+    ] = False,
+    people_too: Annotated[
+        bool, typer.Option("--people", help="People too, although there are some here.")
+    ] = False,
+) -> Answer:
+    """Bring back what a backup holds (instructor).
+
+    Only what is missing here: no record is overwritten, and nobody comes back who was erased here.
+    Ends with code 3 if a record is another one here.
+    """
+    from app.commands.calibrate_parts import with_progress
+    from app.commands.people import instructor
+    from app.session import archive
+    from app.session.people import People
+    from app.session.store import records_folder
+
+    people, place = People(), records_folder(folder)
+    instructor(people)
+    recovery = typer.prompt("Recovery key", err=True) if key else ""
+    done = with_progress(
+        lambda progress: archive.restore_backup(
+            source, place, recovery, people_too, people, progress
+        )
+    )
+    facts = {
+        "records": done.records,
+        "kept": done.kept,
+        "different": list(done.different),
+        "erased": done.erased,
+        "people": done.people,
+        "key": done.key,
+    }
+    lines = [
+        f"{done.records} records restored, {done.kept} were here already",
+        f"people: {done.people}; station's key: {done.key}",
+        *(f"✖ {name} is another record here: the one here was kept" for name in done.different),
+    ]
+    if done.erased:
+        lines.append(f"{done.erased} records left out: their person was erased")
+    return Answer(facts, lines, yes=not done.different)
+
+
+def empty(
+    days: Annotated[float, typer.Option("--days", min=30.0, help="At least 30.")] = 30.0,
+    folder: FolderOption = None,
+) -> Answer:
+    """Delete what was deleted 30 days ago for good (instructor)."""
+    from app.commands.people import instructor
+    from app.session.archive import empty_trash
+    from app.session.people import People
+    from app.session.store import records_folder
+
+    instructor(People())
+    gone = empty_trash(records_folder(folder), days)
+    return Answer({"deleted": gone}, [f"{len(gone)} attempts deleted for good"])

@@ -25,7 +25,7 @@ from app.exchange.markups import SCHEMA
 from app.imaging.volume import Volume
 from app.planning.measurements import KINDS, Angle, Distance, Measurement, Probe, Region
 from app.planning.measuring import measured
-from app.scoring.conditions import Conditions, comparable
+from app.scoring.conditions import comparison_groups
 from app.session.curves import curves
 from app.session.recording import Recording
 from app.session.samples import Samples
@@ -34,22 +34,26 @@ from app.session.summary import Summary
 _FORMULA: Final = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
-def table_text(lines: Iterable[Sequence[object]]) -> str:
-    """Write rows of values."""
+def table_text(lines: Iterable[Sequence[object]], semicolons: bool = False) -> str:
+    """Write rows of values; with semicolons and decimal commas where a spreadsheet expects them.
+
+    That is what Excel opens by a double click on computers whose decimal sign is the comma.
+    """
     stream = io.StringIO(newline="")
-    rows = ([cell(value) for value in line] for line in lines)
-    csv.writer(stream, lineterminator="\r\n").writerows(rows)
+    rows = ([cell(value, "," if semicolons else ".") for value in line] for line in lines)
+    separator = ";" if semicolons else ","
+    csv.writer(stream, delimiter=separator, lineterminator="\r\n").writerows(rows)
     return stream.getvalue()
 
 
-def cell(value: object) -> str:
+def cell(value: object, decimal: str = ".") -> str:
     """Text of a cell; what a spreadsheet would run as a formula begins with an apostrophe."""
     if value is None:
         return ""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float):
-        return f"{value:.9g}" if np.isfinite(value) else ""
+        return f"{value:.9g}".replace(".", decimal) if np.isfinite(value) else ""
     if isinstance(value, int):
         return str(value)
     text = str(value)
@@ -343,20 +347,10 @@ def _conditions(row: Summary) -> Sequence[object]:
 
 
 def _groups(rows: Sequence[Summary]) -> list[int | None]:
-    """Return each row's group, as `comparable` decides: that of the first one it fits."""
-    first: list[Conditions] = []
-    found: list[int | None] = []
-    for row in rows:
-        own = row.conditions
-        if own is None or (row.score or {}).get("total") is None:
-            found.append(None)
-            continue
-        fits = (k for k, other in enumerate(first, 1) if not comparable(other, own))
-        number = next(fits, len(first) + 1)
-        if number > len(first):
-            first.append(own)
-        found.append(number)
-    return found
+    """Return each row's group; those without a score have none."""
+    return comparison_groups(
+        [None if (row.score or {}).get("total") is None else row.conditions for row in rows]
+    )
 
 
 def _metrics(row: Summary) -> dict[str, object]:

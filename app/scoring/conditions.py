@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, fields
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields, replace
 from enum import StrEnum
 from typing import Any, Final
 
@@ -124,6 +124,31 @@ def comparable(a: Conditions, b: Conditions) -> tuple[str, ...]:
     the device, and the dial.
     """
     return tuple(reason for reason in _reasons(a, b) if reason)
+
+
+def comparison_groups(attempts: Sequence[Conditions | None]) -> list[int | None]:
+    """Return each attempt's group, as `comparable` decides: that of the first one it fits.
+
+    Groups count from 1 in the order of their first attempt; None has none. `comparable` looks at
+    conditions that differ in nothing but what parts no scores once only.
+    """
+    first: list[Conditions] = []
+    known: dict[Conditions, int] = {}
+    found: list[int | None] = []
+    for own in attempts:
+        if own is None:
+            found.append(None)
+            continue
+        alike = replace(own, seed=None, software="", calibration="", agreement_mm=None)
+        number = known.get(alike)
+        if number is None:
+            fits = (k for k, other in enumerate(first, 1) if not comparable(other, own))
+            number = next(fits, len(first) + 1)
+            known[alike] = number
+        if number > len(first):
+            first.append(own)
+        found.append(number)
+    return found
 
 
 def _reasons(a: Conditions, b: Conditions) -> tuple[str, ...]:

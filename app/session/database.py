@@ -89,6 +89,17 @@ class Database:
             self._engine.dispose()
             del self.__dict__["_engine"]
 
+    def shrink(self) -> None:
+        """Let nothing that was deleted be left over in the files.
+
+        Raises:
+            DatabaseError: if they cannot be written.
+        """
+        with self._errors(), self._engine.connect() as connection:
+            connection.exec_driver_sql("ROLLBACK")
+            connection.exec_driver_sql("VACUUM")
+            connection.exec_driver_sql("PRAGMA wal_checkpoint(TRUNCATE)")
+
     def discard(self) -> None:
         """Delete the file: of what can be made anew only.
 
@@ -140,7 +151,7 @@ class Database:
             with suppress(sqlite3.OperationalError):  # a folder that can only be read
                 connection.execute("PRAGMA journal_mode = WAL")
         connection.execute("PRAGMA synchronous = FULL")
-        connection.execute("PRAGMA foreign_keys = ON")
+        connection.execute("PRAGMA secure_delete = ON")
 
     @contextmanager
     def _errors(self) -> Iterator[None]:

@@ -20,6 +20,7 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from app.core.json_values import finite
 from app.core.progress import Progress
 from app.scoring.conditions import Conditions, DeviceKind
 from app.session.database import BUSY_SECONDS, Database, DatabaseError
@@ -58,6 +59,7 @@ class Indexed:
         passed: whether the score passes; None without one.
         verdict: of the signature.
         counts: whether it counts for a person: scored, and neither scripted nor emulated.
+        under: what the score was made under, as text; empty where nothing is known.
         document: the summary as `Summary.document` gives it, as text.
     """
 
@@ -72,6 +74,7 @@ class Indexed:
     passed: bool | None
     verdict: str
     counts: bool
+    under: str
     document: str
 
     @cached_property
@@ -83,7 +86,7 @@ class Indexed:
     @cached_property
     def conditions(self) -> Conditions:
         """What the score was made under."""
-        known = json.loads(self.document)["conditions"]
+        known = json.loads(self.under) if self.under else None
         return Conditions(self.exercise) if known is None else Conditions.of(known)
 
     @property
@@ -284,6 +287,7 @@ def _rows(
             "passed": score.get("passed") if total is not None else None,
             "verdict": summary.signature,
             "counts": person and total is not None and not score.get("void_reason"),
+            "under": "" if known is None else json.dumps(finite(known.document()), sort_keys=True),
             "document": json.dumps(summary.document(), sort_keys=True, ensure_ascii=False),
         }
     ]
@@ -311,5 +315,6 @@ def _attempts() -> Table:
         Column("passed", Boolean),
         Column("verdict", String, nullable=False),
         Column("counts", Boolean, nullable=False),
+        Column("under", String, nullable=False),
         Column("document", String, nullable=False),
     )

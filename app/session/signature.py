@@ -40,7 +40,7 @@ class SignatureError(SessionError):
     """The station's key cannot be read or written, or a recovery key is not the right one."""
 
 
-class Verdict(StrEnum):
+class Signed(StrEnum):
     """What a signature says of a record."""
 
     VERIFIED = "verified"
@@ -49,7 +49,7 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Judgement:
+class SignatureCheck:
     """A verdict with its reason.
 
     Attributes:
@@ -57,7 +57,7 @@ class Judgement:
         why: what was altered, or why it counts as unsigned; empty if it is verified.
     """
 
-    verdict: Verdict
+    verdict: Signed
     why: str = ""
 
     def sentence(self) -> str:
@@ -190,49 +190,51 @@ def sign(path: Path, summary: Summary, files: Mapping[str, bytes], key: StationK
         raise SignatureError(f"{path.name} is not signed: {error.strerror or error}") from error
 
 
-def judge(path: Path, kept: Cached, key: StationKey | None) -> Judgement:
+def judge(path: Path, kept: Cached, key: StationKey | None) -> SignatureCheck:
     """Say for a list what the signature of a record says, from what is kept beside it.
 
     The record is not read: its digest is that of `kept`, which lists trust as long as the record's
     size and time are what they were. `judge_whole` reads it.
     """
     found = _read(path, key)
-    if isinstance(found, Judgement):
+    if isinstance(found, SignatureCheck):
         return found
     if found["record"] != kept.sha256:
-        return Judgement(Verdict.ALTERED, "the record is not the one that was signed")
+        return SignatureCheck(Signed.ALTERED, "the record is not the one that was signed")
     shown = _shown(kept.summary)
     other = [name for name, value in found["shown"].items() if shown.get(name) != value]
     if _rules(kept.summary) != found["rules"]:
         other = [name for name in other if name not in ("total", "passed")]  # computed anew
     if other:
-        return Judgement(Verdict.ALTERED, f"the list shows another {other[0]} than was signed")
-    return Judgement(Verdict.VERIFIED)
+        return SignatureCheck(Signed.ALTERED, f"the list shows another {other[0]} than was signed")
+    return SignatureCheck(Signed.VERIFIED)
 
 
-def judge_whole(path: Path, key: StationKey | None) -> Judgement:
+def judge_whole(path: Path, key: StationKey | None) -> SignatureCheck:
     """Say what the signature of a record says, reading the whole record.
 
     Raises:
         BrokenRecordingError: if it is none.
     """
     found = _read(path, key)
-    if isinstance(found, Judgement):
+    if isinstance(found, SignatureCheck):
         return found
     if found["record"] == file_digest(path):
-        return Judgement(Verdict.VERIFIED)
+        return SignatureCheck(Signed.VERIFIED)
     files = open_recording(path).attachments
     for name, word in ((SCORE_FILE, "score"), (EXERCISE_FILE, "exercise")):
         if _digest(files.get(name)) != found[word]:
-            return Judgement(Verdict.ALTERED, f"the {word} in it is not the one that was signed")
-    return Judgement(Verdict.ALTERED, "the record is not the one that was signed")
+            return SignatureCheck(
+                Signed.ALTERED, f"the {word} in it is not the one that was signed"
+            )
+    return SignatureCheck(Signed.ALTERED, "the record is not the one that was signed")
 
 
 def judged(path: Path, kept: Cached, key: StationKey | None) -> Summary:
     """Return the summary of a record with the verdict of its signature."""
     judgement = judge(path, kept, key)
     problems = kept.summary.problems
-    if judgement.verdict is Verdict.ALTERED:
+    if judgement.verdict is Signed.ALTERED:
         problems = (*problems, f"altered after it was signed: {judgement.why}")
     return replace(kept.summary, signature=judgement.verdict.value, problems=problems)
 
@@ -245,26 +247,28 @@ def this_station() -> StationKey | None:
         return None
 
 
-def _read(path: Path, key: StationKey | None) -> dict[str, Any] | Judgement:
+def _read(path: Path, key: StationKey | None) -> dict[str, Any] | SignatureCheck:
     """Return the signed document, or what can be said without it."""
     try:
         document: dict[str, Any] = json.loads(signature_file(path).read_text(encoding="ascii"))
         seal = str(document.pop("hmac"))
         station, fields = str(document["station"]), (document["record"], document["shown"].items())
     except FileNotFoundError:
-        return Judgement(Verdict.UNSIGNED, "no signature stands beside it")
+        return SignatureCheck(Signed.UNSIGNED, "no signature stands beside it")
     except OSError as error:
-        return Judgement(Verdict.UNSIGNED, f"its signature cannot be read: {error.strerror}")
+        return SignatureCheck(Signed.UNSIGNED, f"its signature cannot be read: {error.strerror}")
     except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
-        return Judgement(Verdict.ALTERED, "its signature is damaged")
+        return SignatureCheck(Signed.ALTERED, "its signature is damaged")
     if key is None or station != key.station:
-        return Judgement(Verdict.UNSIGNED, f"signed by another station ({station[:16]})")
+        return SignatureCheck(Signed.UNSIGNED, f"signed by another station ({station[:16]})")
     with suppress(ValueError, TypeError, RecursionError):
         if fields and hmac.compare_digest(seal.encode(), key.seal(document).encode()):
             if document["id"] == path.stem:
                 return document
-            return Judgement(Verdict.ALTERED, "the signature beside it is that of another attempt")
-    return Judgement(Verdict.ALTERED, "its signature is not this station's")
+            return SignatureCheck(
+                Signed.ALTERED, "the signature beside it is that of another attempt"
+            )
+    return SignatureCheck(Signed.ALTERED, "its signature is not this station's")
 
 
 def _document(

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Final
 
@@ -62,7 +63,10 @@ def delete(folder: Path, session_id: str) -> Path:
         SessionNotFoundError: if there is no such session.
         SessionError: if it cannot be moved.
     """
-    return _move(find(folder, session_id), folder / TRASH)
+    path = _move(find(folder, session_id), folder / TRASH)
+    with suppress(OSError):
+        os.utime(sidecar(path))  # its time tells from now on when the record was deleted
+    return path
 
 
 def restore(folder: Path, session_id: str) -> Path:

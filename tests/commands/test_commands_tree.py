@@ -36,6 +36,9 @@ NEEDS_MORE = {
     "pen calibrate", "registration check", "session compare", "session replay", "session show",
     "session verify", "structures distance", "structures export", "structures list",
     "transform export", "transform show", "urdf import", "camera test", "library remove",
+    "course save", "course show", "people add", "people assign", "people erase",
+    "people instructor", "people pin", "people remark", "people roster", "results curve",
+    "results export", "session delete", "session restore", "store restore",
 }  # fmt: skip
 """They need pictures, records, a robot or a PACS: run with --json by the tests of their own."""
 
@@ -118,8 +121,13 @@ EXAMPLES = {
     "plate list": (),
     "plugin list": (),
     "registration list": (),
+    "course list": (),
+    "people list": (),
+    "results board": (),
     "session export": ("--out", "all.csv"),
     "session list": (),
+    "store backup": ("--out", "all.acusbackup"),
+    "store empty-trash": (),
     "store rebuild": (),
     "store status": (),
     "study": ("list",),

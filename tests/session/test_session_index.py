@@ -21,8 +21,8 @@ from app.session.recording import read_recording
 from app.session.sidecar import read_kept, sidecar
 from app.session.signature import (
     SignatureError,
+    Signed,
     StationKey,
-    Verdict,
     judge_whole,
     key_file,
     new_recovery_key,
@@ -56,7 +56,7 @@ def first(folder: Path) -> Path:
 def test_a_finished_attempt_is_signed_and_verified(folder: Path) -> None:
     assert {s.signature for s in list_sessions(folder)} == {"verified"}
     for path in folder.glob("*.mcap"):
-        assert judge_whole(path, this_station()).verdict is Verdict.VERIFIED
+        assert judge_whole(path, this_station()).verdict is Signed.VERIFIED
     assert stat.S_IMODE(key_file().stat().st_mode) == 0o600
 
 
@@ -75,7 +75,7 @@ def test_a_byte_of_the_record_that_changed_is_found(folder: Path) -> None:
     data = bytearray(path.read_bytes())
     data[len(data) // 2] ^= 1
     path.write_bytes(bytes(data))
-    assert judge_whole(path, this_station()).verdict is Verdict.ALTERED
+    assert judge_whole(path, this_station()).verdict is Signed.ALTERED
     found = {s.id: s for s in list_sessions(folder)}[path.stem]
     assert found.signature == "altered"
     assert any("altered after it was signed" in problem for problem in found.problems)
@@ -100,7 +100,7 @@ def test_the_signature_of_another_attempt_does_not_fit(folder: Path) -> None:
     one, other = sorted(folder.glob("*.mcap"))[:2]
     shutil.copy(one, other)
     shutil.copy(signature_file(one), signature_file(other))
-    assert judge_whole(other, this_station()).verdict is Verdict.ALTERED
+    assert judge_whole(other, this_station()).verdict is Signed.ALTERED
 
 
 @pytest.mark.parametrize("text", ["", "{}", "[1]", '{"hmac": 1, "station": "x"}', "null"])
@@ -239,7 +239,7 @@ def fill(index: Index, pages: int) -> None:
             connection.exec_driver_sql(
                 "INSERT INTO attempts SELECT ? || id, size, modified_ns, signed_ns, station, "
                 "started, student, exercise, version, state, duration, total, passed, verdict, "
-                "counts, document FROM attempts WHERE id NOT LIKE 'x%'",
+                "counts, under, document FROM attempts WHERE id NOT LIKE 'x%'",
                 (f"x{number}",),
             )
 

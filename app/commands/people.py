@@ -1,0 +1,313 @@
+"""`acus people` and `acus course`: students, groups, the instructor; exercises for them."""
+
+import os
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from app.commands import completion
+from app.commands.answer import Answer, Commands
+
+Pseudonym = Annotated[
+    str,
+    typer.Argument(metavar="PSEUDONYM", help="The student.", autocompletion=completion.students),
+]
+CourseId = Annotated[
+    str, typer.Argument(metavar="COURSE", help="Its id.", autocompletion=completion.courses)
+]
+FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
+PASSWORD = "ACUS_INSTRUCTOR_PASSWORD"
+
+
+def register(app: typer.Typer) -> None:
+    """Add the groups `people` and `course`."""
+    people = Commands(help="Students, groups, and the instructor.")
+    people.command("list")(list_)
+    people.command("add")(add)
+    people.command("roster")(roster)
+    people.command("pin")(pin)
+    people.command("assign")(assign)
+    people.command("erase")(erase)
+    people.command("instructor")(set_instructor)
+    people.command("remark")(remark)
+    app.add_typer(people, name="people")
+    course = Commands(help="Courses: exercises in order, for groups.")
+    course.command("list")(list_courses)
+    course.command("show")(show_course)
+    course.command("save")(save_course)
+    app.add_typer(course, name="course")
+
+
+def instructor(people: Any) -> None:
+    """Let only the instructor go on, where one is set: the password is asked for.
+
+    A program gives it in the variable `ACUS_INSTRUCTOR_PASSWORD`.
+    """
+    if not people.has_instructor():
+        return
+    given = os.environ.get(PASSWORD)
+    if given is None:
+        given = typer.prompt("Instructor's password", hide_input=True, err=True)
+    people.check_instructor(given)
+
+
+def list_(
+    names: Annotated[bool, typer.Option("--names", help="Names too (instructor).")] = False,
+) -> Answer:
+    """List students, groups, and whose old records are."""
+    from app.session.people import People
+
+    people = People()
+    if names:
+        instructor(people)
+    found = people.everybody(names)
+    assigned = people.assigned()
+    shown = {person.key: person.pseudonym for person in found}
+    facts = {
+        "students": [
+            {"pseudonym": p.pseudonym, "key": p.key, "groups": list(p.groups)}
+            | ({"name": p.name} if names else {})
+            for p in found
+        ],
+        "assigned": {text: shown.get(key, "") for text, key in assigned.items()},
+        "instructor": people.has_instructor(),
+    }
+    lines = [
+        f"{p.pseudonym:24} {', '.join(p.groups) or '-':24} {p.name if names else p.key}"
+        for p in found
+    ]
+    lines += [
+        f"records that name {text!r} are {shown.get(k, '')}'s" for text, k in assigned.items()
+    ]
+    return Answer(facts, lines or ["no students yet: `acus people add` or `acus people roster`"])
+
+
+def add(
+    pseudonym: Pseudonym,
+    name: Annotated[str, typer.Option("--name", help="Name, kept apart.")] = "",
+    group: Annotated[list[str] | None, typer.Option("--group", help="Group; repeatable.")] = None,
+    pin_: Annotated[str, typer.Option("--pin", help="4 to 12 digits; drawn if not given.")] = "",
+) -> Answer:
+    """Add a student (instructor)."""
+    from app.session.people import People, RosterLine
+
+    people = People()
+    instructor(people)
+    person, pin = people.add(RosterLine(pseudonym, name, pin_, tuple(group or ())))
+    facts = {"pseudonym": person.pseudonym, "key": person.key, "pin": pin}
+    return Answer(facts, [f"{person.pseudonym} was added; PIN {pin}"])
+
+
+def roster(
+    file: Annotated[Path, typer.Argument(metavar="CSV", help="Heading: pseudonym,name,pin,group.")],
+    partly: Annotated[
+        bool, typer.Option("--partly", help="Take the right rows although others are wrong.")
+    ] = False,
+) -> Answer:
+    """Take students from a CSV file (instructor).
+
+    Columns: pseudonym (needed), name, pin (drawn where empty), group (several separated by |). A
+    student who is there already keeps the PIN unless the roster has one. If a row is wrong nothing
+    is taken, unless --partly is given, and it ends with code 3.
+    """
+    from app.session.people import People, PeopleError, read_roster
+
+    people = People()
+    instructor(people)
+    try:
+        lines, errors = read_roster(file.read_bytes())
+    except OSError as error:
+        raise PeopleError(f"cannot read {file}: {error.strerror or error}") from error
+    if errors and not partly:
+        facts = {"added": [], "updated": [], "pins": {}, "errors": errors}
+        return Answer(facts, [*errors, "nothing was taken"], yes=False)
+    done = people.take_roster(lines, partly)
+    every = [*errors, *done.errors]
+    facts = {
+        "added": list(done.added),
+        "updated": list(done.updated),
+        "pins": dict(done.pins),
+        "errors": every,
+    }
+    said = [*every, f"{len(done.added)} students added, {len(done.updated)} updated"]
+    said += [f"{name:24} PIN {pin}" for name, pin in done.pins.items()]
+    return Answer(facts, said, yes=not every)
+
+
+def pin(
+    pseudonym: Pseudonym,
+    new: Annotated[str, typer.Argument(metavar="PIN", help="4 to 12 digits.")],
+) -> Answer:
+    """Give a student another PIN (instructor)."""
+    from app.session.people import People
+
+    people = People()
+    instructor(people)
+    people.set_pin(pseudonym, new)
+    return Answer({"pseudonym": pseudonym}, [f"{pseudonym} has a new PIN"])
+
+
+def assign(
+    text: Annotated[str, typer.Argument(metavar="TEXT", help="Student as old records name them.")],
+    pseudonym: Annotated[str, typer.Argument(metavar="[PSEUDONYM]", help="None: nobody.")] = "",
+) -> Answer:
+    """Say whose old records are that name a free text (instructor)."""
+    from app.session.people import People
+
+    people = People()
+    instructor(people)
+    people.assign(text, pseudonym)
+    return Answer(
+        {"text": text, "pseudonym": pseudonym},
+        [f"records that name {text!r} are {pseudonym or 'nobody'}'s"],
+    )
+
+
+def erase(
+    pseudonym: Pseudonym,
+    records: Annotated[
+        bool, typer.Option("--records/--keep-records", help="Delete the records, or keep them.")
+    ],
+    folder: FolderOption = None,
+) -> Answer:
+    """Erase a person for good (instructor): it cannot be undone.
+
+    Name, PIN, comments and assignments go. Records hold a random key only and are deleted, or stay
+    as nobody's. Files that were exported before are out of reach.
+    """
+    from app.session.archive import erase_person
+    from app.session.people import People
+    from app.session.store import records_folder
+
+    people = People()
+    instructor(people)
+    gone, typed = erase_person(pseudonym, records_folder(folder), records, people)
+    lines = [f"{pseudonym} was erased, with {gone} records"]
+    if typed:
+        lines.append(
+            f"{typed} older records hold the name that was typed: erase with --records to be rid "
+            "of them"
+        )
+    return Answer({"pseudonym": pseudonym, "records": gone, "typed": typed}, lines)
+
+
+def set_instructor(
+    recover: Annotated[
+        bool, typer.Option("--recover", help="With the printed recovery key.")
+    ] = False,
+) -> Answer:
+    """Set or change the instructor's password.
+
+    The first time a recovery key is printed: write it down and lock it away. The password guards
+    against curiosity, not against the owner of the disk, who can read and replace these files.
+    """
+    from app.session.people import People
+
+    people = People()
+    if recover:
+        key = typer.prompt("Recovery key", err=True)
+        people.recover(key, _new_password())
+        return Answer({"recovery_key": None}, ["the password was changed"])
+    if people.has_instructor():
+        old = typer.prompt("Password now", hide_input=True, err=True)
+        people.change_password(old, _new_password())
+        return Answer({"recovery_key": None}, ["the password was changed"])
+    recovery = people.set_instructor(_new_password())
+    return Answer(
+        {"recovery_key": recovery},
+        [
+            f"recovery key: {recovery}",
+            "Print it and lock it away: it sets a new password, and opens the station's key in a "
+            "backup. It is kept nowhere.",
+        ],
+    )
+
+
+def remark(
+    attempt: Annotated[str, typer.Argument(metavar="ID", help="Id of the attempt.")],
+    comment: Annotated[str | None, typer.Option("--comment", help="For the student.")] = None,
+    void: Annotated[
+        str | None, typer.Option("--void", help="Reason why it does not count; '' if it does.")
+    ] = None,
+    release: Annotated[
+        bool | None, typer.Option("--release/--hold", help="Show the result of an assessment.")
+    ] = None,
+    folder: FolderOption = None,
+) -> Answer:
+    """Comment an attempt, declare it void, release it (instructor)."""
+    from app.session.people import People
+    from app.session.store import find, records_folder
+
+    people = People()
+    instructor(people)
+    name = find(records_folder(folder), attempt).stem
+    asked = {"comment": comment, "void": void, "released": release}
+    said: dict[str, str | bool] = {k: v for k, v in asked.items() if v is not None}
+    if said:
+        people.remark(name, **said)
+    now = people.remarks().get(name)
+    facts = {
+        "attempt": name,
+        "comment": now.comment if now else "",
+        "void": now.void if now else "",
+        "released": bool(now and now.released),
+    }
+    return Answer(facts, [f"{key:9} {value or '-'}" for key, value in facts.items()])
+
+
+def list_courses() -> Answer:
+    """List the courses.
+
+    Files that cannot be used are told with the reason; it ends with code 3 then.
+    """
+    from app.session.course import courses, courses_folder
+
+    found, broken = courses()
+    facts = {
+        "folder": courses_folder(),
+        "courses": [course.document() for course in found],
+        "broken": broken,
+    }
+    lines = [f"{c.id:24} {c.title}: {len(c.items)} exercises" for c in found]
+    lines += [f"✖ {line}" for line in broken]
+    return Answer(facts, lines or [f"no courses in {courses_folder()}"], yes=not broken)
+
+
+def show_course(name: CourseId) -> Answer:
+    """Show a course, and whether its exercises are there.
+
+    Code 3 if one is not in the library in the version that is pinned.
+    """
+    from app.session.course import find_course, pinned_problems
+
+    course = find_course(name)
+    problems = pinned_problems(course)
+    lines = [f"{course.title} ({', '.join(course.groups) or 'everybody'})"]
+    for item in course.items:
+        many = f", {item.attempts} attempts" if item.attempts else ""
+        opens = f", from {item.opens}" if item.opens else ""
+        closes = f", until {item.closes}" if item.closes else ""
+        lines.append(
+            f"  {item.exercise} (version {item.version}): {item.purpose.value}{many}{opens}{closes}"
+        )
+    lines += [f"✖ {problem}" for problem in problems]
+    return Answer(course.document() | {"problems": problems}, lines, yes=not problems)
+
+
+def save_course(
+    file: Annotated[Path, typer.Argument(metavar="YAML", help="File of the course.")],
+) -> Answer:
+    """Take a course from its file (instructor)."""
+    from app.session.course import pinned_problems, read_course
+    from app.session.people import People
+
+    instructor(People())
+    course = read_course(file)
+    path, problems = course.save(), pinned_problems(course)
+    lines = [f"{course.title} saved: {path}", *(f"✖ {problem}" for problem in problems)]
+    return Answer({"files": [path], "problems": problems}, lines, yes=not problems)
+
+
+def _new_password() -> str:
+    return str(typer.prompt("New password", hide_input=True, confirmation_prompt=True, err=True))

@@ -1,0 +1,154 @@
+"""`acus results`: who stands where, and tables that leave."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from app.commands import completion
+from app.commands.answer import Answer, Commands
+from app.commands.people import Pseudonym
+
+CourseOption = Annotated[
+    str,
+    typer.Option(
+        "--course",
+        help="Its id; without one every exercise that was attempted.",
+        autocompletion=completion.courses,
+    ),
+]
+GroupOption = Annotated[str, typer.Option("--group", help="Only students of this group.")]
+FolderOption = Annotated[Path | None, typer.Option("--folder", help="Folder of the records.")]
+
+
+def register(app: typer.Typer) -> None:
+    """Add `results board`, `results curve` and `results export`."""
+    results = Commands(help="Results of students and groups.")
+    results.command("board")(board)
+    results.command("curve")(curve)
+    results.command("export")(export)
+    app.add_typer(results, name="results")
+
+
+def board(
+    course: CourseOption = "", group: GroupOption = "", folder: FolderOption = None
+) -> Answer:
+    """Show best, last, trend and time since, of students and exercises.
+
+    Only comparable attempts count, none of a scripted trainee or an emulated board.
+    """
+    from app.exchange.results import board_rows
+
+    found, _, _ = _board(course, group, folder)
+    rows = board_rows(found)
+    lines = [
+        f"{row['pseudonym']:20} {row['exercise']:24} "
+        + (
+            f"best {row['best']:3.0f}, last {row['last']:3.0f}, {_trend(row['trend'])}, "
+            f"{row['attempts']} attempts, {row['since_s'] / 86400.0:.1f} days ago"
+            if row["attempts"]
+            else "-"
+        )
+        + (f" ({row['others']} not counted)" if row["others"] else "")
+        for row in rows
+    ]
+    return Answer({"cells": rows}, lines or ["nobody and nothing to show: add students first"])
+
+
+def curve(
+    pseudonym: Pseudonym,
+    exercise: Annotated[str, typer.Argument(metavar="EXERCISE", help="Its id.")],
+    course: CourseOption = "",
+    folder: FolderOption = None,
+) -> Answer:
+    """Show a student's points with best and moving median."""
+    from app.session.people import People
+
+    person = People().find(pseudonym)
+    found, _, _ = _board(course, "", folder)
+    points = found.curve(person.key, exercise)
+    facts = {
+        "pseudonym": person.pseudonym,
+        "exercise": exercise,
+        "points": [
+            {
+                "attempt": p.attempt,
+                "started": p.started,
+                "total": p.total,
+                "best": p.best,
+                "median": p.median,
+            }
+            for p in points
+        ],
+    }
+    lines = [
+        f"{p.started}  {p.total:5.1f}  best {p.best:5.1f}  median {p.median:5.1f}" for p in points
+    ]
+    return Answer(facts, lines or [f"{pseudonym} has no attempt at {exercise} that counts"])
+
+
+def export(
+    form: Annotated[str, typer.Argument(metavar="FORM", help="tidy, wide, moodle or json.")],
+    out: Annotated[Path, typer.Option("--out", help="File to write.")],
+    course: CourseOption = "",
+    group: GroupOption = "",
+    semicolons: Annotated[
+        bool,
+        typer.Option("--semicolons", help="For an Excel whose decimal sign is the comma."),
+    ] = False,
+    names: Annotated[bool, typer.Option("--names", help="Names too.")] = False,
+    folder: FolderOption = None,
+) -> Answer:
+    """Write results as a table, grades or JSON (instructor).
+
+    tidy: a row for each metric of each attempt. wide: a row for each student. moodle: best points
+    by username, as Moodle's gradebook imports them. json: all of it. Ctrl-C cancels; a file is
+    written whole or not at all.
+    """
+    from app.commands.calibrate_parts import with_progress
+    from app.commands.people import instructor
+    from app.exchange.results import Results, ResultsFormat, results_text, write_results
+    from app.session.people import People
+
+    if form not in [one.value for one in ResultsFormat]:
+        forms = ", ".join(one.value for one in ResultsFormat)
+        raise typer.BadParameter(f"{form}: the forms are {forms}")
+    instructor(People())
+    found, attempts, people = _board(course, group, folder)
+    everybody = {person.key: person for person in people.everybody(names)}
+    known = {text: everybody[key] for text, key in people.keys().items()}
+    if course or group:
+        shown = {person.key for person in found.students}
+        attempts = [a for a in attempts if a.student in known and known[a.student].key in shown]
+    if course:
+        exercises = {item.exercise for item in found.items}
+        attempts = [one for one in attempts if one.exercise in exercises]
+    listed = {key: person.name for key, person in everybody.items()} if names else {}
+    results = Results(found, attempts, known, people.remarks(), listed)
+    text = with_progress(
+        lambda progress: results_text(results, ResultsFormat(form), semicolons, progress)
+    )
+    write_results(out, text)
+    facts = {"files": [out], "attempts": len(attempts), "students": len(found.students)}
+    return Answer(
+        facts, [f"{len(attempts)} attempts of {len(found.students)} students written to {out}"]
+    )
+
+
+def _board(course: str, group: str, folder: Path | None) -> tuple[Any, list[Any], Any]:
+    """Return board, attempts and people."""
+    from app.commands.calibrate_parts import with_progress
+    from app.session.course import board_of, find_course
+    from app.session.people import People
+    from app.session.store import records_folder
+
+    people, chosen = People(), find_course(course) if course else None
+    place = records_folder(folder)
+    found, attempts = with_progress(
+        lambda progress: board_of(place, people, chosen, group, progress=progress)
+    )
+    return found, attempts, people
+
+
+def _trend(trend: float | None) -> str:
+    return "no trend yet" if trend is None else f"{trend:+.1f} a time"

@@ -1,0 +1,225 @@
+"""Results of a group leave: tidy and wide tables, a gradebook that Moodle imports, and JSON.
+
+Tables are CSV (RFC 4180, UTF-8 with byte order mark); with `semicolons` as Excel opens them on
+computers whose decimal sign is the comma. Who made an attempt is told by pseudonym; the text of old
+records that nobody was assigned to stands as it was typed, with an empty pseudonym.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any, Final
+
+from app.core.disclaimer import DISCLAIMER
+from app.core.files import write_atomically
+from app.core.json_values import finite
+from app.core.progress import Progress
+from app.exchange.csv_export import table_text, write_csv
+from app.exchange.errors import ExportError
+from app.scoring.conditions import comparison_groups
+from app.session.course import ProgressBoard
+from app.session.index import Indexed
+from app.session.people import Person, Remarks
+
+TIDY: Final = (
+    "pseudonym",
+    "groups",
+    "recorded_as",
+    "attempt",
+    "started_utc",
+    "exercise",
+    "version",
+    "state",
+    "signature",
+    "void",
+    "comparison_group",
+    "comment",
+    "metric",
+    "value",
+    "unit",
+    "band",
+    "note",
+)
+"""Columns of the tidy table: a row for each metric of each attempt; `score_total` is one."""
+
+_OF_CELL: Final = ("attempts", "best", "last", "trend", "passed", "days_since")
+_DAY: Final = 86400.0
+_REPORT: Final = 100
+
+
+class ResultsFormat(StrEnum):
+    """Form in which results leave."""
+
+    TIDY = "tidy"
+    WIDE = "wide"
+    MOODLE = "moodle"
+    JSON = "json"
+
+
+@dataclass(frozen=True)
+class Results:
+    """What leaves.
+
+    Attributes:
+        board: students by exercises.
+        attempts: all that are told, oldest first.
+        people: by what records name.
+        remarks: by attempt.
+        names: names by key where the instructor wants them in the files.
+    """
+
+    board: ProgressBoard
+    attempts: Sequence[Indexed]
+    people: Mapping[str, Person]
+    remarks: Mapping[str, Remarks]
+    names: Mapping[str, str]
+
+
+def results_text(
+    results: Results,
+    form: ResultsFormat,
+    semicolons: bool = False,
+    progress: Progress | None = None,
+) -> str:
+    """Return a file's text.
+
+    Raises:
+        Cancelled: if that was asked for.
+    """
+    progress = progress or Progress()
+    if form is ResultsFormat.TIDY:
+        return table_text(_tidy(results, progress), semicolons)
+    if form is ResultsFormat.WIDE:
+        return table_text(_wide(results), semicolons)
+    if form is ResultsFormat.MOODLE:
+        return table_text(_moodle(results), semicolons)
+    document = results_document(results, progress)
+    return json.dumps(finite(document), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def write_results(path: Path, text: str) -> None:
+    """Write a file whole or not at all; a table with the byte order mark for spreadsheets.
+
+    Raises:
+        ExportError: if it cannot be written.
+    """
+    if path.suffix.lower() == ".csv":
+        write_csv(path, text)
+        return
+    try:
+        write_atomically(path, text)
+    except OSError as error:
+        raise ExportError(f"cannot write {path}: {error.strerror or error}") from error
+
+
+def results_document(results: Results, progress: Progress | None = None) -> dict[str, Any]:
+    """Return everything as a JSON-ready mapping; the keys stand in docs/json.md."""
+    progress = progress or Progress()
+    attempts = []
+    for number, (one, group) in enumerate(_grouped(results)):
+        if number % _REPORT == 0:
+            progress.report(number / len(results.attempts), one.id)
+        person, said = results.people.get(one.student), results.remarks.get(one.id, Remarks())
+        attempts.append(
+            one.summary.document()
+            | {
+                "pseudonym": person.pseudonym if person else "",
+                "comparison_group": group,
+                "void": said.void,
+                "comment": said.comment,
+                "released": said.released,
+            }
+        )
+    return {
+        "students": [_student(person, results) for person in results.board.students],
+        "exercises": [item.model_dump(mode="json") for item in results.board.items],
+        "board": board_rows(results.board),
+        "attempts": attempts,
+        "note": DISCLAIMER,
+    }
+
+
+def board_rows(board: ProgressBoard) -> list[dict[str, Any]]:
+    """Return the cells of a board as JSON-ready mappings, student by student."""
+    return [
+        {"pseudonym": person.pseudonym, "exercise": item.exercise, "version": item.version}
+        | board.cells[person.key, item.exercise].document()
+        for person in board.students
+        for item in board.items
+    ]
+
+
+def _tidy(results: Results, progress: Progress) -> Iterator[Sequence[object]]:
+    yield TIDY if not results.names else ("name", *TIDY)
+    for number, (one, group) in enumerate(_grouped(results)):
+        if number % _REPORT == 0:
+            progress.report(number / len(results.attempts), one.id)
+        person = results.people.get(one.student)
+        said = results.remarks.get(one.id, Remarks())
+        score = one.summary.score or {}
+        void = said.void or score.get("void_reason") or ""
+        name = (results.names.get(person.key, "") if person else "",) if results.names else ()
+        head = (
+            *name,
+            person.pseudonym if person else "",
+            " ".join(person.groups) if person else "",
+            one.student,
+            one.id,
+            one.started,
+            one.exercise,
+            one.version,
+            one.state,
+            one.verdict,
+            void,
+            group,
+            said.comment,
+        )
+        total = ("score_total", one.total, "percent", _passed(one), DISCLAIMER)
+        yield (*head, *total)
+        for row in score.get("rows", ()):
+            metric = (row["name"], row["value"], row["unit"], row["band"], DISCLAIMER)
+            yield (*head, *metric)
+
+
+def _wide(results: Results) -> Iterator[Sequence[object]]:
+    board = results.board
+    columns = [f"{item.exercise}_{name}" for item in board.items for name in _OF_CELL]
+    name = ("name",) if results.names else ()
+    yield (*name, "pseudonym", "groups", *columns, "note")
+    for person in board.students:
+        cells: list[object] = []
+        for item in board.items:
+            cell = board.cells[person.key, item.exercise]
+            days = None if cell.since is None else cell.since.total_seconds() / _DAY
+            passed = cell.passed if cell.attempts else None
+            cells += [cell.attempts, cell.best, cell.last, cell.trend, passed, days]
+        known = (results.names.get(person.key, ""),) if results.names else ()
+        yield (*known, person.pseudonym, " ".join(person.groups), *cells, DISCLAIMER)
+
+
+def _moodle(results: Results) -> Iterator[Sequence[object]]:
+    """Moodle maps `username` to its users and each further column to a grade item, 0 to 100."""
+    board = results.board
+    yield ("username", *(f"Acus {item.exercise} (version {item.version})" for item in board.items))
+    for person in board.students:
+        best = [board.cells[person.key, item.exercise].best for item in board.items]
+        yield (person.pseudonym, *(None if grade is None else round(grade, 2) for grade in best))
+
+
+def _grouped(results: Results) -> Iterator[tuple[Indexed, int | None]]:
+    """Yield attempts with the group within which scores may be compared; None without one."""
+    known = [one.conditions if one.total is not None else None for one in results.attempts]
+    yield from zip(results.attempts, comparison_groups(known), strict=True)
+
+
+def _student(person: Person, results: Results) -> dict[str, Any]:
+    found = {"pseudonym": person.pseudonym, "groups": list(person.groups)}
+    return found | ({"name": results.names.get(person.key, "")} if results.names else {})
+
+
+def _passed(one: Indexed) -> str:
+    return "" if one.passed is None else ("passed" if one.passed else "not passed")

@@ -1,0 +1,708 @@
+"""People: students by pseudonym and PIN, groups, the instructor, and what is said of attempts.
+
+An SQLite file in the user's data folder holds them; names stand in a file of their own
+(`names.json`, by random key), so that everything else can be shown and copied without them. A
+record of somebody who signed in holds the random key only. PINs and the password are kept as
+Argon2id hashes (RFC 9106). They guard against curiosity, not against the owner of the disk: whoever
+can read these files can replace them.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+import secrets
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Final
+
+from app.core import paths
+from app.core.files import write_atomically
+from app.session.database import BUSY_SECONDS, Database
+from app.session.errors import SessionError
+from app.session.header import LONGEST_PSEUDONYM
+from app.session.signature import StationKey, new_recovery_key
+
+if TYPE_CHECKING:
+    from sqlalchemy import Connection, MetaData, Table
+
+PEOPLE: Final = "people.sqlite"
+NAMES_FILE: Final = "names.json"
+INSTRUCTOR: Final = "the instructor"
+
+_VERSION: Final = 1
+_PSEUDONYM: Final = re.compile(r"\w(?:[\w .@+-]*[\w.@+-])?")
+_KEY: Final = re.compile(r"p-[0-9a-f]{12}")
+_PIN: Final = re.compile(r"[0-9]{4,12}")
+_SHORTEST_PASSWORD: Final = 8
+_FREE_TRIES: Final = 3
+_FIRST_DELAY, _LONGEST_DELAY = 5.0, 300.0
+_FIELDS: Final = ("pseudonym", "name", "pin", "group")
+
+
+class PeopleError(SessionError):
+    """Something about a person that cannot be done; says what would be valid."""
+
+
+class WrongPasswordError(PeopleError):
+    """A PIN or password is wrong, or it is too early for another try."""
+
+
+@dataclass(frozen=True, slots=True)
+class Person:
+    """A student.
+
+    Attributes:
+        key: random; what records hold.
+        pseudonym: what screens show.
+        groups: names, sorted.
+        name: as the roster says; empty where there is none, or nobody asked for it.
+        has_pin: whether signing in needs one.
+    """
+
+    key: str
+    pseudonym: str
+    groups: tuple[str, ...] = ()
+    name: str = field(default="", repr=False)
+    has_pin: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class RosterLine:
+    """One row of a roster: pseudonym, name, PIN (empty: drawn) and groups."""
+
+    pseudonym: str
+    name: str = ""
+    pin: str = ""
+    groups: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class RosterReport:
+    """What became of a roster.
+
+    Attributes:
+        added: pseudonyms that are new.
+        updated: that were there already; name and groups are those of the roster now.
+        pins: drawn PINs by pseudonym, to be handed out; they are kept nowhere.
+        errors: one line each.
+    """
+
+    added: tuple[str, ...] = ()
+    updated: tuple[str, ...] = ()
+    pins: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    errors: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Remarks:
+    """What the instructor has said of an attempt.
+
+    Attributes:
+        comment: text; empty without one.
+        void: why it does not count; empty if it does.
+        released: whether the student may see its result in an assessment.
+    """
+
+    comment: str = ""
+    void: str = ""
+    released: bool = False
+
+
+class People:
+    """Everybody who is known here.
+
+    Args:
+        folder: of the files; `people` in the user's data folder by default.
+        clock: wall-clock time [s], for delays after wrong tries.
+        busy: seconds to wait for another program.
+    """
+
+    def __init__(
+        self,
+        folder: Path | None = None,
+        clock: Callable[[], float] = time.time,
+        busy: float = BUSY_SECONDS,
+    ) -> None:
+        self.folder = folder or people_folder()
+        self._clock = clock
+        self.database = Database(self.folder / PEOPLE, _tables(), _VERSION, "list of people", busy)
+
+    # --- the instructor ---------------------------------------------------------------------------
+    def has_instructor(self) -> bool:
+        """Whether a password is set: without one everybody may do everything, as before."""
+        return (self.folder / PEOPLE).exists() and bool(self._setting("password"))
+
+    def set_instructor(self, password: str) -> str:
+        """Set the first password; returns the recovery key, to be printed and locked away.
+
+        Raises:
+            PeopleError: if there is a password already, or it is too short.
+        """
+        _checked_password(password)
+        recovery = new_recovery_key()
+        wrapped = StationKey.of(self.folder).wrapped(recovery)
+        with self.database.write() as connection:
+            if _setting(connection, "password"):
+                raise PeopleError("there is an instructor already: change the password instead")
+            _set(connection, "password", _hashed(password))
+            _set(connection, "wrapped", json.dumps(wrapped))
+        return recovery
+
+    def check_instructor(self, password: str) -> None:
+        """Let the instructor in.
+
+        Raises:
+            WrongPasswordError: with how long to wait for the next try.
+            PeopleError: if no password is set.
+        """
+        known = self._setting("password")
+        if not known:
+            raise PeopleError("no instructor is set: `acus people instructor` sets a password")
+        self._try(INSTRUCTOR, known, password)
+
+    def change_password(self, old: str, new: str) -> None:
+        """Change the password; the recovery key stays.
+
+        Raises:
+            WrongPasswordError, PeopleError: as `check_instructor`, or if the new one is too short.
+        """
+        _checked_password(new)
+        self.check_instructor(old)
+        with self.database.write() as connection:
+            _set(connection, "password", _hashed(new))
+
+    def recover(self, recovery: str, new: str) -> None:
+        """Set another password with the recovery key.
+
+        Raises:
+            SignatureError: for a wrong key.
+            PeopleError: if the new password is too short, or none was ever set.
+        """
+        _checked_password(new)
+        wrapped = self._setting("wrapped")
+        if not wrapped:
+            raise PeopleError("no instructor is set: `acus people instructor` sets a password")
+        StationKey.unwrapped(json.loads(wrapped), recovery)
+        with self.database.write() as connection:
+            _set(connection, "password", _hashed(new))
+            connection.execute(_failures().delete())
+
+    def wrapped_key(self) -> dict[str, str]:
+        """Return the station's key under the recovery key, for a backup; empty without one."""
+        text = self._setting("wrapped")
+        return dict(json.loads(text)) if text else {}
+
+    # --- students ---------------------------------------------------------------------------------
+    def everybody(self, names: bool = False) -> list[Person]:
+        """Return all students by pseudonym; with their names if the instructor asks."""
+        if not (self.folder / PEOPLE).exists():
+            return []
+        from sqlalchemy import select
+
+        t = _tables().tables
+        with self.database.read() as connection:
+            rows = list(connection.execute(select(t["persons"])))
+            members: dict[str, list[str]] = {}
+            for person, group in connection.execute(select(t["members"])):
+                members.setdefault(person, []).append(group)
+        known = self._names() if names else {}
+        found = [
+            Person(
+                key=row.key,
+                pseudonym=row.pseudonym,
+                groups=tuple(sorted(members.get(row.key, ()))),
+                name=known.get(row.key, ""),
+                has_pin=bool(row.pin),
+            )
+            for row in rows
+        ]
+        return sorted(found, key=lambda person: person.pseudonym.casefold())
+
+    def find(self, pseudonym: str) -> Person:
+        """Return a student by pseudonym, in whatever case, or by key.
+
+        Raises:
+            PeopleError: if there is none; names some that there are.
+        """
+        everybody = self.everybody()
+        wanted = pseudonym.strip().casefold()
+        for person in everybody:
+            if wanted in (person.pseudonym.casefold(), person.key):
+                return person
+        some = ", ".join(person.pseudonym for person in everybody[:5]) or "nobody"
+        raise PeopleError(f"{pseudonym!r} is no student here; there: {some}")
+
+    def add(self, line: RosterLine) -> tuple[Person, str]:
+        """Add one student; returns the PIN as well, drawn if the line has none.
+
+        Raises:
+            PeopleError: if the pseudonym is taken or cannot be one, or the PIN cannot.
+        """
+        report = self.take_roster([line])
+        if report.errors:
+            raise PeopleError(report.errors[0])
+        if report.updated:
+            raise PeopleError(f"{line.pseudonym!r} is taken: choose another pseudonym")
+        return self.find(line.pseudonym), report.pins.get(line.pseudonym, line.pin)
+
+    def take_roster(self, lines: Sequence[RosterLine], partly: bool = False) -> RosterReport:
+        """Add the students of a roster in one transaction; those that are there are updated.
+
+        Args:
+            lines: of the roster.
+            partly: take the right lines although others are wrong; else one error and nothing is
+                taken.
+        """
+        good, errors = _judged_lines(lines)
+        if errors and not partly:
+            return RosterReport(errors=tuple(errors))
+        from sqlalchemy import insert, select, update
+
+        t = _tables().tables
+        persons, members = t["persons"], t["members"]
+        added, updated = [], []
+        pins: dict[str, str] = {}
+        hashed = {}
+        there = {person.pseudonym.casefold() for person in self.everybody()}
+        for line in good:  # outside the transaction: a hash takes its time on purpose
+            if line.pin or line.pseudonym.casefold() not in there:
+                pin = line.pin or f"{secrets.randbelow(10**6):06d}"
+                hashed[line.pseudonym] = _hashed(pin)
+                pins |= {} if line.pin else {line.pseudonym: pin}
+        with self.database.write() as connection:
+            known = {
+                row.pseudonym.casefold(): row.key for row in connection.execute(select(persons))
+            }
+            names = self._names()
+            for line in good:
+                key = known.get(line.pseudonym.casefold())
+                if key is None:
+                    key = f"p-{secrets.token_hex(6)}"
+                    row = {"key": key, "pseudonym": line.pseudonym, "pin": hashed[line.pseudonym]}
+                    connection.execute(insert(persons), row | {"created": _now()})
+                    added.append(line.pseudonym)
+                else:
+                    pins.pop(line.pseudonym, None)
+                    if line.pin:
+                        new = update(persons).where(persons.c.key == key)
+                        connection.execute(new.values(pin=hashed[line.pseudonym]))
+                    if line.groups:
+                        connection.execute(members.delete().where(members.c.person == key))
+                    updated.append(line.pseudonym)
+                if line.groups:
+                    rows = [{"person": key, "grp": group} for group in line.groups]
+                    connection.execute(insert(members), rows)
+                if line.name:
+                    names[key] = line.name
+            self._write_names(names)
+        pinned = MappingProxyType(pins)
+        return RosterReport(tuple(added), tuple(updated), pinned, tuple(errors))
+
+    def set_pin(self, pseudonym: str, pin: str) -> None:
+        """Give a student another PIN.
+
+        Raises:
+            PeopleError: if there is no such student, or it cannot be one.
+        """
+        from sqlalchemy import update
+
+        person, table = self.find(pseudonym), _tables().tables["persons"]
+        if not _PIN.fullmatch(pin):
+            raise PeopleError(_BAD_PIN)
+        hashed = _hashed(pin)
+        with self.database.write() as connection:
+            connection.execute(update(table).where(table.c.key == person.key).values(pin=hashed))
+            connection.execute(_failures().delete().where(_failures().c.account == person.key))
+
+    def sign_in(self, pseudonym: str, pin: str) -> Person:
+        """Let a student in.
+
+        Raises:
+            WrongPasswordError: with how long to wait for the next try; it does not tell whether
+                there is such a student.
+        """
+        from sqlalchemy import select
+
+        try:
+            person = self.find(pseudonym)
+        except PeopleError:
+            raise WrongPasswordError(_NO_SIGN_IN) from None
+        table = _tables().tables["persons"]
+        with self.database.read() as connection:
+            known = connection.execute(
+                select(table.c.pin).where(table.c.key == person.key)
+            ).scalar_one()
+        self._try(person.key, known, pin)
+        return person
+
+    def pseudonyms(self) -> dict[str, str]:
+        """Return what to show for what records name: pseudonyms by key, and by assigned text."""
+        everybody = {person.key: person.pseudonym for person in self.everybody()}
+        return everybody | {
+            text: everybody[key] for text, key in self.assigned().items() if key in everybody
+        }
+
+    def keys(self) -> dict[str, str]:
+        """Whose attempts are whose: key by what records name, the key itself included."""
+        everybody = [person.key for person in self.everybody()]
+        known = set(everybody)
+        texts = {text: key for text, key in self.assigned().items() if key in known}
+        return {key: key for key in everybody} | texts
+
+    def assigned(self) -> dict[str, str]:
+        """Return the keys of students by the free text of old records that was mapped to them."""
+        if not (self.folder / PEOPLE).exists():
+            return {}
+        from sqlalchemy import select
+
+        with self.database.read() as connection:
+            found = connection.execute(select(_tables().tables["assigned"]))
+            return {row.text: row.person for row in found}
+
+    def assign(self, text: str, pseudonym: str) -> None:
+        """Say whose the attempts are whose records name `text`; an empty pseudonym takes it back.
+
+        Raises:
+            PeopleError: if there is no such student.
+        """
+        from sqlalchemy import insert
+
+        table = _tables().tables["assigned"]
+        person = self.find(pseudonym).key if pseudonym else ""
+        with self.database.write() as connection:
+            connection.execute(table.delete().where(table.c.text == text))
+            if person:
+                connection.execute(insert(table), {"text": text, "person": person})
+
+    # --- attempts ---------------------------------------------------------------------------------
+    def remarks(self) -> dict[str, Remarks]:
+        """Return what the instructor has said, by id of the attempt."""
+        if not (self.folder / PEOPLE).exists():
+            return {}
+        from sqlalchemy import select
+
+        with self.database.read() as connection:
+            found = connection.execute(select(_tables().tables["remarks"]))
+            return {row.attempt: Remarks(row.comment, row.void, row.released) for row in found}
+
+    def remark(self, attempt: str, **said: str | bool) -> None:
+        """Say something of an attempt: `comment`, `void` (with a reason) or `released`."""
+        from sqlalchemy.dialects.sqlite import insert
+
+        table = _tables().tables["remarks"]
+        new = {"comment": "", "void": "", "released": False} | said
+        put = insert(table).values(attempt=attempt, **new)
+        with self.database.write() as connection:
+            connection.execute(put.on_conflict_do_update(["attempt"], set_=said))
+
+    # --- erasing ----------------------------------------------------------------------------------
+    def erased(self) -> dict[str, str]:
+        """Return when each erased person was, by key."""
+        if not (self.folder / PEOPLE).exists():
+            return {}
+        from sqlalchemy import select
+
+        with self.database.read() as connection:
+            return {
+                row.key: row.time for row in connection.execute(select(_tables().tables["erased"]))
+            }
+
+    def erased_attempts(self) -> frozenset[str]:
+        """Return ids of records that went with their person: no backup may bring them back."""
+        if not (self.folder / PEOPLE).exists():
+            return frozenset()
+        from sqlalchemy import select
+
+        with self.database.read() as connection:
+            found = connection.execute(select(_tables().tables["erased_attempts"]))
+            return frozenset(row.id for row in found)
+
+    def forget_keys(
+        self, keys: Sequence[str], comments: Sequence[str] = (), attempts: Sequence[str] = ()
+    ) -> None:
+        """Erase persons for good: what is known by key, name and PIN first.
+
+        Args:
+            keys: of the persons.
+            comments: attempts of which nothing said is to be left.
+            attempts: ids of records that go too; `archive.finish_erasing` deletes the files.
+        """
+        from sqlalchemy.dialects.sqlite import insert
+
+        t = _tables().tables
+        with self.database.write() as connection:
+            for key in keys:
+                for name, column in _OF_PERSON.items():
+                    connection.execute(t[name].delete().where(t[name].c[column] == key))
+                put = insert(t["erased"]).values(key=key, time=_now())
+                connection.execute(put.on_conflict_do_nothing())
+            for attempt in attempts:
+                put = insert(t["erased_attempts"]).values(id=attempt)
+                connection.execute(put.on_conflict_do_nothing())
+            for attempt in comments:
+                connection.execute(t["remarks"].delete().where(t["remarks"].c.attempt == attempt))
+            names = self._names()
+            left = {key: name for key, name in names.items() if key not in keys}
+            if left != names:
+                self._write_names(left)
+        self.database.shrink()
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _try(self, account: str, known: str, given: str) -> None:
+        """Compare under the delay that wrong tries have earned."""
+        from sqlalchemy import insert, select
+
+        table = _failures()
+        now = self._clock()
+        with self.database.read() as connection:
+            row = connection.execute(select(table).where(table.c.account == account)).first()
+        count, last = (row.wrong, row.last) if row is not None else (0, now)
+        wait = _delay(count) - abs(now - last)
+        if row is not None and wait > 0.0:
+            raise WrongPasswordError(f"too many wrong tries: wait {wait:.0f} s, then try again")
+        right = _matches(known, given)
+        with self.database.write() as connection:
+            row = connection.execute(select(table).where(table.c.account == account)).first()
+            count = row.wrong if row is not None else 0
+            connection.execute(table.delete().where(table.c.account == account))
+            if not right:
+                new = {"account": account, "wrong": count + 1, "last": now}
+                connection.execute(insert(table), new)
+        if not right:
+            wait = _delay(count + 1)
+            more = f": wait {wait:.0f} s before the next try" if wait else ": try again"
+            what = "the password is wrong" if account == INSTRUCTOR else _NO_SIGN_IN
+            raise WrongPasswordError(what + more)
+
+    def _setting(self, name: str) -> str:
+        if not (self.folder / PEOPLE).exists():
+            return ""
+        with self.database.read() as connection:
+            return _setting(connection, name)
+
+    def _names(self) -> dict[str, str]:
+        """Return names by key."""
+        path = self.folder / NAMES_FILE
+        try:
+            document = json.loads(path.read_text(encoding="utf-8"))
+            return {str(key): str(name) for key, name in document.items()}
+        except FileNotFoundError:
+            return {}
+        except OSError as error:
+            raise PeopleError(f"cannot read {path}: {error.strerror or error}") from error
+        except (ValueError, AttributeError, RecursionError) as error:
+            raise PeopleError(
+                f"{path} is damaged: bring it back from a backup, or move it away to go on "
+                "without names"
+            ) from error
+
+    def _write_names(self, names: Mapping[str, str]) -> None:
+        path = self.folder / NAMES_FILE
+        if not names and not path.exists():
+            return
+        try:
+            write_atomically(path, json.dumps(dict(names), indent=1, ensure_ascii=False) + "\n")
+            path.chmod(0o600)
+        except OSError as error:
+            raise PeopleError(f"cannot write {path}: {error.strerror or error}") from error
+
+
+def people_folder() -> Path:
+    """Return the folder of everything about people: `people` in the user's data folder."""
+    return paths.data() / "people"
+
+
+def checked_pseudonym(text: str) -> str:
+    """Return a pseudonym without blanks round it.
+
+    Raises:
+        PeopleError: if it is empty, a path, too long, or looks like a key.
+    """
+    found = text.strip()
+    if not found:
+        raise PeopleError("the pseudonym is empty: give one")
+    if len(found) > LONGEST_PSEUDONYM:
+        raise PeopleError(f"the pseudonym {found[:20]!r}… has over {LONGEST_PSEUDONYM} characters")
+    if not _PSEUDONYM.fullmatch(found) or ".." in found:
+        raise PeopleError(
+            f"{found!r} cannot be a pseudonym: letters, digits, blanks and . _ @ + - only, "
+            "beginning with a letter or digit"
+        )
+    if _KEY.fullmatch(found):
+        raise PeopleError(f"{found!r} looks like a key of this program: choose another pseudonym")
+    return found
+
+
+def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:
+    """Read a roster: CSV with a heading, separated by commas, semicolons or tabs.
+
+    Columns: `pseudonym` (needed), `name`, `pin` (4 to 12 digits; drawn where it is empty), `group`
+    (several separated by `|`).
+
+    Returns:
+        Its rows, and one line for each row that cannot be read.
+    """
+    try:
+        text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        place = data[: error.start].count(b"\n") + 1
+        return [], [f"line {place}: the roster is not UTF-8: save it as “CSV UTF-8” and try again"]
+    if "\0" in text:
+        return [], ["the roster is no text: save it as “CSV UTF-8” and try again"]
+    heading = text.split("\n", 1)[0]
+    separator = max(",;\t", key=heading.count)
+    rows = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
+    try:
+        table = [(rows.line_num, [cell.strip() for cell in row]) for row in rows]
+    except csv.Error as error:
+        return [], [f"line {rows.line_num}: {error}: save the roster anew as “CSV UTF-8”"]
+    names = [name.casefold() for name in table[0][1]] if table else []
+    if "pseudonym" not in names:
+        wanted = ", ".join(_FIELDS)
+        return [], [f"line 1: the heading needs the column pseudonym; columns are {wanted}"]
+    errors = [
+        f"line 1: column {name!r} is not known; columns are {', '.join(_FIELDS)}"
+        for name in names
+        if name and name not in _FIELDS
+    ]
+    found: list[RosterLine] = []
+    for number, row in table[1:]:
+        if not any(row):
+            errors.append(f"line {number}: the row is empty: delete it")
+            continue
+        if len(row) != len(names):
+            errors.append(f"line {number}: {len(row)} cells, the heading has {len(names)}")
+            continue
+        cells = dict(zip(names, row, strict=True))
+        groups = tuple(sorted({g.strip() for g in cells.get("group", "").split("|") if g.strip()}))
+        line = RosterLine(cells["pseudonym"], cells.get("name", ""), cells.get("pin", ""), groups)
+        wrong = _judged_lines([line])[1]
+        if wrong:
+            errors.append(f"line {number}: {wrong[0]}")
+        elif line.pseudonym.casefold() in {one.pseudonym.casefold() for one in found}:
+            errors.append(f"line {number}: {line.pseudonym!r} stands there twice: delete one row")
+        else:
+            found.append(line)
+    return found, errors
+
+
+def _judged_lines(lines: Sequence[RosterLine]) -> tuple[list[RosterLine], list[str]]:
+    """Return the lines that can be taken, and what is wrong with the others."""
+    good: dict[str, RosterLine] = {}
+    errors = []
+    for line in lines:
+        try:
+            pseudonym = checked_pseudonym(line.pseudonym)
+            if line.pin and not _PIN.fullmatch(line.pin):
+                raise PeopleError(f"{pseudonym}: {_BAD_PIN}")
+            if pseudonym.casefold() in good:
+                raise PeopleError(f"{pseudonym!r} stands there twice: delete one row")
+            good[pseudonym.casefold()] = RosterLine(pseudonym, line.name, line.pin, line.groups)
+        except PeopleError as error:
+            errors.append(str(error))
+    return list(good.values()), errors
+
+
+def _checked_password(password: str) -> None:
+    if len(password) < _SHORTEST_PASSWORD:
+        raise PeopleError(f"a password needs at least {_SHORTEST_PASSWORD} characters")
+
+
+def _delay(failures: int) -> float:
+    """Seconds to wait after so many wrong tries: 5 after the third, then doubled, at most 300."""
+    if failures < _FREE_TRIES:
+        return 0.0
+    return min(_LONGEST_DELAY, _FIRST_DELAY * 2.0 ** min(failures - _FREE_TRIES, 20))
+
+
+def _hashed(secret: str) -> str:
+    """Hash with Argon2id: 19 MiB, 2 passes (the least that OWASP recommends), some 30 ms."""
+    from argon2 import PasswordHasher
+
+    return PasswordHasher(time_cost=2, memory_cost=19456, parallelism=1).hash(secret)
+
+
+def _matches(known: str, given: str) -> bool:
+    from argon2 import PasswordHasher
+    from argon2.exceptions import InvalidHashError, VerificationError
+
+    try:
+        return PasswordHasher().verify(known, given)
+    except (VerificationError, InvalidHashError):
+        return False
+
+
+def _setting(connection: Connection, name: str) -> str:
+    from sqlalchemy import select
+
+    table = _tables().tables["settings"]
+    found = connection.execute(select(table.c.value).where(table.c.name == name)).scalar()
+    return str(found or "")
+
+
+def _set(connection: Connection, name: str, value: str) -> None:
+    from sqlalchemy import insert
+
+    table = _tables().tables["settings"]
+    connection.execute(table.delete().where(table.c.name == name))
+    connection.execute(insert(table), {"name": name, "value": value})
+
+
+def _failures() -> Table:
+    return _tables().tables["failures"]
+
+
+@cache
+def _tables() -> MetaData:
+    from sqlalchemy import Boolean, Column, Float, Integer, MetaData, String, Table
+
+    known = MetaData()
+
+    def text(name: str, **options: Any) -> Column[str]:
+        return Column(name, String, nullable=False, **options)
+
+    key = text("key", primary_key=True)
+    Table("persons", known, key, text("pseudonym"), text("pin"), text("created"))
+    Table("members", known, text("person", primary_key=True), text("grp", primary_key=True))
+    Table("assigned", known, text("text", primary_key=True), text("person"))
+    Table("settings", known, text("name", primary_key=True), text("value"))
+    Table("erased_attempts", known, text("id", primary_key=True))
+    Table("erased", known, text("key", primary_key=True), text("time"))
+    Table(
+        "failures",
+        known,
+        text("account", primary_key=True),
+        Column("wrong", Integer, nullable=False),
+        Column("last", Float, nullable=False),
+    )
+    Table(
+        "remarks",
+        known,
+        text("attempt", primary_key=True),
+        text("comment"),
+        text("void"),
+        Column("released", Boolean, nullable=False),
+    )
+    return known
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")
+
+
+_OF_PERSON: Final = {
+    "persons": "key",
+    "members": "person",
+    "assigned": "person",
+    "failures": "account",
+}
+_BAD_PIN: Final = "a PIN has 4 to 12 digits"
+_NO_SIGN_IN: Final = "pseudonym or PIN is wrong"

@@ -1,0 +1,125 @@
+"""The commands of people, courses, results and the store, from the first student to a backup."""
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.append(str(Path(__file__).parents[1] / "session"))
+from session_fakes import Bench
+
+from app.__main__ import main
+from app.core.paths import sessions
+from app.session.people import People
+
+
+@pytest.fixture
+def acus(monkeypatch, capsys):
+    def run(*words, code=0):
+        monkeypatch.setattr("sys.argv", ["acus", *map(str, words), "--json"])
+        with pytest.raises(SystemExit) as ended:
+            main()
+        out, err = capsys.readouterr()
+        assert ended.value.code == code, err
+        return json.loads(out)["facts"] if out else err
+
+    return run
+
+
+def attempts(*students):
+    sessions().mkdir(parents=True, exist_ok=True)
+    bench = Bench(sessions())
+    bench.run(0.1)
+    for student in students:
+        bench.trainer.begin(student)
+        bench.insertion()
+        bench.trainer.end()
+
+
+def test_a_course_from_roster_to_gradebook(acus, tmp_path):
+    (tmp_path / "r.csv").write_text("pseudonym,name,pin,group\nAda,Lovelace,1843,A\nBob,,,A\n")
+    taken = acus("people", "roster", tmp_path / "r.csv")
+    assert (taken["added"], list(taken["pins"])) == (["Ada", "Bob"], ["Bob"])
+    attempts(People().find("Ada").key, "typed bob")
+    acus("people", "assign", "typed bob", "Bob")
+    assert acus("people", "list")["assigned"] == {"typed bob": "Bob"}
+    assert "name" not in acus("people", "list")["students"][0]
+    assert acus("people", "list", "--names")["students"][0]["name"] == "Lovelace"
+    course = tmp_path / "c.yaml"
+    course.write_text("id: c\ntitle: C\ngroups: [A]\nitems:\n- {exercise: liver-01}\n")
+    assert "no such exercise" in acus("course", "save", course, code=3)["problems"][0]
+    assert acus("course", "list")["courses"][0]["id"] == "c"
+    assert acus("course", "show", "c", code=3)["title"] == "C"
+    cells = acus("results", "board", "--course", "c")["cells"]
+    assert [(c["pseudonym"], c["attempts"]) for c in cells] == [("Ada", 1), ("Bob", 1)]
+    points = acus("results", "curve", "Ada", "liver-01")["points"]
+    assert points[0]["best"] == points[0]["total"] == cells[0]["best"]
+    for form in ("tidy", "wide", "moodle"):
+        done = acus("results", "export", form, "--out", tmp_path / f"{form}.csv", "--course", "c")
+        assert (done["attempts"], done["students"]) == (2, 2)
+    assert (tmp_path / "moodle.csv").read_bytes().startswith(b"\xef\xbb\xbfusername,")
+    acus("results", "export", "json", "--out", tmp_path / "all.json")
+    assert len(json.loads((tmp_path / "all.json").read_text())["attempts"]) == 2
+    assert "the forms are" in acus("results", "export", "xls", "--out", "x", code=2)
+
+
+def test_wrong_rosters_end_with_code_3_and_take_nothing(acus, tmp_path):
+    (tmp_path / "r.csv").write_bytes("pseudonym\nÉlève\n".encode("latin-1"))
+    assert "not UTF-8" in acus("people", "roster", tmp_path / "r.csv", code=3)["errors"][0]
+    (tmp_path / "r.csv").write_text("pseudonym\nAda\n../x\n")
+    assert len(acus("people", "roster", tmp_path / "r.csv", code=3)["errors"]) == 1
+    assert acus("people", "list")["students"] == []
+    found = acus("people", "roster", tmp_path / "r.csv", "--partly", code=3)
+    assert found["added"] == ["Ada"]
+    assert "cannot read" in acus("people", "roster", tmp_path / "none.csv", code=2)
+
+
+def test_what_changes_people_or_deletes_needs_the_instructor(acus, monkeypatch, tmp_path):
+    attempts("s")
+    name = next(sessions().glob("*.mcap")).stem
+    People().set_instructor("correct horse")
+    monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "wrong")
+    refused = [
+        ("people", "add", "Ada"),
+        ("session", "delete", name),
+        ("store", "backup", "--out", tmp_path / "b"),
+    ]
+    for words in refused:
+        assert "password is wrong" in acus(*words, code=2)
+    assert "too many wrong tries" in acus("people", "add", "Ada", code=2)
+    assert acus("people", "list")["students"] == []
+    assert (sessions() / f"{name}.mcap").exists()
+
+
+def test_the_instructor_deletes_restores_remarks_and_erases(acus, monkeypatch, tmp_path):
+    added = acus("people", "add", "Ada", "--name", "Lovelace", "--pin", "1843")
+    acus("people", "pin", "Ada", "7777")
+    attempts(added["key"], added["key"])
+    People().set_instructor("correct horse")
+    monkeypatch.setenv("ACUS_INSTRUCTOR_PASSWORD", "correct horse")
+    first, second = sorted(path.stem for path in sessions().glob("*.mcap"))
+    acus("session", "delete", first)
+    assert acus("store", "status")["deleted"] == 1
+    assert acus("store", "empty-trash")["deleted"] == []
+    acus("session", "restore", first)
+    said = acus("people", "remark", second, "--void", "camera fell", "--comment", "again")
+    assert (said["void"], said["comment"], said["released"]) == ("camera fell", "again", False)
+    assert acus("results", "board")["cells"][0]["attempts"] == 1
+    status = acus("store", "status")
+    assert status["signatures"] == {"verified": 2, "altered": 0, "unsigned": 0}
+    assert acus("session", "verify", first)["signature"] == "verified"
+    assert acus("store", "backup", "--out", tmp_path / "b")["records"] == 2
+    assert acus("people", "erase", "Ada", "--records")["records"] == 2
+    done = acus("store", "restore", tmp_path / "b")
+    assert (done["records"], done["erased"], done["people"]) == (0, 2, "kept")
+
+
+def test_an_altered_record_is_told_by_verify_and_in_the_list(acus):
+    attempts("s")
+    path = next(sessions().glob("*.mcap"))
+    signature = path.with_suffix(".sig")
+    signature.write_text(signature.read_text().replace('"ended"', '"aborted"'))
+    found = acus("session", "verify", path.stem, code=3)
+    assert (found["confirmed"], found["signature"]) == (True, "altered")
+    assert acus("session", "list")["sessions"][0]["signature"] == "altered"

@@ -1,0 +1,206 @@
+"""Courses as files, who may begin, and a board on which only comparable attempts meet."""
+
+import json
+import time
+from datetime import UTC, date, datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from app.core.errors import ConfigurationError
+from app.exercises.guidance import Purpose
+from app.scoring.conditions import Assistance, Conditions, DeviceKind
+from app.session.course import (
+    Course,
+    CourseError,
+    CourseItem,
+    courses,
+    courses_folder,
+    every_item,
+    find_course,
+    pinned_problems,
+    progress_board,
+    read_course,
+    why_not,
+)
+from app.session.index import Indexed
+from app.session.people import Person, Remarks
+
+NOW = datetime(2026, 11, 20, 12, tzinfo=UTC)
+ADA, BOB = Person("p-a", "Ada", ("A",)), Person("p-b", "Bob", ("B",))
+WHOSE = {"p-a": "p-a", "p-b": "p-b", "old ada": "p-a"}
+
+
+def attempt(
+    name: str, student: str, total: float | None, day: int = 0, exercise: str = "lung", **other: Any
+) -> Indexed:
+    made = {"hand": "mouse", "kind": DeviceKind.SIMULATED, "version": 1} | other
+    verdict, state = made.pop("verdict", "verified"), made.pop("state", "ended")
+    dial = made.pop("dial", 0.5)
+    known = Conditions(
+        exercise, scoring_version=3, assistance=Assistance(dial, dial, dial, dial), **made
+    )
+    person = not known.scripted and known.kind is not DeviceKind.EMULATED
+    return Indexed(
+        id=name,
+        started=(NOW - timedelta(days=30 - day)).isoformat(),
+        student=student,
+        exercise=exercise,
+        version=known.version,
+        state=state,
+        duration=30.0,
+        total=total,
+        passed=None if total is None else total >= 60,
+        verdict=verdict,
+        counts=person and total is not None,
+        under=json.dumps(known.document()),
+        document="{}",
+    )
+
+
+def board(attempts: list[Indexed], remarks: dict[str, Remarks] | None = None) -> Any:
+    items = [CourseItem(exercise="lung"), CourseItem(exercise="liver")]
+    return progress_board([ADA, BOB], items, attempts, WHOSE, remarks or {}, NOW)
+
+
+def test_a_cell_has_best_last_trend_and_time_since() -> None:
+    found = board([attempt(f"a{k}", "p-a", t, k) for k, t in enumerate((40, 70, 60, 80))])
+    cell = found.cells["p-a", "lung"]
+    assert (cell.attempts, cell.best, cell.last, cell.passed) == (4, 80, 80, True)
+    assert cell.trend == pytest.approx(35 / 3)  # median of the slopes 30, 10, 40/3, -10, 5, 20
+    assert cell.since == timedelta(days=27)
+    assert found.cells["p-b", "lung"].attempts == 0
+    assert [(p.total, p.best, p.median) for p in found.curve("p-a", "lung")] == [
+        (40, 40, 40), (70, 70, 55), (60, 70, 60), (80, 80, 65),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("other", "why"),
+    [
+        ({"scripted": "expert"}, "scripted"),
+        ({"kind": DeviceKind.EMULATED}, "emulated robot"),
+        ({"version": 2}, "version 2 of the exercise"),
+        ({"verdict": "altered"}, "altered after it was signed"),
+        ({"hand": "keyboard"}, "made under other conditions than most"),
+        ({"dial": 0.9}, "made under other conditions than most"),
+    ],
+)
+def test_what_cannot_be_compared_is_counted_apart_with_its_reason(other: Any, why: str) -> None:
+    some = [attempt("a1", "p-a", 50, 1), attempt("a2", "p-a", 55, 2)]
+    cell = board([*some, attempt("x", "p-a", 99, 3, **other)]).cells["p-a", "lung"]
+    assert (cell.attempts, cell.best, cell.others) == (2, 55, 1)
+    assert cell.why == ((why, 1),)
+
+
+def test_void_attempts_and_those_without_a_score_do_not_count() -> None:
+    some = [attempt("a1", "p-a", 50), attempt("a2", "p-a", None), attempt("a3", "p-a", 90)]
+    cell = board(some, {"a3": Remarks(void="camera fell")}).cells["p-a", "lung"]
+    assert (cell.attempts, cell.best) == (1, 50)
+    assert dict(cell.why) == {"not scored or void": 1, "declared void by the instructor": 1}
+
+
+def test_unsigned_old_records_count_once_assigned() -> None:
+    some = [attempt("a1", "old ada", 50, verdict="unsigned"), attempt("a2", "somebody", 99)]
+    found = board(some)
+    assert found.cells["p-a", "lung"].best == 50
+    assert found.cells["p-b", "lung"].attempts == 0
+
+
+def test_without_a_course_each_exercise_stands_in_its_newest_version() -> None:
+    items = every_item([attempt("a", "p-a", 1), attempt("b", "p-a", 1, version=3)])
+    assert items == [CourseItem(exercise="lung", version=3)]
+
+
+def test_ten_thousand_attempts_make_a_board_within_a_second() -> None:
+    people = [Person(f"p-{k}", f"s{k}") for k in range(200)]
+    some = [
+        attempt(f"{k}-{n}", f"p-{k}", (7 * k + n) % 101, n % 30, f"e-{n % 10}")
+        for n in range(50)
+        for k in range(200)
+    ]
+    items = [CourseItem(exercise=f"e-{n}") for n in range(10)]
+    whose = {person.key: person.key for person in people}
+    best = min(timed(people, items, some, whose) for _ in range(3))
+    assert best < 1.0
+
+
+def timed(*parts: Any) -> float:
+    for one in parts[2]:
+        one.__dict__.pop("conditions", None)
+    begin = time.process_time()
+    progress_board(*parts, {}, NOW)
+    return time.process_time() - begin
+
+
+# --- courses --------------------------------------------------------------------------------------
+COURSE = Course(
+    id="autumn",
+    title="Autumn",
+    groups=("A",),
+    ordered=True,
+    items=(
+        CourseItem(exercise="lung", attempts=2, opens=date(2026, 11, 1), closes=date(2026, 11, 30)),
+        CourseItem(exercise="liver", purpose=Purpose.ASSESSMENT),
+    ),
+)
+
+
+def test_a_course_is_one_file_that_reads_back_equal(tmp_path: Path) -> None:
+    path = COURSE.save(tmp_path)
+    assert read_course(path) == COURSE
+    assert find_course("autumn", tmp_path) == COURSE
+    assert courses(tmp_path) == ([COURSE], [])
+    with pytest.raises(CourseError, match="is no course; there: autumn"):
+        find_course("../x", tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("id: a\ntitle: T\nitems:\n- {exercise: x, atempts: 3}\n", "atempts"),
+        ("id: a\ntitle: T\nitems:\n- {exercise: x, attempts: 0}\n", "attempts"),
+        ("id: a\ntitle: T\nitems:\n- {exercise: x}\n- {exercise: x}\n", "twice"),
+        ("id: ../a\ntitle: T\n", "id"),
+        ("id: a\ntitle: T\nitems:\n- {exercise: x, opens: 2026-02-02, closes: 2026-01-01}\n",
+         "before it opens"),
+        ("id: a\ntitle: T\nitems:\n- {exercise: x, opens: soon}\n", "opens"),
+    ],
+)  # fmt: skip
+def test_a_wrong_course_names_file_and_field(tmp_path: Path, text: str, said: str) -> None:
+    path = courses_folder(tmp_path) / "a.yaml"
+    path.parent.mkdir(parents=True)
+    path.write_text(text)
+    with pytest.raises(ConfigurationError, match=said):
+        read_course(path)
+    assert str(path) in courses(tmp_path)[1][0]
+
+
+def test_days_attempts_and_order_decide_who_may_begin() -> None:
+    inside = date(2026, 11, 20)
+    one, passed = attempt("a1", "p-a", 50), attempt("a2", "p-a", 70)
+    assert why_not(COURSE, "lung", [one], inside) == ""
+    assert why_not(COURSE, "lung", [], date(2026, 10, 1)) == "it opens on 2026-11-01"
+    assert why_not(COURSE, "lung", [], date(2026, 12, 1)) == "it closed on 2026-11-30"
+    assert why_not(COURSE, "lung", [one, one], inside) == "all 2 attempts are used"
+    assert why_not(COURSE, "liver", [one], inside) == "first pass lung"
+    assert why_not(COURSE, "liver", [one, passed], inside) == ""
+    assert why_not(COURSE, "liver", [one, one], inside) == ""  # tried as often as is allowed
+    assert "is no exercise of the course" in why_not(COURSE, "kidney", [], inside)
+    cut = attempt("a3", "p-a", None, state="unfinished")
+    assert why_not(COURSE, "lung", [one, cut], inside) == "all 2 attempts are used"
+    assert why_not(COURSE, "lung", [one, attempt("s", "p-a", 9, scripted="x")], inside) == ""
+
+
+def test_a_pinned_version_that_the_library_does_not_have_is_said() -> None:
+    items = (CourseItem(exercise="first-insertion", version=77), CourseItem(exercise="none"))
+    said = pinned_problems(Course(id="c", title="C", items=items))
+    assert "the course pins version 77" in said[0]
+    assert "no such exercise" in said[1]
+
+
+def test_who_takes_a_course() -> None:
+    assert COURSE.takes(ADA)
+    assert not COURSE.takes(BOB)
+    assert Course(id="c", title="C").takes(BOB)

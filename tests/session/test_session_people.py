@@ -1,0 +1,250 @@
+"""Students, PINs and the instructor; rosters with every fault that rosters have."""
+
+import json
+import stat
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from app.session.database import DatabaseError
+from app.session.people import (
+    NAMES_FILE,
+    PEOPLE,
+    People,
+    PeopleError,
+    RosterLine,
+    WrongPasswordError,
+    checked_pseudonym,
+    read_roster,
+)
+from app.session.signature import SignatureError, StationKey
+
+
+class Wall:
+    def __init__(self) -> None:
+        self.now = 1_000_000.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+@pytest.fixture
+def wall() -> Wall:
+    return Wall()
+
+
+@pytest.fixture
+def people(tmp_path: Path, wall: Wall) -> People:
+    return People(tmp_path / "people", wall)
+
+
+def test_nobody_is_known_and_no_file_made_before_somebody_is(people: People) -> None:
+    assert people.everybody() == []
+    assert not people.has_instructor()
+    assert (people.keys(), people.remarks(), people.erased()) == ({}, {}, {})
+    assert not people.folder.exists()
+
+
+def test_a_student_signs_in_by_pseudonym_and_pin(people: People) -> None:
+    person, pin = people.add(RosterLine("Ada", "Ada Lovelace", "1843", ("A",)))
+    assert pin == "1843"
+    assert people.sign_in("ada", "1843") == person
+    assert person.key.startswith("p-")
+    with pytest.raises(WrongPasswordError, match="pseudonym or PIN is wrong"):
+        people.sign_in("Ada", "0000")
+    with pytest.raises(WrongPasswordError, match="pseudonym or PIN is wrong"):
+        people.sign_in("Nobody", "0000")
+
+
+def test_a_drawn_pin_works_and_a_new_one_replaces_it(people: People) -> None:
+    _, pin = people.add(RosterLine("Ada"))
+    assert len(pin) == 6
+    people.sign_in("Ada", pin)
+    people.set_pin("Ada", "987654")
+    people.sign_in("Ada", "987654")
+    with pytest.raises(PeopleError, match="4 to 12 digits"):
+        people.set_pin("Ada", "12")
+
+
+def test_wrong_tries_cost_time_and_the_right_pin_too_meanwhile(people: People, wall: Wall) -> None:
+    people.add(RosterLine("Ada", pin="1843"))
+    for _ in range(2):
+        with pytest.raises(WrongPasswordError, match="try again"):
+            people.sign_in("Ada", "0000")
+    with pytest.raises(WrongPasswordError, match="wait 5 s before"):
+        people.sign_in("Ada", "0000")
+    with pytest.raises(WrongPasswordError, match="too many wrong tries: wait 5 s"):
+        people.sign_in("Ada", "1843")
+    wall.now += 5.1
+    with pytest.raises(WrongPasswordError, match="wait 10 s before"):
+        people.sign_in("Ada", "0000")
+    wall.now += 10.1
+    people.sign_in("Ada", "1843")
+    with pytest.raises(WrongPasswordError, match="try again"):  # counted anew
+        people.sign_in("Ada", "0000")
+
+
+def test_the_instructor_has_a_password_and_a_recovery_key(people: People, wall: Wall) -> None:
+    recovery = people.set_instructor("correct horse")
+    assert people.has_instructor()
+    people.check_instructor("correct horse")
+    for _ in range(3):
+        with pytest.raises(WrongPasswordError, match="password is wrong"):
+            people.check_instructor("wrong")
+    with pytest.raises(WrongPasswordError, match="wait"):
+        people.check_instructor("correct horse")
+    with pytest.raises(SignatureError, match="not the recovery key"):
+        people.recover("AAAA-" * 7 + "AAAA", "new password")
+    people.recover(recovery, "new password")
+    people.check_instructor("new password")
+    people.change_password("new password", "third password")
+    people.check_instructor("third password")
+    with pytest.raises(PeopleError, match="instructor already"):
+        people.set_instructor("another one")
+    with pytest.raises(PeopleError, match="at least 8 characters"):
+        people.change_password("third password", "short")
+    assert StationKey.unwrapped(people.wrapped_key(), recovery) == StationKey.of(people.folder)
+
+
+def test_neither_names_nor_secrets_stand_in_the_list_of_people(people: People) -> None:
+    people.add(RosterLine("Ada", "Ada Lovelace", "184318"))
+    people.set_instructor("correct horse")
+    data = b"".join(path.read_bytes() for path in people.folder.glob(f"{PEOPLE}*"))
+    for secret in (b"Lovelace", b"184318", b"correct horse"):
+        assert secret not in data
+    assert data.count(b"$argon2id$") >= 2
+    names = people.folder / NAMES_FILE
+    assert list(json.loads(names.read_text()).values()) == ["Ada Lovelace"]
+    assert stat.S_IMODE(names.stat().st_mode) == 0o600
+    assert [p.name for p in people.everybody(names=True)] == ["Ada Lovelace"]
+    assert [p.name for p in people.everybody()] == [""]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["../x", "/etc/passwd", "a/b", "a\\b", "..", ".", "", " ", "a" * 65, "a\nb", "=1+1", "C:x",
+     "p-0123456789ab", "a..b", "x\0"],
+)  # fmt: skip
+def test_a_pseudonym_that_is_a_path_or_worse_is_one_line(people: People, text: str) -> None:
+    with pytest.raises(PeopleError) as error:
+        people.add(RosterLine(text))
+    assert "\n" not in str(error.value)
+    assert people.everybody() == []
+
+
+@pytest.mark.parametrize("text", ["Ada", "s-1", "Élève 3", "学生", "a.b@c", "7"])
+def test_pseudonyms_of_every_language_are_taken(text: str) -> None:
+    assert checked_pseudonym(f" {text} ") == text
+
+
+def test_a_roster_brings_students_groups_and_names(people: People) -> None:
+    data = b"pseudonym;name;pin;group\nAda;Ada Lovelace;1843;A|B\nBob;Bob;;B\n"
+    lines, errors = read_roster(b"\xef\xbb\xbf" + data)
+    assert errors == []
+    report = people.take_roster(lines)
+    assert report.added == ("Ada", "Bob")
+    assert list(report.pins) == ["Bob"]
+    people.sign_in("Bob", report.pins["Bob"])
+    assert [p.groups for p in people.everybody()] == [("A", "B"), ("B",)]
+    again = people.take_roster([RosterLine("Bob", "Bob", "", ("C",)), RosterLine("Cy")])
+    assert (again.added, again.updated, list(again.pins)) == (("Cy",), ("Bob",), ["Cy"])
+    people.sign_in("bob", report.pins["Bob"])  # kept
+    assert people.find("Bob").groups == ("C",)
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (b"pseudonym,pin\nAda,1234\nada,5678\n", "line 3: 'ada' stands there twice"),
+        (b"pseudonym,pin\nAda,1234\n,\nBob,1234\n", "line 3: the row is empty"),
+        (b"pseudonym,pin\n\nBob,1234\n", "line 2: the row is empty"),
+        (b"pseudonym,pin\n,1234\n", "line 2: the pseudonym is empty"),
+        (b"pseudonym,pin\n../../x,1234\n", "line 2: '../../x' cannot be a pseudonym"),
+        (b"pseudonym,pin\nAda,12a4\n", "line 2: Ada: a PIN has 4 to 12 digits"),
+        (b"pseudonym,pin\nAda\n", "line 2: 1 cells, the heading has 2"),
+        (b"name,pin\nAda,1234\n", "line 1: the heading needs the column pseudonym"),
+        (b"pseudonym,color\nAda,red\n", "line 1: column 'color' is not known"),
+        ("pseudonym\nÉlève\n".encode("latin-1"), "line 2: the roster is not UTF-8"),
+        (b"pseudonym\0\nAda\n", "the roster is no text"),
+        (b"", "line 1: the heading needs the column pseudonym"),
+        (b"\xff\xfex", "the roster is not UTF-8"),
+    ],
+)
+def test_each_fault_of_a_roster_is_one_line(data: bytes, said: str) -> None:
+    _, errors = read_roster(data)
+    assert len(errors) == 1
+    assert said in errors[0]
+    assert "\n" not in errors[0]
+
+
+def test_a_roster_with_a_wrong_row_takes_nothing_unless_asked(people: People) -> None:
+    lines = [RosterLine("Ada"), RosterLine("../x"), RosterLine("Bob")]
+    report = people.take_roster(lines)
+    assert (len(report.errors), people.everybody()) == (1, [])
+    assert people.take_roster(lines, partly=True).added == ("Ada", "Bob")
+
+
+def test_a_roster_of_excel_in_utf_16_is_read() -> None:
+    lines, errors = read_roster("pseudonym\tname\nAda\tÉlève\n".encode("utf-16"))
+    assert (errors, lines) == ([], [RosterLine("Ada", "Élève")])
+
+
+def test_typed_names_of_old_records_are_nobodys_until_assigned(people: People) -> None:
+    people.add(RosterLine("Ada"))
+    key = people.find("Ada").key
+    assert people.keys() == {key: key}
+    people.assign("ada l.", "Ada")
+    assert people.keys() == {key: key, "ada l.": key}
+    assert people.pseudonyms()["ada l."] == "Ada"
+    people.assign("ada l.", "")
+    assert people.keys() == {key: key}
+    with pytest.raises(PeopleError, match="is no student here; there: Ada"):
+        people.assign("x", "Zoe")
+
+
+def test_remarks_add_up(people: People) -> None:
+    people.remark("a1", comment="steadier")
+    people.remark("a1", void="camera fell over")
+    people.remark("a1", released=True)
+    said = people.remarks()["a1"]
+    assert (said.comment, said.void, said.released) == ("steadier", "camera fell over", True)
+
+
+def test_who_is_erased_leaves_nothing_but_a_random_key(people: People) -> None:
+    people.add(RosterLine("Ada-unique", "Lovelace", "1843", ("A",)))
+    key = people.find("Ada-unique").key
+    people.assign("old ada", "Ada-unique")
+    people.remark("a1", comment="remark-unique")
+    people.forget_keys([key], ["a1"])
+    assert people.everybody(names=True) == []
+    assert list(people.erased()) == [key]
+    data = b"".join(path.read_bytes() for path in people.folder.iterdir())
+    for text in (b"Ada-unique", b"Lovelace", b"old ada", b"remark-unique"):
+        assert text not in data
+
+
+def test_two_programs_add_students_at_once_and_none_is_lost(tmp_path: Path) -> None:
+    code = (
+        "import sys; from pathlib import Path; from app.session.people import *\n"
+        f"people = People(Path({str(tmp_path / 'people')!r}))\n"
+        "for k in range(12): people.add(RosterLine(f'{sys.argv[1]}{k}', f'name {k}'))\n"
+    )
+    children = [subprocess.Popen([sys.executable, "-c", code, name]) for name in ("a", "b")]
+    assert [child.wait(timeout=120) for child in children] == [0, 0]
+    found = People(tmp_path / "people").everybody(names=True)
+    assert len(found) == 24
+    assert all(person.name for person in found)
+
+
+def test_damaged_files_are_one_line_and_stay(people: People) -> None:
+    people.add(RosterLine("Ada", "Name"))
+    (people.folder / NAMES_FILE).write_text("{")
+    with pytest.raises(PeopleError, match="is damaged: bring it back from a backup"):
+        people.add(RosterLine("Bob"))
+    assert [p.pseudonym for p in people.everybody()] == ["Ada"]  # the transaction was taken back
+    (people.folder / PEOPLE).write_bytes(b"x" * 5000)
+    with pytest.raises(DatabaseError, match="damaged"):
+        People(people.folder).everybody()
+    assert (people.folder / PEOPLE).read_bytes() == b"x" * 5000
