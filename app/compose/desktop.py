@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from app.core import paths
 from app.core.loading import load_modules, turn
@@ -18,7 +18,7 @@ from app.planning.placement import PlacedPlan
 from app.session.risks import Risk
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from app.compose.camera_check import Aim
     from app.compose.live_cameras import LiveReader
@@ -107,6 +107,20 @@ class Desktop:
     def exercises(self) -> tuple[Exercise, ...]:
         """Exercises to choose from, easiest first."""
         return tuple(library())
+
+    def check_exercise(
+        self, exercise: Exercise
+    ) -> tuple[Mapping[str, str], tuple[tuple[str, str], ...]]:
+        """Say why each effect is simulated or not, and what cannot be used; quick."""
+        from app.compose.explaining import quick_explanation
+
+        return quick_explanation(exercise)
+
+    def explain_exercise(self, exercise: Exercise) -> dict[str, Any]:
+        """Return what `acus explain --json` prints; called beside the window."""
+        with turn(Progress()):  # kernels: behind the window, not before it
+            from app.compose.explaining import explanation
+        return explanation(exercise)
 
     def sessions(self) -> Path:
         """Folder of the recorded attempts."""

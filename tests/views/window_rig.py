@@ -7,6 +7,7 @@ from types import MappingProxyType, SimpleNamespace
 import numpy as np
 from views_robot_fakes import FakeBench
 
+from app.compose.explaining import quick_explanation
 from app.core.errors import AcusError
 from app.core.events import EventQueue
 from app.core.state_vector import empty_state
@@ -180,6 +181,13 @@ class FakeServices:
 
     def exercises(self):
         return tuple(library().exercises)
+
+    def check_exercise(self, exercise):
+        return quick_explanation(exercise)
+
+    def explain_exercise(self, exercise):
+        effects = [{"effect": name, "cost_ns": 100.0} for name in exercise.effects]
+        return {"simulated": effects, "laws": [{"law": "fixture", "cost_ns": 150.0}]}
 
     def sessions(self):
         return self.folder

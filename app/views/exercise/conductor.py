@@ -33,6 +33,7 @@ from app.views.exercise.runs import Runs
 from app.views.exercise.scan_source import ScanSource
 from app.views.exercise.target_motion import TargetMotion
 from app.views.kit.background import Indicator
+from app.views.kit.names import NAMES
 from app.views.kit.text import tr
 from app.views.plan.editor import PlanEditor
 from app.views.reading.fixed_reading import apply as apply_reading
@@ -122,6 +123,7 @@ class Conductor(QObject):
         patient_changed(): another patient is shown.
         exercise_taken(str): identifier of the exercise that is being prepared.
         views_changed(): other views are on, or may be switched.
+        exercises_changed(): there are others to choose from.
 
     Attributes:
         controller: serves the attempt.
@@ -137,6 +139,7 @@ class Conductor(QObject):
     patient_changed = Signal()
     exercise_taken = Signal(str)
     views_changed = Signal()
+    exercises_changed = Signal()
 
     def __init__(
         self,
@@ -335,11 +338,29 @@ class Conductor(QObject):
         if ct.phantom is not None:
             return patient.phantom_seed == ct.phantom.seed
         same_way = patient.volume.recipe.remedy is ct.remedy
-        return ct.folder is not None and patient.folder == ct.folder and same_way
+        if ct.folder is None or patient.folder is None or not same_way:
+            return False
+        same_place = patient.folder.absolute() == ct.folder.absolute()
+        return same_place and ct.digest in (None, patient.volume.digest)
+
+    def _other_ct(self, patient: Patient) -> str:
+        """Say that the folder of the exercise holds another CT by now; empty where it does not."""
+        ct = None if self.exercise is None else self.exercise.ct
+        if ct is None or ct.digest is None or ct.folder is None or patient.folder is None:
+            return ""
+        if patient.folder.absolute() != ct.folder.absolute() or self.fits(patient):
+            return ""
+        return tr(
+            "The CT in {folder} is another one than the exercise was made on, or read in another "
+            "way: put the right one there, or make the exercise anew on this one.",
+            folder=NAMES.shown(str(ct.folder)),
+        )
 
     def _start_plan(self, patient: Patient) -> None:
         draft = None if patient.proposed is None else DraftPlan.of(patient.proposed)
         placement, own = None, False
+        if why := self._other_ct(patient):
+            self.failed.emit(ExerciseError(why))
         try:
             if self.exercise is not None and self.fits(patient):
                 draft, placement = draft_of(self.exercise), self.exercise.placement.placement()

@@ -31,6 +31,7 @@ class ExerciseFeature(Feature):
         self._panel.set_exercises(self.titles)
         self._panel.buttons.watch(self._shell.dialog_parent)
         self._panel.exercise_chosen.connect(self.begin)
+        self._conductor.exercises_changed.connect(self._read_exercises)
         self._patients.failed.connect(lambda _: self.give_up())
         self._patients.given_up.connect(self.give_up)
 
@@ -42,6 +43,12 @@ class ExerciseFeature(Feature):
         cameras.setStretchFactor(0, 3)
         cameras.setStretchFactor(1, 1)
         return cameras
+
+    def _read_exercises(self) -> None:
+        """List the exercises anew."""
+        found = self.context.services.exercises()
+        self.exercises = {exercise.id: exercise for exercise in found}
+        self.show_taken()
 
     @property
     def titles(self) -> list[tuple[str, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
+from app.views.author.feature import AuthorFeature
 from app.views.cameras.feature import CamerasFeature
 from app.views.checks.feature import ChecksFeature
 from app.views.debrief.feature import DebriefFeature
@@ -24,6 +25,7 @@ FEATURES: Final[tuple[type[Feature], ...]] = (
     SeriesFeature,
     PlanFeature,
     PathsFeature,
+    AuthorFeature,
     ExerciseFeature,
     RobotFeature,
     CamerasFeature,

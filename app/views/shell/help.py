@@ -293,6 +293,7 @@ _MARGIN_PX: Final = 40
 
 HOME: Final = "index.md"
 PAGES: Final = {
+    "author": "authoring.md",
     "cameras": "cameras.md#in-the-trainer",
     "checks": "user-guide.md#every-day",
     "debrief": "user-guide.md#4-debrief",

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from app.core.progress import Progress
 from app.exercises.schema import Exercise
@@ -104,6 +105,24 @@ class Services(Protocol):
 
     def exercises(self) -> tuple[Exercise, ...]:
         """Exercises to choose from, easiest first."""
+        ...
+
+    def check_exercise(
+        self, exercise: Exercise
+    ) -> tuple[Mapping[str, str], tuple[tuple[str, str], ...]]:
+        """Say why each effect is simulated or not, and what cannot be used; quick.
+
+        Returns:
+            Effect -> why; pairs of a field and what is wrong with it.
+        """
+        ...
+
+    def explain_exercise(self, exercise: Exercise) -> dict[str, Any]:
+        """Return what `acus explain --json` prints, costs included; called beside the window.
+
+        Raises:
+            AcusError: if the exercise names what there is not.
+        """
         ...
 
     def sessions(self) -> Path:

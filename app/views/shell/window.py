@@ -350,6 +350,7 @@ class MainWindow(QMainWindow):
         self.undo.changed.connect(self.refresh)
         self.projector.changed.connect(self._suit_room)
         start.set_exercises(self.services.exercises())
+        conductor.exercises_changed.connect(lambda: start.set_exercises(self.services.exercises()))
         start.exercise_chosen.connect(self.begin_exercise)
         start.open_wanted.connect(open_ct.ask)
         start.recent_chosen.connect(open_ct.open_folder)

@@ -1,0 +1,1 @@
+"""Exercises made and changed in the window."""

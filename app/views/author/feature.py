@@ -1,0 +1,580 @@
+"""Make an exercise from what is open; change, try, keep, carry it: one form beside the CT."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar
+
+from PySide6.QtCore import QTimer, SignalInstance
+from PySide6.QtGui import QCloseEvent, QKeySequence, QShortcut
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QHBoxLayout,
+    QMessageBox,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.configuration import FieldProblem
+from app.core.errors import AcusError
+from app.core.progress import Progress
+from app.core.units import MILLIMETRE
+from app.exchange.acusx import SUFFIX, CtMissingError, TakenError, UnpackedExercise, pack, unpack
+from app.exercises.errors import ExerciseError
+from app.exercises.library import folders
+from app.exercises.schema import Exercise
+from app.exercises.writing import exercise_document, exercise_text, free_id, taken_ids
+from app.session.pad.view import rings
+from app.views.author.editing import (
+    ExerciseEditor,
+    Where,
+    finished,
+    is_own,
+    opened_document,
+    plan_document,
+)
+from app.views.author.pages import (
+    OWN,
+    SCANS,
+    EffectsPage,
+    Form,
+    HelpPage,
+    PatientPage,
+    ReviewPage,
+    ScorePage,
+    SightPage,
+    TaskPage,
+)
+from app.views.kit import theme
+from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.menu_entries import add_entries
+from app.views.kit.parts import button, label
+from app.views.kit.side_panel import scrolled
+from app.views.kit.text import tr
+from app.views.kit.verdict import Verdict
+from app.views.kit.wizard import Wizard
+from app.views.shell.feature import Context, Feature
+
+COST_AFTER_MS = 400
+
+
+class ExerciseDialog(Wizard):
+    """The form: pages at the left, what can be done below; it stands beside the CT.
+
+    Args:
+        editor: what is edited.
+        context: of the window.
+        parent: the window.
+    """
+
+    def __init__(self, editor: ExerciseEditor, context: Context, parent: QWidget) -> None:
+        super().__init__(tr("Exercise"), (760, 720), theme.px(190), parent)
+        self.setModal(False)
+        self.editor = editor
+        structures = context.editors.structures
+        self.task = TaskPage(editor)
+        self.patient = PatientPage(editor, lambda: structures.structures)
+        self.help, self.sight = HelpPage(editor), SightPage(editor)
+        self.effects, self.score = EffectsPage(editor), ScorePage(editor)
+        self.review = ReviewPage(editor, self._file)
+        self.forms: tuple[Form, ...] = (
+            self.task,
+            self.patient,
+            self.help,
+            self.sight,
+            self.effects,
+            self.score,
+            self.review,
+        )
+        self.add_pages([scrolled(form) for form in self.forms])
+        self.undo, self.redo = button(tr("Undo")), button(tr("Redo"))
+        self.copy, self.export = button(tr("Duplicate")), button(tr("Export…"))
+        self.attempt = button(tr("Try at once"))
+        self.keep = button(tr("Keep"), "primary")
+        self.note = label()
+        self._lay_out_buttons()
+        for keys, command in (
+            ("Ctrl+Z", editor.undo),
+            ("Ctrl+Y", editor.redo),
+            ("Ctrl+Shift+Z", editor.redo),
+        ):
+            QShortcut(QKeySequence(keys), self).activated.connect(command)
+        self.undo.clicked.connect(editor.undo)
+        self.redo.clicked.connect(editor.redo)
+        self.may_close: Callable[[], bool] = lambda: True
+        editor.changed.connect(self.refresh)
+        self.show_page(0)
+
+    def marks(self) -> list[tuple[Verdict, str]]:
+        """Return how each page stands, and its title."""
+        bad = self.editor.problems
+        found = [
+            (Verdict.BAD if form.problems else Verdict.GOOD, form.title) for form in self.forms
+        ]
+        found[-1] = (Verdict.BAD if bad else Verdict.GOOD, self.review.title)
+        return found
+
+    def refresh(self) -> None:
+        """Mark the pages, and enable what can be done now."""
+        super().refresh()
+        if not hasattr(self, "keep"):
+            return
+        fine = not self.editor.problems
+        self.undo.setEnabled(self.editor.can_undo)
+        self.redo.setEnabled(self.editor.can_redo)
+        for one in (self.keep, self.attempt, self.export):
+            one.setEnabled(fine)
+            one.setToolTip("" if fine else first_problem(self.editor.problems))
+        title = self.editor.get("title", default="") or tr("Exercise")
+        self.setWindowTitle(f"{title} •" if self.editor.dirty else str(title))
+
+    def say(self, text: str, verdict: Verdict = Verdict.GOOD) -> None:
+        """Write the line above the buttons."""
+        colour, symbol = verdict.colour_and_symbol
+        self.note.setText(f"{symbol} {text}" if text else "")
+        self.note.setStyleSheet(f"color: {colour};")
+
+    def reject(self) -> None:
+        """Close, unless somebody wants to keep what is not kept yet."""
+        if self.may_close():
+            super().reject()
+
+    def finish(self) -> None:
+        """Close after the last page, as Escape does."""
+        self.reject()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Ask before what is not kept goes."""
+        event.ignore()
+        self.reject()
+
+    def _file(self) -> str:
+        exercise = self.editor.exercise
+        try:
+            return "" if exercise is None else exercise_text(exercise, folders()[1])
+        except AcusError as error:
+            return str(error)
+
+    def _lay_out_buttons(self) -> None:
+        row = QHBoxLayout()
+        for one in (self.undo, self.redo, self.copy, self.export):
+            row.addWidget(one)
+        row.addStretch(1)
+        for one in (self.attempt, self.keep):
+            row.addWidget(one)
+        outer = self.layout()
+        if isinstance(outer, QVBoxLayout):  # the wizard's own
+            outer.insertWidget(1, self.note)
+            outer.insertLayout(2, row)
+
+
+def first_problem(problems: tuple[FieldProblem, ...]) -> str:
+    """Return the first thing that is wrong, with its field."""
+    return "" if not problems else f"{problems[0].name}: {problems[0].text}"
+
+
+class AuthorFeature(Feature):
+    """Menu entries, the button on the plan's page, the form, files of exercises."""
+
+    topic: ClassVar[str] = "author"
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._conductor, self._shell = context.conductor, context.shell
+        self.editor = ExerciseEditor(context.services.check_exercise, self)
+        self.dialog: ExerciseDialog | None = None
+        self._task: BackgroundTask | None = None
+        self._measuring: BackgroundTask | None = None
+        self._cost_timer = QTimer(self, singleShot=True, interval=COST_AFTER_MS)
+        self._cost_timer.timeout.connect(self._measure)
+        self.editor.changed.connect(self._follow)
+        self.button = button(tr("Make an exercise from this…"))
+        self.button.clicked.connect(self.make)
+        self._shell.add_panel(self.button, below=tr("Plan"))
+        add_entries(
+            self._shell.menu(tr("&File"), tr("Exercise")),
+            [
+                (tr("Make an exercise from what is open…"), "Ctrl+Shift+E", self.make),
+                (tr("Change the exercise that is taken…"), "", self.change),
+                None,
+                (tr("Import an exercise…"), "", self.ask_import),
+                (tr("Export the exercise that is taken…"), "", self.export_taken),
+            ],
+        )
+
+    # --- what the window asks -------------------------------------------------------------------
+    def over(self) -> tuple[SignalInstance, ...]:
+        """Return what ends a message of this feature."""
+        return (self.noted, self.editor.changed)
+
+    def unsaved(self) -> str:
+        """Say that the exercise has changes that are not kept; empty where it has none."""
+        if self.dialog is None or not self.editor.dirty:
+            return ""
+        title = self.editor.get("title", default="") or tr("without a title")
+        return tr("the exercise “{title}”, which is not kept yet", title=title)
+
+    def save(self) -> bool:
+        """Keep the exercise; return whether that was done."""
+        return self.keep()
+
+    def may_go(self) -> bool:
+        """Ask whether changes may go, or keep them; True where there are none."""
+        if not self.unsaved():
+            return True
+        box = QMessageBox.StandardButton
+        answer = QMessageBox.question(
+            self.dialog or self._shell.dialog_parent,
+            tr("Exercise not kept"),
+            tr("Keep {what}?", what=self.unsaved()),
+            box.Save | box.Discard | box.Cancel,
+            box.Save,
+        )
+        return self.keep() if answer == box.Save else answer == box.Discard
+
+    def forget(self) -> None:
+        """Close the form: it is of the patient who leaves."""
+        self._close_dialog()
+
+    def opens(self, path: Path) -> bool:
+        """Take in a dropped file of an exercise."""
+        if path.suffix != SUFFIX:
+            return False
+        self.import_from(path)
+        return True
+
+    def close(self) -> None:
+        """End what runs, and the form."""
+        for task in (self._task, self._measuring):
+            if task is not None:
+                task.close()
+        self._close_dialog()
+
+    # --- making and changing --------------------------------------------------------------------
+    def make(self) -> None:
+        """Begin an exercise on the CT, plan and structures that are open."""
+        patient = self._conductor.patient
+        if patient is None:
+            self.failed.emit(tr("There is no CT open to make an exercise of: open one first."))
+            return
+        if self.dialog is not None and not self.may_go():
+            return
+        editors = self.context.editors
+        structures = editors.structures.structures
+        taken = self._conductor.exercise
+        self._begin(opened_document(patient, editors.plan.edit, structures, taken), None)
+        if patient.phantom_seed is None:
+            run_in_background(
+                self, lambda _: patient.volume.digest, self._take_digest, self.failed.emit
+            )
+
+    def change(self) -> None:
+        """Change the exercise that is taken; one that comes with Acus is copied first."""
+        exercise = self._conductor.exercise
+        if exercise is None:
+            self.failed.emit(tr("No exercise is taken: choose one first."))
+            return
+        if self.dialog is not None and not self.may_go():
+            return
+        if (folders()[0] / f"{exercise.id}.yaml").is_file():
+            title = tr("{title} (copy)", title=exercise.title)
+            document = exercise_document(exercise)
+            document |= {"title": title, "id": free_id(title, taken_ids()), "version": 1}
+            self._begin(document, None)
+            self._say(tr("Exercises that come with Acus stay as they are: this is a copy."))
+        else:
+            self._begin(exercise_document(exercise), exercise)
+
+    def _begin(self, document: dict[str, Any], saved: Exercise | None) -> None:
+        self._close_dialog()
+        self.dialog = dialog = ExerciseDialog(self.editor, self.context, self._shell.dialog_parent)
+        dialog.may_close = self.may_go
+        dialog.finished.connect(lambda _: self._closed(dialog))
+        dialog.keep.clicked.connect(self.keep)
+        dialog.attempt.clicked.connect(self.try_at_once)
+        dialog.copy.clicked.connect(self.duplicate)
+        dialog.export.clicked.connect(self.export)
+        dialog.task.kind_wanted.connect(self.set_kind)
+        dialog.patient.plan_wanted.connect(self.take_plan)
+        self.editor.begin(document, saved)
+        dialog.show()
+        dialog.task.name.setFocus()
+
+    def set_kind(self, kind: str) -> None:
+        """Make it an exercise of another type: what the path, the pictures and the score are."""
+        edit = self.context.editors.plan.edit
+        values: dict[Where, Any] = {}
+        plan = self.editor.get("plan")
+        if kind == OWN:
+            target = plan.get("target_mm") if isinstance(plan, dict) else None
+            values["plan",] = {"own": True} | ({"target_mm": target} if target else {})
+        elif is_own(self.editor.document):
+            values["plan",] = plan_document(edit) if edit.draft.complete else None
+        scans = kind == SCANS
+        values["guidance", "mode"] = "control_ct" if scans else None
+        if scans:
+            values["assistance",] = 0.0
+            values["views",] = ["three_d"]
+        elif self.editor.get("guidance", "mode") == "control_ct":
+            values["views",] = ["live_overlay", "bullseye", "three_d"]
+            values["assistance",] = 0.7
+        self.editor.put_all(values)
+
+    def take_plan(self) -> None:
+        """Take path and position from the window."""
+        edit = self.context.editors.plan.edit
+        plan = plan_document(edit, own=is_own(self.editor.document))
+        if plan is None:
+            self._say(tr("There is no target in the window yet: press T, then click."), Verdict.BAD)
+            return
+        lies = edit.placement
+        self.editor.put_all(
+            {
+                ("plan",): plan,
+                ("placement",): {
+                    "orientation": lies.orientation.value,
+                    "rotation_deg": list(lies.rotation_deg),
+                },
+            }
+        )
+        self._say(tr("Path and position taken from the window."))
+
+    def duplicate(self) -> None:
+        """Go on with a copy of what is in the form."""
+        if self.editor.saved is not None and self.editor.dirty and not self.may_go():
+            return
+        title = tr("{title} (copy)", title=self.editor.get("title", default=""))
+        self.editor.duplicate(title)
+        self._say(tr("This is a copy now; the exercise that it was made of stays as it is."))
+
+    # --- trying and keeping ---------------------------------------------------------------------
+    def try_at_once(self) -> None:
+        """Take the exercise as it stands, without keeping it."""
+        if self.context.editors.plan.locked:
+            self._say(tr("An attempt is running: end it first."), Verdict.BAD)
+            return
+        exercise = self._finished()
+        if exercise is None:
+            return
+        try:
+            self._conductor.set_exercise(exercise)
+        except AcusError as error:
+            self._say(str(error), Verdict.BAD)
+            return
+        self._say(tr("The exercise is taken as it stands; it is not kept by that."))
+        self._shell.show_workspace()
+
+    def keep(self) -> bool:
+        """Keep the exercise; a changed one is a new version. Returns whether that was done."""
+        exercise = self._finished()
+        if exercise is None:
+            return False
+        try:
+            saved = self.editor.keep(exercise)
+        except AcusError as error:
+            self._say(str(error), Verdict.BAD)
+            return False
+        self._conductor.exercises_changed.emit()
+        words = tr("Kept as “{name}”, version {n}.", name=saved.id, n=saved.version)
+        self._say(words)
+        self.noted.emit(words)
+        return True
+
+    def _finished(self) -> Exercise | None:
+        """Return the exercise with its structures written; None where something is wrong."""
+        exercise, problems = self.editor.exercise, self.editor.problems
+        if exercise is None or problems:
+            self._say(first_problem(problems), Verdict.BAD)
+            return None
+        structures = self.context.editors.structures.structures
+        try:
+            return finished(exercise, self._conductor.patient, structures)
+        except AcusError as error:
+            self._say(str(error), Verdict.BAD)
+            return None
+
+    # --- files ----------------------------------------------------------------------------------
+    def export(self) -> None:
+        """Write what is in the form into one file."""
+        exercise = self._finished()
+        if exercise is not None:
+            self._export(exercise)
+
+    def export_taken(self) -> None:
+        """Write the exercise that is taken into one file."""
+        if self._conductor.exercise is None:
+            self.failed.emit(tr("No exercise is taken: choose one first."))
+        else:
+            self._export(self._conductor.exercise)
+
+    def _export(self, exercise: Exercise) -> None:
+        patient = self._conductor.patient
+        if patient is None or not self._conductor.fits(patient, exercise):
+            self.failed.emit(ExerciseError(tr("Open the CT of the exercise first: begin it.")))
+            return
+        start = str(Path.home() / f"{exercise.id}{SUFFIX}")
+        kinds = tr("Exercises (*{suffix})", suffix=SUFFIX)
+        parent = self.dialog or self._shell.dialog_parent
+        name, _ = QFileDialog.getSaveFileName(parent, tr("Export exercise"), start, kinds)
+        if not name:
+            return
+        with_ct = False
+        if exercise.ct.folder is not None:
+            box = QMessageBox.StandardButton
+            text = tr(
+                "Put the CT into the file, de-identified?\nWithout it, it can be used where "
+                "the same CT is."
+            )
+            answer = QMessageBox.question(
+                parent, tr("Export exercise"), text, box.Yes | box.No | box.Cancel, box.No
+            )
+            if answer == box.Cancel:
+                return
+            with_ct = answer == box.Yes
+        path, volume = Path(name if name.endswith(SUFFIX) else name + SUFFIX), patient.volume
+        self._run(
+            lambda progress: pack(path, exercise, volume, with_ct, progress),
+            lambda _: self.noted.emit(tr("Exported {name}", name=path.name)),
+            tr("Exporting the exercise"),
+        )
+
+    def ask_import(self) -> None:
+        """Ask for a file of an exercise and take it in."""
+        kinds = tr("Exercises (*{suffix})", suffix=SUFFIX)
+        name, _ = QFileDialog.getOpenFileName(
+            self._shell.dialog_parent, tr("Import exercise"), str(Path.home()), kinds
+        )
+        if name:
+            self.import_from(Path(name))
+
+    def import_from(
+        self, path: Path, ct: Path | None = None, name: str = "", replace: bool = False
+    ) -> None:
+        """Take an exercise in; asks for its CT, and what to do where its name is taken."""
+        again = partial(self.import_from, path)
+
+        def fail(error: Exception) -> None:
+            self._task = None
+            if isinstance(error, CtMissingError) and ct is None:
+                self._ask_ct(error, lambda folder: again(folder, name, replace))
+            elif isinstance(error, TakenError) and not name:
+                self._ask_name(error, path, lambda other, newer: again(ct, other, newer))
+            else:
+                self.failed.emit(error)
+
+        self._run(
+            lambda progress: unpack(path, ct, None, name, replace, progress),
+            self._taken_in,
+            tr("Importing the exercise"),
+            fail,
+        )
+
+    def _ask_ct(self, error: Exception, go_on: Callable[[Path], object]) -> None:
+        self.failed.emit(error)
+        folder = QFileDialog.getExistingDirectory(
+            self._shell.dialog_parent, tr("Folder of the exercise's CT"), str(Path.home())
+        )
+        if folder:
+            go_on(Path(folder))
+
+    def _ask_name(self, error: Exception, path: Path, go_on: Callable[[str, bool], object]) -> None:
+        box = QMessageBox.StandardButton
+        text = tr(
+            "There is another exercise of this name.\nYes: keep this one as a new version of "
+            "it.\nNo: keep it under another name."
+        )
+        answer = QMessageBox.question(
+            self._shell.dialog_parent, tr("Import exercise"), text, box.Yes | box.No | box.Cancel
+        )
+        if answer == box.Yes:
+            go_on("", True)
+        elif answer == box.No:
+            go_on(free_id(path.stem, taken_ids()), False)
+        else:
+            self.failed.emit(error)
+
+    def _taken_in(self, found: UnpackedExercise) -> None:
+        self._conductor.exercises_changed.emit()
+        title = found.exercise.title
+        if found.known:
+            self.noted.emit(tr("The exercise “{title}” was there already.", title=title))
+        else:
+            self.noted.emit(tr("The exercise “{title}” is in the list now.", title=title))
+
+    def _run(
+        self,
+        work: Callable[[Progress], Any],
+        done: Callable[[Any], object],
+        title: str,
+        fail: Callable[[Exception], object] | None = None,
+    ) -> None:
+        def end(result: Any) -> None:
+            self._task = None
+            done(result)
+
+        def failed(error: Exception) -> None:
+            self._task = None
+            self.failed.emit(error)
+
+        self._task = run_in_background(
+            self, work, end, fail or failed, title=title, indicator=self._shell.progress
+        )
+
+    # --- live -----------------------------------------------------------------------------------
+    def _follow(self) -> None:
+        """Draw the tolerances on the CT, and measure anew what a tick costs."""
+        exercise = self.editor.exercise
+        if self.dialog is None or exercise is None:
+            return
+        self._draw(exercise)
+        self._cost_timer.start()
+
+    def _draw(self, exercise: Exercise | None) -> None:
+        if exercise is not None:
+            radii = tuple(radius / MILLIMETRE for radius in rings(exercise.tolerances))
+            self.context.views.viewing.set_tolerances(radii)
+
+    def _measure(self) -> None:
+        exercise, dialog = self.editor.exercise, self.dialog
+        if exercise is None or dialog is None or self.editor.problems:
+            return
+        if self._measuring is not None:
+            self._cost_timer.start()
+            return
+        dialog.effects.show_cost(None)
+
+        def done(found: Any) -> None:
+            self._measuring = None
+            if self.dialog is not None and not isinstance(found, Exception):
+                self.dialog.effects.show_cost(found)
+
+        services = self.context.services
+        self._measuring = run_in_background(
+            self, lambda _: services.explain_exercise(exercise), done, done
+        )
+
+    def _take_digest(self, digest: str) -> None:
+        if self.dialog is not None and self.editor.get("ct", "folder") is not None:
+            self.editor.learn("ct", "digest", value=digest)
+
+    def _say(self, text: str, verdict: Verdict = Verdict.GOOD) -> None:
+        if self.dialog is not None:
+            self.dialog.say(text, verdict)
+        elif verdict is Verdict.BAD:
+            self.failed.emit(text)
+
+    def _close_dialog(self) -> None:
+        dialog = self.dialog
+        if dialog is not None:
+            dialog.may_close = lambda: True
+            dialog.reject()
+
+    def _closed(self, dialog: ExerciseDialog) -> None:
+        if self.dialog is dialog:
+            self.dialog = None
+            self._cost_timer.stop()
+            self._draw(self._conductor.exercise)
+        self.editor.changed.disconnect(dialog.refresh)
+        dialog.deleteLater()

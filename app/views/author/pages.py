@@ -1,0 +1,799 @@
+"""The pages of the form that an exercise is made with; each field says below it what is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QGroupBox,
+    QLabel,
+    QLineEdit,
+    QPlainTextEdit,
+    QSpinBox,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.core.configuration import FieldProblem
+from app.core.plugins import StageDeclaration
+from app.device.control.law import KIND as LAWS
+from app.exercises.fading import FadingKind
+from app.exercises.library import profile_names
+from app.exercises.locks import Lock
+from app.exercises.parts import ViewName
+from app.imaging.structures.structure import StructureSet
+from app.imaging.window import PRESETS
+from app.scoring import metrics
+from app.scoring.defaults import DEFAULT_TOLERANCES
+from app.simulation import effects
+from app.simulation.needles import OUTER_DIAMETER
+from app.views.author.editing import DRAWN, ExerciseEditor, Where
+from app.views.kit import theme
+from app.views.kit.coordinates import lps_words
+from app.views.kit.parts import button, column, label, table
+from app.views.kit.text import tr
+from app.views.reading.lock_words import view_title
+
+Choice = Sequence[tuple[Any, str]]
+
+
+class Form(QWidget):
+    """A page of fields, each bound to a place in the document.
+
+    Attributes:
+        covers: fields whose problems belong to this page.
+    """
+
+    def __init__(self, editor: ExerciseEditor, title: str, covers: Sequence[str]) -> None:
+        super().__init__()
+        self.editor, self.title, self.covers = editor, title, tuple(covers)
+        self.rows = column(self, title)
+        self.fields: dict[Where, QWidget] = {}
+        self._loads: list[Callable[[], None]] = []
+        self._notes: list[tuple[Where, QLabel]] = []
+        editor.changed.connect(self.load)
+
+    def load(self) -> None:
+        """Show what the document says, and what is wrong with it."""
+        for load in self._loads:
+            load()
+        for where, note in self._notes:
+            found = self.editor.problems_at(*where)
+            note.setText("\n".join(_sentence(one, where) for one in found))
+            note.setVisible(bool(found))
+
+    @property
+    def problems(self) -> list[FieldProblem]:
+        """What is wrong with the fields of this page."""
+        return [one for one in self.editor.problems if one.field and one.field[0] in self.covers]
+
+    # --- kinds of fields ------------------------------------------------------------------------
+    def add(self, where: Where, name: str, widget: QWidget, load: Callable[[], None]) -> None:
+        """Add a field with its name, and the line that says what is wrong with it."""
+        if name:
+            self.rows.addWidget(QLabel(name, self))
+            widget.setAccessibleName(name)
+        self.rows.addWidget(widget)
+        self.fields[where] = widget
+        self._loads.append(load)
+        self.note(where)
+
+    def note(self, where: Where) -> None:
+        """Add a line that says what is wrong with a field."""
+        note = label()
+        note.setStyleSheet(f"color: {theme.BAD};")
+        note.hide()
+        self.rows.addWidget(note)
+        self._notes.append((where, note))
+
+    def text(self, *where: str, name: str, hint: str = "") -> QLineEdit:
+        """Add a line of text."""
+        line = QLineEdit(self)
+        line.setPlaceholderText(hint)
+        line.textEdited.connect(lambda text: self.editor.put(*where, value=text, typed=True))
+        self.add(where, name, line, lambda: _show_line(line, self.editor.get(*where, default="")))
+        return line
+
+    def lines(self, *where: str, name: str) -> QPlainTextEdit:
+        """Add a text of several lines."""
+        box = QPlainTextEdit(self)
+        box.setTabChangesFocus(True)
+        box.setFixedHeight(6 * theme.FONT_PX)
+
+        def load() -> None:
+            text = self.editor.get(*where, default="")
+            if box.toPlainText() != text:
+                with QSignalBlocker(box):
+                    box.setPlainText(text)
+
+        box.textChanged.connect(
+            lambda: self.editor.put(*where, value=box.toPlainText() or None, typed=True)
+        )
+        self.add(where, name, box, load)
+        return box
+
+    def number(
+        self, *where: str, name: str, low: float, high: float, default: float, unit: str = ""
+    ) -> QDoubleSpinBox:
+        """Add a number with two digits behind the point."""
+        box = QDoubleSpinBox(self)
+        box.setRange(low, high)
+        box.setDecimals(2)
+        box.setSingleStep(0.1 if high - low <= 4.0 else 1.0)
+        box.setSuffix(f" {unit}" if unit else "")
+        box.setKeyboardTracking(False)
+        box.valueChanged.connect(lambda value: self.editor.put(*where, value=float(value)))
+
+        def load() -> None:
+            value = self.editor.get(*where, default=default)
+            with QSignalBlocker(box):
+                box.setValue(float(value) if isinstance(value, int | float) else default)
+
+        self.add(where, name, box, load)
+        return box
+
+    def count(self, *where: str, name: str, low: int, high: int, default: int) -> QSpinBox:
+        """Add a whole number."""
+        box = QSpinBox(self)
+        box.setRange(low, high)
+        box.setKeyboardTracking(False)
+        box.valueChanged.connect(lambda value: self.editor.put(*where, value=int(value)))
+
+        def load() -> None:
+            value = self.editor.get(*where, default=default)
+            with QSignalBlocker(box):
+                box.setValue(value if isinstance(value, int) else default)
+
+        self.add(where, name, box, load)
+        return box
+
+    def choice(
+        self,
+        *where: str,
+        name: str,
+        among: Choice,
+        read: Callable[[], Any] | None = None,
+        write: Callable[[Any], object] | None = None,
+    ) -> QComboBox:
+        """Add a choice; `read` and `write` where it is more than one field."""
+        box = QComboBox(self)
+        for value, title in among:
+            box.addItem(title, value)
+        put = write or (lambda value: self.editor.put(*where, value=value))
+        get = read or (lambda: self.editor.get(*where))
+        box.activated.connect(lambda _: put(box.currentData()))
+
+        def load() -> None:
+            value = get()
+            place = next((n for n in range(box.count()) if box.itemData(n) == value), -1)
+            if place < 0 and value is not None:  # a file of one's own
+                box.addItem(str(value), value)
+                place = box.count() - 1
+            with QSignalBlocker(box):
+                box.setCurrentIndex(max(place, 0))
+
+        self.add(where, name, box, load)
+        return box
+
+    def flags(self, *where: str, name: str, among: Choice) -> QWidget:
+        """Add a list of which any may hold."""
+        frame = QWidget(self)
+        inner = QVBoxLayout(frame)
+        inner.setContentsMargins(0, 0, 0, 0)
+        boxes = {value: QCheckBox(title, frame) for value, title in among}
+
+        def put() -> None:
+            chosen = [value for value, box in boxes.items() if box.isChecked()]
+            self.editor.put(*where, value=chosen)
+
+        def load() -> None:
+            held = self.editor.get(*where, default=[])
+            for value, box in boxes.items():
+                with QSignalBlocker(box):
+                    box.setChecked(value in held)
+
+        for box in boxes.values():
+            inner.addWidget(box)
+            box.clicked.connect(lambda _: put())
+        self.add(where, name, frame, load)
+        return frame
+
+    def check(self, *where: str, name: str) -> QCheckBox:
+        """Add a yes or no."""
+        box = QCheckBox(name, self)
+        box.clicked.connect(lambda on: self.editor.put(*where, value=bool(on)))
+
+        def load() -> None:
+            with QSignalBlocker(box):
+                box.setChecked(bool(self.editor.get(*where)))
+
+        self.add(where, "", box, load)
+        return box
+
+
+def _show_line(line: QLineEdit, text: object) -> None:
+    if line.text() != str(text):
+        with QSignalBlocker(line):
+            line.setText(str(text))
+
+
+def _sentence(problem: FieldProblem, where: Where) -> str:
+    """Say what is wrong, and where within the field if it is a part of it."""
+    inner = ".".join(str(part) for part in problem.field[len(where) :])
+    text = problem.text.removeprefix("Value error, ")
+    return f"✖ {inner}: {text}" if inner else f"✖ {text}"
+
+
+# --- pages --------------------------------------------------------------------------------------
+FOLLOW, OWN, SCANS = "follow", "own", "scans"
+
+
+def kinds() -> Choice:
+    """Types of exercises, with their names."""
+    return (
+        (FOLLOW, tr("Follow the path")),
+        (OWN, tr("Plan it yourself")),
+        (SCANS, tr("Control scans")),
+    )
+
+
+class TaskPage(Form):
+    """Type, title, level, briefing.
+
+    Signals:
+        kind_wanted(str): another type.
+    """
+
+    kind_wanted = Signal(str)
+
+    def __init__(self, editor: ExerciseEditor) -> None:
+        covers = ("id", "version", "title", "level", "description", "purpose")
+        super().__init__(editor, tr("Exercise"), covers)
+        self.name = self.text("title", name=tr("Title"), hint=tr("one line for people"))
+        self.kind = self.choice(
+            "kind", name=tr("Type"), among=kinds(), read=self._kind, write=self.kind_wanted.emit
+        )
+        self.level = self.count("level", name=tr("Level (1 easiest)"), low=1, high=9, default=1)
+        self.briefing = self.lines("description", name=tr("Briefing"))
+        practice, test = tr("Practice"), tr("Assessment: all controls are locked")
+        self.choice(
+            "purpose",
+            name=tr("Purpose"),
+            among=(("practice", practice), ("assessment", test)),
+            write=self._set_purpose,
+        )
+        self.note(("id",))
+        self.kept = label("", "dim")
+        self.rows.addWidget(self.kept)
+        self.rows.addStretch(1)
+
+    def load(self) -> None:
+        """Show what the document says, and under which name and version it is kept."""
+        super().load()
+        name, saved = self.editor.get("id", default=""), self.editor.saved
+        if saved is None:
+            self.kept.setText(tr("Will be kept as “{name}”.", name=name))
+        else:
+            more = tr("; changes become the next version") if self.editor.dirty else ""
+            said = tr("Kept as “{name}”, version {n}", name=name, n=saved.version)
+            self.kept.setText(said + more + ".")
+
+    def _kind(self) -> str:
+        if self.editor.get("guidance", "mode") == "control_ct":
+            return SCANS
+        return OWN if self.editor.get("plan", "own") else FOLLOW
+
+    def _set_purpose(self, purpose: str) -> None:
+        values: dict[Where, Any] = {("purpose",): purpose}
+        if purpose == "assessment":  # all is locked, and nothing fades
+            values |= {("locks",): None, ("fading",): None}
+        self.editor.put_all(values)
+
+
+class PatientPage(Form):
+    """CT, path, position, structures, needle, device.
+
+    Signals:
+        plan_wanted(): take plan and position from the window.
+    """
+
+    plan_wanted = Signal()
+
+    def __init__(self, editor: ExerciseEditor, structures: Callable[[], StructureSet]) -> None:
+        covers = (
+            "ct",
+            "plan",
+            "placement",
+            "structures",
+            "needle",
+            "device",
+            "joint",
+            "rig",
+            "target_organ",
+            "seed",
+        )
+        super().__init__(editor, tr("Patient and path"), covers)
+        self._structures = structures
+        self.where = label()
+        self.take = button(tr("Take path and position from the window"))
+        self.take.clicked.connect(self.plan_wanted)
+        self.add(("plan",), "", self.where, self._show_path)
+        self.rows.addWidget(self.take)
+        self.note(("ct",))
+        self.note(("placement",))
+        self.risks = table((tr("Structure"), tr("Of risk"), tr("Keep off [mm]")))
+        self.risks.setFixedHeight(theme.px(150))
+        self.add(
+            ("structures",), tr("Structures, drawn in the window"), self.risks, self._show_risks
+        )
+        gauges = [(gauge, f"{gauge} G") for gauge in OUTER_DIAMETER]
+        self.choice("needle", "gauge", name=tr("Needle"), among=gauges)
+        self.number(
+            "needle",
+            "length_mm",
+            name=tr("Length of the needle, 0 for the device's own"),
+            low=0.0,
+            high=400.0,
+            default=0.0,
+            unit="mm",
+        ).valueChanged.connect(self._no_zero)
+        devices = [(name, name) for name in profile_names("device")]
+        rigs = [(name, name) for name in profile_names("rig")]
+        self.choice("device", name=tr("Robot"), among=devices)
+        self.text("joint", name=tr("Ball joint, empty for the robot's own"))
+        self.choice("rig", name=tr("Cameras"), among=rigs)
+        self.text("target_organ", name=tr("Organ of the target"), hint=tr("such as liver"))
+        self.count("seed", name=tr("Seed of everything random"), low=0, high=2**31 - 1, default=1)
+        self.rows.addStretch(1)
+
+    def _no_zero(self, value: float) -> None:
+        if value == 0.0:
+            self.editor.put("needle", "length_mm", value=None)
+
+    def _show_path(self) -> None:
+        plan, phantom = self.editor.get("plan"), self.editor.get("ct", "phantom", "seed")
+        if phantom is not None:
+            lines = [tr("Phantom {n}", n=phantom)]
+        else:
+            known = self.editor.get("ct", "digest")
+            lines = [tr("Own CT, digest {digest}…", digest=known[:12]) if known else tr("Own CT")]
+        for name, key in ((tr("Entry"), "entry_mm"), (tr("Target"), "target_mm")):
+            point = plan.get(key) if isinstance(plan, Mapping) else None
+            place = (
+                tr("the student's to place") if key == "entry_mm" else tr("the phantom's lesion")
+            )
+            shown = lps_words((point[0], point[1], point[2])) if point else place
+            lines.append(f"{name}: {shown}")
+        lies = self.editor.get("placement", "orientation", default="supine")
+        lines.append(tr("Position: {name}", name=str(lies).replace("_", " ")))
+        self.where.setText("\n".join(lines))
+
+    def _show_risks(self) -> None:
+        given = self.editor.get("structures", default=[])
+        risks = {name: mm for part in given for name, mm in part.get("risks", {}).items()}
+        names = [one.name for one in self._structures()]
+        names += [name for name in risks if name not in names]
+        rows = self.risks
+        with QSignalBlocker(rows):
+            rows.setRowCount(len(names))
+            for row, name in enumerate(names):
+                box, far = rows.cellWidget(row, 1), rows.cellWidget(row, 2)
+                if not isinstance(box, QCheckBox) or not isinstance(far, QDoubleSpinBox):
+                    box, far = QCheckBox(rows), QDoubleSpinBox(rows)
+                    far.setRange(0.0, 50.0)
+                    far.setKeyboardTracking(False)
+                    rows.setCellWidget(row, 1, box)
+                    rows.setCellWidget(row, 2, far)
+                    box.clicked.connect(lambda _: self._take_risks())
+                    far.valueChanged.connect(lambda _: self._take_risks())
+                with QSignalBlocker(box), QSignalBlocker(far):
+                    rows.setItem(row, 0, QTableWidgetItem(name))
+                    box.setChecked(name in risks)
+                    far.setValue(risks.get(name, 5.0))
+                    far.setEnabled(name in risks)
+
+    def _take_risks(self) -> None:
+        chosen: dict[str, float] = {}
+        for row in range(self.risks.rowCount()):
+            name, box = self.risks.item(row, 0), self.risks.cellWidget(row, 1)
+            far = self.risks.cellWidget(row, 2)
+            if name is None or not isinstance(far, QDoubleSpinBox):
+                continue
+            if isinstance(box, QCheckBox) and box.isChecked():
+                chosen[name.text()] = far.value()
+        given = self.editor.get("structures", default=[])
+        file = given[0]["file"] if len(given) == 1 else DRAWN
+        values: dict[Where, Any] = {("structures",): [{"file": file, "risks": chosen}]}
+        scored = self.editor.get("tolerances", "risk_breach")
+        if chosen and scored is None:
+            values[("tolerances", "risk_breach")] = default_tolerance("risk_breach")
+        elif not chosen and scored is not None:
+            values[("tolerances", "risk_breach")] = None
+        self.editor.put_all(values)
+
+
+def default_tolerance(metric: str) -> dict[str, Any]:
+    """Return bands to begin with for a metric that is to count."""
+    if metric in DEFAULT_TOLERANCES:
+        found = DEFAULT_TOLERANCES[metric].model_dump(mode="json", by_alias=True)
+        return {name: value for name, value in found.items() if value is not None}
+    own = {
+        "risk_breach": (0.0, 0.5, 1.0),
+        "control_scans": (3.0, 5.0, 8.0),
+        "notional_dose": (40.0, 60.0, 95.0),
+        "tracking_valid": (99.0, 95.0, 80.0),
+        "risk_distance": (10.0, 7.0, 5.0),
+    }
+    higher = metrics.find(metric).higher_is_better
+    expert, good, passing = own.get(metric, (3.0, 2.0, 1.0) if higher else (1.0, 2.0, 3.0))
+    bands = {"expert": expert, "good": good, "pass": passing, "weight": 1.0}
+    return {**bands, "required": metric == "risk_breach"}
+
+
+class HelpPage(Form):
+    """Assistance: fixed, by a schedule, fading; and force laws."""
+
+    def __init__(self, editor: ExerciseEditor) -> None:
+        super().__init__(editor, tr("Assistance"), ("assistance", "fading", "laws"))
+        self.number(
+            "assistance",
+            name=tr("Dial at the start: 1 guides, 0 nothing, −1 repels"),
+            low=-1.0,
+            high=1.0,
+            default=0.7,
+        )
+        ways = (
+            (None, tr("Fixed: the same at every attempt")),
+            (FadingKind.SCHEDULE.value, tr("Schedule: a dial for each attempt")),
+            (
+                FadingKind.PERFORMANCE.value,
+                tr("Fading: less after good attempts, more after poor ones"),
+            ),
+        )
+        self.way = self.choice(
+            "fading", "kind", name=tr("Over the attempts"), among=ways, write=self._set_way
+        )
+        self.dials = self.text(
+            "fading", "dials", name=tr("Dials of the 1st, 2nd, … attempt"), hint="0.7, 0.4, 0"
+        )
+        self.dials.textEdited.disconnect()
+        self.dials.textEdited.connect(self._set_dials)
+        self._loads[-1] = self._show_dials
+        self.number(
+            "fading", "least", name=tr("Dial never falls below"), low=-1.0, high=1.0, default=0.0
+        )
+        self.number("fading", "step", name=tr("Step of the dial"), low=0.01, high=1.0, default=0.2)
+        self.number(
+            "fading", "good", name=tr("Good from a total of"), low=0.0, high=100.0, default=80.0
+        )
+        self.number(
+            "fading", "poor", name=tr("Poor below a total of"), low=0.0, high=100.0, default=60.0
+        )
+        self.probes = self.count(
+            "fading",
+            "probe_every",
+            low=0,
+            high=100,
+            default=0,
+            name=tr("Every so many attempts a probe without help; 0: none"),
+        )
+        self.note(("fading",))
+        self.laws = PartsBox(editor, "laws", tr("Force laws"))
+        self.rows.addWidget(self.laws)
+        self.note(("laws",))
+        self._loads.append(self.laws.load)
+        self.rows.addStretch(1)
+
+    def load(self) -> None:
+        """Show what the document says; of fading only what its kind has."""
+        super().load()
+        kind = self.editor.get("fading", "kind")
+        for where, widget in self.fields.items():
+            if where[0] == "fading" and where[1] != "kind":
+                belongs = {"schedule": ("dials", "probe_every"), None: ()}.get(
+                    kind, ("least", "step", "good", "poor", "probe_every")
+                )
+                widget.setEnabled(where[1] in belongs)
+
+    def _set_way(self, kind: str | None) -> None:
+        dials = {"dials": [0.7, 0.4, 0.2, 0.0]} if kind == "schedule" else {}
+        self.editor.put("fading", value=None if kind is None else {"kind": kind, **dials})
+
+    def _show_dials(self) -> None:
+        dials = self.editor.get("fading", "dials", default=[])
+        if not self.dials.hasFocus() or not dials:
+            shown = dials if isinstance(dials, str) else ", ".join(f"{one:g}" for one in dials)
+            _show_line(self.dials, shown)
+
+    def _set_dials(self, text: str) -> None:
+        try:
+            value: Any = [float(part) for part in text.replace(";", ",").split(",") if part.strip()]
+        except ValueError:
+            value = text  # the reader says what is wrong with it
+        self.editor.put("fading", "dials", value=value, typed=True)
+
+
+class SightPage(Form):
+    """Views, locks, and how the CT is read."""
+
+    def __init__(self, editor: ExerciseEditor) -> None:
+        covers = ("views", "locks", "hand", "reading", "guidance")
+        super().__init__(editor, tr("What is seen"), covers)
+        self.flags(
+            "views", name=tr("Views"), among=[(one.value, view_title(one)) for one in ViewName]
+        )
+        locks = {
+            Lock.ASSISTANCE: tr("The assistance"),
+            Lock.VIEWS: tr("What is shown"),
+            Lock.READING: tr("Window, slab and layout"),
+            Lock.HAND: tr("What moves the hand"),
+        }
+        self.flags(
+            "locks",
+            name=tr("Locked for the student"),
+            among=[(one.value, title) for one, title in locks.items()],
+        )
+        hands = (
+            (None, tr("The student's own")),
+            ("mouse", tr("Mouse")),
+            ("tablet", tr("Tablet")),
+            ("gamepad", tr("Gamepad")),
+        )
+        self.choice("hand", name=tr("Hand"), among=hands)
+        windows = [
+            (None, tr("The student's own")),
+            *(({"width": one.width, "level": one.level}, name) for name, one in PRESETS.items()),
+        ]
+        self.choice("reading", "window", name=tr("Window of the CT"), among=windows)
+        layouts = (
+            (None, tr("The student's own")),
+            ("2x2", "2×2"),
+            ("1+3", "1+3"),
+            ("6-up", "6"),
+            ("needle", tr("Along the needle")),
+        )
+        self.choice("reading", "layout", name=tr("Layout of the panes"), among=layouts)
+        self.check("reading", "locked", name=tr("Window and layout stay as given here"))
+        self.note(("reading",))
+        self.count(
+            "guidance", "slices", name=tr("Slices of a control scan"), low=3, high=5, default=3
+        )
+        self.number(
+            "guidance",
+            "slice_mm",
+            name=tr("Thickness of a slice"),
+            low=0.5,
+            high=10.0,
+            default=5.0,
+            unit="mm",
+        )
+        self.check("guidance", "streak", name=tr("Metal leaves a streak in control scans"))
+        self.rows.addStretch(1)
+
+
+class EffectsPage(Form):
+    """Effects with the live plan of what is simulated, why, and at what cost."""
+
+    def __init__(self, editor: ExerciseEditor) -> None:
+        super().__init__(editor, tr("Effects"), ("effects", "layers"))
+        self.parts = PartsBox(editor, "effects", "")
+        self.rows.addWidget(self.parts)
+        self.note(("effects",))
+        self.note(("layers",))
+        self.cost = label("", "dim")
+        self.rows.addWidget(self.cost)
+        self._loads.append(self.parts.load)
+        self.rows.addStretch(1)
+
+    def show_cost(self, found: Mapping[str, Any] | None) -> None:
+        """Write what a tick costs; None while it is measured."""
+        if found is None:
+            self.cost.setText(tr("measuring what it costs …"))
+            return
+        costs = {one["effect"]: one["cost_ns"] for one in found["simulated"]}
+        costs |= {one["law"]: one["cost_ns"] for one in found["laws"]}
+        lines = [
+            tr("{name}: {ns:.0f} ns of each tick", name=name, ns=ns) for name, ns in costs.items()
+        ]
+        share = sum(costs.values()) / 1e4
+        lines.append(tr("together {share:.2f} % of the millisecond that a tick has", share=share))
+        self.cost.setText("\n".join(lines))
+
+
+class PartsBox(QWidget):
+    """Effects or force laws: which, and their parameters."""
+
+    def __init__(self, editor: ExerciseEditor, field: str, title: str) -> None:
+        super().__init__()
+        self._editor, self._field = editor, field
+        rows = QVBoxLayout(self)
+        rows.setContentsMargins(0, 0, 0, 0)
+        if title:
+            rows.addWidget(QLabel(title))
+        self.boxes: dict[str, QCheckBox] = {}
+        self.values: dict[tuple[str, str], QLineEdit] = {}
+        self._why: dict[str, QLabel] = {}
+        self._frames: dict[str, QGroupBox] = {}
+        for name, declared in _declared(field).items():
+            self._add(rows, name, declared)
+
+    def _add(self, rows: QVBoxLayout, name: str, declared: StageDeclaration) -> None:
+        box = self.boxes[name] = QCheckBox(f"{declared.title}  ({name})", self)
+        box.clicked.connect(lambda on, name=name: self._switch(name, on))
+        why = self._why[name] = label("", "dim")
+        frame = self._frames[name] = QGroupBox(self)
+        form = QFormLayout(frame)
+        for key, one in declared.parameters.items():
+            line = self.values[name, key] = QLineEdit(frame)
+            line.setPlaceholderText(_plain(one.default))
+            line.setToolTip(f"{one.meaning}; {one.minimum:g} … {one.maximum:g} {one.unit}")
+            line.textEdited.connect(lambda text, at=(name, key): self._set(at, text))
+            form.addRow(f"{key} [{one.unit}]", line)
+        for widget in (box, why, frame):
+            rows.addWidget(widget)
+
+    def load(self) -> None:
+        """Show which are on, why each is simulated or not, and what their parameters are."""
+        parts = self._editor.get(self._field, default={})
+        for name, box in self.boxes.items():
+            with QSignalBlocker(box):
+                box.setChecked(name in parts)
+            shown = self._editor.why.get(name, "") if name in parts else ""
+            self._why[name].setText(shown)
+            self._why[name].setVisible(bool(shown))
+            has_values = any(one == name for one, _ in self.values)
+            self._frames[name].setVisible(name in parts and has_values)
+        for (name, key), line in self.values.items():
+            given = (parts.get(name) or {}).get("parameters", {}).get(key, "")
+            if not line.hasFocus():
+                _show_line(line, _plain(given))
+
+    def _switch(self, name: str, on: bool) -> None:
+        self._editor.put(self._field, name, value={} if on else None)
+        if not on and not self._editor.get(self._field):
+            self._editor.put(self._field, value={})
+
+    def _set(self, at: tuple[str, str], text: str) -> None:
+        name, key = at
+        value: Any = text
+        if text.strip():
+            try:
+                value = float(text)
+            except ValueError:
+                value = text  # the reader says what is wrong with it
+        else:
+            value = None
+        self._editor.put(self._field, name, "parameters", key, value=value, typed=True)
+
+
+def _plain(value: object) -> str:
+    return f"{value:g}" if isinstance(value, int | float) else str(value or "")
+
+
+def _declared(field: str) -> dict[str, StageDeclaration]:
+    if field == "effects":
+        return {name: effects.declaration(name) for name in effects.effect_names()}
+    return {name: LAWS.find(name) for name in LAWS.names()}
+
+
+BANDS = ("expert", "good", "pass", "zero", "weight")
+
+
+class ScorePage(Form):
+    """What counts: bands, weights, hard fails."""
+
+    def __init__(self, editor: ExerciseEditor) -> None:
+        super().__init__(editor, tr("Score"), ("tolerances", "rules"))
+        self.metrics = {name: one for name, one in metrics.available().items() if not one.fault}
+        self.bands = QTableWidget(len(self.metrics), 7, self)
+        self.bands.setHorizontalHeaderLabels(
+            [
+                tr("Counts"),
+                tr("expert"),
+                tr("good"),
+                tr("pass"),
+                tr("zero"),
+                tr("weight"),
+                tr("must pass"),
+            ]
+        )
+        self.bands.setVerticalHeaderLabels(
+            [f"{one.title} [{one.unit}]" for one in self.metrics.values()]
+        )
+        self.bands.setMinimumHeight(theme.px(330))
+        self.bands.resizeColumnsToContents()
+        self.bands.itemChanged.connect(self._take)
+        self.add(
+            ("tolerances",),
+            tr("Bands: from “expert” on all points, beyond “zero” none"),
+            self.bands,
+            self._show,
+        )
+        self.number(
+            "rules", "pass_mark", name=tr("Total needed to pass"), low=0.0, high=100.0, default=60.0
+        )
+        self.note(("rules",))
+        self.drawn = label(
+            tr("The rings of “Off the path” are drawn on the CT as you change them."), "dim"
+        )
+        self.rows.addWidget(self.drawn)
+
+    def _show(self) -> None:
+        given = self.editor.get("tolerances", default={})
+        wrong = {one.field[1] for one in self.editor.problems_at("tolerances") if one.field[1:]}
+        with QSignalBlocker(self.bands):
+            for row, name in enumerate(self.metrics):
+                limits = given.get(name)
+                self._flag(row, 0, limits is not None, name in wrong)
+                self._flag(row, 6, bool(limits and limits.get("required")), False)
+                for place, key in enumerate(BANDS, 1):
+                    value = "" if limits is None else limits.get(key, "")
+                    self._cell(
+                        row, place, _plain(value) if value != 0.0 else "0", limits is not None
+                    )
+
+    def _flag(self, row: int, place: int, on: bool, wrong: bool) -> None:
+        item = self.bands.item(row, place) or QTableWidgetItem()
+        item.setFlags(Qt.ItemFlag.ItemIsUserCheckable | Qt.ItemFlag.ItemIsEnabled)
+        item.setCheckState(Qt.CheckState.Checked if on else Qt.CheckState.Unchecked)
+        item.setText("✖" if wrong else "")
+        if item.tableWidget() is None:
+            self.bands.setItem(row, place, item)
+
+    def _cell(self, row: int, place: int, text: str, on: bool) -> None:
+        item = self.bands.item(row, place) or QTableWidgetItem()
+        edited = Qt.ItemFlag.ItemIsEditable | Qt.ItemFlag.ItemIsEnabled
+        item.setFlags(edited | Qt.ItemFlag.ItemIsSelectable if on else Qt.ItemFlag.NoItemFlags)
+        item.setText(text)
+        if item.tableWidget() is None:
+            self.bands.setItem(row, place, item)
+
+    def _take(self, item: QTableWidgetItem) -> None:
+        name, place = list(self.metrics)[item.row()], item.column()
+        on = item.checkState() is Qt.CheckState.Checked
+        if place == 0:
+            self.editor.put("tolerances", name, value=default_tolerance(name) if on else None)
+        elif place == 6:
+            self.editor.put("tolerances", name, "required", value=on)
+        else:
+            text, key = item.text().strip(), BANDS[place - 1]
+            value: Any = None
+            if text:
+                try:
+                    value = float(text.replace(",", "."))
+                except ValueError:
+                    value = text
+            self.editor.put("tolerances", name, key, value=value)
+
+
+class ReviewPage(Form):
+    """All that is wrong, and the file that it will be."""
+
+    def __init__(self, editor: ExerciseEditor, text: Callable[[], str]) -> None:
+        super().__init__(editor, tr("Check and keep"), ())
+        self._text = text
+        self.verdict = label()
+        self.file = QPlainTextEdit(self)
+        self.file.setReadOnly(True)
+        self.file.setAccessibleName(tr("File of the exercise"))
+        self.rows.addWidget(self.verdict)
+        self.rows.addWidget(self.file, 1)
+
+    def load(self) -> None:
+        """Say what is wrong, or that nothing is; show the file."""
+        super().load()
+        said = [
+            f"✖ {one.name}: {one.text.removeprefix('Value error, ')}"
+            for one in self.editor.problems
+        ]
+        self.verdict.setText("\n".join(said) or tr("✔ The exercise can be used."))
+        self.verdict.setStyleSheet(f"color: {theme.BAD if said else theme.GOOD};")
+        self.file.setPlainText(self._text())

@@ -1,0 +1,284 @@
+"""An exercise made in the window: the form, its messages, undo, trying, keeping, files."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QCheckBox, QFileDialog, QMessageBox
+from window_rig import plan
+
+from app.exercises.library import folders, load_exercise, versions
+from app.exercises.parts import OwnPlan, PlanPoints
+from app.imaging.structures.structure import Structure, StructureKind, StructureSet
+from app.planning.placement import PatientOrientation, Placement
+from app.views.author.feature import AuthorFeature
+
+
+@pytest.fixture
+def opened(window, patient, settle, tmp_path):
+    """A CT of one's own is open, with a plan."""
+    folder = tmp_path / "given"
+    folder.mkdir()
+    window.show_patient(replace(patient, folder=folder))
+    plan(window)
+    settle()
+    return window
+
+
+@pytest.fixture
+def author(opened):
+    yield opened.feature(AuthorFeature)
+    opened.feature(AuthorFeature).forget()  # the form goes unasked
+
+
+@pytest.fixture
+def form(author):
+    author.button.click()
+    assert author.dialog is not None
+    return author.dialog
+
+
+def write(line, text):
+    line.setFocus()
+    line.selectAll()
+    QTest.keyClicks(line, text)
+
+
+def said(dialog):
+    return dialog.note.text()
+
+
+def test_a_few_clicks_make_an_exercise_of_what_is_open(opened, author, form, settle):
+    assert form.isVisible()
+    assert not form.keep.isEnabled()
+    assert "title" in form.keep.toolTip()
+    write(form.task.name, "Lung, left")
+    assert form.keep.isEnabled()
+    QTest.mouseClick(form.keep, Qt.MouseButton.LeftButton)
+    assert "“lung-left”, version 1" in said(form)
+    kept = load_exercise("lung-left")
+    assert isinstance(kept.plan, PlanPoints)
+    assert kept.plan.plan() == opened.editor.edit.draft.plan()
+    assert kept.ct.digest == opened.conductor.patient.volume.digest
+    assert kept.ct.folder == opened.conductor.patient.folder
+    panel = opened.conductor.views.panel.exercise
+    assert panel.findData("lung-left") >= 0
+    shown = [
+        opened.start_page.exercises.item(n).text()
+        for n in range(opened.start_page.exercises.count())
+    ]
+    assert any("Lung, left" in text for text in shown)
+
+
+def test_without_a_ct_it_says_what_to_do(window, settle):
+    errors = []
+    author = window.feature(AuthorFeature)
+    author.failed.connect(errors.append)
+    author.make()
+    assert author.dialog is None
+    assert "open one first" in errors[0]
+
+
+def test_every_mistake_is_said_at_its_field_and_at_its_page(form, author):
+    write(form.task.name, "X")
+    author.editor.put("tolerances", "angle_error", "good", value="two")
+    note = next(one for where, one in form.score._notes if where == ("tolerances",))
+    assert note.isVisibleTo(form.score)
+    assert "angle_error.good" in note.text()
+    assert [mark.value for mark, _ in form.marks()] == ["good"] * 5 + ["bad", "bad"]
+    assert form.list.item(5).text().startswith("✖")
+    assert not form.attempt.isEnabled()
+    assert author.editor.exercise is None
+    author.editor.undo()
+    assert not note.isVisibleTo(form.score)
+    assert form.keep.isEnabled()
+
+
+def test_typed_letters_are_one_step_and_undo_and_redo_go_through_all(form, author):
+    write(form.task.name, "One")
+    form.task.level.setValue(4)
+    form.task.briefing.setPlainText("Look first.\nThen go.")
+    form.undo.click()
+    assert form.task.briefing.toPlainText() == ""
+    form.undo.click()
+    assert form.task.level.value() == 1
+    form.undo.click()
+    assert form.task.name.text() == ""
+    assert not form.undo.isEnabled()
+    for _ in range(3):
+        form.redo.click()
+    assert author.editor.get("level") == 4
+    assert author.editor.get("description") == "Look first.\nThen go."
+
+
+def test_the_types_set_path_pictures_and_dial(form, author):
+    write(form.task.name, "X")
+    box = form.task.kind
+    for place, words in ((1, "own"), (2, "scans"), (0, "follow")):
+        box.setCurrentIndex(place)
+        box.activated.emit(place)
+        assert box.currentData() == words
+    form.undo.click()
+    assert author.editor.get("guidance", "mode") == "control_ct"
+    assert author.editor.exercise.shown_views == ("three_d",)
+    form.undo.click()
+    assert isinstance(author.editor.exercise.plan, OwnPlan)
+    form.undo.click()
+    assert isinstance(author.editor.exercise.plan, PlanPoints)
+
+
+def test_path_and_position_are_taken_anew_from_the_window(opened, form, author):
+    write(form.task.name, "X")
+    opened.editor.set_placement(Placement(PatientOrientation.PRONE, (0.0, 0.0, 10.0)))
+    form.patient.take.click()
+    assert author.editor.exercise.placement.placement() == opened.editor.edit.placement
+    assert "prone" in form.patient.where.text()
+
+
+def test_structures_of_risk_are_written_and_go_along(opened, author, settle):
+    volume = opened.conductor.patient.volume
+    mask = np.zeros(volume.hu.shape, bool)
+    mask[10:14, 20:24, 20:24] = True
+    drawn = (Structure.of("vessel", mask, volume, StructureKind.VESSEL),
+             Structure.of("other", mask, volume, StructureKind.OTHER))  # fmt: skip
+    opened.editors.structures.add(StructureSet(drawn))
+    author.make()
+    form = author.dialog
+    write(form.task.name, "Past it")
+    rows = form.patient.risks
+    assert [rows.item(n, 0).text() for n in range(rows.rowCount())] == ["vessel", "other"]
+    box = rows.cellWidget(1, 1)
+    assert isinstance(box, QCheckBox)
+    box.click()
+    rows.cellWidget(1, 2).setValue(7.0)
+    form.keep.click()
+    kept = load_exercise("past-it")
+    assert dict(kept.structures[0].risks) == {"vessel": 3.0, "other": 7.0}
+    assert kept.structures[0].file.is_file()
+    assert kept.tolerances["risk_breach"].required
+
+
+def test_effects_say_live_why_they_are_simulated_or_left_out_and_what_they_cost(
+    form, author, settle
+):
+    write(form.task.name, "X")
+    form.effects.parts.boxes["breathing"].click()
+    why = form.effects.parts._why["breathing"]
+    assert why.text().startswith("✔")
+    form.effects.parts.values[
+        "breathing",
+        next(iter(key for name, key in form.effects.parts.values if name == "breathing")),
+    ].textEdited.emit("x")
+    assert not form.keep.isEnabled()
+    author.editor.undo()
+    assert settle(lambda: "each tick" in form.effects.cost.text())
+
+
+def test_bands_are_edited_in_the_table_and_their_rings_drawn_on_the_ct(opened, form, author):
+    write(form.task.name, "X")
+    row = list(form.score.metrics).index("lateral_error")
+    form.score.bands.item(row, 3).setText("9")
+    assert author.editor.exercise.tolerances["lateral_error"].pass_ == 9.0
+    assert opened.workspace.viewing.tolerances_mm == pytest.approx((2.0, 9.0))
+    other = list(form.score.metrics).index("peak_force")
+    form.score.bands.item(other, 0).setCheckState(Qt.CheckState.Checked)
+    assert "peak_force" in author.editor.exercise.tolerances
+    author.may_go = lambda: True
+    form.may_close = lambda: True
+    form.reject()
+    assert opened.workspace.viewing.tolerances_mm == pytest.approx((2.0, 5.0))
+
+
+def test_fading_is_chosen_and_its_mistakes_are_said(form, author):
+    write(form.task.name, "X")
+    form.help.way.setCurrentIndex(1)
+    form.help.way.activated.emit(1)
+    assert author.editor.exercise.fading.dials == (0.7, 0.4, 0.2, 0.0)
+    write(form.help.dials, "0.5, zero")
+    assert not form.keep.isEnabled()
+    write(form.help.dials, "0.5, 0")
+    assert author.editor.exercise.fading.dials == (0.5, 0.0)
+
+
+def test_it_can_be_tried_without_being_kept(opened, form, author, settle):
+    write(form.task.name, "Tried")
+    form.task.level.setValue(7)
+    form.attempt.click()
+    assert opened.conductor.exercise.title == "Tried"
+    assert settle(lambda: opened.runs.run is not None)
+    assert opened.services.opened[-1].setup.exercise.level == 7
+    assert not (folders()[1] / "tried.yaml").exists()
+
+
+def test_a_changed_exercise_is_a_new_version_and_a_copy_another_exercise(opened, form, author):
+    write(form.task.name, "Mine")
+    form.keep.click()
+    form.task.level.setValue(5)
+    assert "next version" in form.task.kept.text()
+    form.keep.click()
+    assert versions("mine") == (1, 2)
+    assert load_exercise("mine@1").level == 1
+    form.copy.click()
+    form.keep.click()
+    assert load_exercise("mine-copy").level == 5
+    assert load_exercise("mine").version == 2
+
+
+def test_an_exercise_that_comes_with_acus_is_copied_before_it_is_changed(opened, author):
+    author.change()
+    assert "this is a copy" in said(author.dialog)
+    assert author.editor.get("id") == "first-insertion-copy"
+
+
+def test_one_that_is_not_kept_is_asked_about(opened, form, author, monkeypatch):
+    write(form.task.name, "Mine")
+    answers = [QMessageBox.StandardButton.Cancel, QMessageBox.StandardButton.Save]
+    monkeypatch.setattr(QMessageBox, "question", staticmethod(lambda *_: answers.pop(0)))
+    form.reject()
+    assert form.isVisible()
+    assert "not kept yet" in author.unsaved()
+    form.close()
+    assert author.dialog is None
+    assert load_exercise("mine").title == "Mine"
+
+
+def test_with_the_patient_the_form_goes(opened, form, patient):
+    opened.show_patient(patient)
+    assert opened.feature(AuthorFeature).dialog is None
+
+
+def test_an_exercise_is_exported_and_imported_elsewhere(
+    opened, form, author, settle, tmp_path, monkeypatch
+):
+    write(form.task.name, "Mine")
+    form.keep.click()
+    path = tmp_path / "mine.acusx"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", staticmethod(lambda *_: (str(path), "")))
+    monkeypatch.setattr(
+        QMessageBox, "question", staticmethod(lambda *_: QMessageBox.StandardButton.No)
+    )
+    form.export.click()
+    assert settle(path.is_file)
+    monkeypatch.setenv("ACUS_DATA", str(tmp_path / "other"))
+    asked, errors = [], []
+    monkeypatch.setattr(
+        QFileDialog, "getExistingDirectory", staticmethod(lambda *_: asked.append(1) or "")
+    )
+    author.failed.connect(errors.append)
+    opened.open_dropped(path)
+    assert settle(lambda: bool(asked))
+    assert "does not hold its CT" in str(errors[0])
+
+
+def test_another_ct_in_the_exercises_folder_is_said(opened, form, author, settle):
+    write(form.task.name, "Mine")
+    form.keep.click()
+    errors, conductor = [], opened.conductor
+    conductor.failed.connect(errors.append)
+    other = replace(conductor.patient.volume, hu=conductor.patient.volume.hu + np.int16(1))
+    opened.context.services.exercises()
+    conductor.set_exercise(load_exercise("mine"))
+    conductor.set_patient(replace(conductor.patient, volume=other))
+    assert "another one than the exercise was made on" in str(errors[0])
