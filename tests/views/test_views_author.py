@@ -83,6 +83,7 @@ def test_without_a_ct_it_says_what_to_do(window, settle):
 
 def test_every_mistake_is_said_at_its_field_and_at_its_page(form, author):
     write(form.task.name, "X")
+    form.show_page(5)
     author.editor.put("tolerances", "angle_error", "good", value="two")
     note = next(one for where, one in form.score._notes if where == ("tolerances",))
     assert note.isVisibleTo(form.score)
@@ -131,6 +132,7 @@ def test_the_types_set_path_pictures_and_dial(form, author):
 
 def test_path_and_position_are_taken_anew_from_the_window(opened, form, author):
     write(form.task.name, "X")
+    form.show_page(1)
     opened.editor.set_placement(Placement(PatientOrientation.PRONE, (0.0, 0.0, 10.0)))
     form.patient.take.click()
     assert author.editor.exercise.placement.placement() == opened.editor.edit.placement
@@ -147,6 +149,7 @@ def test_structures_of_risk_are_written_and_go_along(opened, author, settle):
     author.make()
     form = author.dialog
     write(form.task.name, "Past it")
+    form.show_page(1)
     rows = form.patient.risks
     assert [rows.item(n, 0).text() for n in range(rows.rowCount())] == ["vessel", "other"]
     box = rows.cellWidget(1, 1)
@@ -164,6 +167,7 @@ def test_effects_say_live_why_they_are_simulated_or_left_out_and_what_they_cost(
     form, author, settle
 ):
     write(form.task.name, "X")
+    form.show_page(4)
     form.effects.parts.boxes["breathing"].click()
     why = form.effects.parts._why["breathing"]
     assert why.text().startswith("✔")
@@ -178,6 +182,7 @@ def test_effects_say_live_why_they_are_simulated_or_left_out_and_what_they_cost(
 
 def test_bands_are_edited_in_the_table_and_their_rings_drawn_on_the_ct(opened, form, author):
     write(form.task.name, "X")
+    form.show_page(5)
     row = list(form.score.metrics).index("lateral_error")
     form.score.bands.item(row, 3).setText("9")
     assert author.editor.exercise.tolerances["lateral_error"].pass_ == 9.0
@@ -193,6 +198,7 @@ def test_bands_are_edited_in_the_table_and_their_rings_drawn_on_the_ct(opened, f
 
 def test_fading_is_chosen_and_its_mistakes_are_said(form, author):
     write(form.task.name, "X")
+    form.show_page(2)
     form.help.way.setCurrentIndex(1)
     form.help.way.activated.emit(1)
     assert author.editor.exercise.fading.dials == (0.7, 0.4, 0.2, 0.0)

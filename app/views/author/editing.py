@@ -53,6 +53,8 @@ class ExerciseEditor(QObject):
         self._history: UndoHistory[Document] = UndoHistory({})
         self._kept: Document = {}
         self._typing: Where = ()
+        self._taken: list[str] = []
+        self._checked: tuple[Exercise, Any] | None = None
         self.problems: tuple[FieldProblem, ...] = ()
         self.why: Mapping[str, str] = {}
         self.exercise: Exercise | None = None
@@ -101,6 +103,7 @@ class ExerciseEditor(QObject):
             saved: the exercise that it is of, where it is one that is kept; None for a new one.
         """
         self._history, self._typing, self.saved = UndoHistory(document), (), saved
+        self._taken = taken_ids()
         self._kept = document if saved is not None else {}
         self._judge()
 
@@ -114,7 +117,7 @@ class ExerciseEditor(QObject):
         for where, value in values.items():
             _set(document, where, value)
         if self.saved is None and ("title",) in values:
-            document["id"] = free_id(str(document.get("title", "")), taken_ids())
+            document["id"] = free_id(str(document.get("title", "")), self._taken)
         if document == self.document:
             return
         if typing and typing == self._typing:
@@ -167,7 +170,7 @@ class ExerciseEditor(QObject):
         self.problems = field_problems(self.document, Exercise)
         if not self.problems:
             self.exercise = Exercise.model_validate(self.document)
-            self.why, wrong = self._check(self.exercise)
+            self.why, wrong = self._deep(self.exercise)
             drawn = self.get("structures", default=[])
             self.problems = tuple(
                 FieldProblem((field,), text)
@@ -175,6 +178,14 @@ class ExerciseEditor(QObject):
                 if not (field == "structures" and DRAWN in str(drawn))
             )
         self.changed.emit()
+
+    def _deep(self, exercise: Exercise) -> Any:
+        """Check what an exercise names, unless only its words have changed since."""
+        words = {"id": "x", "title": "x", "description": "", "level": 1, "version": 1}
+        bare = exercise.model_copy(update=words)
+        if self._checked is None or self._checked[0] != bare:
+            self._checked = bare, self._check(exercise)
+        return self._checked[1]
 
 
 def _set(document: Document, where: Where, value: Any) -> None:

@@ -70,7 +70,7 @@ class ExerciseDialog(Wizard):
     """
 
     def __init__(self, editor: ExerciseEditor, context: Context, parent: QWidget) -> None:
-        super().__init__(tr("Exercise"), (760, 720), theme.px(190), parent)
+        super().__init__(tr("Exercise"), (900, 760), theme.px(190), parent)
         self.setModal(False)
         self.editor = editor
         structures = context.editors.structures
@@ -104,7 +104,7 @@ class ExerciseDialog(Wizard):
         self.undo.clicked.connect(editor.undo)
         self.redo.clicked.connect(editor.redo)
         self.may_close: Callable[[], bool] = lambda: True
-        editor.changed.connect(self.refresh)
+        editor.changed.connect(self.follow)
         self.show_page(0)
 
     def marks(self) -> list[tuple[Verdict, str]]:
@@ -115,6 +115,15 @@ class ExerciseDialog(Wizard):
         ]
         found[-1] = (Verdict.BAD if bad else Verdict.GOOD, self.review.title)
         return found
+
+    def enter(self, number: int) -> None:
+        """Show on a page what the document says now."""
+        self.forms[number].load()
+
+    def follow(self) -> None:
+        """Show another document."""
+        self.enter(self.pages.currentIndex())
+        self.refresh()
 
     def refresh(self) -> None:
         """Mark the pages, and enable what can be done now."""
@@ -299,7 +308,11 @@ class AuthorFeature(Feature):
         dialog.task.kind_wanted.connect(self.set_kind)
         dialog.patient.plan_wanted.connect(self.take_plan)
         self.editor.begin(document, saved)
+        frame = self._shell.dialog_parent.geometry()  # at its right: the axial pane stays free
+        dialog.move(max(frame.right() - dialog.width() - theme.MARGIN, 0), frame.top() + 60)
         dialog.show()
+        dialog.raise_()
+        dialog.activateWindow()
         dialog.task.name.setFocus()
 
     def set_kind(self, kind: str) -> None:
@@ -363,8 +376,11 @@ class AuthorFeature(Feature):
         except AcusError as error:
             self._say(str(error), Verdict.BAD)
             return
-        self._say(tr("The exercise is taken as it stands; it is not kept by that."))
-        self._shell.show_workspace()
+        if self.editor.dirty:
+            self._say(tr("The exercise is taken as it stands; it is not kept by that."))
+        else:
+            self._say(tr("The exercise is taken."))
+        self._shell.show_panel(self._conductor.views.panel)
 
     def keep(self) -> bool:
         """Keep the exercise; a changed one is a new version. Returns whether that was done."""
@@ -576,5 +592,5 @@ class AuthorFeature(Feature):
             self.dialog = None
             self._cost_timer.stop()
             self._draw(self._conductor.exercise)
-        self.editor.changed.disconnect(dialog.refresh)
+        self.editor.changed.disconnect(dialog.follow)
         dialog.deleteLater()

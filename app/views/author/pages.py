@@ -46,7 +46,7 @@ Choice = Sequence[tuple[Any, str]]
 
 
 class Form(QWidget):
-    """A page of fields, each bound to a place in the document.
+    """A page of fields, each bound to a place in the document; loaded while it is shown.
 
     Attributes:
         covers: fields whose problems belong to this page.
@@ -59,7 +59,6 @@ class Form(QWidget):
         self.fields: dict[Where, QWidget] = {}
         self._loads: list[Callable[[], None]] = []
         self._notes: list[tuple[Where, QLabel]] = []
-        editor.changed.connect(self.load)
 
     def load(self) -> None:
         """Show what the document says, and what is wrong with it."""
@@ -229,6 +228,8 @@ def _sentence(problem: FieldProblem, where: Where) -> str:
     """Say what is wrong, and where within the field if it is a part of it."""
     inner = ".".join(str(part) for part in problem.field[len(where) :])
     text = problem.text.removeprefix("Value error, ")
+    if text.startswith("String should have at least 1 character"):
+        text = tr("is empty: type something")
     return f"✖ {inner}: {text}" if inner else f"✖ {text}"
 
 
@@ -331,6 +332,10 @@ class PatientPage(Form):
         self.note(("placement",))
         self.risks = table((tr("Structure"), tr("Of risk"), tr("Keep off [mm]")))
         self.risks.setFixedHeight(theme.px(150))
+        self.undrawn = label(
+            tr("None is drawn: draw or import some on the page Structures."), "dim"
+        )
+        self.rows.addWidget(self.undrawn)
         self.add(
             ("structures",), tr("Structures, drawn in the window"), self.risks, self._show_risks
         )
@@ -382,6 +387,8 @@ class PatientPage(Form):
         names = [one.name for one in self._structures()]
         names += [name for name in risks if name not in names]
         rows = self.risks
+        rows.setVisible(bool(names))
+        self.undrawn.setVisible(not names)
         with QSignalBlocker(rows):
             rows.setRowCount(len(names))
             for row, name in enumerate(names):
@@ -684,6 +691,12 @@ def _declared(field: str) -> dict[str, StageDeclaration]:
     return {name: LAWS.find(name) for name in LAWS.names()}
 
 
+USUAL = (
+    *("lateral_error", "depth_error", "angle_error", "path_ratio", "total_time", "target_error"),
+    *("risk_breach", "control_scans", "notional_dose"),
+)
+"""Metrics that stand first in the table."""
+
 BANDS = ("expert", "good", "pass", "zero", "weight")
 
 
@@ -692,7 +705,9 @@ class ScorePage(Form):
 
     def __init__(self, editor: ExerciseEditor) -> None:
         super().__init__(editor, tr("Score"), ("tolerances", "rules"))
-        self.metrics = {name: one for name, one in metrics.available().items() if not one.fault}
+        there = {name: one for name, one in metrics.available().items() if not one.fault}
+        first = [name for name in USUAL if name in there]
+        self.metrics = {name: there[name] for name in dict.fromkeys((*first, *there))}
         self.bands = QTableWidget(len(self.metrics), 7, self)
         self.bands.setHorizontalHeaderLabels(
             [
@@ -706,10 +721,14 @@ class ScorePage(Form):
             ]
         )
         self.bands.setVerticalHeaderLabels(
-            [f"{one.title} [{one.unit}]" for one in self.metrics.values()]
+            [
+                f"{one.title} [{one.unit}]" if one.unit else one.title
+                for one in self.metrics.values()
+            ]
         )
         self.bands.setMinimumHeight(theme.px(330))
-        self.bands.resizeColumnsToContents()
+        for place in range(self.bands.columnCount()):
+            self.bands.setColumnWidth(place, theme.px(62 if 0 < place < 6 else 74))
         self.bands.itemChanged.connect(self._take)
         self.add(
             ("tolerances",),
