@@ -215,6 +215,7 @@ def test_it_can_be_tried_without_being_kept(opened, form, author, settle):
     assert opened.conductor.exercise.title == "Tried"
     assert settle(lambda: opened.runs.run is not None)
     assert opened.services.opened[-1].setup.exercise.level == 7
+    assert opened.conductor.views.panel.exercise.currentText() == "Tried (not kept)"
     assert not (folders()[1] / "tried.yaml").exists()
 
 

@@ -70,7 +70,7 @@ class ExerciseDialog(Wizard):
     """
 
     def __init__(self, editor: ExerciseEditor, context: Context, parent: QWidget) -> None:
-        super().__init__(tr("Exercise"), (900, 760), theme.px(190), parent)
+        super().__init__(tr("Exercise"), (900, 760), theme.px(160), parent)
         self.setModal(False)
         self.editor = editor
         structures = context.editors.structures

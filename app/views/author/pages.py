@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -25,7 +26,7 @@ from PySide6.QtWidgets import (
 from app.core.configuration import FieldProblem
 from app.core.plugins import StageDeclaration
 from app.device.control.law import KIND as LAWS
-from app.exercises.fading import FadingKind
+from app.exercises.guidance import FadingKind
 from app.exercises.library import profile_names
 from app.exercises.locks import Lock
 from app.exercises.parts import ViewName
@@ -228,6 +229,7 @@ def _sentence(problem: FieldProblem, where: Where) -> str:
     """Say what is wrong, and where within the field if it is a part of it."""
     inner = ".".join(str(part) for part in problem.field[len(where) :])
     text = problem.text.removeprefix("Value error, ")
+    text = re.sub(r", got a (mapping|list) of \d+$", "", text)
     if text.startswith("String should have at least 1 character"):
         text = tr("is empty: type something")
     return f"✖ {inner}: {text}" if inner else f"✖ {text}"
@@ -728,7 +730,8 @@ class ScorePage(Form):
         )
         self.bands.setMinimumHeight(theme.px(330))
         for place in range(self.bands.columnCount()):
-            self.bands.setColumnWidth(place, theme.px(62 if 0 < place < 6 else 74))
+            self.bands.setColumnWidth(place, theme.px(54 if 0 < place < 6 else 66))
+        self.bands.verticalHeader().setMaximumWidth(theme.px(230))
         self.bands.itemChanged.connect(self._take)
         self.add(
             ("tolerances",),

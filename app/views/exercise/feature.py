@@ -32,6 +32,7 @@ class ExerciseFeature(Feature):
         self._panel.buttons.watch(self._shell.dialog_parent)
         self._panel.exercise_chosen.connect(self.begin)
         self._conductor.exercises_changed.connect(self._read_exercises)
+        self._conductor.exercise_taken.connect(lambda _: self.show_taken())
         self._patients.failed.connect(lambda _: self.give_up())
         self._patients.given_up.connect(self.give_up)
 
@@ -52,8 +53,12 @@ class ExerciseFeature(Feature):
 
     @property
     def titles(self) -> list[tuple[str, str]]:
-        """Identifiers and titles of all exercises."""
-        return [(exercise.id, exercise.title) for exercise in self.exercises.values()]
+        """Identifiers and titles of all exercises, and of one that is taken without being kept."""
+        found = {exercise.id: exercise.title for exercise in self.exercises.values()}
+        taken = self._conductor.exercise
+        if taken is not None and taken.id not in found:
+            found[taken.id] = tr("{title} (not kept)", title=taken.title)
+        return list(found.items())
 
     def begin(self, identifier: str) -> None:
         """Take an exercise and open its patient, unless it is shown already."""
