@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.core.arrays import FloatArray, read_only
+from app.core.arrays import FloatArray, crosses, read_only
 from app.planning.placement import PlacedPlan
 
 SHORTEST = 1e-3
@@ -85,7 +85,7 @@ def split(beyond: FloatArray, path: FloatArray) -> tuple[FloatArray, FloatArray]
 
 def angles(axes: FloatArray, path: FloatArray) -> FloatArray:
     """Angle between needles and path [rad], exact near 0 and π."""
-    sideways = np.linalg.norm(np.cross(axes, path), axis=-1)
+    sideways = np.linalg.norm(crosses(axes, path), axis=-1)
     along = np.sum(axes * path, axis=-1) if path.ndim > 1 else axes @ path
     result: FloatArray = np.arctan2(sideways, along)
     return result

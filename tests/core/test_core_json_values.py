@@ -7,7 +7,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.core.arrays import cross
+from app.core.arrays import cross, crosses
 from app.core.json_values import compact, finite
 
 
@@ -51,3 +51,10 @@ def test_what_is_not_finite_is_null():
 def test_the_cross_product_is_that_of_numpy_to_the_last_bit(numbers):
     a, b = np.array(numbers[:3]), np.array(numbers[3:])
     assert np.array_equal(cross(a, b), np.cross(a, b))
+
+
+def test_the_cross_products_of_stacks_are_those_of_numpy_to_the_last_bit():
+    rng = np.random.default_rng(1)
+    for one, other in (((3,), (3,)), ((3,), (7, 3)), ((5, 1, 3), (5, 2, 3)), ((9, 3), (9, 3))):
+        a, b = rng.normal(size=one), rng.normal(size=other)
+        np.testing.assert_array_equal(crosses(a, b), np.cross(a, b), strict=True)

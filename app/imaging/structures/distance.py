@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import ndimage
 from scipy.spatial import cKDTree
 
-from app.core.arrays import FloatArray, read_only
+from app.core.arrays import FloatArray, crosses, read_only
 from app.core.progress import Progress
 from app.imaging.structures.structure import Structure
 
@@ -167,7 +167,7 @@ def _to_triangles(point: FloatArray, triangles: FloatArray) -> float:
     a, b, c = (triangles[:, corner] for corner in range(3))
     edges = [_to_segments(point, *ends) for ends in ((a, b), (b, c), (c, a))]
     nearest = float(np.min(edges))
-    normal = np.cross(b - a, c - a)
+    normal = crosses(b - a, c - a)
     length = np.linalg.norm(normal, axis=1)
     real = length > 1e-12  # what is no triangle is its edges
     normal = normal / np.where(real, length, 1.0)[:, None]
@@ -175,7 +175,7 @@ def _to_triangles(point: FloatArray, triangles: FloatArray) -> float:
     foot = point - height[:, None] * normal
     over = real
     for start, end in ((a, b), (b, c), (c, a)):
-        over = over & ((np.cross(end - start, foot - start) * normal).sum(axis=1) >= 0.0)
+        over = over & ((crosses(end - start, foot - start) * normal).sum(axis=1) >= 0.0)
     return min(nearest, float(np.abs(height[over]).min())) if over.any() else nearest
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.core.arrays import FloatArray
+from app.core.arrays import FloatArray, crosses
 from app.core.transform import RigidTransform
 
 
@@ -108,5 +108,5 @@ def rows(
 
 def _by_twist(by_point: FloatArray, points: FloatArray) -> FloatArray:
     """Differentiate by a twist on the left of the pose that made the points: [I | -[p]x]."""
-    turn = np.cross(points[:, None, :], by_point)  # row·(ω x p) = ω·(p x row)
+    turn = crosses(points[:, None, :], by_point)  # row·(ω x p) = ω·(p x row)
     return np.concatenate([by_point, turn], axis=2)
