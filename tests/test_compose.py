@@ -1,6 +1,7 @@
 """The composed trainer in virtual time: the same parts as in the window, without threads."""
 
 import json
+from functools import cache
 
 import numpy as np
 import pytest
@@ -51,9 +52,15 @@ def run(skill, exercise="first-insertion", seed=3, assistance=0.7, seconds=60.0,
     return result, states, felt
 
 
+@cache
+def guided(skill):
+    """The usual attempt of a skill, which several tests look at."""
+    return run(skill)
+
+
 @pytest.mark.parametrize("skill", ["expert", "novice"])
 def test_a_guided_attempt_goes_through_all_states_and_reaches_the_target(skill):
-    result, states, felt = run(skill)
+    result, states, felt = guided(skill)
     assert states[0] is State.ALIGNING
     assert {State.ALIGNING, State.INSERTING, State.HOLDING} <= set(states)
     assert result.state is State.ENDED
@@ -63,11 +70,11 @@ def test_a_guided_attempt_goes_through_all_states_and_reaches_the_target(skill):
 
 
 def test_the_expert_scores_more_than_the_novice():
-    assert run("expert")[0].score.total > run("novice")[0].score.total
+    assert guided("expert")[0].score.total > guided("novice")[0].score.total
 
 
 def test_the_same_seed_is_the_same_attempt_to_the_last_digit():
-    first, again = run("novice")[0], run("novice")[0]
+    first, again = guided("novice")[0], run("novice")[0]
     np.testing.assert_array_equal(first.trajectory.tip, again.trajectory.tip)
     assert first.score.total == again.score.total
 
