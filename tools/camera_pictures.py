@@ -45,7 +45,7 @@ def rendered(rig: RigProfile, folder: Path) -> CameraSettings:
 
 def calibration(rig: RigProfile) -> StereoCalibration:
     """Return a rig's own cameras as a calibration."""
-    cameras = tuple(
+    first, second = (
         CameraCalibration(
             name=m.name,
             image_size=m.image_size,
@@ -59,7 +59,7 @@ def calibration(rig: RigProfile) -> StereoCalibration:
     return StereoCalibration(
         id="20261122-091244-3f2a",
         created=datetime.now(UTC),
-        cameras=cameras,
+        cameras=(first, second),
         pose=PoseCalibration.of(right.inverse() @ left),
         world=PoseCalibration.of(left),
     )

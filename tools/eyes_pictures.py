@@ -35,8 +35,11 @@ def seen(window: MainWindow) -> None:
     run = window.conductor.controller.run
 
     def well() -> bool:
-        snapshot = run.trainer.snapshot() if run is not None else None
-        return snapshot is not None and snapshot.pose.measured and snapshot.tracker.age < 0.5
+        if run is None:
+            return False
+        snapshot = run.trainer.snapshot()
+        age = None if snapshot.tracker is None else snapshot.tracker.age
+        return snapshot.pose.measured and age is not None and age < 0.5
 
     pause(1.0)
     wait(well, 120.0)

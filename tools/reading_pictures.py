@@ -15,11 +15,13 @@ from math import radians
 from pathlib import Path
 
 import numpy as np
+from PySide6.QtWidgets import QScrollArea
 
 from app.imaging.structures.edit import brushed
 from app.imaging.structures.structure import Structure, StructureKind
 from app.imaging.window import WindowLevel
 from app.planning.measurements import Angle, Distance, Probe, Region
+from app.views.measure.feature import MeasureFeature
 from app.views.plan.feature import PlanFeature
 from app.views.plan.paths import PathsFeature
 from app.views.shell.application import start
@@ -74,6 +76,8 @@ def _paint(
     warn: float,
 ) -> None:
     book = studio.window.editors.structures
+    if book.volume is None:
+        raise RuntimeError("no patient is shown: there is nothing to paint on")
     painted: Structure | None = None
     for dab in dabs:
         found = brushed(painted, book.volume, dab, radius, add=True)
@@ -88,13 +92,13 @@ def entry_map(studio: Studio) -> None:
     window = studio.window
     window.feature(PathsFeature).make()
     wait(lambda: window.feature(PathsFeature).scores is not None)
-    window.workspace.show_plan()
+    side, plan = window.workspace.side, window.feature(PlanFeature).panel
+    scroller = next(area for area in window.findChildren(QScrollArea) if area.widget() is plan)
+    side.setCurrentWidget(scroller)
     table = window.feature(PathsFeature).panel.table
     table.selectRow(0)
     pause(0.3)
-    window.feature(PlanFeature).panel.parentWidget().parentWidget().ensureWidgetVisible(
-        window.feature(PathsFeature).panel.take
-    )
+    scroller.ensureWidgetVisible(window.feature(PathsFeature).panel.take)
     studio.zoom(2.0)
     studio.keep_window("planning-map")
     window.feature(PathsFeature).clear()
@@ -111,7 +115,7 @@ def measurements(studio: Studio) -> None:
     editor.add(Angle((x - 40.0, y - 40.0, z), (x, y, z), (x - 5.0, y - 62.0, z), "To the skin"))
     editor.add(Probe((x + 30.0, y + 20.0, z), "Point"))
     editor.add(Region((x - 20.0, y + 30.0, z), (22.0, 0.0, 0.0), (0.0, 14.0, 0.0), "Liver"))
-    workspace.show_measurements()
+    studio.window.feature(MeasureFeature).show()
     studio.zoom(2.6)
     studio.keep_window("planning-measurements")
     editor.clear()

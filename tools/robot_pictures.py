@@ -20,7 +20,7 @@ from app.core.progress import Progress
 from app.mechanisms.profile import load_profile
 from app.views.exercise.energy_gauge import GaugeMode
 from app.views.robot.feature import RobotFeature
-from app.views.robot.wizard import Wizard
+from app.views.robot.wizard import CommissioningWizard
 from app.views.shell.application import start
 from app.views.shell.window import MainWindow
 
@@ -72,7 +72,7 @@ def attempt(window: MainWindow, folder: Path) -> None:
     workspace.show_exercise()
     pause(0.3)
     keep(panel, folder / "robot-energy-gauge.png")
-    workspace.show_health()
+    window.feature(RobotFeature).show_health()
     pause(2.0)
     keep(window, folder / "robot-health.png")
     panel.enable.released.emit()
@@ -110,7 +110,7 @@ def commissioning(folder: Path) -> None:
     """Begin the homing of an emulated board."""
     with emulated_board() as port:
         bench = Desktop().open_robot(port, load_profile("icube"), Progress())
-        wizard = Wizard(bench)
+        wizard = CommissioningWizard(bench)
         try:
             wizard.show()
             wizard.show_page(1)
