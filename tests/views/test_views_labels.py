@@ -82,3 +82,11 @@ def test_a_label_stays_off_other_words_even_far_from_its_mark():
 def test_a_label_is_left_out_where_other_words_leave_no_room():
     assert arrange([label(100, 90)], PANE, taken=[(0.0, 0.0, 390.0, 295.0)]) == [None]
     assert arrange([label(40, 40, width=120.0)], (72.0, 72.0)) == [None]
+
+
+def test_a_label_stays_off_a_name_and_covers_it_only_where_there_is_no_other_place():
+    (alone,) = arrange([label(200, 150)], PANE)
+    (placed,) = arrange([label(200, 150)], PANE, names=[alone.rect])
+    assert not overlap(placed.rect, alone.rect)
+    (crowded,) = arrange([label(200, 150)], PANE, names=[(0.0, 0.0, *PANE)])
+    assert crowded is not None

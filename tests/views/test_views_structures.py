@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
 from PySide6.QtGui import QImage, QMouseEvent, QPainter, QTransform
 from window_rig import plan
 
@@ -22,7 +22,7 @@ from app.views.slices.viewing import Tool, Viewing
 from app.views.structures.book import StructureBook
 from app.views.structures.brush import Brush, BrushGrip, Mode
 from app.views.structures.feature import StructuresFeature
-from app.views.structures.layer import StructureLayer, StructureOutline
+from app.views.structures.layer import StructureLayer, StructureOutline, draw_in
 from app.views.structures.panel import NAME, PATH, StructurePanel
 from app.views.structures.watch import StructureWatch, words
 
@@ -143,6 +143,26 @@ def test_an_outline_is_drawn_where_the_structure_is(book, volume, pane):
     view.canvas.refresh()
     view.canvas.flush()
     assert layer._items == {}
+
+
+def test_the_name_of_a_mark_stays_off_that_of_a_structure(book, volume, destroy):
+    viewing = Viewing(default_window())
+    pane = SlicePane(viewing, PaneId.AXIAL)
+    destroy(pane)
+    pane.resize(500, 400)
+    pane.show()
+    viewing.set_volume(volume)
+    draw_in(pane.canvas, book)
+    centre = np.array(centre_of(book))
+    for away in np.linspace(-8.0, 8.0, 9):  # round the upper end of the outline, where its name is
+        viewing.set_draft(DraftPlan(None, tuple(centre + [away, -9.0, 0.0])))
+        pane.canvas.flush()
+        ((name,),) = [names() for names in pane.canvas.layers._names]
+        ends = (pane.canvas.pixel_at(p.x(), p.y()) for p in (name.topLeft(), name.bottomRight()))
+        mark = pane.canvas.layers.plan.target
+        label = mark.label_rect.translated(pane.canvas.pixel_at(mark.x(), mark.y()))
+        assert not label.intersects(QRectF(*ends))
+    viewing.pictures.close()
 
 
 def test_the_picture_of_an_outline_is_drawn_once_and_looks_like_the_outline(book, volume):

@@ -330,7 +330,7 @@ def remedy(score: Score) -> str:
             "try again."
         )
     return tr(
-        "It counts for nothing. Let both cameras see the marker (the panel Tracker says what each "
+        "It counts for nothing. Let both cameras see the marker (the tab Cameras says what each "
         "one lacks: light, something before it, the colour), then try again."
     )
 

@@ -30,7 +30,15 @@ from app.views.kit import theme
 from app.views.slices.camera import SliceCamera
 from app.views.slices.drawing import Drawing
 from app.views.slices.items import MarkItem
-from app.views.slices.layers import ALL_LAYERS, RUNNING_ON, WAITED_FOR, Due, Layer, LayerStack
+from app.views.slices.layers import (
+    ALL_LAYERS,
+    RUNNING_ON,
+    WAITED_FOR,
+    Due,
+    Layer,
+    LayerStack,
+    Names,
+)
 from app.views.slices.pace import Unhurried
 from app.views.slices.panes import PaneId
 from app.views.slices.pictures import Picture, PictureFeed, Screen
@@ -292,15 +300,18 @@ class SliceCanvas(PlaneView):
         """Whether all that there is has been drawn, and no picture is still to come."""
         return self.is_drawn and not self._words.is_waiting
 
-    def add_layer(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
+    def add_layer(
+        self, layer: Layer, marks: Sequence[MarkItem] = (), names: Names | None = None
+    ) -> None:
         """Draw something more over the slice.
 
         Args:
             layer: placed whenever slice, plane or zoom change; its shapes stand in `drawing`. Who
                 changes what it shows calls `refresh`.
             marks: those of its marks whose names shall be arranged with the others'.
+            names: returns the places of words that it writes itself [mm]: marks' names keep off.
         """
-        self.layers.add(layer, marks)
+        self.layers.add(layer, marks, names)
         self.refresh()
 
     def refresh(self) -> None:

@@ -59,6 +59,7 @@ def arrange(
     pane: tuple[float, float],
     lines: ArrayLike = (),
     taken: Sequence[Rect] = (),
+    names: Sequence[Rect] = (),
 ) -> list[PlacedLabel | None]:
     """Give each label its best place, the first ones first.
 
@@ -67,6 +68,7 @@ def arrange(
         pane: width and height [px].
         lines: points of lines that should stay free [px], shape (n, 2).
         taken: places of other words [px], which no label covers.
+        names: places of words [px] that a label covers only where there is no other place.
 
     Returns:
         A place for each; None where the mark lies outside the pane, or no good place is left: for
@@ -77,7 +79,7 @@ def arrange(
     labels = np.array([(w.x, w.y, w.width, w.height, w.radius) for w in wanted]).T
     rects = _candidates(labels)
     costs = _costs(wanted, labels, rects, pane, np.asarray(lines, np.float64).reshape(-1, 2))
-    for words in taken:
+    for words in (*taken, *names):
         costs += COVERED_LABEL * _overlap(rects, words)
     placed: list[PlacedLabel | None] = []
     for number, label in enumerate(wanted):

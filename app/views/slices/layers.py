@@ -10,7 +10,7 @@ from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRect
+from PySide6.QtCore import QPointF, QRect, QRectF
 
 from app.planning.draft import DraftPlan
 from app.planning.needle_overlay import NeedleOverlay
@@ -178,6 +178,7 @@ class Labels:
         pixel_at: Callable[[float, float], QPointF],
         lines: Sequence[tuple[QPointF, QPointF]],
         taken: Sequence[QRect],
+        names: Sequence[QRect] = (),
     ) -> None:
         """Give every label its place, unless nothing has moved by a pixel.
 
@@ -186,6 +187,7 @@ class Labels:
             pixel_at: pixel of a plane point [mm].
             lines: ends [px] of lines that labels keep off.
             taken: places of other words [px], which no label covers.
+            names: places of words [px] that a label covers only where there is no other place.
         """
         shown = [
             (mark, at, want)
@@ -198,7 +200,7 @@ class Labels:
             size_px,
             [end.toPoint() for line in lines for end in line],
             [(mark, at.toPoint(), want.width) for mark, at, want in shown],
-            list(taken),
+            [*taken, *names],
         )
         if state == self._arranged:
             return
@@ -210,6 +212,7 @@ class Labels:
             size_px,
             along,
             [(one.x(), one.y(), one.width(), one.height()) for one in taken],
+            [(one.x(), one.y(), one.width(), one.height()) for one in names],
         )
         for (mark, at, _), place in zip(shown, places, strict=True):
             mark.place_label(at, place)
@@ -257,6 +260,10 @@ UNSEEN_PX = 0.1
 """What moves by less is not placed and painted anew."""
 
 
+Names = Callable[[], Sequence[QRectF]]
+"""Returns places of words in the plane [mm]."""
+
+
 class Layer(Protocol):
     """Something drawn over a slice: owns shapes of the pane's `drawing`."""
 
@@ -293,12 +300,21 @@ class LayerStack:
         self.traces = None if pane.is_needle else NeedleTraces(drawing, viewing)
         self._labels = Labels((self.plan.target, self.plan.entry, self.needle.tip))
         self._added: list[Layer] = []
+        self._names: list[Names] = []
         own = self.crosshair.traced
         self.traced = own if self.traces is None else own.union(NEEDLE_PANES)
 
-    def add(self, layer: Layer, marks: Sequence[MarkItem] = ()) -> None:
-        """Take another layer; names of its `marks` are arranged after those already there."""
+    def add(self, layer: Layer, marks: Sequence[MarkItem] = (), names: Names | None = None) -> None:
+        """Take another layer; names of its `marks` are arranged after those already there.
+
+        Args:
+            layer: placed and hidden with the others.
+            marks: its marks with names.
+            names: returns the places of words that it writes itself [mm].
+        """
         self._added.append(layer)
+        if names is not None:
+            self._names.append(names)
         self._labels.add(marks)
 
     def hide(self) -> None:
@@ -388,4 +404,9 @@ class LayerStack:
             lines.append((np.asarray(draft.entry_mm), np.asarray(draft.target_mm)))
         places = [[plane.point(point, index) for point in line] for line in lines]
         ends = [(pixel_at(a.x, a.y), pixel_at(b.x, b.y)) for a, b in places]
-        self._labels.arrange(size_px, pixel_at, ends, taken)
+        names = [
+            QRectF(pixel_at(one.left(), one.top()), pixel_at(one.right(), one.bottom())).toRect()
+            for written in self._names
+            for one in written()
+        ]
+        self._labels.arrange(size_px, pixel_at, ends, taken, names)

@@ -143,9 +143,16 @@ class StructureOutline(Shape):
         """Return the outline with its name."""
         margin = 4.0 / self._scale
         rect = self._path.boundingRect().adjusted(-margin, -margin, margin, margin)
-        return rect.united(self._name_rect())
+        return rect.united(self.name_rect())
 
-    def _name_rect(self) -> QRectF:
+    @property
+    def is_named(self) -> bool:
+        """Whether its name is written: it is large enough."""
+        size = self._path.boundingRect()
+        return max(size.width(), size.height()) * self._scale >= SMALLEST_NAMED_PX
+
+    def name_rect(self) -> QRectF:
+        """Return the place of its name [mm]."""
         if self._structure is None:
             return QRectF()
         metrics = QFontMetrics(label_font())
@@ -205,12 +212,11 @@ class StructureOutline(Shape):
         painter.strokePath(self._path, rim)
         painter.setOpacity(1.0)
         painter.strokePath(self._path, line)
-        size = self._path.boundingRect()
-        if max(size.width(), size.height()) * self._scale >= SMALLEST_NAMED_PX:
+        if self.is_named:
             self._draw_name(painter, structure)
 
     def _draw_name(self, painter: QPainter, structure: Structure) -> None:
-        rect = self._name_rect()
+        rect = self.name_rect()
         painter.save()
         painter.translate(rect.topLeft())
         painter.scale(1.0 / self._scale, 1.0 / self._scale)
@@ -261,6 +267,11 @@ class StructureLayer:
                 self._shown[structure.name] = (structure.mask, plane, index)
             item.set_style(structure, scale, structure.name == self._book.chosen)
 
+    def names(self) -> list[QRectF]:
+        """Return the places of the names that are written [mm]."""
+        shown = (item for item in self._items.values() if item.isVisible() and item.is_named)
+        return [item.name_rect() for item in shown]
+
     def hide(self) -> None:
         """Show nothing."""
         self._drop(set())
@@ -274,4 +285,5 @@ class StructureLayer:
 def draw_in(canvas: SliceCanvas, book: StructureBook) -> None:
     """Draw the structures in a pane; in a needle's only at rest: they cannot follow it live."""
     layer = StructureLayer(canvas.drawing, book)
-    canvas.add_layer(RestingLayer(layer, canvas) if canvas.pane.is_needle else layer)
+    shown = RestingLayer(layer, canvas) if canvas.pane.is_needle else layer
+    canvas.add_layer(shown, names=layer.names)
