@@ -184,6 +184,8 @@ def scanning(studio: Studio) -> None:
     """Take a control scan in an assessment: nothing live, three slices."""
     window, panel = studio.window, studio.window.workspace.exercise_panel
     window.conductor.controller.abort()
+    studio.trainer.step()  # time stands still: nobody else ends the attempt
+    pause(1.0)
     studio.begin("scans-only")
     studio.insert(0.75)
     window.workspace.show_exercise()

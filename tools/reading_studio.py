@@ -80,7 +80,10 @@ class Studio:
     def push(self, share: float) -> None:
         """Go on until the tip has come this share of the way."""
         self.trainer.go_on(
-            lambda now: now.pose.depth >= share * (now.pose.depth + now.offset.remaining)
+            lambda now: (
+                now.pose.measured
+                and now.pose.depth >= share * (now.pose.depth + now.offset.remaining)
+            )
         )
         self.settle()
 

@@ -66,7 +66,7 @@ class StillRun:
             self._rig.loop, None, setup.placed, setup.exercise, None, clock, self._measure
         )
         self._rig.loop.open()
-        self.trainer.step()
+        self.trainer.go_on(lambda now: now.pose.measured)  # a depth is believed after some pictures
 
     def _measure(self, now: float) -> None:
         state = self._rig.loop.latest()

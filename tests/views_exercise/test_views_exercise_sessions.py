@@ -21,6 +21,7 @@ from app.views.debrief.feature import DebriefController
 from app.views.debrief.page import DebriefPage
 from app.views.debrief.sessions import (
     DURATION,
+    NOTE,
     SCORE,
     STATE,
     STUDENT,
@@ -255,3 +256,13 @@ def test_an_attempt_that_could_not_be_recorded_is_shown_from_memory():
 def test_an_attempt_that_left_nothing_is_refused_in_words():
     with pytest.raises(SessionError, match="nothing to show"):
         review_of_result(result(None))
+
+
+def test_columns_stand_apart_so_that_a_score_and_what_follows_are_two_words(page):
+    table, model = page.table, page.table.model()
+    for column in range(NOTE):
+        widest = max(
+            table.fontMetrics().horizontalAdvance(str(model.index(row, column).data() or ""))
+            for row in range(model.rowCount())
+        )
+        assert table.columnWidth(column) >= widest + 10, column

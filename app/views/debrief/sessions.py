@@ -285,6 +285,7 @@ class SessionsPage(QWidget):
         table.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
         table.setAlternatingRowColors(True)
         table.setShowGrid(False)
+        table.setStyleSheet("QTableView::item { padding: 0px 5px; }")  # columns stand apart
         table.verticalHeader().hide()
         table.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT)
         header = table.horizontalHeader()

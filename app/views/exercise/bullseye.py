@@ -259,8 +259,9 @@ TALL: Final = 29
 """Width and height, in heights of the small letters, from which every word has its place."""
 
 USUAL_PAD: Final = 180
+SMALL_PAD: Final = 150
 SMALLEST_PAD: Final = 130
-"""Least width and height of the pad beside its words, and where there is no room [px]."""
+"""Least width and height of the pad [px]: beside its words, smaller before words are cut short."""
 
 NARROW_WIDTH: Final = 250
 """Widest that an empty pad needs to be [px]."""
@@ -275,6 +276,7 @@ class Brevity(IntEnum):
     FULL = auto()
     WITHOUT_ANGLES = auto()
     SMALL = auto()
+    SMALL_PAD = auto()
     SHORT = auto()
 
 
@@ -362,7 +364,7 @@ class Bullseye(QWidget):
             label.setMinimumHeight(min(lines, 3) * metrics.lineSpacing())
         tall = self.height() >= TALL * theme.SMALL_PX and brevity is Brevity.FULL
         self._angles.setVisible(not self._hides_needle and tall)
-        pad = SMALLEST_PAD if short else USUAL_PAD
+        pad = SMALLEST_PAD if short else SMALL_PAD if brevity >= Brevity.SMALL_PAD else USUAL_PAD
         self.pad.setMinimumSize(pad, pad)
         self.depth_bar.setMinimumHeight(pad - 20)
 
