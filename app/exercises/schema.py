@@ -8,7 +8,13 @@ from typing import Annotated
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from app.core.configuration import Strict
-from app.exercises.guidance import FadingPart, GuidanceMode, GuidancePart, Purpose
+from app.exercises.guidance import (
+    FadingPart,
+    GuidanceMode,
+    GuidancePart,
+    Purpose,
+    StartingDial,
+)
 from app.exercises.locks import EVERY_LOCK, HandName, Lock
 from app.exercises.parts import (
     TELLING,
@@ -185,6 +191,17 @@ class Exercise(Strict):
         if self.purpose is Purpose.ASSESSMENT:
             return EVERY_LOCK
         return frozenset(self.locks or ())
+
+    def beginning_with(self, dial: StartingDial) -> Exercise:
+        """Return the exercise as one attempt has it; of a probe, with nothing that tells.
+
+        What the exercise says stays the same (`scoring.conditions.Conditions.content`): dial and
+        views stand beside the score.
+        """
+        changes: dict[str, object] = {"assistance": dial.share}
+        if dial.is_probe:
+            changes["views"] = tuple(view for view in self.views if view not in TELLING)
+        return self.model_copy(update=changes)
 
     def showing(self, views: Collection[ViewName]) -> Exercise:
         """Return the exercise with other views."""

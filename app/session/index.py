@@ -114,6 +114,31 @@ class Refreshed:
     total: int
 
 
+def totals_of(folder: Path, student: str, exercise: str, version: int) -> list[float | None]:
+    """Return the scores of a student's attempts at a version of an exercise, oldest first.
+
+    Attempts of scripted trainees are left out; one without a score is None.
+
+    Args:
+        folder: of the records.
+        student: as the records name who did it.
+        exercise: id.
+        version: of the exercise.
+
+    Raises:
+        DatabaseError: if the index cannot be read.
+    """
+    index = Index(folder)
+    index.refresh()
+    return [
+        one.total
+        for one in index.attempts([student])
+        if (one.exercise, one.version) == (exercise, version)
+        and one.state in ("ended", "aborted", "unfinished")
+        and not one.conditions.scripted
+    ]
+
+
 Mark = tuple[int, int, int, str]
 """Size and time of a record, time of its signature, and the station whose key judged that."""
 

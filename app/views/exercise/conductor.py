@@ -245,6 +245,13 @@ class Conductor(QObject):
             self._start_plan(self.patient)
         self.exercise_taken.emit(exercise.id)
 
+    def go_on_with(self, exercise: Exercise) -> None:
+        """Take another dial and other views for the next attempt; plan and patient stay."""
+        self.exercise = exercise
+        self._as_the_exercise_says(reading=False)
+        self._show_plan()
+        self._show_views()
+
     def _as_the_exercise_says(self, reading: bool = True) -> None:
         """Put dial, hand and, unless `reading` is False, the reading as the exercise has them."""
         exercise, workspace = self.exercise, self._workspace

@@ -6,8 +6,11 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QSplitter
 
 from app.core.errors import AcusError
+from app.core.progress import Progress
+from app.exercises.guidance import StartingDial, starting_dial
 from app.exercises.schema import Exercise
 from app.planning.patient import Patient
+from app.views.kit.background import run_in_background
 from app.views.kit.text import tr
 from app.views.shell.feature import Context, Feature
 
@@ -25,6 +28,8 @@ class ExerciseFeature(Feature):
         self._editor, self._shell = context.editors.plan, context.shell
         self._panel = context.conductor.views.panel
         self._waiting: Exercise | None = None  # until its patient is there
+        self._fading: Exercise | None = None  # whose dial changes over the attempts
+        self._asked = 0
         self.exercises = {exercise.id: exercise for exercise in context.services.exercises()}
         self._shell.add_panel(self._panel, tr("Exercise"))
         self._shell.add_panel(self._cameras(), tr("Cameras"), scrolls=False)
@@ -33,6 +38,9 @@ class ExerciseFeature(Feature):
         self._panel.exercise_chosen.connect(self.begin)
         self._conductor.exercises_changed.connect(self._read_exercises)
         self._conductor.exercise_taken.connect(lambda _: self.show_taken())
+        self._conductor.exercise_taken.connect(self._take_fading)
+        self._conductor.controller.finished.connect(lambda _: self._follow_fading())
+        self._panel.student.editingFinished.connect(self._follow_fading)
         self._patients.failed.connect(lambda _: self.give_up())
         self._patients.given_up.connect(self.give_up)
 
@@ -44,6 +52,48 @@ class ExerciseFeature(Feature):
         cameras.setStretchFactor(0, 3)
         cameras.setStretchFactor(1, 1)
         return cameras
+
+    # --- assistance over the attempts ---------------------------------------------------------
+    def _take_fading(self, _: str) -> None:
+        exercise = self._conductor.exercise
+        self._fading = None if exercise is None or exercise.fading is None else exercise
+        self._follow_fading()
+
+    def _follow_fading(self) -> None:
+        """Look up what the student did so far, and begin the next attempt accordingly."""
+        exercise, controller = self._fading, self._conductor.controller
+        self._asked += 1
+        if exercise is None:
+            return
+        number, student = self._asked, self._panel.student.text().strip()
+        folder = self.context.services.sessions()
+        controller.set_waiting(tr("Start waits: the attempts so far are looked up."))
+
+        def look_up(_: Progress) -> list[float | None]:
+            from app.session.index import totals_of  # SQLAlchemy: behind the window
+
+            return totals_of(folder, student, exercise.id, exercise.version)
+
+        def fail(error: Exception) -> None:
+            self.failed.emit(error)
+            take([])
+
+        def take(totals: list[float | None]) -> None:
+            if number != self._asked:
+                return  # somebody else, or another exercise, by now
+            controller.set_waiting("")
+            self._begin_with(exercise, starting_dial(exercise.assistance, exercise.fading, totals))
+
+        run_in_background(self, look_up, take, fail)
+
+    def _begin_with(self, exercise: Exercise, dial: StartingDial) -> None:
+        self._conductor.go_on_with(exercise.beginning_with(dial))
+        if dial.is_probe:
+            self.noted.emit(tr("This attempt is a probe: without help, as in an assessment."))
+        else:
+            self.noted.emit(
+                tr("Assistance of this attempt: {share} %", share=f"{100.0 * dial.share:.0f}")
+            )
 
     def _read_exercises(self) -> None:
         """List the exercises anew."""
