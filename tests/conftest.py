@@ -2,6 +2,7 @@
 
 import gc
 import os
+import socket
 import sys
 from pathlib import Path
 
@@ -48,6 +49,15 @@ LONG_FILES = (
     "test_compose_withdrawal.py",
 )
 """They begin first, so that no process is left with one of them at the end."""
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_configure(config: pytest.Config) -> None:
+    """Send at once what each process says of a test's runs: it is two packets and an answer for
+    every test, and the second would wait 40 ms for the system to acknowledge the first."""
+    sock = getattr(getattr(config, "failures_db", None), "sock", None)  # of pytest-rerunfailures
+    if sock is not None:
+        sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
