@@ -26,11 +26,14 @@ def draw(result: Result, path: Path) -> Path:
     """
     figure = _empty((8.0, 6.0))
     axes = figure.add_axes((0.11, 0.24, 0.84, 0.68))
+    notes: list[Any] = []
     for number, family in enumerate(_families(result)):
         style = number % len(_COLOURS)
-        _family(axes, family, _members(result, family), _COLOURS[style], _MARKERS[style])
-    _limits(axes, result)
+        members = _members(result, family)
+        notes += _family(axes, family, members, _COLOURS[style], _MARKERS[style])
+    limits = _limits(axes, result)
     _dress(figure, axes, result)
+    _set_apart(figure, axes, notes, limits)
     return _save(figure, path)
 
 
@@ -82,26 +85,26 @@ def _members(result: Result, family: str) -> list[tuple[str, Point]]:
 
 def _family(
     axes: Any, family: str, members: list[tuple[str, Point]], colour: str, marker: str
-) -> None:
+) -> list[Any]:
+    """Draw a family; return what is written, its name first."""
     if not members:
-        return
+        return []
     errors = [max(point.error, _LEAST) for _, point in members]
     seconds = [point.seconds for _, point in members]
     few = len(members) <= _MOST_LABELS
     line = 1.2 if few else 0.0
     axes.plot(errors, seconds, color=colour, marker=marker, markersize=6, linewidth=line)
     ends = (errors.index(min(errors)), errors.index(max(errors)))
+    top = seconds.index(max(seconds))
+    notes = [_note(axes, family, (errors[top], seconds[top]), 7, colour, 9)]
     for number, ((label, _), x, y) in enumerate(zip(members, errors, seconds, strict=True)):
         if few or number in ends:
-            _note(axes, label, (x, y), -11, colour, 6)
-    top = seconds.index(max(seconds))
-    _note(axes, family, (errors[top], seconds[top]), 7, colour, 9)
+            notes.append(_note(axes, label, (x, y), -11, colour, 6))
+    return notes
 
 
-def _note(
-    axes: Any, text: str, at: tuple[float, float], above: int, colour: str, size: int
-) -> None:
-    axes.annotate(
+def _note(axes: Any, text: str, at: tuple[float, float], above: int, colour: str, size: int) -> Any:
+    return axes.annotate(
         text,
         at,
         (0, above),
@@ -113,14 +116,57 @@ def _note(
     )
 
 
-def _limits(axes: Any, result: Result) -> None:
+_BESIDE: Final = (
+    (0, 7, "center"),
+    (0, -11, "center"),
+    (7, -3, "left"),
+    (-7, -3, "right"),
+    (0, 18, "center"),
+    (0, -22, "center"),
+    (0, 29, "center"),
+    (0, -33, "center"),
+)
+"""Places of a word seen from its point [pt]."""
+
+
+def _set_apart(figure: Any, axes: Any, notes: list[Any], limits: list[Any]) -> None:
+    """Move words off each other and off the points: names of families first, labels may go."""
+    agg = import_module("matplotlib.backends.backend_agg").FigureCanvasAgg(figure)
+    agg.draw()  # the axes take their ranges
+    renderer, frame = agg.get_renderer(), axes.get_window_extent()
+    box = import_module("matplotlib.transforms").Bbox
+    reach = 4.0 * figure.dpi / 72.0
+    points = [
+        box.from_extents(x - reach, y - reach, x + reach, y + reach)
+        for line in axes.get_lines()[: -len(limits)]
+        for x, y in line.get_transform().transform(line.get_xydata())
+    ]
+    taken = points + [note.get_window_extent(renderer) for note in limits]
+    for note in sorted(notes, key=lambda one: -one.get_fontsize()):
+        own = note.get_position()[1]
+        for right, above, side in sorted(_BESIDE, key=lambda place: place[:2] != (0, own)):
+            note.set_position((right, above))
+            note.set_horizontalalignment(side)
+            place = note.get_window_extent(renderer)
+            inside = frame.containsx(place.x0) and frame.containsx(place.x1)
+            if inside and not any(place.overlaps(other) for other in taken):
+                taken.append(place)
+                break
+        else:
+            note.set_position((0, own))
+            note.set_horizontalalignment("center")
+            note.set_visible(note.get_fontweight() == "bold")
+
+
+def _limits(axes: Any, result: Result) -> list[Any]:
+    """Draw the two limits; return what is written at them."""
     study = result.study
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.margins(0.16, 0.2)
     axes.axhline(study.deadline.value, color=_LINE, linestyle="--", linewidth=1.0)
     axes.axvline(study.perception.value, color=_LINE, linestyle=":", linewidth=1.4)
-    axes.annotate(
+    deadline = axes.annotate(
         study.deadline.label,
         (0.01, study.deadline.value),
         (0, 3),
@@ -129,8 +175,8 @@ def _limits(axes: Any, result: Result) -> None:
         fontsize=7,
         color=_INK,
     )
-    axes.annotate(
-        study.perception.label,
+    perception = axes.annotate(
+        _wrapped([study.perception.label], 64),
         (study.perception.value, 0.98),
         (3, 0),
         xycoords=("data", "axes fraction"),
@@ -140,6 +186,7 @@ def _limits(axes: Any, result: Result) -> None:
         rotation=90,
         va="top",
     )
+    return [deadline, perception]
 
 
 def _dress(figure: Any, axes: Any, result: Result) -> None:
