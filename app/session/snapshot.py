@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import isfinite
-from typing import TYPE_CHECKING
+from enum import StrEnum
+from math import atan2, hypot, isfinite
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
 
 from app.core.arrays import FloatArray
 from app.core.units import MILLIMETRE
 from app.device.readiness import ForceClearance
 from app.device.state import DeviceState
 from app.planning.off_path import Offset
-from app.session.machine import State
+from app.planning.placement import PlacedPlan
+from app.session.machine import FINAL, State
 from app.session.needle import DepthSource, NeedlePose
 from app.session.recorder import RecordingStatus
 
@@ -144,3 +148,112 @@ def advice(
     if recording is not None and recording.lost_rows:
         found.append(f"{recording.lost_rows} ticks of the loop were not recorded")
     return tuple(found)
+
+
+class StepKind(StrEnum):
+    """What the student is to do next."""
+
+    START = "start"
+    WITHDRAW = "withdraw"
+    SEE = "see"
+    SCAN = "scan"
+    TILT = "tilt"
+    INSERT = "insert"
+    FEEL = "feel"
+    DEEPER = "deeper"
+    BACK = "back"
+    HOLD = "hold"
+    FINISH = "finish"
+
+
+@dataclass(frozen=True, slots=True)
+class NextStep:
+    """One thing to do.
+
+    Attributes:
+        kind: what.
+        angle: by which the needle is to be tilted [rad].
+        towards: sides of the patient to which the hub goes, the larger part first, of `LRAPSI`.
+        distance: along the needle that is left, or too much [m].
+    """
+
+    kind: StepKind
+    angle: float = 0.0
+    towards: str = ""
+    distance: float = 0.0
+
+
+CALM: Final = 0.6
+"""Share of a limit below which what was asked for is done: an order does not flicker."""
+
+SECOND_SIDE: Final = 0.4
+"""A side is named beside another where the way towards it is this share of the other's."""
+
+
+class NextSteps:
+    """Says at every moment what comes next, by what the program knows and may tell."""
+
+    def __init__(self, placed: PlacedPlan, across: float, along: float) -> None:
+        """Begin before the skin.
+
+        Args:
+            placed: the plan.
+            across: distance off the path within which the tip is at the target [m].
+            along: the same along the path [m].
+        """
+        self._placed, self._across, self._along = placed, across, along
+        self._last = StepKind.START
+
+    def of(self, snapshot: Snapshot, live: bool = True) -> NextStep:
+        """Return the next step.
+
+        Args:
+            snapshot: as it may be shown.
+            live: whether the needle may be told of at all.
+        """
+        step = self._step(snapshot, live)
+        self._last = step.kind
+        return step
+
+    def _step(self, snapshot: Snapshot, live: bool) -> NextStep:
+        if snapshot.state is State.READY or snapshot.state in FINAL:
+            return NextStep(StepKind.START)
+        if snapshot.state is State.WITHDRAWING:
+            return NextStep(StepKind.WITHDRAW)
+        if not live:
+            return NextStep(StepKind.SCAN)
+        if snapshot.state is State.PAUSED or not snapshot.pose.valid:
+            return NextStep(StepKind.SEE)
+        offset, pose = snapshot.offset, snapshot.pose
+        if pose.measured and -offset.remaining > self._within(StepKind.BACK, self._along):
+            return NextStep(StepKind.BACK, distance=-offset.remaining)
+        wrong = pose.axis - offset.path  # the hub goes to the side that the tip is on
+        sine = float(np.linalg.norm(np.cross(pose.axis, offset.path)))
+        angle = atan2(sine, float(pose.axis @ offset.path))
+        if angle > self._within(StepKind.TILT, atan2(self._across, self._placed.length)):
+            return NextStep(StepKind.TILT, angle, self._sides(wrong))
+        if not pose.measured:
+            return NextStep(StepKind.FEEL)
+        if pose.depth <= 0.0:
+            return NextStep(StepKind.INSERT, distance=offset.remaining)
+        if offset.remaining > self._along * (CALM if self._last is StepKind.DEEPER else 1.0):
+            return NextStep(StepKind.DEEPER, distance=offset.remaining)
+        if offset.lateral > self._within(StepKind.TILT, self._across):  # a bent needle
+            angle = atan2(offset.lateral, hypot(pose.depth, self._along))
+            return NextStep(StepKind.TILT, angle, self._sides(offset.across))
+        return NextStep(StepKind.FINISH if snapshot.state is State.HOLDING else StepKind.HOLD)
+
+    def _within(self, kind: StepKind, limit: float) -> float:
+        """Limit of a quantity: a smaller one while it is being mended."""
+        return limit * (CALM if self._last is kind else 1.0)
+
+    def _sides(self, way: FloatArray) -> str:
+        """Sides of the patient towards which a way in the world leads."""
+        left, back, head = (self._placed.T_world_patient.rotation.T @ way).tolist()
+        parts = [
+            (abs(left), "RL"[left > 0]),
+            (abs(back), "AP"[back > 0]),
+            (abs(head), "IS"[head > 0]),
+        ]
+        parts.sort(reverse=True)
+        return parts[0][1] + (parts[1][1] if parts[1][0] > SECOND_SIDE * parts[0][0] else "")

@@ -17,8 +17,11 @@ from app.exercises.parts import TELLING, ViewName
 from app.exercises.scene import CONTROL_SCAN, compile_exercise, device_of
 from app.exercises.schema import Exercise
 from app.session.curves import offset
+from app.session.machine import State
 from app.session.shown_views import Shown
+from app.session.snapshot import NextStep, StepKind
 from app.views.exercise.run import ExerciseRun
+from app.views.exercise.steps import step_words
 from app.views.reading.lock_words import view_title
 
 SHIFT = np.array([0.002, 0.006, -0.003])
@@ -263,3 +266,32 @@ def test_a_snapshot_without_the_targets_motion_has_all_distances_to_the_target_a
     np.testing.assert_array_equal(still.p_target, run.placed.p_target)
     np.testing.assert_allclose(still.offset.path, run.placed.axis, atol=1e-12)
     assert Shown().of(snapshot, run.placed) is snapshot
+
+
+def test_one_line_over_the_views_always_says_the_next_step(shows, settle):
+    on, _ = both(ViewName.LIVE_OVERLAY)
+    window = shows(on)
+    line = window.workspace.next_step
+    assert line.isVisible()
+    run = window.conductor.controller.run
+    assert settle(lambda: line.text() == "Press F5 to start the attempt")
+    moment = replace(run.trainer.snapshot(), state=State.INSERTING)
+    window.conductor.controller.snapshot_taken.emit(moment)
+    assert settle(lambda: line.text() == "Pull back 2 mm (wheel towards you)")
+    assert line.fontMetrics().horizontalAdvance(line.text()) < line.width()
+    line.begin(replace(run, shown=Shown(live=False)))
+    line.show_snapshot(moment)
+    assert settle(lambda: line.text() == "Push by the scans: S takes one, Enter ends the attempt")
+    window.conductor._detach()
+    assert not line.isVisible()
+
+
+@pytest.mark.parametrize("kind", list(StepKind))
+@pytest.mark.parametrize("by_mouse", [True, False])
+def test_every_step_is_an_order_in_words(kind, by_mouse):
+    words = step_words(NextStep(kind, 0.05, "IL", 0.012), by_mouse)
+    assert words
+    assert "{" not in words
+    if kind is StepKind.TILT:
+        assert words == "Tilt the hub 3° towards the feet and the patient's left"
+    assert ("wheel" in words) <= by_mouse

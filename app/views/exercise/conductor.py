@@ -176,6 +176,8 @@ class Conductor(QObject):
         self._surfaces.failed.connect(self.failed)
         self.controller.snapshot_taken.connect(self.show_snapshot)
         self.controller.attached.connect(self._show_views)
+        self.controller.attached.connect(self._begin_steps)
+        self.controller.snapshot_taken.connect(self._workspace.next_step.show_snapshot)
         self.controller.beginning.connect(self._as_the_exercise_says)
         self.controller.began.connect(lambda _: self._workspace.show_exercise())
         self.patient_changed.connect(self._workspace.scan_view.clear)
@@ -306,6 +308,9 @@ class Conductor(QObject):
         self._workspace.show_views(self.shown, run is None or run.interactive, why)
         self.views_changed.emit()
 
+    def _begin_steps(self) -> None:
+        self._workspace.next_step.begin(self.controller.run)
+
     def set_robot(self, choice: RobotChoice) -> None:
         """Take another robot, from now on; a run on the present one ends."""
         if choice != self._robot:
@@ -424,6 +429,7 @@ class Conductor(QObject):
         self._needle.forget()
         self._motion.hide()
         self.controller.replan(run)
+        self._begin_steps()
 
     def _detach(self) -> None:
         self.controller.detach()

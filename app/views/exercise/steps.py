@@ -1,14 +1,19 @@
-"""The attempt's states for people: their names, and a row of steps: done, present, to come."""
+"""What is done, what comes: the attempt's states in a row, and the next step in one line."""
 
+from math import degrees
 from typing import Final
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
+from app.core.units import MILLIMETRE
 from app.session.machine import State
+from app.session.snapshot import NextStep, NextSteps, Snapshot, StepKind
+from app.views.exercise.run import ExerciseRun
 from app.views.kit import theme
 from app.views.kit.text import tr
+from app.views.slices.pace import Unhurried
 
 
 def state_word(state: str) -> str:
@@ -122,3 +127,91 @@ def _font(painter: QPainter, pixels: int, bold: bool) -> QFont:
     font.setPixelSize(pixels)
     font.setBold(bold)
     return font
+
+
+def side_word(letter: str) -> str:
+    """Name of a side of the patient."""
+    return {
+        "L": tr("the patient's left"),
+        "R": tr("the patient's right"),
+        "A": tr("the front"),
+        "P": tr("the back"),
+        "S": tr("the head"),
+        "I": tr("the feet"),
+    }[letter]
+
+
+def step_words(step: NextStep, by_mouse: bool) -> str:
+    """Say what is to be done next, as an order.
+
+    Args:
+        step: what.
+        by_mouse: whether mouse or keys move the needle.
+    """
+    mm = step.distance / MILLIMETRE
+    inwards = tr(" (wheel away from you)") if by_mouse else ""
+    outwards = tr(" (wheel towards you)") if by_mouse else ""
+    sides = tr(" and ").join(side_word(letter) for letter in step.towards)
+    return {
+        StepKind.START: tr("Press F5 to start the attempt"),
+        StepKind.WITHDRAW: tr("Pull the needle out of the skin"),
+        StepKind.SEE: tr("Let both cameras see the marker"),
+        StepKind.SCAN: tr("Push by the scans: S takes one, Enter ends the attempt"),
+        StepKind.TILT: tr("Tilt the hub {angle:.0f}° towards {sides}").format(
+            angle=max(1.0, degrees(step.angle)), sides=sides
+        ),
+        StepKind.INSERT: tr("Push the needle in{how}", how=inwards),
+        StepKind.FEEL: tr("Push slowly{how}: the cameras do not see the depth", how=inwards),
+        StepKind.DEEPER: tr("Push {mm:.0f} mm deeper{how}").format(mm=max(1.0, mm), how=inwards),
+        StepKind.BACK: tr("Pull back {mm:.0f} mm{how}").format(mm=max(1.0, mm), how=outwards),
+        StepKind.HOLD: tr("Hold still"),
+        StepKind.FINISH: tr("Press Enter: the tip is at the target"),
+    }[step.kind]
+
+
+class NextStepLine(QLabel):
+    """The one line that always says the next step, over the views, to be read at arm's length."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._steps: NextSteps | None = None
+        self._run: ExerciseRun | None = None
+        self._snapshot: Snapshot | None = None
+        self._written = Unhurried(self._write, self)
+        self.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(tr("Next step"))
+        self.suit_room()
+        self.hide()
+
+    def begin(self, run: ExerciseRun | None) -> None:
+        """Serve another run; None hides the line."""
+        self._run, self._snapshot = run, None
+        self._steps = None
+        if run is not None:
+            self._steps = NextSteps(run.placed, run.rings[0], run.depth_tolerance)
+        self.setVisible(run is not None)
+        self.setText("")
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Say what comes after this moment."""
+        self._snapshot = snapshot
+        self._written.ask()
+
+    def suit_room(self) -> None:
+        """Take another size of text or other colours."""
+        ground, ink = theme.now(theme.ACCENT), theme.now(theme.BACKGROUND)
+        self.setStyleSheet(
+            f"background: {ground}; color: {ink}; font-size: {theme.TITLE_PX}px; font-weight: 600;"
+            f" padding: {theme.SPACING // 2}px;"
+        )
+
+    def _write(self) -> None:
+        if self._steps is None or self._run is None or self._snapshot is None:
+            return
+        step = self._steps.of(self._snapshot, self._run.shown.live)
+        words = step_words(step, self._run.interactive)
+        if words != self.text():
+            self.setText(words)
+            self.setToolTip(words)

@@ -29,6 +29,7 @@ from app.views.exercise.controller import ExerciseViews
 from app.views.exercise.panel import ExercisePanel
 from app.views.exercise.scan_view import ScanView
 from app.views.exercise.status import MessageList, StatusStrip
+from app.views.exercise.steps import NextStepLine
 from app.views.exercise.tracker_panel import TrackerPanel
 from app.views.kit import theme
 from app.views.kit.names import NAMES
@@ -225,6 +226,7 @@ class WorkspacePage(QWidget):
         self.tracker_panel = TrackerPanel(self)
         self.messages = MessageList(self)
         self.status = StatusStrip(self)
+        self.next_step = NextStepLine(self)
         self.side = SidePanel(self)
         self.side.setFixedWidth(SIDE_WIDTH)
         self.setFocusProxy(self.panes[0].canvas)
@@ -380,6 +382,7 @@ class WorkspacePage(QWidget):
         mode = QLineEdit.EchoMode.Password if NAMES.are_hidden else QLineEdit.EchoMode.Normal
         self.exercise_panel.student.setEchoMode(mode)
         self.bullseye.suit_text()
+        self.next_step.suit_room()
         self.viewing.plan_changed.emit()  # names of marks are as large as the text
         self.viewing.needle_changed.emit()
         self.messages.suit_room()
@@ -388,6 +391,7 @@ class WorkspacePage(QWidget):
         right = QVBoxLayout()
         right.setContentsMargins(0, 0, 0, 0)
         right.setSpacing(0)
+        right.addWidget(self.next_step)
         right.addWidget(self.grid, 1)
         right.addWidget(disclaimer_label(self))
         self._row = row = QHBoxLayout()

@@ -1,0 +1,174 @@
+"""The next step, by what the program knows: a table, and a whole insertion."""
+
+from dataclasses import dataclass, replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from app.core.rotation import rotation_exp
+from app.planning.off_path import offset
+from app.planning.placement import PatientOrientation, PlacedPlan, Placement
+from app.planning.plan import Plan
+from app.session.machine import State
+from app.session.snapshot import NextSteps, StepKind
+
+FULCRUM = (0.0, 0.16056, 0.090)
+PLAN = Plan(np.array([-40.0, -120.0, 60.0]), np.array([-40.0, -40.0, 60.0]), "straight down")
+
+
+def placed(orientation=PatientOrientation.SUPINE):
+    return PlacedPlan.of(PLAN, Placement(orientation), FULCRUM)
+
+
+@dataclass(frozen=True)
+class Moment:
+    """What the next step looks at of a snapshot."""
+
+    state: State
+    pose: SimpleNamespace
+    offset: object
+
+
+def moment(plan, depth, turn=None, state=State.INSERTING, measured=True, valid=True, p_target=None):
+    """The needle at a depth [m], turned from the path by a vector in the patient [rad]."""
+    axis = plan.axis
+    if turn is not None:
+        way = plan.T_world_patient.rotation @ np.asarray(turn)
+        axis = plan.axis + way
+        axis = axis / np.linalg.norm(axis)
+    tip = plan.p_entry + depth * axis
+    target = plan.p_target if p_target is None else p_target
+    pose = SimpleNamespace(axis=axis, depth=depth, measured=measured, valid=valid)
+    return Moment(state, pose, offset(tip, axis, plan, target))
+
+
+def steps(plan):
+    return NextSteps(plan, across=0.002, along=0.002)
+
+
+@pytest.mark.parametrize(
+    ("state", "kind"),
+    [
+        (State.READY, "start"),
+        (State.ENDED, "start"),
+        (State.ABORTED, "start"),
+        (State.WITHDRAWING, "withdraw"),
+        (State.PAUSED, "see"),
+    ],
+)
+def test_states_that_leave_one_thing_to_do(state, kind):
+    plan = placed()
+    assert steps(plan).of(moment(plan, 0.03, state=state)).kind.value == kind
+
+
+@pytest.mark.parametrize(
+    ("depth", "turn", "kind"),
+    [
+        (-0.01, None, "insert"),
+        (0.02, None, "deeper"),
+        (0.0785, None, "hold"),
+        (0.083, None, "back"),
+        (0.02, (0.1, 0.0, 0.0), "tilt"),
+        (-0.01, (0.1, 0.0, 0.0), "tilt"),
+    ],
+)
+def test_the_needle_says_what_comes(depth, turn, kind):
+    plan = placed()
+    assert steps(plan).of(moment(plan, depth, turn)).kind.value == kind
+
+
+@pytest.mark.parametrize("orientation", list(PatientOrientation))
+@pytest.mark.parametrize(
+    ("turn", "sides"),
+    [
+        ((0.1, 0.0, 0.0), "L"),  # the tip points to the left: the hub must go there
+        ((-0.1, 0.0, 0.0), "R"),
+        ((0.0, 0.0, 0.1), "S"),
+        ((0.0, 0.0, -0.1), "I"),
+        ((0.06, 0.0, 0.1), "SL"),
+        ((0.02, 0.0, -0.1), "I"),
+    ],
+)
+def test_the_hub_goes_to_the_side_of_the_tip_however_the_patient_lies(orientation, turn, sides):
+    plan = placed(orientation)
+    step = steps(plan).of(moment(plan, 0.03, turn))
+    assert step.kind is StepKind.TILT
+    assert step.towards == sides
+    assert step.angle == pytest.approx(np.arctan(np.linalg.norm(turn)), rel=1e-6)
+
+
+def test_who_follows_the_tilt_is_on_the_path():
+    plan = placed()
+    wrong = moment(plan, 0.03, (0.08, 0.0, -0.05))
+    step = steps(plan).of(wrong)
+    towards = -np.cross(wrong.pose.axis, plan.axis)
+    turned = rotation_exp(-step.angle * towards / np.linalg.norm(towards)) @ wrong.pose.axis
+    np.testing.assert_allclose(turned, plan.axis, atol=1e-9)
+
+
+def test_holding_at_the_target_ends_the_attempt():
+    plan = placed()
+    step = steps(plan).of(moment(plan, 0.08, state=State.HOLDING))
+    assert step.kind is StepKind.FINISH
+
+
+def test_control_scans_alone_tell_nothing_of_the_needle():
+    plan = placed()
+    for depth, turn in ((0.02, (0.1, 0.0, 0.0)), (0.09, None)):
+        step = steps(plan).of(moment(plan, depth, turn), live=False)
+        assert (step.kind, step.angle, step.towards, step.distance) == (StepKind.SCAN, 0.0, "", 0.0)
+
+
+def test_a_depth_that_nobody_measures_is_not_told():
+    plan = placed()
+    step = steps(plan).of(moment(plan, 0.06, measured=False))
+    assert (step.kind, step.distance) == (StepKind.FEEL, 0.0)
+    assert steps(plan).of(moment(plan, 0.06, valid=False)).kind is StepKind.SEE
+
+
+def test_an_order_does_not_flicker_at_its_limit():
+    plan = placed()
+    saying, limit = steps(plan), np.arctan2(0.002, 0.08)
+    kinds = [
+        saying.of(moment(plan, 0.03, (limit * (1.0 + 0.1 * (-1) ** n), 0.0, 0.0))).kind
+        for n in range(20)
+    ]
+    assert kinds[0] is StepKind.TILT
+    assert set(kinds) == {StepKind.TILT}
+    assert saying.of(moment(plan, 0.03, (0.5 * limit, 0.0, 0.0))).kind is StepKind.DEEPER
+
+
+def test_a_bent_needle_at_depth_is_tilted_by_its_tip():
+    plan = placed()
+    straight = moment(plan, 0.08)
+    beside = replace(
+        straight, offset=offset(plan.p_target + [0.004, 0.0, 0.0], plan.axis, plan, plan.p_target)
+    )
+    assert steps(plan).of(beside).kind is StepKind.TILT
+
+
+def test_a_whole_insertion_by_the_orders_alone_ends_at_the_target():
+    plan = placed()
+    saying, depth, turn = steps(plan), -0.01, np.array([0.12, 0.0, -0.2])
+    sides = {"L": (0, 1), "R": (0, -1), "S": (2, 1), "I": (2, -1)}
+    state, kinds = State.ALIGNING, []
+    for _ in range(400):
+        step = saying.of(moment(plan, depth, turn, state))
+        kinds.append(step.kind)
+        if step.kind is StepKind.FINISH:
+            break
+        if step.kind is StepKind.TILT:
+            for letter in step.towards:
+                if letter in sides:
+                    axis, sign = sides[letter]
+                    turn[axis] -= sign * min(0.01, abs(turn[axis]))
+        elif step.kind in (StepKind.INSERT, StepKind.DEEPER):
+            depth += 0.001
+        elif step.kind is StepKind.HOLD:
+            state = State.HOLDING
+    assert kinds[-1] is StepKind.FINISH
+    assert depth == pytest.approx(0.08, abs=0.002)
+    order = list(dict.fromkeys(kinds))
+    assert order[0] is StepKind.TILT
+    assert order[-2:] == [StepKind.HOLD, StepKind.FINISH]
