@@ -4,6 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
 from views_exercise_fakes import FakeTrainer as Recorder
 from views_exercise_fakes import pose as pose_of
 from views_exercise_fakes import snapshot as snapshot_of
@@ -20,6 +22,7 @@ from app.session.curves import offset
 from app.session.machine import State
 from app.session.shown_views import Shown
 from app.session.snapshot import NextStep, StepKind
+from app.views.exercise.feature import ExerciseFeature
 from app.views.exercise.run import ExerciseRun
 from app.views.exercise.steps import step_words
 from app.views.reading.lock_words import view_title
@@ -295,3 +298,31 @@ def test_every_step_is_an_order_in_words(kind, by_mouse):
     if kind is StepKind.TILT:
         assert words == "Tilt the hub 3° towards the feet and the patient's left"
     assert ("wheel" in words) <= by_mouse
+
+
+def test_begin_means_begin_and_the_key_starts_beside_any_panel(window, patient, settle):
+    window.conductor.set_exercise(load_exercise("first-insertion"))
+    exercises = window.feature(ExerciseFeature)
+    exercises._waiting = load_exercise("first-insertion")
+    window.show_patient(patient)
+    side, panel = window.workspace.side, window.workspace.exercise_panel
+    assert panel.isVisible()
+    exercises._waiting = load_exercise("plan-it-yourself")
+    window.show_patient(patient)
+    window.conductor.set_exercise(load_exercise("first-insertion"))
+    plan(window)
+    assert settle(lambda: window.runs.run is not None and panel.buttons.start.isEnabled())
+    side.setCurrentIndex(0)
+    assert not panel.isVisible()
+    window.activateWindow()
+    QTest.keyClick(window.workspace, Qt.Key.Key_F5)
+    assert settle(lambda: window.runs.run.trainer.state is State.ALIGNING)
+
+
+def test_an_exercise_whose_plan_is_the_students_begins_with_planning(window, patient):
+    window.workspace.side.setCurrentIndex(0)
+    before = window.workspace.side.currentIndex()
+    window.feature(ExerciseFeature)._waiting = load_exercise("plan-it-yourself")
+    window.show_patient(patient)
+    assert window.workspace.side.currentIndex() == before
+    assert not window.workspace.exercise_panel.isVisible()

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QSplitter
 from app.core.errors import AcusError
 from app.core.progress import Progress
 from app.exercises.guidance import StartingDial, starting_dial
+from app.exercises.parts import OwnPlan
 from app.exercises.schema import Exercise
 from app.planning.patient import Patient
 from app.views.kit.background import run_in_background
@@ -150,7 +151,7 @@ class ExerciseFeature(Feature):
 
     def _take_here(self, exercise: Exercise) -> None:
         if self._take(exercise):
-            self._shell.show_workspace()
+            self._show(exercise)
 
     def give_up(self) -> None:
         """Stay with the present exercise: the patient of the one that was chosen did not come."""
@@ -167,6 +168,7 @@ class ExerciseFeature(Feature):
         """Show a patient that was opened, in the first exercise where none is taken."""
         self._shell.messages.clear()  # what went wrong before is over
         waiting, self._waiting = self._waiting, None
+        begun = waiting
         if waiting is None and self._conductor.exercise is None and self.exercises:
             waiting = next(iter(self.exercises.values()))
         self._conductor.leave_patient()
@@ -174,7 +176,14 @@ class ExerciseFeature(Feature):
             self._take(waiting)
         self._conductor.set_patient(patient)
         self.show_taken()
-        self._shell.show_workspace()
+        self._show(begun)
+
+    def _show(self, begun: Exercise | None) -> None:
+        """Begin means begin: go to the attempt, or to what is to be planned or was only opened."""
+        if begun is None or isinstance(begun.plan, OwnPlan):
+            self._shell.show_workspace()
+        else:
+            self._shell.show_panel(self._panel)
 
     def _take(self, exercise: Exercise) -> bool:
         try:

@@ -101,7 +101,7 @@ class AttemptActions(QWidget):
 
     def _connect(self) -> None:
         for button, signal, keys in (
-            (self.start, self.start_requested, (Qt.Key.Key_F5,)),
+            (self.start, self.start_requested, ()),  # its key works beside every panel
             (self.scan, self.scan_requested, (Qt.Key.Key_S,)),
             (self.end, self.end_requested, (Qt.Key.Key_Return, Qt.Key.Key_Enter)),
             (self.abort, self.abort_requested, ()),

@@ -7,7 +7,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import pairwise
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import (
     QBoxLayout,
     QGridLayout,
@@ -231,6 +232,9 @@ class WorkspacePage(QWidget):
         self.side.setFixedWidth(SIDE_WIDTH)
         self.setFocusProxy(self.panes[0].canvas)
         self._lay_out()
+        start = QShortcut(QKeySequence(Qt.Key.Key_F5), self)
+        start.setAutoRepeat(False)
+        start.activated.connect(self.exercise_panel.buttons.start.click)
 
     @property
     def slices(self) -> tuple[SlicePane, ...]:
