@@ -354,6 +354,7 @@ class PadCanvas(QWidget):
 
     def set_scene(self, scene: PadScene | None) -> None:
         """Take a new path; None clears the pad."""
+        self.setToolTip("")  # of what was shown before
         self._scene, self._view, self._hand = scene, None, None
         self.update()
 
