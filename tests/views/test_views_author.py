@@ -180,6 +180,23 @@ def test_effects_say_live_why_they_are_simulated_or_left_out_and_what_they_cost(
     assert settle(lambda: "each tick" in form.effects.cost.text())
 
 
+def test_an_effect_is_of_an_organ_and_computed_in_a_way_that_is_chosen(form, author):
+    write(form.task.name, "X")
+    form.show_page(4)
+    form.effects.parts.boxes["breathing"].click()
+    write(form.effects.parts.organs["breathing"], "lung")
+    author.editor.put("target_organ", value="liver")
+    assert form.effects.parts._why["breathing"].text().startswith("✖")
+    assert author.editor.exercise.effects["breathing"].organ == "lung"
+    name, way = next(iter(form.effects.parts.ways.items()))
+    form.effects.parts.boxes[name].setChecked(False)
+    if name not in author.editor.exercise.effects:
+        form.effects.parts.boxes[name].click()
+    way.setCurrentIndex(1)
+    way.activated.emit(1)
+    assert author.editor.exercise.effects[name].model == way.currentData()
+
+
 def test_bands_are_edited_in_the_table_and_their_rings_drawn_on_the_ct(opened, form, author):
     write(form.task.name, "X")
     form.show_page(5)

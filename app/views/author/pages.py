@@ -584,6 +584,14 @@ class SightPage(Form):
             default=5.0,
             unit="mm",
         )
+        self.number(
+            *("guidance", "dose_per_slice"),
+            name=tr("Dose of a slice, a teaching estimate"),
+            low=0.0,
+            high=1000.0,
+            default=3.85,
+            unit="mGy·cm",
+        )
         self.check("guidance", "streak", name=tr("Metal leaves a streak in control scans"))
         self.rows.addStretch(1)
 
@@ -629,6 +637,8 @@ class PartsBox(QWidget):
             rows.addWidget(QLabel(title))
         self.boxes: dict[str, QCheckBox] = {}
         self.values: dict[tuple[str, str], QLineEdit] = {}
+        self.organs: dict[str, QLineEdit] = {}
+        self.ways: dict[str, QComboBox] = {}
         self._why: dict[str, QLabel] = {}
         self._frames: dict[str, QGroupBox] = {}
         for name, declared in _declared(field).items():
@@ -646,8 +656,31 @@ class PartsBox(QWidget):
             line.setToolTip(f"{one.meaning}; {one.minimum:g} … {one.maximum:g} {one.unit}")
             line.textEdited.connect(lambda text, at=(name, key): self._set(at, text))
             form.addRow(f"{key} [{one.unit}]", line)
+        if isinstance(declared, effects.Effect):
+            self._add_words(form, name, declared)
         for widget in (box, why, frame):
             rows.addWidget(widget)
+
+    def _add_words(self, form: QFormLayout, name: str, declared: effects.Effect) -> None:
+        """Add what an effect acts on, and the way to compute it where there are several."""
+        organ = self.organs[name] = QLineEdit(self)
+        organ.setPlaceholderText(tr("everything"))
+        organ.textEdited.connect(
+            lambda text: self._editor.put(
+                self._field, name, "organ", value=text.strip() or None, typed=True
+            )
+        )
+        form.addRow(tr("acts on"), organ)
+        if len(declared.models) < 2:
+            return
+        way = self.ways[name] = QComboBox(self)
+        for key, words in declared.models.items():
+            way.addItem(f"{key}: {words}", key)
+        way.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        way.activated.connect(
+            lambda _: self._editor.put(self._field, name, "model", value=way.currentData())
+        )
+        form.addRow(tr("computed by"), way)
 
     def load(self) -> None:
         """Show which are on, why each is simulated or not, and what their parameters are."""
@@ -658,12 +691,19 @@ class PartsBox(QWidget):
             shown = self._editor.why.get(name, "") if name in parts else ""
             self._why[name].setText(shown)
             self._why[name].setVisible(bool(shown))
-            has_values = any(one == name for one, _ in self.values)
+            has_values = name in self.organs or any(one == name for one, _ in self.values)
             self._frames[name].setVisible(name in parts and has_values)
         for (name, key), line in self.values.items():
             given = (parts.get(name) or {}).get("parameters", {}).get(key, "")
             if not line.hasFocus():
                 _show_line(line, _plain(given))
+        for name, line in self.organs.items():
+            if not line.hasFocus():
+                _show_line(line, (parts.get(name) or {}).get("organ", ""))
+        for name, way in self.ways.items():
+            place = way.findData((parts.get(name) or {}).get("model", ""))
+            with QSignalBlocker(way):
+                way.setCurrentIndex(max(place, 0))
 
     def _switch(self, name: str, on: bool) -> None:
         self._editor.put(self._field, name, value={} if on else None)
@@ -741,6 +781,22 @@ class ScorePage(Form):
         )
         self.number(
             "rules", "pass_mark", name=tr("Total needed to pass"), low=0.0, high=100.0, default=60.0
+        )
+        self.number(
+            *("rules", "minimum_tracking"),
+            name=tr("Void below this share of the insertion with a measured depth"),
+            low=0.0,
+            high=100.0,
+            default=70.0,
+            unit="%",
+        )
+        self.number(
+            *("rules", "maximum_pause"),
+            name=tr("Void beyond this time of waiting for the cameras"),
+            low=0.0,
+            high=3600.0,
+            default=20.0,
+            unit="s",
         )
         self.note(("rules",))
         self.drawn = label(
