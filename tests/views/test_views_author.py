@@ -219,6 +219,8 @@ def test_fading_is_chosen_and_its_mistakes_are_said(form, author):
     form.help.way.setCurrentIndex(1)
     form.help.way.activated.emit(1)
     assert author.editor.exercise.fading.dials == (0.7, 0.4, 0.2, 0.0)
+    assert form.help.dials.isVisibleTo(form.help)
+    assert not form.help.fields["fading", "good"].isVisibleTo(form.help)
     write(form.help.dials, "0.5, zero")
     assert not form.keep.isEnabled()
     write(form.help.dials, "0.5, 0")
@@ -254,6 +256,18 @@ def test_an_exercise_that_comes_with_acus_is_copied_before_it_is_changed(opened,
     author.change()
     assert "this is a copy" in said(author.dialog)
     assert author.editor.get("id") == "first-insertion-copy"
+
+
+def test_the_present_exercise_is_changed_where_it_is_ones_own(opened, form, author):
+    write(form.task.name, "Mine")
+    form.keep.click()
+    form.attempt.click()
+    author.change()
+    assert author.dialog.task.name.text() == "Mine"
+    assert author.editor.saved == load_exercise("mine")
+    author.dialog.task.level.setValue(6)
+    author.dialog.keep.click()
+    assert load_exercise("mine").version == 2
 
 
 def test_one_that_is_not_kept_is_asked_about(opened, form, author, monkeypatch):

@@ -206,10 +206,10 @@ class AuthorFeature(Feature):
             self._shell.menu(tr("&File"), tr("Exercise")),
             [
                 (tr("Make an exercise from what is open…"), "Ctrl+Shift+E", self.make),
-                (tr("Change the exercise that is taken…"), "", self.change),
+                (tr("Change the present exercise…"), "", self.change),
                 None,
                 (tr("Import an exercise…"), "", self.ask_import),
-                (tr("Export the exercise that is taken…"), "", self.export_taken),
+                (tr("Export the present exercise…"), "", self.export_taken),
             ],
         )
 

@@ -58,6 +58,7 @@ class Form(QWidget):
         self.editor, self.title, self.covers = editor, title, tuple(covers)
         self.rows = column(self, title)
         self.fields: dict[Where, QWidget] = {}
+        self.names: dict[Where, QLabel] = {}
         self._loads: list[Callable[[], None]] = []
         self._notes: list[tuple[Where, QLabel]] = []
 
@@ -79,7 +80,8 @@ class Form(QWidget):
     def add(self, where: Where, name: str, widget: QWidget, load: Callable[[], None]) -> None:
         """Add a field with its name, and the line that says what is wrong with it."""
         if name:
-            self.rows.addWidget(QLabel(name, self))
+            self.names[where] = QLabel(name, self)
+            self.rows.addWidget(self.names[where])
             widget.setAccessibleName(name)
         self.rows.addWidget(widget)
         self.fields[where] = widget
@@ -510,7 +512,8 @@ class HelpPage(Form):
                 belongs = {"schedule": ("dials", "probe_every"), None: ()}.get(
                     kind, ("least", "step", "good", "poor", "probe_every")
                 )
-                widget.setEnabled(where[1] in belongs)
+                widget.setVisible(where[1] in belongs)
+                self.names[where].setVisible(where[1] in belongs)
 
     def _set_way(self, kind: str | None) -> None:
         dials = {"dials": [0.7, 0.4, 0.2, 0.0]} if kind == "schedule" else {}
