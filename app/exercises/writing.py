@@ -132,10 +132,15 @@ def write_exercise(path: Path, exercise: Exercise) -> None:
     Raises:
         ExerciseError: if it cannot be written.
     """
+    _write(path, exercise_text(exercise, path.parent.resolve()))
+
+
+def _write(path: Path, text: str) -> None:
     try:
-        write_atomically(path, exercise_text(exercise, path.parent.resolve()))
+        write_atomically(path, text)
     except OSError as error:
-        raise ExerciseError(f"cannot write {path}: {error.strerror or error}") from error
+        why = f"cannot write {path}: {error.strerror or error}; nothing was changed"
+        raise ExerciseError(why) from error
 
 
 def save(exercise: Exercise) -> Exercise:
@@ -173,7 +178,7 @@ def save(exercise: Exercise) -> Exercise:
             return present
         kept = own / f"{exercise.id}@{present.version}.yaml"
         if not kept.exists():
-            write_atomically(kept, read_text(path))
+            _write(kept, read_text(path))
         version = max(versions(exercise.id)) + 1
         write_exercise(path, exercise.model_copy(update={"version": version}))
         return read_exercise(path)

@@ -178,6 +178,27 @@ def test_a_file_of_another_name_keeps_its_name(own: Path) -> None:
     ]
 
 
+def test_a_full_disk_and_a_folder_that_is_none_are_one_line_and_nothing_is_lost(
+    own: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = save(load_exercise("first-insertion").model_copy(update={"id": "mine", "version": 1}))
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("app.core.files.os.replace", full)
+        with pytest.raises(ExerciseError, match="No space left on device; nothing was changed"):
+            save(first.model_copy(update={"level": 4}))
+    assert load_exercise("mine") == first
+    assert [path.name for path in own.glob("*.yaml")] == ["mine.yaml"]
+    (own.parent / "other").mkdir()
+    (own.parent / "other" / "exercises").write_text("a file")
+    monkeypatch.setenv("ACUS_DATA", str(own.parent / "other"))
+    with pytest.raises(ExerciseError, match="cannot write in"):
+        save(first)
+
+
 def test_an_id_is_made_of_any_title() -> None:
     assert free_id("Niere, schräg (links)", []) == "niere-schraeg-links"
     assert free_id("Niere", ["niere", "niere-2"]) == "niere-3"

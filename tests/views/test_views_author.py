@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QFileDialog, QMessageBox
 from window_rig import plan
@@ -70,6 +70,66 @@ def test_a_few_clicks_make_an_exercise_of_what_is_open(opened, author, form, set
         for n in range(opened.start_page.exercises.count())
     ]
     assert any("Lung, left" in text for text in shown)
+
+
+def test_an_exercise_with_something_of_everything_takes_fewer_than_forty_clicks(
+    opened, author, settle
+):
+    clicks = 4  # Place E and a place, Place T and a place
+
+    def click(widget, x=None):
+        nonlocal clicks
+        clicks += 1
+        at = widget.rect().center() if x is None else QPoint(x, widget.rect().center().y())
+        QTest.mouseClick(widget, Qt.MouseButton.LeftButton, pos=at)
+
+    def go_to(page):
+        nonlocal clicks
+        clicks += 1
+        at = form.list.visualItemRect(form.list.item(page)).center()
+        QTest.mouseClick(form.list.viewport(), Qt.MouseButton.LeftButton, pos=at)
+        assert form.pages.currentIndex() == page
+
+    click(author.button)
+    form = author.dialog
+    write(form.task.name, "All of it")
+    click(form.task.level)
+    QTest.keyClick(form.task.level, Qt.Key.Key_Up)
+    click(form.task.briefing.viewport())
+    QTest.keyClicks(form.task.briefing, "Go slowly.")
+    go_to(2)
+    click(form.help.way)
+    form.help.way.hidePopup()  # the choice by key
+    QTest.keyClick(form.help.way, Qt.Key.Key_Down)
+    form.help.way.activated.emit(form.help.way.currentIndex())
+    click(form.help.laws.boxes["cone_wall"], 8)
+    go_to(3)
+    for box in form.sight.fields["views",].findChildren(QCheckBox)[3:5]:
+        click(box, 8)
+    for box in form.sight.fields["locks",].findChildren(QCheckBox)[:2]:
+        click(box, 8)
+    go_to(4)
+    for name in ("shaft_friction", "lateral_tissue", "breathing"):
+        click(form.effects.parts.boxes[name], 8)
+    go_to(5)
+    row = list(form.score.metrics).index("target_error")
+    at = form.score.bands.visualItemRect(form.score.bands.item(row, 0))
+    clicks += 1
+    place = QPoint(at.left() + 12, at.center().y())
+    QTest.mouseClick(form.score.bands.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    go_to(6)
+    assert "✔" in form.review.verdict.text()
+    click(form.attempt)
+    click(form.keep)
+    kept = load_exercise("all-of-it")
+    assert (kept.level, kept.description) == (2, "Go slowly.")
+    assert kept.fading is not None
+    assert set(kept.laws) == {"fixture", "cone_wall"}
+    assert set(kept.effects) == {"shaft_friction", "lateral_tissue", "breathing"}
+    assert {"cameras", "force_gauge"} <= {view.value for view in kept.views}
+    assert len(kept.locked) == 2
+    assert "target_error" in kept.tolerances
+    assert clicks <= 40
 
 
 def test_without_a_ct_it_says_what_to_do(window, settle):
