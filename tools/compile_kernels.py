@@ -89,12 +89,17 @@ def main() -> None:
 
 
 def _filled() -> Path:
-    """File in the cache that says that it holds every kernel of these sources, parts and tool."""
+    """File in the cache that says that it holds every kernel of these sources, parts and tool.
+
+    Numba keeps what was compiled apart by the folder of its source: another copy of the program,
+    equal to the last byte, finds none of it.
+    """
     import numba
 
-    from app.core import compiled  # noqa: F401  (names the cache's folder)
+    from app.core import compiled
 
-    tool = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:8]
+    place = str(Path(compiled.__file__).resolve()).encode()
+    tool = hashlib.sha256(Path(__file__).read_bytes() + place).hexdigest()[:8]
     made_by = f"{sys.version_info.major}.{sys.version_info.minor}-numba-{numba.__version__}-{tool}"
     return Path(os.environ["NUMBA_CACHE_DIR"]) / f"filled-{made_by}"
 

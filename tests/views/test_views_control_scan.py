@@ -85,16 +85,13 @@ def shown_with(window, trainer, snapshot) -> dict[str, object]:
     return telling(window)
 
 
-@pytest.mark.parametrize("tab", range(6))
-def test_no_widget_tells_where_the_needle_is(guided, tab, settle) -> None:
+def test_no_widget_tells_where_the_needle_is(guided, settle) -> None:
     window, trainer = guided
     controller, placed = window.conductor.controller, trainer.placed
     controller._timer.stop()
     assert window.workspace.side.count() == 6
-    window.workspace.side.setCurrentIndex(tab)
     add_structure(window, placed.plan)
     window.view_menu.follow.setChecked(True)
-    settle(timeout=0.3)
     near = snapshot_of(placed, state=State.INSERTING, pose=pose_of(placed, 0.01, 0.02))
     far = snapshot_of(
         placed, state=State.HOLDING, pose=pose_of(placed, 0.4, 0.055, deflection=0.004,
@@ -104,12 +101,15 @@ def test_no_widget_tells_where_the_needle_is(guided, tab, settle) -> None:
         slots={"potential": 0.4, "energy_bound": 1.0, "gauge": 1.0, "gauge_force": 4.0},
     )  # fmt: skip
     far = replace(far, tracker=replace(far.tracker, discrepancy="the cameras see it 9 mm deeper"))
-    shown_with(window, trainer, near)  # what is drawn once is drawn
-    settle(timeout=0.2)
-    first, second = (shown_with(window, trainer, moment) for moment in (near, far))
-    different = [key for key in first if first[key] != second.get(key)]
-    assert different == [], [(first[key], second.get(key)) for key in different
-                             if "picture" not in key]  # fmt: skip
+    for tab, name in enumerate(window.workspace.side.names()):
+        window.workspace.side.setCurrentIndex(tab)
+        settle(timeout=0.3)
+        shown_with(window, trainer, near)  # what is drawn once is drawn
+        settle(timeout=0.2)
+        first, second = (shown_with(window, trainer, moment) for moment in (near, far))
+        different = [key for key in first if first[key] != second.get(key)]
+        assert different == [], [(name, first[key], second.get(key)) for key in different
+                                 if "picture" not in key]  # fmt: skip
     assert window.workspace.viewing.needle is None
     assert window.feature(StructuresFeature).panel.live.text() == ""
 
