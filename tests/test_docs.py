@@ -41,6 +41,12 @@ def test_links_anchors_and_pictures_of_a_page_exist(file):
     assert broken == []
 
 
+def test_every_picture_is_shown_on_a_page():
+    shown = {(file.parent / link).resolve() for file in SOURCES for link in links(file)}
+    unseen = [one.name for one in (DOCS / "pictures").glob("*.png") if one.resolve() not in shown]
+    assert unseen == []
+
+
 def test_the_navigation_names_pages_that_there_are_each_once():
     text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").split("\nnav:")[1]
     entries = re.findall(r"^ +- (\S+\.md)$", text, flags=re.M)  # the build adds what is not named

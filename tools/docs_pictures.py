@@ -60,6 +60,15 @@ def own_settings(module: str) -> None:
         subprocess.run(order, check=True, cwd=ROOT, env=os.environ | own)
 
 
+def drop_unshown() -> None:
+    """Remove pictures that no page shows: some scripts make more than there is room for."""
+    pages = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    shown = "".join(page.read_text(encoding="utf-8") for page in pages)
+    for picture in sorted(PICTURES.glob("*.png")):
+        if f"pictures/{picture.name}" not in shown:
+            picture.unlink()
+
+
 def main() -> None:
     """Make them all; without the shared data the chest's are left as they are."""
     PICTURES.mkdir(parents=True, exist_ok=True)
@@ -76,6 +85,7 @@ def main() -> None:
     own_settings("tools.reading_pictures")
     own_settings("tools.scene_pictures")
     studies()
+    drop_unshown()
 
 
 if __name__ == "__main__":

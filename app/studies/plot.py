@@ -123,10 +123,11 @@ _BESIDE: Final = (
     (-7, -3, "right"),
     (0, 18, "center"),
     (0, -22, "center"),
-    (0, 29, "center"),
-    (0, -33, "center"),
+    *((0, way * far, "center") for far in range(29, 90, 8) for way in (1, -1)),
 )
-"""Places of a word seen from its point [pt]."""
+"""Places of a word seen from its point [pt], the nearest first."""
+_NEAR: Final = 6
+"""Of so many places a label takes one; the name of a family may stand further away."""
 
 
 def _set_apart(figure: Any, axes: Any, notes: list[Any], limits: list[Any]) -> None:
@@ -144,7 +145,9 @@ def _set_apart(figure: Any, axes: Any, notes: list[Any], limits: list[Any]) -> N
     taken = points + [note.get_window_extent(renderer) for note in limits]
     for note in sorted(notes, key=lambda one: -one.get_fontsize()):
         own = note.get_position()[1]
-        for right, above, side in sorted(_BESIDE, key=lambda place: place[:2] != (0, own)):
+        is_name = note.get_fontweight() == "bold"
+        near = _BESIDE if is_name else _BESIDE[:_NEAR]
+        for right, above, side in sorted(near, key=lambda place: place[:2] != (0, own)):
             note.set_position((right, above))
             note.set_horizontalalignment(side)
             place = note.get_window_extent(renderer)
@@ -155,7 +158,7 @@ def _set_apart(figure: Any, axes: Any, notes: list[Any], limits: list[Any]) -> N
         else:
             note.set_position((0, own))
             note.set_horizontalalignment("center")
-            note.set_visible(note.get_fontweight() == "bold")
+            note.set_visible(is_name)
 
 
 def _limits(axes: Any, result: Result) -> list[Any]:
@@ -165,6 +168,8 @@ def _limits(axes: Any, result: Result) -> list[Any]:
     axes.set_yscale("log")
     axes.margins(0.16, 0.2)
     axes.axhline(study.deadline.value, color=_LINE, linestyle="--", linewidth=1.0)
+    least, most = axes.get_ylim()
+    axes.set_ylim(least, max(most, 2.0 * study.deadline.value))  # room for what is written there
     axes.axvline(study.perception.value, color=_LINE, linestyle=":", linewidth=1.4)
     deadline = axes.annotate(
         study.deadline.label,
