@@ -12,6 +12,7 @@ from window_rig import plan
 from app.exercises.library import folders, load_exercise, versions
 from app.exercises.parts import OwnPlan, PlanPoints
 from app.imaging.structures.structure import Structure, StructureKind, StructureSet
+from app.imaging.window import WindowLevel
 from app.planning.placement import PatientOrientation, Placement
 from app.views.author.feature import AuthorFeature
 
@@ -197,6 +198,25 @@ def test_path_and_position_are_taken_anew_from_the_window(opened, form, author):
     form.patient.take.click()
     assert author.editor.exercise.placement.placement() == opened.editor.edit.placement
     assert "prone" in form.patient.where.text()
+
+
+def test_window_and_slab_are_taken_from_the_axial_pane(opened, form, author):
+    write(form.task.name, "X")
+    form.show_page(3)
+    opened.workspace.viewing.greys.set(WindowLevel(1234.0, -567.0))
+    form.sight.take.click()
+    reading = author.editor.exercise.reading
+    assert reading.window_level == WindowLevel(1234.0, -567.0)
+    assert reading.slab.thickness_mm == 0.0
+    assert "W 1234  L -567" in [
+        form.sight.fields["reading", "window"].itemText(n)
+        for n in range(form.sight.fields["reading", "window"].count())
+    ]
+    form.sight.fields["reading", "locked"].click()
+    assert author.editor.exercise.reading.locked
+    form.undo.click()
+    form.undo.click()
+    assert author.editor.exercise.reading.window is None
 
 
 def test_structures_of_risk_are_written_and_go_along(opened, author, settle):

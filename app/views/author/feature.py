@@ -56,6 +56,7 @@ from app.views.kit.text import tr
 from app.views.kit.verdict import Verdict
 from app.views.kit.wizard import Wizard
 from app.views.shell.feature import Context, Feature
+from app.views.slices.panes import PaneId
 
 COST_AFTER_MS = 400
 
@@ -307,6 +308,7 @@ class AuthorFeature(Feature):
         dialog.export.clicked.connect(self.export)
         dialog.task.kind_wanted.connect(self.set_kind)
         dialog.patient.plan_wanted.connect(self.take_plan)
+        dialog.sight.reading_wanted.connect(self.take_reading)
         self.editor.begin(document, saved)
         frame = self._shell.dialog_parent.geometry()  # at its right: the axial pane stays free
         dialog.move(max(frame.right() - dialog.width() - theme.MARGIN, 0), frame.top() + 60)
@@ -353,6 +355,18 @@ class AuthorFeature(Feature):
             }
         )
         self._say(tr("Path and position taken from the window."))
+
+    def take_reading(self) -> None:
+        """Take window and slab from the axial pane."""
+        viewing = self.context.views.viewing
+        window, slab = viewing.window, viewing.presentation(PaneId.AXIAL).slab
+        self.editor.put_all(
+            {
+                ("reading", "window"): {"width": window.width, "level": window.level},
+                ("reading", "slab"): {"kind": slab.kind, "thickness_mm": slab.thickness_mm},
+            }
+        )
+        self._say(tr("Window and slab taken from the axial pane."))
 
     def duplicate(self) -> None:
         """Go on with a copy of what is in the form."""

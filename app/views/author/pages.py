@@ -177,7 +177,7 @@ class Form(QWidget):
             value = get()
             place = next((n for n in range(box.count()) if box.itemData(n) == value), -1)
             if place < 0 and value is not None:  # a file of one's own
-                box.addItem(str(value), value)
+                box.addItem(_shown(value), value)
                 place = box.count() - 1
             with QSignalBlocker(box):
                 box.setCurrentIndex(max(place, 0))
@@ -219,6 +219,13 @@ class Form(QWidget):
 
         self.add(where, "", box, load)
         return box
+
+
+def _shown(value: object) -> str:
+    """Return a value for a list that does not have it: a window, or a file of one's own."""
+    if isinstance(value, Mapping) and "width" in value:
+        return f"W {value['width']:g}  L {value.get('level', 0.0):g}"
+    return str(value)
 
 
 def _show_line(line: QLineEdit, text: object) -> None:
@@ -534,7 +541,13 @@ class HelpPage(Form):
 
 
 class SightPage(Form):
-    """Views, locks, and how the CT is read."""
+    """Views, locks, and how the CT is read.
+
+    Signals:
+        reading_wanted(): take window and slab from the axial pane.
+    """
+
+    reading_wanted = Signal()
 
     def __init__(self, editor: ExerciseEditor) -> None:
         covers = ("views", "locks", "hand", "reading", "guidance")
@@ -573,7 +586,29 @@ class SightPage(Form):
             ("needle", tr("Along the needle")),
         )
         self.choice("reading", "layout", name=tr("Layout of the panes"), among=layouts)
-        self.check("reading", "locked", name=tr("Window and layout stay as given here"))
+        kinds_of_slabs = (
+            (None, tr("The student's own")),
+            ("mean", tr("Mean")),
+            ("mip", tr("Brightest")),
+            ("minip", tr("Darkest")),
+        )
+        self.choice(
+            "reading", "slab", "kind", name=tr("Slab"), among=kinds_of_slabs, write=self._set_slab
+        )
+        self.number(
+            "reading",
+            "slab",
+            "thickness_mm",
+            name=tr("Thickness of the slab"),
+            low=0.0,
+            high=100.0,
+            default=0.0,
+            unit="mm",
+        )
+        self.take = button(tr("Take window and slab from the axial pane"))
+        self.take.clicked.connect(self.reading_wanted)
+        self.rows.addWidget(self.take)
+        self.check("reading", "locked", name=tr("Window, slab and layout stay as given here"))
         self.note(("reading",))
         self.count(
             "guidance", "slices", name=tr("Slices of a control scan"), low=3, high=5, default=3
@@ -597,6 +632,19 @@ class SightPage(Form):
         )
         self.check("guidance", "streak", name=tr("Metal leaves a streak in control scans"))
         self.rows.addStretch(1)
+
+    def load(self) -> None:
+        """Show what the document says; the thickness of a slab only where there is one."""
+        super().load()
+        where = ("reading", "slab", "thickness_mm")
+        there = self.editor.get("reading", "slab") is not None
+        self.fields[where].setVisible(there)
+        self.names[where].setVisible(there)
+
+    def _set_slab(self, kind: str | None) -> None:
+        thick = self.editor.get("reading", "slab", "thickness_mm", default=5.0)
+        slab = None if kind is None else {"kind": kind, "thickness_mm": thick}
+        self.editor.put("reading", "slab", value=slab)
 
 
 class EffectsPage(Form):
