@@ -90,7 +90,8 @@ def add(
     pin_: Annotated[str, typer.Option("--pin", help="4 to 12 digits; drawn if not given.")] = "",
 ) -> Answer:
     """Add a student (instructor)."""
-    from app.session.people import People, RosterLine
+    from app.session.people import People
+    from app.session.roster import RosterLine
 
     people = People()
     instructor(people)
@@ -111,7 +112,9 @@ def roster(
     student who is there already keeps the PIN unless the roster has one. If a row is wrong nothing
     is taken, unless --partly is given, and it ends with code 3.
     """
-    from app.session.people import People, PeopleError, read_roster
+    from app.session.errors import PeopleError
+    from app.session.people import People
+    from app.session.roster import read_roster
 
     people = People()
     instructor(people)

@@ -138,7 +138,8 @@ def export(
 def _board(course: str, group: str, folder: Path | None) -> tuple[Any, list[Any], Any]:
     """Return board, attempts and people."""
     from app.commands.calibrate_parts import with_progress
-    from app.session.course import board_of, find_course
+    from app.session.board import board_of
+    from app.session.course import find_course
     from app.session.people import People
     from app.session.store import records_folder
 

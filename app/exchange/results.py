@@ -21,7 +21,7 @@ from app.core.progress import Progress
 from app.exchange.csv_export import table_text, write_csv
 from app.exchange.errors import ExportError
 from app.scoring.conditions import comparison_groups
-from app.session.course import ProgressBoard
+from app.session.board import ProgressBoard
 from app.session.index import Indexed
 from app.session.people import Person, Remarks
 

@@ -1,45 +1,28 @@
-"""A course (exercises with pinned versions, for groups) and the board of who stands where in it.
-
-A course is one YAML file. On the board and in curves only comparable attempts meet
-(`scoring.conditions.comparable`): of each exercise those of the pinned version that the most were
-made under. Attempts of scripted trainees or emulated boards, void ones and those that were altered
-after they were signed never count.
-"""
+"""A course: exercises with pinned versions, in order, for groups, as one YAML file."""
 
 from __future__ import annotations
 
 import datetime
 import re
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from statistics import median
 from typing import Annotated, Any, Final
 
 import yaml
-from pydantic import Field, ValidationError, model_validator
+from pydantic import Field, model_validator
 
 from app.core.configuration import Strict, load, parse
 from app.core.errors import ConfigurationError
 from app.core.files import write_atomically
-from app.core.progress import Progress
 from app.exercises.guidance import Purpose
 from app.exercises.library import library
-from app.scoring.conditions import comparison_groups
 from app.session.errors import SessionError
-from app.session.index import Index, Indexed
-from app.session.people import People, Person, Remarks, people_folder
-from app.session.signature import Signed
+from app.session.index import Indexed
+from app.session.people import Person, people_folder
 
 NAME: Final = r"^[a-z0-9]+(-[a-z0-9]+)*$"
 """A course's id is also its file's name."""
-
-MEDIAN_OF: Final = 5
-"""The moving median of a curve is over so many attempts."""
-
-TREND_OF: Final = 8
-"""The trend is that of so many last attempts, of three at least."""
 
 
 class CourseError(SessionError):
@@ -221,233 +204,3 @@ def _of_item(attempts: Sequence[Indexed], item: CourseItem) -> list[Indexed]:
         and one.state in ("ended", "aborted", "unfinished")
         and not one.conditions.scripted
     ]
-
-
-@dataclass(frozen=True, slots=True)
-class BoardCell:
-    """How a student stands in an exercise, by attempts that may be compared.
-
-    Attributes:
-        attempts: how many count.
-        best, last: points; None without one.
-        trend: points per attempt over the last ones (Theil-Sen); None under three.
-        passed: whether one of them passes.
-        since: time since the last one; None without one.
-        others: his attempts at this exercise that do not count here.
-        why: of the others, each reason with how many.
-    """
-
-    attempts: int = 0
-    best: float | None = None
-    last: float | None = None
-    trend: float | None = None
-    passed: bool = False
-    since: datetime.timedelta | None = None
-    others: int = 0
-    why: tuple[tuple[str, int], ...] = ()
-
-    def document(self) -> dict[str, Any]:
-        """JSON-ready mapping; the keys stand in docs/json.md."""
-        return {
-            "attempts": self.attempts,
-            "best": self.best,
-            "last": self.last,
-            "trend": self.trend,
-            "passed": self.passed,
-            "since_s": None if self.since is None else self.since.total_seconds(),
-            "others": self.others,
-            "why": dict(self.why),
-        }
-
-
-@dataclass(frozen=True, slots=True)
-class CurvePoint:
-    """One attempt of a student's curve: points, the best until then, the moving median."""
-
-    attempt: str
-    started: str
-    total: float
-    best: float
-    median: float
-
-
-@dataclass(frozen=True)
-class ProgressBoard:
-    """Students by exercises.
-
-    Attributes:
-        students: rows.
-        items: columns.
-        cells: by key of the student and id of the exercise.
-        counted: attempts that count, in order of time, likewise.
-    """
-
-    students: tuple[Person, ...]
-    items: tuple[CourseItem, ...]
-    cells: Mapping[tuple[str, str], BoardCell]
-    counted: Mapping[tuple[str, str], tuple[Indexed, ...]]
-
-    def curve(self, key: str, exercise: str) -> list[CurvePoint]:
-        """Return a student's curve in an exercise, oldest first."""
-        found: list[CurvePoint] = []
-        totals: list[float] = []
-        for one in self.counted.get((key, exercise), ()):
-            totals.append(one.total or 0.0)
-            middle = median(totals[-MEDIAN_OF:])
-            found.append(CurvePoint(one.id, one.started, totals[-1], max(totals), middle))
-        return found
-
-
-def progress_board(
-    students: Sequence[Person],
-    items: Sequence[CourseItem],
-    attempts: Sequence[Indexed],
-    whose: Mapping[str, str],
-    remarks: Mapping[str, Remarks],
-    now: datetime.datetime,
-) -> ProgressBoard:
-    """Make the board.
-
-    Args:
-        students: rows.
-        items: columns.
-        attempts: of the index, oldest first.
-        whose: key of the student by what records name (`People.keys`).
-        remarks: what the instructor said, by attempt.
-        now: time that "since" is told from.
-    """
-    wanted = {item.exercise: item for item in items}
-    rows = {person.key for person in students}
-    taken: dict[str, list[Indexed]] = defaultdict(list)
-    left: dict[tuple[str, str], Counter[str]] = defaultdict(Counter)
-    for one in attempts:
-        key, item = whose.get(one.student, ""), wanted.get(one.exercise)
-        if item is None or key not in rows:
-            continue
-        reason = _why_not_counted(one, item, remarks.get(one.id))
-        if reason:
-            left[key, one.exercise][reason] += 1
-        else:
-            taken[one.exercise].append(one)
-    counted: dict[tuple[str, str], list[Indexed]] = defaultdict(list)
-    for exercise, some in taken.items():
-        groups = comparison_groups([one.conditions for one in some])
-        most = _largest(groups)
-        for one, group in zip(some, groups, strict=True):
-            key = whose[one.student]
-            if group == most:
-                counted[key, exercise].append(one)
-            else:
-                left[key, exercise]["made under other conditions than most"] += 1
-    cells = {
-        (person.key, item.exercise): _cell(
-            counted[person.key, item.exercise], left[person.key, item.exercise], now
-        )
-        for person in students
-        for item in items
-    }
-    kept = {place: tuple(some) for place, some in counted.items() if some}
-    return ProgressBoard(tuple(students), tuple(items), cells, kept)
-
-
-def board_of(
-    folder: Path,
-    people: People,
-    course: Course | None = None,
-    group: str = "",
-    now: datetime.datetime | None = None,
-    progress: Progress | None = None,
-) -> tuple[ProgressBoard, list[Indexed]]:
-    """Return the board of a folder of records, and all attempts in it, oldest first.
-
-    Args:
-        folder: of the records.
-        people: of this station.
-        course: None takes every exercise that was attempted, in its newest version.
-        group: of students; empty takes all who take the course.
-        now: time that "since" is told from.
-        progress: reports, and may cancel.
-
-    Raises:
-        SessionError: if something cannot be read.
-    """
-    index = Index(folder)
-    index.refresh(progress)
-    attempts = index.attempts()
-    students = [
-        person
-        for person in people.everybody()
-        if (not group or group in person.groups) and (course is None or course.takes(person))
-    ]
-    whose = people.keys()
-    own = [one for one in attempts if one.student in whose]
-    items = course.items if course is not None else every_item(own)
-    now = now or datetime.datetime.now(datetime.UTC)
-    return progress_board(students, items, own, whose, people.remarks(), now), attempts
-
-
-def every_item(attempts: Sequence[Indexed]) -> list[CourseItem]:
-    """Return an item for each exercise that was attempted, in its newest version: no course."""
-    newest: dict[str, int] = {}
-    for one in attempts:
-        if one.exercise:
-            newest[one.exercise] = max(one.version, newest.get(one.exercise, 1))
-    found = []
-    for name, version in sorted(newest.items()):
-        try:
-            found.append(CourseItem(exercise=name, version=version))
-        except ValidationError:
-            continue  # a record with an id that no exercise can have
-    return found
-
-
-def _why_not_counted(one: Indexed, item: CourseItem, said: Remarks | None) -> str:
-    if one.verdict == Signed.ALTERED:
-        return "altered after it was signed"
-    if said is not None and said.void:
-        return "declared void by the instructor"
-    if not one.counts:
-        known = one.conditions
-        if known.scripted:
-            return "scripted"
-        return "emulated robot" if known.kind == "emulated" else "not scored or void"
-    if one.version != item.version:
-        return f"version {one.version} of the exercise"
-    if item.content and one.conditions.content != item.content:
-        return "the exercise said something else"
-    return ""
-
-
-def _largest(groups: Sequence[int | None]) -> int | None:
-    """Return the group with the most members; of equal ones that with the newest attempt."""
-    counts = Counter(groups)
-    last = {group: place for place, group in enumerate(groups)}
-    return max(counts, key=lambda group: (counts[group], last[group]), default=None)
-
-
-def _cell(some: Sequence[Indexed], left: Counter[str], now: datetime.datetime) -> BoardCell:
-    others, why = left.total(), tuple(sorted(left.items()))
-    if not some:
-        return BoardCell(others=others, why=why)
-    totals = [one.total or 0.0 for one in some]
-    return BoardCell(
-        attempts=len(some),
-        best=max(totals),
-        last=totals[-1],
-        trend=_trend(totals[-TREND_OF:]),
-        passed=any(one.passed for one in some),
-        since=now - some[-1].time,
-        others=others,
-        why=why,
-    )
-
-
-def _trend(totals: Sequence[float]) -> float | None:
-    """Median of the slopes between all pairs, after Theil (1950) and Sen (1968)."""
-    if len(totals) < 3:
-        return None
-    return median(
-        (totals[b] - totals[a]) / (b - a)
-        for a in range(len(totals))
-        for b in range(a + 1, len(totals))
-    )

@@ -8,7 +8,7 @@ when the program is killed in the middle of it. SQLAlchemy is imported when a fi
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import cached_property
 from pathlib import Path
@@ -43,7 +43,7 @@ class Database:
 
     Args:
         path: the file; None keeps everything in memory.
-        tables: of SQLAlchemy, made where they are missing.
+        tables: gives those of SQLAlchemy, made where they are missing.
         version: of the tables; a file of a later one is left alone.
         what: it holds, for messages, such as "index".
         busy: seconds to wait for another program.
@@ -52,7 +52,7 @@ class Database:
     def __init__(
         self,
         path: Path | None,
-        tables: MetaData,
+        tables: Callable[[], MetaData],
         version: int,
         what: str,
         busy: float = BUSY_SECONDS,
@@ -139,7 +139,7 @@ class Database:
             with engine.connect() as connection:
                 connection.exec_driver_sql("ROLLBACK")
                 connection.exec_driver_sql("BEGIN IMMEDIATE")
-                self._tables.create_all(connection)
+                self._tables().create_all(connection)
                 connection.exec_driver_sql(f"PRAGMA user_version = {self._version}")
                 connection.commit()
         return engine

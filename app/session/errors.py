@@ -37,3 +37,7 @@ class SessionNotFoundError(SessionError):
 
 class ReplayError(SessionError):
     """A record that cannot be computed once more; the message says what it lacks."""
+
+
+class PeopleError(SessionError):
+    """Something about a person that cannot be done; says what would be valid."""

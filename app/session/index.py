@@ -156,7 +156,7 @@ class Index:
         path = folder / INDEX
         writable = os.access(path if path.exists() else folder, os.W_OK)
         where = path if writable and os.access(folder, os.W_OK) else None
-        self.database = Database(where, _attempts().metadata, _VERSION, "index", busy)
+        self.database = Database(where, lambda: _attempts().metadata, _VERSION, "index", busy)
 
     @property
     def path(self) -> Path | None:

@@ -9,10 +9,7 @@ can read these files can replace them.
 
 from __future__ import annotations
 
-import csv
-import io
 import json
-import re
 import secrets
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -26,8 +23,8 @@ from typing import TYPE_CHECKING, Any, Final
 from app.core import paths
 from app.core.files import write_atomically
 from app.session.database import BUSY_SECONDS, Database
-from app.session.errors import SessionError
-from app.session.header import LONGEST_PSEUDONYM
+from app.session.errors import PeopleError
+from app.session.roster import RosterLine, checked_pin, judged_lines
 from app.session.signature import StationKey, new_recovery_key
 
 if TYPE_CHECKING:
@@ -38,17 +35,9 @@ NAMES_FILE: Final = "names.json"
 INSTRUCTOR: Final = "the instructor"
 
 _VERSION: Final = 1
-_PSEUDONYM: Final = re.compile(r"\w(?:[\w .@+-]*[\w.@+-])?")
-_KEY: Final = re.compile(r"p-[0-9a-f]{12}")
-_PIN: Final = re.compile(r"[0-9]{4,12}")
 _SHORTEST_PASSWORD: Final = 8
 _FREE_TRIES: Final = 3
 _FIRST_DELAY, _LONGEST_DELAY = 5.0, 300.0
-_FIELDS: Final = ("pseudonym", "name", "pin", "group")
-
-
-class PeopleError(SessionError):
-    """Something about a person that cannot be done; says what would be valid."""
 
 
 class WrongPasswordError(PeopleError):
@@ -72,16 +61,6 @@ class Person:
     groups: tuple[str, ...] = ()
     name: str = field(default="", repr=False)
     has_pin: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class RosterLine:
-    """One row of a roster: pseudonym, name, PIN (empty: drawn) and groups."""
-
-    pseudonym: str
-    name: str = ""
-    pin: str = ""
-    groups: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +112,7 @@ class People:
     ) -> None:
         self.folder = folder or people_folder()
         self._clock = clock
-        self.database = Database(self.folder / PEOPLE, _tables(), _VERSION, "list of people", busy)
+        self.database = Database(self.folder / PEOPLE, _tables, _VERSION, "list of people", busy)
 
     # --- the instructor ---------------------------------------------------------------------------
     def has_instructor(self) -> bool:
@@ -261,7 +240,7 @@ class People:
             partly: take the right lines although others are wrong; else one error and nothing is
                 taken.
         """
-        good, errors = _judged_lines(lines)
+        good, errors = judged_lines(lines)
         if errors and not partly:
             return RosterReport(errors=tuple(errors))
         from sqlalchemy import insert, select, update
@@ -315,9 +294,7 @@ class People:
         from sqlalchemy import update
 
         person, table = self.find(pseudonym), _tables().tables["persons"]
-        if not _PIN.fullmatch(pin):
-            raise PeopleError(_BAD_PIN)
-        hashed = _hashed(pin)
+        hashed = _hashed(checked_pin(pin))
         with self.database.write() as connection:
             connection.execute(update(table).where(table.c.key == person.key).values(pin=hashed))
             connection.execute(_failures().delete().where(_failures().c.account == person.key))
@@ -520,97 +497,6 @@ def people_folder() -> Path:
     return paths.data() / "people"
 
 
-def checked_pseudonym(text: str) -> str:
-    """Return a pseudonym without blanks round it.
-
-    Raises:
-        PeopleError: if it is empty, a path, too long, or looks like a key.
-    """
-    found = text.strip()
-    if not found:
-        raise PeopleError("the pseudonym is empty: give one")
-    if len(found) > LONGEST_PSEUDONYM:
-        raise PeopleError(f"the pseudonym {found[:20]!r}… has over {LONGEST_PSEUDONYM} characters")
-    if not _PSEUDONYM.fullmatch(found) or ".." in found:
-        raise PeopleError(
-            f"{found!r} cannot be a pseudonym: letters, digits, blanks and . _ @ + - only, "
-            "beginning with a letter or digit"
-        )
-    if _KEY.fullmatch(found):
-        raise PeopleError(f"{found!r} looks like a key of this program: choose another pseudonym")
-    return found
-
-
-def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:
-    """Read a roster: CSV with a heading, separated by commas, semicolons or tabs.
-
-    Columns: `pseudonym` (needed), `name`, `pin` (4 to 12 digits; drawn where it is empty), `group`
-    (several separated by `|`).
-
-    Returns:
-        Its rows, and one line for each row that cannot be read.
-    """
-    try:
-        text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
-    except UnicodeDecodeError as error:
-        place = data[: error.start].count(b"\n") + 1
-        return [], [f"line {place}: the roster is not UTF-8: save it as “CSV UTF-8” and try again"]
-    if "\0" in text:
-        return [], ["the roster is no text: save it as “CSV UTF-8” and try again"]
-    heading = text.split("\n", 1)[0]
-    separator = max(",;\t", key=heading.count)
-    rows = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
-    try:
-        table = [(rows.line_num, [cell.strip() for cell in row]) for row in rows]
-    except csv.Error as error:
-        return [], [f"line {rows.line_num}: {error}: save the roster anew as “CSV UTF-8”"]
-    names = [name.casefold() for name in table[0][1]] if table else []
-    if "pseudonym" not in names:
-        wanted = ", ".join(_FIELDS)
-        return [], [f"line 1: the heading needs the column pseudonym; columns are {wanted}"]
-    errors = [
-        f"line 1: column {name!r} is not known; columns are {', '.join(_FIELDS)}"
-        for name in names
-        if name and name not in _FIELDS
-    ]
-    found: list[RosterLine] = []
-    for number, row in table[1:]:
-        if not any(row):
-            errors.append(f"line {number}: the row is empty: delete it")
-            continue
-        if len(row) != len(names):
-            errors.append(f"line {number}: {len(row)} cells, the heading has {len(names)}")
-            continue
-        cells = dict(zip(names, row, strict=True))
-        groups = tuple(sorted({g.strip() for g in cells.get("group", "").split("|") if g.strip()}))
-        line = RosterLine(cells["pseudonym"], cells.get("name", ""), cells.get("pin", ""), groups)
-        wrong = _judged_lines([line])[1]
-        if wrong:
-            errors.append(f"line {number}: {wrong[0]}")
-        elif line.pseudonym.casefold() in {one.pseudonym.casefold() for one in found}:
-            errors.append(f"line {number}: {line.pseudonym!r} stands there twice: delete one row")
-        else:
-            found.append(line)
-    return found, errors
-
-
-def _judged_lines(lines: Sequence[RosterLine]) -> tuple[list[RosterLine], list[str]]:
-    """Return the lines that can be taken, and what is wrong with the others."""
-    good: dict[str, RosterLine] = {}
-    errors = []
-    for line in lines:
-        try:
-            pseudonym = checked_pseudonym(line.pseudonym)
-            if line.pin and not _PIN.fullmatch(line.pin):
-                raise PeopleError(f"{pseudonym}: {_BAD_PIN}")
-            if pseudonym.casefold() in good:
-                raise PeopleError(f"{pseudonym!r} stands there twice: delete one row")
-            good[pseudonym.casefold()] = RosterLine(pseudonym, line.name, line.pin, line.groups)
-        except PeopleError as error:
-            errors.append(str(error))
-    return list(good.values()), errors
-
-
 def _checked_password(password: str) -> None:
     if len(password) < _SHORTEST_PASSWORD:
         raise PeopleError(f"a password needs at least {_SHORTEST_PASSWORD} characters")
@@ -704,5 +590,4 @@ _OF_PERSON: Final = {
     "assigned": "person",
     "failures": "account",
 }
-_BAD_PIN: Final = "a PIN has 4 to 12 digits"
 _NO_SIGN_IN: Final = "pseudonym or PIN is wrong"

@@ -14,7 +14,8 @@ from test_session_course import ADA, BOB, NOW, WHOSE, attempt
 
 from app.core.progress import Cancelled, Progress
 from app.exchange.results import Results, ResultsFormat, results_text
-from app.session.course import CourseItem, progress_board
+from app.session.board import progress_board
+from app.session.course import CourseItem
 from app.session.people import Remarks
 from app.session.summary import Summary
 

@@ -11,16 +11,15 @@ import pytest
 from app.core.errors import ConfigurationError
 from app.exercises.guidance import Purpose
 from app.scoring.conditions import Assistance, Conditions, DeviceKind
+from app.session.board import every_item, progress_board
 from app.session.course import (
     Course,
     CourseError,
     CourseItem,
     courses,
     courses_folder,
-    every_item,
     find_course,
     pinned_problems,
-    progress_board,
     read_course,
     why_not,
 )

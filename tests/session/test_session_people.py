@@ -9,16 +9,9 @@ from pathlib import Path
 import pytest
 
 from app.session.database import DatabaseError
-from app.session.people import (
-    NAMES_FILE,
-    PEOPLE,
-    People,
-    PeopleError,
-    RosterLine,
-    WrongPasswordError,
-    checked_pseudonym,
-    read_roster,
-)
+from app.session.errors import PeopleError
+from app.session.people import NAMES_FILE, PEOPLE, People, WrongPasswordError
+from app.session.roster import RosterLine, checked_pseudonym, read_roster
 from app.session.signature import SignatureError, StationKey
 
 

@@ -48,6 +48,7 @@ from app.views.author.pages import (
     TaskPage,
 )
 from app.views.kit import theme
+from app.views.kit.access import ACCESS
 from app.views.kit.background import BackgroundTask, run_in_background
 from app.views.kit.menu_entries import add_entries
 from app.views.kit.parts import button, label
@@ -203,7 +204,7 @@ class AuthorFeature(Feature):
         self.button = button(tr("Make an exercise from this…"))
         self.button.clicked.connect(self.make)
         self._shell.add_panel(self.button, below=tr("Plan"))
-        add_entries(
+        self._actions = add_entries(
             self._shell.menu(tr("&File"), tr("Exercise")),
             [
                 (tr("Make an exercise from what is open…"), "Ctrl+Shift+E", self.make),
@@ -213,6 +214,14 @@ class AuthorFeature(Feature):
                 (tr("Export the present exercise…"), "", self.export_taken),
             ],
         )
+        ACCESS.changed.connect(self._allow)
+        self._allow()
+
+    def _allow(self) -> None:
+        """Close all of it to students once an instructor's password is set."""
+        self.button.setEnabled(ACCESS.may_manage)
+        for action in self._actions:
+            action.setEnabled(ACCESS.may_manage)
 
     # --- what the window asks -------------------------------------------------------------------
     def over(self) -> tuple[SignalInstance, ...]:
@@ -250,7 +259,7 @@ class AuthorFeature(Feature):
 
     def opens(self, path: Path) -> bool:
         """Take in a dropped file of an exercise."""
-        if path.suffix != SUFFIX:
+        if path.suffix != SUFFIX or not ACCESS.may_manage:
             return False
         self.import_from(path)
         return True

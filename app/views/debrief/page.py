@@ -39,6 +39,7 @@ from app.views.debrief.score_words import (
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.steps import state_word
 from app.views.kit import theme
+from app.views.kit.access import ACCESS
 from app.views.kit.coordinates import axis_words
 from app.views.kit.names import NAMES
 from app.views.kit.text import disclaimer, tr
@@ -329,7 +330,7 @@ def facts(review: Review) -> str:
     """Who, when, how long, in one line."""
     return "  ·  ".join(
         (
-            NAMES.shown(review.student),
+            NAMES.shown(ACCESS.shown(review.student)),
             date_text(review.started),
             state_word(review.state),
             clock_text(review.duration),

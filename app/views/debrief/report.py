@@ -46,6 +46,7 @@ from app.views.debrief.score_words import (
 from app.views.exercise.pad_canvas import PadArea
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.steps import state_word
+from app.views.kit.access import ACCESS
 from app.views.kit.text import disclaimer, tr
 
 
@@ -323,7 +324,7 @@ def _heading(painter: QPainter, review: Review) -> float:
 
 def _facts(painter: QPainter, review: Review, y: float) -> float:
     facts = (
-        (tr("Student (pseudonym)"), review.student),
+        (tr("Student (pseudonym)"), ACCESS.shown(review.student)),
         (tr("Date"), date_text(review.started)),
         (tr("Session"), review.id),
         (tr("State"), state_word(review.state) + (f": {review.reason}" if review.reason else "")),

@@ -35,6 +35,7 @@ from app.views.debrief.score_words import facts_of, short_words
 from app.views.exercise.readouts import clock_text
 from app.views.exercise.steps import state_word
 from app.views.kit import theme
+from app.views.kit.access import ACCESS
 from app.views.kit.background import run_in_background
 from app.views.kit.names import NAMES
 from app.views.kit.text import tr
@@ -42,9 +43,14 @@ from app.views.kit.text import tr
 Index = QModelIndex | QPersistentModelIndex
 SORT_ROLE: Final = Qt.ItemDataRole.UserRole
 SUMMARY_ROLE: Final = Qt.ItemDataRole.UserRole + 1
-DATE, STUDENT, EXERCISE, SCORE, MADE, STATE, DURATION, NOTE = range(8)
+DATE, STUDENT, EXERCISE, SCORE, MADE, STATE, DURATION, SIGNED, NOTE = range(9)
 _RIGHT: Final = frozenset({SCORE, DURATION})
 _RIGHTWARDS: Final = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+_SIGNED_LOOKS: Final = {
+    "verified": (theme.GOOD, "✔"),
+    "altered": (theme.BAD, "✖"),
+    "unsigned": (theme.TEXT_DIM, "•"),
+}
 _STATE_LOOKS: Final = {
     "ended": (theme.TEXT, "✔"),
     "aborted": (theme.WARNING, "▲"),
@@ -90,6 +96,7 @@ class SessionsModel(QAbstractTableModel):
             tr("Made with"),
             tr("State"),
             tr("Time"),
+            tr("Signature"),
             tr("Remark"),
         )[section]
 
@@ -111,6 +118,8 @@ class SessionsModel(QAbstractTableModel):
             return _RIGHTWARDS
         if role == Qt.ItemDataRole.ForegroundRole and column == STATE:
             return QColor(theme.now(_STATE_LOOKS.get(summary.state, (theme.TEXT, ""))[0]))
+        if role == Qt.ItemDataRole.ForegroundRole and column == SIGNED:
+            return QColor(theme.now(_SIGNED_LOOKS.get(summary.signature, (theme.TEXT, ""))[0]))
         return None
 
 
@@ -119,7 +128,7 @@ def cell_text(summary: Summary, column: int) -> str:
     if column == DATE:
         return date_text(summary.started)
     if column == STUDENT:
-        return NAMES.shown(summary.student)
+        return NAMES.shown(ACCESS.shown(summary.student))
     if column == EXERCISE:
         return exercise_text(summary)
     if column == SCORE:
@@ -131,8 +140,20 @@ def cell_text(summary: Summary, column: int) -> str:
         return f"{symbol} {state_word(summary.state)}"
     if column == DURATION:
         return "" if summary.state == BROKEN else clock_text(summary.duration)
+    if column == SIGNED:
+        return signature_word(summary.signature)
     remark = "; ".join(filter(None, (summary.reason, *summary.problems)))
     return NAMES.without_names(remark, files=True)
+
+
+def signature_word(verdict: str) -> str:
+    """Say what the signature of a record says, with its symbol; nothing where nobody looked."""
+    words = {
+        "verified": tr("verified"),
+        "altered": tr("altered"),
+        "unsigned": tr("unsigned"),
+    }
+    return f"{_SIGNED_LOOKS[verdict][1]} {words[verdict]}" if verdict in words else ""
 
 
 def exercise_text(summary: Summary) -> str:
@@ -184,6 +205,7 @@ class SessionsPage(QWidget):
         super().__init__(parent)
         self._folder = folder
         self._deleted: list[str] = []
+        self._read: tuple[Summary, ...] = ()
         self.model = SessionsModel()
         self.proxy = QSortFilterProxyModel(self)
         self.proxy.setSourceModel(self.model)
@@ -201,7 +223,8 @@ class SessionsPage(QWidget):
         self._prepare_table()
         self._lay_out()
         self._connect()
-        self._enable()
+        ACCESS.changed.connect(self._show_again)
+        self._show_again()
 
     def refresh(self) -> None:
         """Read the folder again, beside the window."""
@@ -210,10 +233,14 @@ class SessionsPage(QWidget):
         )
 
     def show_summaries(self, summaries: Sequence[Summary]) -> None:
-        """Show these sessions."""
-        self.model.set_summaries(summaries)
+        """Show these sessions: those that who is here may see."""
+        self._read = tuple(summaries)
+        self.model.set_summaries([one for one in summaries if ACCESS.may_see(one.student)])
         self._fit_columns()
         self._enable()
+
+    def _show_again(self) -> None:
+        self.show_summaries(self._read)
 
     def _fit_columns(self) -> None:
         """Fit the columns to all sessions, also to those that the filter hides now."""
@@ -228,6 +255,8 @@ class SessionsPage(QWidget):
 
     def delete_selected(self) -> None:
         """Move the selected sessions to the trash folder; `undo_delete` brings them back."""
+        if not ACCESS.may_manage:
+            return
         deleted = []
         try:
             for summary in self.selected():
@@ -241,6 +270,8 @@ class SessionsPage(QWidget):
 
     def undo_delete(self) -> None:
         """Bring the sessions deleted last back."""
+        if not ACCESS.may_manage:
+            return
         try:
             while self._deleted:
                 restore(self._folder, self._deleted[-1])
@@ -263,9 +294,12 @@ class SessionsPage(QWidget):
         chosen = self.selected()
         readable = [summary for summary in chosen if summary.state != BROKEN]
         self.open_button.setEnabled(len(chosen) == 1 and len(readable) == 1)
-        self.export.setEnabled(bool(readable))
-        self.delete_button.setEnabled(bool(chosen))
-        self.undo.setEnabled(bool(self._deleted))
+        manage = ACCESS.may_manage
+        for widget in (self.export, self.delete_button, self.undo):
+            widget.setVisible(manage)
+        self.export.setEnabled(bool(readable) and manage)
+        self.delete_button.setEnabled(bool(chosen) and manage)
+        self.undo.setEnabled(bool(self._deleted) and manage)
         shown, total = self.proxy.rowCount(), self.model.rowCount()
         self._count.setText(
             tr("No sessions yet: begin an attempt, and it will be listed here.")

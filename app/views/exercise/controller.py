@@ -177,6 +177,9 @@ class ExerciseController(QObject):
         finished(AttemptResult): an attempt ended or was aborted, once each.
         failed(str): something that the user asked for did not work, in one line.
         worked(): something that the user asked for did.
+
+    Attributes:
+        refusal: says why who is here may not begin this exercise; empty if nothing speaks against.
     """
 
     needle_moved = Signal(object)
@@ -199,6 +202,7 @@ class ExerciseController(QObject):
         self._seen: AttemptResult | None = None
         self._ending = False
         self._beat, self._unreadable, self._waiting = 0.0, "", ""
+        self.refusal: Callable[[], str] = str
         self._display = ExerciseDisplay(views)
         self._timer = QTimer(self, interval=PERIOD_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self.poll)
@@ -306,8 +310,9 @@ class ExerciseController(QObject):
         run = self._run
         if run is None:
             return
-        if self._waiting:
-            self._fail(self._waiting)
+        refused = self._waiting or self.refusal()
+        if refused:
+            self._fail(refused)
             return
         self.beginning.emit()
         self._views.messages.clear()

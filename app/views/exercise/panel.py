@@ -32,6 +32,7 @@ from app.views.exercise.readouts import AttemptReadouts
 from app.views.exercise.scan_view import ScanPanel
 from app.views.exercise.steps import Steps
 from app.views.kit import theme
+from app.views.kit.access import ACCESS
 from app.views.kit.text import tr
 
 
@@ -227,6 +228,7 @@ class ExercisePanel(QWidget):
         super().__init__(parent)
         self._ready, self._not_ready, self._waiting = False, "", ""
         self._state: State | None = None
+        self._signed_in, self._typed = False, ""
         self.exercise = QComboBox(self)
         self.student = QLineEdit(self)
         self.assistance = AssistanceDial(self)
@@ -324,10 +326,20 @@ class ExercisePanel(QWidget):
         self._note.setVisible(bool(words))
 
     # --- inside -----------------------------------------------------------------------------------
+    def _show_student(self) -> None:
+        """Show who is signed in: nobody types over that."""
+        if ACCESS.student is not None:
+            self._typed = self._typed if self._signed_in else self.student.text()
+            self.student.setText(ACCESS.student.pseudonym)
+        elif self._signed_in:
+            self.student.setText(self._typed)
+        self._signed_in = ACCESS.student is not None
+        self._enable()
+
     def _enable(self) -> None:
         running = self._state in RUNNING
         self.exercise.setEnabled(not running)
-        self.student.setEnabled(not running)
+        self.student.setEnabled(not running and not self._signed_in)
         self.buttons.show_state(self._state, self._ready and not self._waiting, self._waiting)
 
     def _prepare_inputs(self) -> None:
@@ -372,8 +384,10 @@ class ExercisePanel(QWidget):
         )
         self.assistance.changed.connect(self.assistance_changed)
         self.buttons.start_requested.connect(
-            lambda: self.start_requested.emit(self.student.text().strip())
+            lambda: self.start_requested.emit(ACCESS.recorded_as(self.student.text().strip()))
         )
+        ACCESS.changed.connect(self._show_student)
+        self._show_student()
 
 
 def _line() -> QFrame:

@@ -11,6 +11,7 @@ from app.views.debrief.feature import DebriefFeature
 from app.views.exercise.feature import ExerciseFeature
 from app.views.measure.feature import MeasureFeature
 from app.views.pen.feature import PenFeature
+from app.views.people.feature import PeopleFeature
 from app.views.plan.feature import PlanFeature
 from app.views.plan.paths import PathsFeature
 from app.views.plan.position import PositionFeature
@@ -37,5 +38,6 @@ FEATURES: Final[tuple[type[Feature], ...]] = (
     PositionFeature,
     SoundsFeature,
     DebriefFeature,
+    PeopleFeature,
 )
 """A dropped file is offered to them from the last to the first."""

@@ -299,6 +299,7 @@ PAGES: Final = {
     "debrief": "user-guide.md#4-debrief",
     "exercise": "user-guide.md#the-students-path",
     "measure": "planning.md#measuring",
+    "people": "people.md",
     "pen": "pen.md#in-the-window",
     "sounds": "user-guide.md#what-is-heard",
     "plan": "planning.md",

@@ -1,0 +1,135 @@
+"""Pseudonyms and PINs that can be, and rosters of students as CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from app.session.errors import PeopleError
+from app.session.header import LONGEST_PSEUDONYM
+
+_PSEUDONYM: Final = re.compile(r"\w(?:[\w .@+-]*[\w.@+-])?")
+_KEY: Final = re.compile(r"p-[0-9a-f]{12}")
+_PIN: Final = re.compile(r"[0-9]{4,12}")
+_FIELDS: Final = ("pseudonym", "name", "pin", "group")
+
+
+@dataclass(frozen=True, slots=True)
+class RosterLine:
+    """One row of a roster: pseudonym, name, PIN (empty: drawn) and groups."""
+
+    pseudonym: str
+    name: str = ""
+    pin: str = ""
+    groups: tuple[str, ...] = ()
+
+
+def checked_pin(pin: str, whose: str = "") -> str:
+    """Return a PIN.
+
+    Raises:
+        PeopleError: if it is none; begins with `whose`.
+    """
+    if not _PIN.fullmatch(pin):
+        raise PeopleError(f"{whose}a PIN has 4 to 12 digits")
+    return pin
+
+
+def checked_pseudonym(text: str) -> str:
+    """Return a pseudonym without blanks round it.
+
+    Raises:
+        PeopleError: if it is empty, a path, too long, or looks like a key.
+    """
+    found = text.strip()
+    if not found:
+        raise PeopleError("the pseudonym is empty: give one")
+    if len(found) > LONGEST_PSEUDONYM:
+        raise PeopleError(f"the pseudonym {found[:20]!r}… has over {LONGEST_PSEUDONYM} characters")
+    if not _PSEUDONYM.fullmatch(found) or ".." in found:
+        raise PeopleError(
+            f"{found!r} cannot be a pseudonym: letters, digits, blanks and . _ @ + - only, "
+            "beginning with a letter or digit"
+        )
+    if _KEY.fullmatch(found):
+        raise PeopleError(f"{found!r} looks like a key of this program: choose another pseudonym")
+    return found
+
+
+def looks_like_a_key(text: str) -> bool:
+    """Whether a record that names this was made by somebody who had signed in."""
+    return _KEY.fullmatch(text) is not None
+
+
+def read_roster(data: bytes) -> tuple[list[RosterLine], list[str]]:
+    """Read a roster: CSV with a heading, separated by commas, semicolons or tabs.
+
+    Columns: `pseudonym` (needed), `name`, `pin` (4 to 12 digits; drawn where it is empty), `group`
+    (several separated by `|`).
+
+    Returns:
+        Its rows, and one line for each row that cannot be read.
+    """
+    try:
+        text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        place = data[: error.start].count(b"\n") + 1
+        return [], [f"line {place}: the roster is not UTF-8: save it as “CSV UTF-8” and try again"]
+    if "\0" in text:
+        return [], ["the roster is no text: save it as “CSV UTF-8” and try again"]
+    heading = text.split("\n", 1)[0]
+    separator = max(",;\t", key=heading.count)
+    rows = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
+    try:
+        table = [(rows.line_num, [cell.strip() for cell in row]) for row in rows]
+    except csv.Error as error:
+        return [], [f"line {rows.line_num}: {error}: save the roster anew as “CSV UTF-8”"]
+    names = [name.casefold() for name in table[0][1]] if table else []
+    if "pseudonym" not in names:
+        wanted = ", ".join(_FIELDS)
+        return [], [f"line 1: the heading needs the column pseudonym; columns are {wanted}"]
+    errors = [
+        f"line 1: column {name!r} is not known; columns are {', '.join(_FIELDS)}"
+        for name in names
+        if name and name not in _FIELDS
+    ]
+    found: list[RosterLine] = []
+    for number, row in table[1:]:
+        if not any(row):
+            errors.append(f"line {number}: the row is empty: delete it")
+            continue
+        if len(row) != len(names):
+            errors.append(f"line {number}: {len(row)} cells, the heading has {len(names)}")
+            continue
+        cells = dict(zip(names, row, strict=True))
+        groups = tuple(sorted({g.strip() for g in cells.get("group", "").split("|") if g.strip()}))
+        line = RosterLine(cells["pseudonym"], cells.get("name", ""), cells.get("pin", ""), groups)
+        wrong = judged_lines([line])[1]
+        if wrong:
+            errors.append(f"line {number}: {wrong[0]}")
+        elif line.pseudonym.casefold() in {one.pseudonym.casefold() for one in found}:
+            errors.append(f"line {number}: {line.pseudonym!r} stands there twice: delete one row")
+        else:
+            found.append(line)
+    return found, errors
+
+
+def judged_lines(lines: Sequence[RosterLine]) -> tuple[list[RosterLine], list[str]]:
+    """Return the lines that can be taken, and what is wrong with the others."""
+    good: dict[str, RosterLine] = {}
+    errors = []
+    for line in lines:
+        try:
+            pseudonym = checked_pseudonym(line.pseudonym)
+            if line.pin:
+                checked_pin(line.pin, f"{pseudonym}: ")
+            if pseudonym.casefold() in good:
+                raise PeopleError(f"{pseudonym!r} stands there twice: delete one row")
+            good[pseudonym.casefold()] = RosterLine(pseudonym, line.name, line.pin, line.groups)
+        except PeopleError as error:
+            errors.append(str(error))
+    return list(good.values()), errors

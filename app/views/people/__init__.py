@@ -1,0 +1,1 @@
+"""People in the window: signing in, students, courses, the board of progress."""

@@ -1,0 +1,496 @@
+"""People in the window: who signs in, students, courses, the board, results that leave."""
+
+from __future__ import annotations
+
+import datetime
+import secrets
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import ClassVar, TypeVar
+
+from PySide6.QtCore import QStandardPaths, SignalInstance
+from PySide6.QtWidgets import QDialog, QFileDialog, QInputDialog, QMessageBox
+
+from app.core.errors import AcusError
+from app.core.progress import Progress
+from app.exchange.results import Results, ResultsFormat, results_text, write_results
+from app.session.archive import backup, erase_person
+from app.session.board import ProgressBoard, board_of
+from app.session.course import Course, CourseError, courses, why_not
+from app.session.errors import PeopleError
+from app.session.index import Index, Indexed
+from app.session.people import PEOPLE, People, Person, RosterReport, people_folder
+from app.session.roster import RosterLine, read_roster
+from app.views.kit.access import ACCESS, Known
+from app.views.kit.background import BackgroundTask, run_in_background
+from app.views.kit.menu_entries import add_entries
+from app.views.kit.names import NAMES
+from app.views.kit.text import tr
+from app.views.people.pages import (
+    CourseDialog,
+    EntryDialog,
+    PeoplePage,
+    curve_dialog,
+    text_dialog,
+)
+from app.views.shell.feature import Context, Feature
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What the page shows: students (with names for the instructor), courses, board, attempts."""
+
+    people: list[Person]
+    courses: list[Course]
+    broken: list[str]
+    board: ProgressBoard
+    attempts: list[Indexed]
+
+
+class PeopleFeature(Feature):
+    """Signing in and out, and the page of people, in the menu of sessions.
+
+    Attributes:
+        page: board, students and courses.
+        dialog: the one that was opened last.
+    """
+
+    topic: ClassVar[str] = "people"
+
+    def __init__(self, context: Context) -> None:
+        super().__init__(context)
+        self._shell, self._folder = context.shell, context.services.sessions()
+        self._panel = context.conductor.views.panel
+        self._people = People()
+        self._look: Look | None = None
+        self._running: list[BackgroundTask] = []
+        self.dialog: QDialog | None = None
+        self.page = PeoplePage()
+        self._shell.add_page(self.page)
+        menu = self._shell.menu(tr("&Sessions"))
+        entries = (
+            None,
+            (tr("Progress, students and courses"), "Shift+F7", self.show),
+            (tr("Sign in as a student…"), "", self.sign_in_student),
+            (tr("Sign in as the instructor…"), "", self.sign_in_instructor),
+            (tr("Sign out"), "", lambda: ACCESS.sign_in(None)),
+            (tr("Back up everything…"), "", self.back_up),
+        )
+        self._actions = add_entries(menu, entries)
+        self._exercises = {exercise.id: exercise for exercise in context.services.exercises()}
+        self._connect()
+        ACCESS.changed.connect(self._follow)
+        self._follow()
+        if (people_folder() / PEOPLE).exists():
+            ACCESS.learn(Known(guarded=True))  # until it is known
+            self.look()
+
+    def over(self) -> tuple[SignalInstance, ...]:
+        """Return what ends a message of this feature."""
+        return (self._shell.page_changed, ACCESS.changed)
+
+    def suit_room(self) -> None:
+        """Take names that are hidden, or shown again."""
+        self.page.students.show_people(self.page.students.people)
+        if self.page.board.board is not None:
+            self.page.board.show_board(self.page.board.board, self._titles())
+
+    def close(self) -> None:
+        """End what runs, and the dialog that is open; nobody stays signed in."""
+        for task in tuple(self._running):
+            task.close()
+        if self.dialog is not None:
+            self.dialog.close()
+        ACCESS.sign_in(None)
+        ACCESS.learn(Known())
+
+    # --- signing in -------------------------------------------------------------------------------
+    def sign_in_student(self) -> None:
+        """Ask for pseudonym and PIN."""
+        fields = ((tr("Pseudonym"), False), (tr("PIN"), True))
+
+        def take(pseudonym: str, pin: str) -> None:
+            ACCESS.sign_in(self._people.sign_in(pseudonym, pin))
+            self.look()
+
+        self._open(EntryDialog(tr("Sign in"), fields, take, parent=self._shell.dialog_parent))
+
+    def sign_in_instructor(self) -> None:
+        """Ask for the password; the first time one is set, and the recovery key shown."""
+        if not self._people.has_instructor():
+            self._set_instructor()
+            return
+
+        def take(password: str) -> None:
+            self._people.check_instructor(password)
+            ACCESS.sign_in(None, instructor=True)
+            self.look()
+
+        fields = ((tr("Password"), True),)
+        parent = self._shell.dialog_parent
+        self._open(EntryDialog(tr("Sign in as the instructor"), fields, take, parent=parent))
+
+    def _set_instructor(self) -> None:
+        words = tr(
+            "No password is set yet: whoever is here may do everything. A password keeps students "
+            "from people, courses, deleting and exports. It guards against curiosity, not against "
+            "the owner of the disk."
+        )
+
+        def take(password: str, again: str) -> None:
+            if password != again:
+                raise PeopleError(tr("the two passwords are not the same: type them again"))
+            recovery = self._people.set_instructor(password)
+            ACCESS.sign_in(None, instructor=True)
+            self.look()
+            self._tell(
+                tr("Recovery key"),
+                tr(
+                    "Write this down and lock it away: it sets a new password, and opens the "
+                    "station's key in a backup. It is kept nowhere."
+                ),
+                recovery,
+            )
+
+        fields = ((tr("New password"), True), (tr("Again"), True))
+        parent = self._shell.dialog_parent
+        self._open(EntryDialog(tr("Set the instructor's password"), fields, take, words, parent))
+
+    # --- looking ----------------------------------------------------------------------------------
+    def show(self) -> None:
+        """Go to the page of people."""
+        if ACCESS.may_manage or ACCESS.student is not None:
+            self._shell.show_page(self.page)
+            self.refresh()
+        else:
+            self.failed.emit(tr("Sign in first: as a student, or as the instructor."))
+
+    def look(self) -> None:
+        """Learn who there is, and what the student who is here may begin, beside the window."""
+        student = ACCESS.student
+
+        def find(_: Progress) -> Known:
+            people = self._people
+            known = Known(people.has_instructor(), people.pseudonyms(), people.keys())
+            if student is None:
+                return known
+            index = Index(self._folder)
+            index.refresh()
+            texts = [text for text, key in known.keys.items() if key == student.key]
+            own, today = index.attempts(texts), datetime.datetime.now().astimezone().date()
+            refused = {
+                item.exercise: why
+                for course in courses()[0]
+                if course.takes(student)
+                for item in course.items
+                if (why := why_not(course, item.exercise, own, today))
+            }
+            return replace(known, refused=refused)
+
+        self._beside(find, ACCESS.learn)
+
+    def refresh(self) -> None:
+        """Read people, courses and attempts anew, beside the window."""
+        chosen, group = self.page.board.course.currentData(), self.page.board.group.currentData()
+        names, student = ACCESS.may_manage, ACCESS.student
+
+        def read(progress: Progress) -> Look:
+            people, (known, broken) = self._people, courses()
+            course = next((one for one in known if one.id == chosen), None)
+            board, attempts = board_of(self._folder, people, course, group or "", None, progress)
+            everybody = people.everybody(names)
+            if not names:
+                everybody = [one for one in everybody if student and one.key == student.key]
+                board = replace(board, students=tuple(everybody))
+            return Look(everybody, known, broken, board, attempts)
+
+        self._beside(read, self._show_look, tr("Reading the attempts"))
+
+    def _show_look(self, look: Look) -> None:
+        self._look = look
+        self.page.students.show_people(look.people)
+        self.page.courses.show_courses(look.courses, look.broken)
+        groups = sorted({name for person in look.people for name in person.groups})
+        self.page.board.set_choices(look.courses, groups)
+        self.page.board.show_board(look.board, self._titles())
+
+    def _titles(self) -> dict[str, str]:
+        return {name: exercise.title for name, exercise in self._exercises.items()}
+
+    def _show_curve(self, key: str, exercise: str) -> None:
+        look = self._look
+        if look is None:
+            return
+        who = next((one.pseudonym for one in look.people if one.key == key), "")
+        title = f"{NAMES.shown(who)}: {self._titles().get(exercise, exercise)}"
+        points = look.board.curve(key, exercise)
+        self._open(curve_dialog(title, points, self._shell.dialog_parent))
+
+    # --- students ---------------------------------------------------------------------------------
+    def add_student(self) -> None:
+        """Ask for one student."""
+        names = (tr("Pseudonym"), tr("Name"), tr("PIN (empty: drawn)"), tr("Groups"))
+        words = tr("The pseudonym is what screens show; the name is kept apart from all records.")
+
+        def take(pseudonym: str, name: str, pin: str, groups: str) -> None:
+            some = tuple(sorted({g.strip() for g in groups.split(",") if g.strip()}))
+            person, drawn = self._people.add(RosterLine(pseudonym, name.strip(), pin.strip(), some))
+            self._changed()
+            if not pin.strip():
+                self._tell(
+                    tr("PIN"),
+                    tr("Hand this out; it is kept nowhere."),
+                    f"{person.pseudonym}  {drawn}",
+                )
+
+        fields = [(name, False) for name in names]
+        parent = self._shell.dialog_parent
+        self._open(EntryDialog(tr("Add a student"), fields, take, words, parent))
+
+    def choose_roster(self) -> None:
+        """Ask for a roster and take it."""
+        parent = self._shell.dialog_parent
+        start, kind = str(NAMES.folder(_documents())), tr("CSV (*.csv *.txt)")
+        path = QFileDialog.getOpenFileName(parent, tr("Roster"), start, kind)[0]
+        if path:
+            self.take_roster(Path(path))
+
+    def take_roster(self, path: Path) -> None:
+        """Take a roster, beside the window; what is wrong is shown line by line."""
+
+        def read(_: Progress) -> RosterReport:
+            lines, errors = read_roster(path.read_bytes())
+            if errors:
+                return RosterReport(errors=tuple(errors))
+            return self._people.take_roster(lines)
+
+        self._beside(read, self._show_roster, tr("Taking the roster"))
+
+    def _show_roster(self, report: RosterReport) -> None:
+        self._changed()
+        if report.errors:
+            words = tr("Nothing was taken. Mend these rows and take the roster again:")
+            self._tell(tr("Roster"), words, "\n".join(report.errors))
+            return
+        added, updated = len(report.added), len(report.updated)
+        self.noted.emit(tr("{n} students added, {m} updated", n=added, m=updated))
+        if report.pins:
+            pins = "\n".join(f"{name}\t{pin}" for name, pin in report.pins.items())
+            self._tell(tr("PINs"), tr("Hand these out; they are kept nowhere."), pins)
+
+    def new_pin(self) -> None:
+        """Draw another PIN for the student who is chosen."""
+        person = self.page.students.chosen()
+        if person is not None:
+            pin = f"{secrets.randbelow(10**6):06d}"
+            self._try(lambda: self._people.set_pin(person.pseudonym, pin))
+            self._tell(
+                tr("PIN"), tr("Hand this out; it is kept nowhere."), f"{person.pseudonym}  {pin}"
+            )
+
+    def assign(self) -> None:
+        """Ask which typed name of old records is the student's who is chosen."""
+        person, look = self.page.students.chosen(), self._look
+        if person is None or look is None:
+            return
+        known = self._people.keys()
+        typed = sorted({one.student for one in look.attempts} - set(known) - {""})
+        if not typed:
+            self.failed.emit(tr("No attempt is left that nobody is assigned to."))
+            return
+        words = tr("Attempts that name this text are {name}'s:", name=person.pseudonym)
+        dialog = QInputDialog(self._shell.dialog_parent)
+        dialog.setWindowTitle(tr("Assign old attempts"))
+        dialog.setLabelText(words)
+        dialog.setComboBoxItems(typed)
+
+        def take(text: str) -> None:
+            self._try(lambda: self._people.assign(text, person.pseudonym))
+            self._changed()
+
+        dialog.textValueSelected.connect(take)
+        self._open(dialog)
+
+    def erase(self) -> None:
+        """Ask whether, and how, the student who is chosen is erased for good."""
+        person = self.page.students.chosen()
+        if person is None:
+            return
+        box = QMessageBox(self._shell.dialog_parent)
+        box.setWindowTitle(tr("Erase"))
+        box.setIcon(QMessageBox.Icon.Warning)
+        box.setText(tr("Erase {name} for good?", name=person.pseudonym))
+        box.setInformativeText(
+            tr(
+                "Name, PIN, groups and comments go, and no backup brings them back. The records of "
+                "attempts hold a random key only: they can stay as nobody's, or go too."
+            )
+        )
+        role = QMessageBox.ButtonRole
+        keep = box.addButton(tr("Erase, keep the records"), role.DestructiveRole)
+        box.addButton(tr("Erase with all records"), role.DestructiveRole)
+        box.setDefaultButton(box.addButton(QMessageBox.StandardButton.Cancel))
+        box.buttonClicked.connect(
+            lambda clicked: (
+                self._erase(person.pseudonym, clicked is not keep)
+                if box.buttonRole(clicked) is role.DestructiveRole
+                else None
+            )
+        )
+        self._open(box)
+
+    def _erase(self, pseudonym: str, with_records: bool) -> None:
+        def work(_: Progress) -> tuple[int, int]:
+            return erase_person(pseudonym, self._folder, with_records, self._people)
+
+        def done(found: tuple[int, int]) -> None:
+            self._changed()
+            text = tr("{name} was erased, with {n} records", name=pseudonym, n=found[0])
+            if found[1]:
+                text += tr("; {n} older records keep the name that was typed", n=found[1])
+            self.noted.emit(text)
+
+        self._beside(work, done, tr("Erasing"))
+
+    # --- courses, results, backup -----------------------------------------------------------------
+    def edit_course(self, course: Course | None) -> None:
+        """Show a course, or an empty one, as a form."""
+
+        def take(edited: Course) -> None:
+            if course is None and any(one.id == edited.id for one in courses()[0]):
+                raise CourseError(tr("{id} is taken: choose another file name", id=edited.id))
+            edited.save()
+            self._changed()
+
+        self._open(CourseDialog(course, self._exercises, take, self._shell.dialog_parent))
+
+    def choose_export(self, form: str) -> None:
+        """Ask where results go, and write them."""
+        suffix = "json" if form == ResultsFormat.JSON else "csv"
+        parent, start = self._shell.dialog_parent, _documents() / f"acus-results-{form}.{suffix}"
+        kind = f"{suffix.upper()} (*.{suffix})"
+        path = QFileDialog.getSaveFileName(parent, tr("Export results"), str(start), kind)[0]
+        if path:
+            self.export(form, Path(path))
+
+    def export(self, form: str, path: Path) -> None:
+        """Write the results of those on the board, beside the window; it can be cancelled."""
+        look = self._look
+        if look is None or not ACCESS.may_manage:
+            return
+        semicolons = self.page.board.semicolons.isChecked()
+
+        def work(progress: Progress) -> None:
+            people = {person.key: person for person in look.people}
+            known = {text: people[key] for text, key in self._people.keys().items()}
+            wanted = {item.exercise for item in look.board.items}
+            shown = {person.key for person in look.board.students}
+            some = [
+                one
+                for one in look.attempts
+                if one.exercise in wanted
+                and one.student in known
+                and known[one.student].key in shown
+            ]
+            results = Results(look.board, some, known, self._people.remarks(), {})
+            write_results(path, results_text(results, ResultsFormat(form), semicolons, progress))
+
+        saved = tr("Saved {name}", name=str(path))
+        self._beside(work, lambda _: self.noted.emit(saved), tr("Writing the results"))
+
+    def back_up(self) -> None:
+        """Ask where, and write everything into one file."""
+        parent = self._shell.dialog_parent
+        start = _documents() / f"acus-{datetime.date.today()}.acusbackup"
+        kind = tr("Backup of Acus (*.acusbackup)")
+        path = QFileDialog.getSaveFileName(parent, tr("Back up everything"), str(start), kind)[0]
+        if path:
+            self._beside(
+                lambda progress: backup(Path(path), self._folder, self._people, progress),
+                lambda n: self.noted.emit(tr("{n} records saved in {name}", n=n, name=path)),
+                tr("Backing up"),
+            )
+
+    # --- inside -----------------------------------------------------------------------------------
+    def _connect(self) -> None:
+        board, students, tab = self.page.board, self.page.students, self.page.courses
+        self.page.closed.connect(self._shell.show_workspace)
+        board.choice_changed.connect(self.refresh)
+        board.curve_wanted.connect(self._show_curve)
+        board.export_wanted.connect(self.choose_export)
+        students.add.clicked.connect(lambda: self.add_student())
+        students.roster.clicked.connect(lambda: self.choose_roster())
+        students.pin.clicked.connect(lambda: self.new_pin())
+        students.assign.clicked.connect(lambda: self.assign())
+        students.erase.clicked.connect(lambda: self.erase())
+        tab.new.clicked.connect(lambda: self.edit_course(None))
+        tab.edit.clicked.connect(lambda: self.edit_course(tab.chosen()) if tab.chosen() else None)
+        conductor = self.context.conductor
+        conductor.controller.finished.connect(lambda _: self._ended())
+
+        def refusal() -> str:
+            return ACCESS.refusal(conductor.exercise.id) if conductor.exercise else ""
+
+        conductor.controller.refusal = refusal
+
+    def _follow(self) -> None:
+        """Show what who is here may do."""
+        show, student, instructor, leave, save = self._actions
+        here = ACCESS.student is not None or ACCESS.instructor
+        show.setEnabled(ACCESS.may_manage or ACCESS.student is not None)
+        student.setEnabled(not here)
+        instructor.setEnabled(not ACCESS.instructor)
+        leave.setEnabled(here)
+        save.setEnabled(ACCESS.may_manage)
+        self.page.set_managing(ACCESS.may_manage)
+        if not show.isEnabled() and self.page.isVisible():
+            self._shell.show_workspace()
+        elif self.page.isVisible():
+            self.refresh()
+
+    def _ended(self) -> None:
+        """Look again: what may be begun next has changed with an attempt that ended."""
+        if ACCESS.student is not None:
+            self.look()
+
+    def _changed(self) -> None:
+        self.look()
+        self.refresh()
+
+    def _try(self, work: Callable[[], object]) -> None:
+        try:
+            work()
+        except AcusError as error:
+            self.failed.emit(error)
+
+    def _beside(
+        self, work: Callable[[Progress], T], done: Callable[[T], object], title: str = ""
+    ) -> None:
+        indicator = self._shell.progress if title else None
+        task = run_in_background(
+            self, work, done, self.failed.emit, title=title, indicator=indicator
+        )
+        self._running.append(task)
+        task.finished.connect(lambda: self._running.remove(task))
+
+    def _tell(self, title: str, words: str, text: str) -> None:
+        self._open(text_dialog(title, words, text, self._shell.dialog_parent))
+
+    def _open(self, dialog: QDialog) -> None:
+        self.dialog = dialog
+
+        def ended() -> None:
+            if self.dialog is dialog:
+                self.dialog = None
+            dialog.deleteLater()
+
+        dialog.finished.connect(ended)
+        dialog.open()
+
+
+def _documents() -> Path:
+    documents = QStandardPaths.StandardLocation.DocumentsLocation
+    return Path(QStandardPaths.writableLocation(documents))

@@ -1,0 +1,564 @@
+"""The page of people: the board of progress, students and groups, courses."""
+
+from __future__ import annotations
+
+import datetime
+from collections.abc import Callable, Mapping, Sequence
+from typing import Final
+
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QListWidget,
+    QPlainTextEdit,
+    QSpinBox,
+    QTableWidget,
+    QTableWidgetItem,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.exercises.guidance import Purpose
+from app.exercises.schema import Exercise
+from app.session.board import BoardCell, CurvePoint, ProgressBoard
+from app.session.course import Course, course_of
+from app.session.people import Person
+from app.views.kit import theme
+from app.views.kit.names import NAMES
+from app.views.kit.parts import button, label, table
+from app.views.kit.settings_dialog import SettingsDialog
+from app.views.kit.text import tr
+
+_DAY: Final = 86400.0
+_LEVEL: Final = 0.5
+"""A trend of less than this many points a time is level."""
+
+
+def cell_words(cell: BoardCell) -> str:
+    """Say how a student stands: best, last, trend, time since."""
+    if not cell.attempts or cell.best is None or cell.last is None or cell.since is None:
+        return "–" if not cell.others else tr("– ({n} not counted)", n=cell.others)
+    arrow = ""
+    if cell.trend is not None:
+        arrow = " ↗" if cell.trend > _LEVEL else " ↘" if cell.trend < -_LEVEL else " →"
+    passed = "✔ " if cell.passed else ""
+    return tr(
+        "{passed}best {best:.0f}, last {last:.0f}{arrow} · {since}   ",
+        passed=passed,
+        best=cell.best,
+        last=cell.last,
+        arrow=arrow,
+        since=since_words(cell.since),
+    )
+
+
+def since_words(since: datetime.timedelta) -> str:
+    """Say how long ago something was."""
+    days = since.total_seconds() / _DAY
+    if days < 1.0 / 24.0:
+        return tr("just now")
+    if days < 1.0:
+        return tr("{n} h ago", n=int(24.0 * days))
+    return tr("{n} d ago", n=int(days))
+
+
+def cell_details(cell: BoardCell) -> str:
+    """Say the rest of a cell: how many count, the trend, what does not count and why."""
+    lines = [tr("{n} attempts count", n=cell.attempts)]
+    if cell.trend is not None:
+        lines.append(tr("trend {trend:+.1f} points a time", trend=cell.trend))
+    lines += [tr("{n} not counted: {why}", n=n, why=why) for why, n in cell.why]
+    return "\n".join(lines)
+
+
+class BoardTab(QWidget):
+    """Students by exercises.
+
+    Signals:
+        choice_changed(): another course or group.
+        curve_wanted(str, str): key of a student, id of an exercise.
+        export_wanted(str): a form of `exchange.results`.
+    """
+
+    choice_changed = Signal()
+    curve_wanted = Signal(str, str)
+    export_wanted = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.course, self.group = QComboBox(self), QComboBox(self)
+        self.table = table((tr("Student"),))
+        self.hint = label("", "dim")
+        self.board: ProgressBoard | None = None
+        self.form, self.export = QComboBox(self), button(tr("Export…"))
+        for title, name in (
+            (tr("Table, a row for each metric (CSV)"), "tidy"),
+            (tr("Table, a row for each student (CSV)"), "wide"),
+            (tr("Gradebook for Moodle (CSV)"), "moodle"),
+            (tr("Everything (JSON)"), "json"),
+        ):
+            self.form.addItem(title, name)
+        self.semicolons = QCheckBox(tr("Decimal comma"), self)
+        self.semicolons.setToolTip(
+            tr("Semicolons and decimal commas: as Excel opens them where the comma is the sign")
+        )
+        top = QHBoxLayout()
+        self._of_group = QLabel(tr("Group"), self)
+        for words, box in (
+            (QLabel(tr("Course"), self), self.course),
+            (self._of_group, self.group),
+        ):
+            box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+            top.addWidget(words)
+            top.addWidget(box)
+        top.addStretch(1)
+        self._leaving = (self.form, self.semicolons, self.export)
+        for widget in self._leaving:
+            top.addWidget(widget)
+        column = QVBoxLayout(self)
+        column.addLayout(top)
+        column.addWidget(self.table, 1)
+        column.addWidget(self.hint)
+        for box in (self.course, self.group):
+            box.activated.connect(lambda _: self.choice_changed.emit())
+        self.export.clicked.connect(lambda: self.export_wanted.emit(self.form.currentData()))
+        self.table.cellDoubleClicked.connect(self._open)
+
+    def set_choices(self, courses: Sequence[Course], groups: Sequence[str]) -> None:
+        """Offer courses and groups; what was chosen stays where it is still there."""
+        offered = (
+            (self.course, [("", tr("All exercises")), *((c.id, c.title) for c in courses)]),
+            (self.group, [("", tr("Everybody")), *((name, name) for name in groups)]),
+        )
+        for box, entries in offered:
+            before = box.currentData()
+            box.clear()
+            for value, title in entries:
+                box.addItem(title, value)
+            box.setCurrentIndex(max(0, box.findData(before)))
+
+    def set_leaving(self, may: bool) -> None:
+        """Offer exports, and the choice of a group, or neither."""
+        for widget in (*self._leaving, self._of_group, self.group):
+            widget.setVisible(may)
+
+    def show_board(self, board: ProgressBoard, titles: Mapping[str, str]) -> None:
+        """Show a board; `titles` of exercises by id."""
+        self.board = board
+        names = [titles.get(item.exercise, item.exercise) for item in board.items]
+        self.table.setColumnCount(1 + len(names))
+        self.table.setHorizontalHeaderLabels([tr("Student"), *names])
+        self.table.setRowCount(len(board.students))
+        for row, person in enumerate(board.students):
+            self.table.setRowHeight(row, theme.CONTROL_HEIGHT + theme.SPACING)
+            self.table.setItem(row, 0, QTableWidgetItem(NAMES.shown(person.pseudonym)))
+            for place, item in enumerate(board.items, 1):
+                cell = board.cells[person.key, item.exercise]
+                shown = QTableWidgetItem(cell_words(cell))
+                shown.setToolTip(cell_details(cell))
+                if cell.passed:
+                    shown.setForeground(QColor(theme.now(theme.GOOD)))
+                self.table.setItem(row, place, shown)
+        self.hint.setText(
+            tr("Nobody yet: add students, or a roster, on the next tab.")
+            if not board.students
+            else tr("Nothing yet: attempts of students who signed in will stand here.")
+            if not board.items
+            else tr(
+                "Only attempts that may be compared; none of a script or an emulated robot. "
+                "Double-click a cell for its curve."
+            )
+        )
+
+    def _open(self, row: int, column: int) -> None:
+        if self.board is not None and column > 0:
+            student, item = self.board.students[row], self.board.items[column - 1]
+            self.curve_wanted.emit(student.key, item.exercise)
+
+
+class StudentsTab(QWidget):
+    """Who is known: a list to read, and what is done with who is chosen."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.people: list[Person] = []
+        self.table = table((tr("Pseudonym"), tr("Groups"), tr("Name")), selectable=True)
+        self.table.setAccessibleName(tr("Students"))
+        self.add, self.roster = button(tr("Add…"), "primary"), button(tr("Roster from CSV…"))
+        self.pin, self.assign = button(tr("New PIN")), button(tr("Assign old attempts…"))
+        self.erase = button(tr("Erase…"))
+        self._hint = label("", "dim")
+        row = QHBoxLayout()
+        for widget in (self.add, self.roster, self.pin, self.assign, self.erase):
+            row.addWidget(widget)
+        row.addStretch(1)
+        column = QVBoxLayout(self)
+        column.addWidget(self.table, 1)
+        column.addWidget(self._hint)
+        column.addLayout(row)
+        self.table.itemSelectionChanged.connect(self._enable)
+        self._enable()
+
+    def show_people(self, people: Sequence[Person]) -> None:
+        """Show students."""
+        self.people = list(people)
+        self.table.setRowCount(len(self.people))
+        for row, person in enumerate(self.people):
+            words = (person.pseudonym, ", ".join(person.groups), person.name)
+            for column, text in enumerate(words):
+                self.table.setItem(row, column, QTableWidgetItem(NAMES.shown(text)))
+        self._hint.setText(
+            "" if people else tr("No students yet. A roster is CSV: pseudonym, name, pin, group.")
+        )
+        self._enable()
+
+    def chosen(self) -> Person | None:
+        """Return the student who is chosen."""
+        rows = {index.row() for index in self.table.selectionModel().selectedRows()}
+        return self.people[min(rows)] if rows else None
+
+    def _enable(self) -> None:
+        for widget in (self.pin, self.assign, self.erase):
+            widget.setEnabled(self.chosen() is not None)
+
+
+class CoursesTab(QWidget):
+    """The courses: a list, and what is done with the one that is chosen."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.courses: list[Course] = []
+        self.list = QListWidget(self)
+        self.new, self.edit = button(tr("New course…"), "primary"), button(tr("Edit…"))
+        self.broken = label("", "dim")
+        row = QHBoxLayout()
+        for widget in (self.new, self.edit):
+            row.addWidget(widget)
+        row.addStretch(1)
+        column = QVBoxLayout(self)
+        column.addWidget(self.list, 1)
+        column.addWidget(self.broken)
+        column.addLayout(row)
+        self.list.currentRowChanged.connect(lambda at: self.edit.setEnabled(at >= 0))
+        self.list.itemDoubleClicked.connect(lambda _: self.edit.click())
+        self.edit.setEnabled(False)
+
+    def show_courses(self, courses: Sequence[Course], broken: Sequence[str]) -> None:
+        """Show courses, and what cannot be used."""
+        self.courses = list(courses)
+        self.list.clear()
+        for course in courses:
+            who = ", ".join(course.groups) or tr("everybody")
+            names = ", ".join(item.exercise for item in course.items) or tr("no exercises yet")
+            self.list.addItem(f"{course.title} ({who}): {names}")
+        none = tr("No courses yet: a course is exercises in order, for groups, with dates.")
+        self.broken.setText("\n".join(broken) or ("" if courses else none))
+
+    def chosen(self) -> Course | None:
+        """Return the course that is chosen."""
+        at = self.list.currentRow()
+        return self.courses[at] if 0 <= at < len(self.courses) else None
+
+
+class PeoplePage(QWidget):
+    """Board, students and courses as tabs.
+
+    Signals:
+        closed(): back to where the user came from.
+    """
+
+    closed = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.board, self.students, self.courses = BoardTab(), StudentsTab(), CoursesTab()
+        self.tabs = QTabWidget(self)
+        self.tabs.addTab(self.board, tr("Progress"))
+        self.tabs.addTab(self.students, tr("Students"))
+        self.tabs.addTab(self.courses, tr("Courses"))
+        heading = label(tr("People"), "title")
+        back = button(tr("Back"))
+        back.clicked.connect(self.closed)
+        row = QHBoxLayout()
+        row.addWidget(back)
+        row.addStretch(1)
+        column = QVBoxLayout(self)
+        column.addWidget(heading)
+        column.addWidget(self.tabs, 1)
+        column.addLayout(row)
+
+    def set_managing(self, may: bool) -> None:
+        """Show students and courses to who may change them, else the progress alone."""
+        for tab in (self.students, self.courses):
+            self.tabs.setTabVisible(self.tabs.indexOf(tab), may)
+        self.board.set_leaving(may)
+        if not may:
+            self.tabs.setCurrentWidget(self.board)
+
+
+class EntryDialog(SettingsDialog):
+    """A form of lines that are taken together; what is wrong is said below.
+
+    Args:
+        title: of the dialog.
+        fields: name, and whether it is hidden while it is typed.
+        take: takes the entries; raises an AcusError if they cannot be.
+        words: what is to be known, above the form.
+        parent: window.
+    """
+
+    def __init__(
+        self,
+        title: str,
+        fields: Sequence[tuple[str, bool]],
+        take: Callable[..., object],
+        words: str = "",
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(title, (460, 240), QDialogButtonBox.StandardButton.Ok, parent)
+        self._take = take
+        self.lines = [QLineEdit(self) for _ in fields]
+        form = QFormLayout()
+        for line, (name, hidden) in zip(self.lines, fields, strict=True):
+            form.addRow(name, line)
+            line.setAccessibleName(name)
+            if hidden:
+                line.setEchoMode(QLineEdit.EchoMode.Password)
+        column = QVBoxLayout(self)
+        if words:
+            column.addWidget(label(words, "dim"))
+        column.addLayout(form)
+        column.addWidget(self.note)
+        column.addWidget(self.buttons)
+
+    def check(self) -> None:
+        """Everything is checked when it is taken."""
+
+    def keep(self) -> None:
+        """Take the entries; a secret that was wrong is typed anew."""
+        try:
+            self._take(*(line.text() for line in self.lines))
+        except Exception:
+            for line in self.lines:
+                if line.echoMode() == QLineEdit.EchoMode.Password:
+                    line.clear()
+                    line.setFocus()
+            raise
+
+
+class CourseDialog(SettingsDialog):
+    """A course as a form: exercises in a table, each with version, attempts, purpose and days."""
+
+    def __init__(
+        self,
+        course: Course | None,
+        exercises: Mapping[str, Exercise],
+        take: Callable[[Course], object],
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(tr("Course"), (860, 520), QDialogButtonBox.StandardButton.Save, parent)
+        self._take, self._exercises = take, exercises
+        self.id, self.title, self.groups = (QLineEdit(self) for _ in range(3))
+        self.ordered = QCheckBox(tr("In order: the next opens when the one before was passed"))
+        self.offered = QComboBox(self)
+        for identifier, exercise in exercises.items():
+            self.offered.addItem(exercise.title, identifier)
+        self.add, self.remove = button(tr("Add")), button(tr("Remove"))
+        titles = (tr("Exercise"), tr("Version"), tr("Attempts"), tr("Purpose"), tr("Opens"))
+        self.items = QTableWidget(0, 6, self)
+        self.items.setHorizontalHeaderLabels([*titles, tr("Closes")])
+        self.items.verticalHeader().setDefaultSectionSize(theme.CONTROL_HEIGHT + 8)
+        for place, width in enumerate((230, 90, 100, 130, 130, 130)):
+            self.items.setColumnWidth(place, width)
+        form = QFormLayout()
+        self.groups.setPlaceholderText(tr("separated by commas; empty: everybody"))
+        self.id.setPlaceholderText("autumn-2026")
+        for name, field in (
+            (tr("File name"), self.id),
+            (tr("Title"), self.title),
+            (tr("Groups"), self.groups),
+        ):
+            form.addRow(name, field)
+        row = QHBoxLayout()
+        row.addWidget(self.offered, 1)
+        row.addWidget(self.add)
+        row.addWidget(self.remove)
+        column = QVBoxLayout(self)
+        column.addLayout(form)
+        column.addWidget(self.ordered)
+        column.addLayout(row)
+        column.addWidget(self.items, 1)
+        column.addWidget(self.note)
+        column.addWidget(self.buttons)
+        self.add.clicked.connect(lambda: self.add_item(self.offered.currentData()))
+        self.remove.clicked.connect(lambda: self.items.removeRow(self.items.currentRow()))
+        if course is not None:
+            self._show(course)
+
+    def add_item(
+        self,
+        exercise: str,
+        version: int = 0,
+        attempts: int = 0,
+        purpose: Purpose = Purpose.PRACTICE,
+        opens: str = "",
+        closes: str = "",
+    ) -> None:
+        """Add an exercise at the end; version 0 pins the one that the library has now."""
+        known = self._exercises.get(exercise)
+        row = self.items.rowCount()
+        self.items.insertRow(row)
+        name = QTableWidgetItem(exercise)
+        name.setFlags(name.flags() & ~Qt.ItemFlag.ItemIsEditable)
+        self.items.setItem(row, 0, name)
+        pinned = QSpinBox()
+        pinned.setRange(1, 9999)
+        pinned.setValue(version or (known.version if known else 1))
+        allowed = QSpinBox()
+        allowed.setRange(0, 999)
+        allowed.setSpecialValueText(tr("any"))
+        allowed.setValue(attempts)
+        kind = QComboBox()
+        kind.addItem(tr("practice"), Purpose.PRACTICE.value)
+        kind.addItem(tr("assessment"), Purpose.ASSESSMENT.value)
+        kind.setCurrentIndex(kind.findData(purpose.value))
+        for column, widget in enumerate((pinned, allowed, kind), 1):
+            self.items.setCellWidget(row, column, widget)
+        for column, text in ((4, opens), (5, closes)):
+            day = QLineEdit(text)
+            day.setPlaceholderText("2026-11-30")
+            self.items.setCellWidget(row, column, day)
+
+    def course(self) -> Course:
+        """Return the course as it stands in the form.
+
+        Raises:
+            ConfigurationError: naming the field, its value and what would be valid.
+        """
+        groups = [name.strip() for name in self.groups.text().split(",") if name.strip()]
+        document = {
+            "id": self.id.text().strip(),
+            "title": self.title.text().strip(),
+            "groups": groups,
+            "ordered": self.ordered.isChecked(),
+            "items": [self._item(row) for row in range(self.items.rowCount())],
+        }
+        return course_of(document, tr("the course"))
+
+    def check(self) -> None:
+        """Read the form."""
+        self.course()
+
+    def keep(self) -> None:
+        """Hand the course on."""
+        self._take(self.course())
+
+    def _item(self, row: int) -> dict[str, object]:
+        name = self.items.item(row, 0)
+        found: dict[str, object] = {"exercise": name.text() if name is not None else ""}
+        for column, key in ((1, "version"), (2, "attempts")):
+            widget = self.items.cellWidget(row, column)
+            if isinstance(widget, QSpinBox) and widget.value():
+                found[key] = widget.value()
+        kind = self.items.cellWidget(row, 3)
+        if isinstance(kind, QComboBox):
+            found["purpose"] = kind.currentData()
+        for column, key in ((4, "opens"), (5, "closes")):
+            day = self.items.cellWidget(row, column)
+            if isinstance(day, QLineEdit) and day.text().strip():
+                found[key] = day.text().strip()
+        return found
+
+    def _show(self, course: Course) -> None:
+        self.id.setText(course.id)
+        self.id.setReadOnly(True)
+        self.title.setText(course.title)
+        self.groups.setText(", ".join(course.groups))
+        self.ordered.setChecked(course.ordered)
+        for item in course.items:
+            days = [str(day) if day else "" for day in (item.opens, item.closes)]
+            self.add_item(item.exercise, item.version, item.attempts or 0, item.purpose, *days)
+
+
+class CurvePlot(QWidget):
+    """Points over the attempts, 0 to 100, with personal best and moving median."""
+
+    def __init__(self, points: Sequence[CurvePoint], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._points = points
+        self.setMinimumSize(480, 260)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw grid, the two lines and the attempts."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        room = QRectF(self.rect()).adjusted(4 * theme.SPACING, theme.SPACING, -theme.SPACING, 0)
+        room.setBottom(room.bottom() - 3 * theme.SPACING)
+        most = max(2, len(self._points))
+
+        def at(number: int, total: float) -> QPointF:
+            x = room.left() + room.width() * (number - 0.5) / most
+            return QPointF(x, room.bottom() - room.height() * total / 100.0)
+
+        painter.setPen(QColor(theme.now(theme.TEXT_DIM)))
+        for level in (0, 25, 50, 75, 100):
+            y = at(1, level).y()
+            painter.drawText(QPointF(0.0, y + 4.0), str(level))
+            painter.setOpacity(0.25)
+            painter.drawLine(QPointF(room.left(), y), QPointF(room.right(), y))
+            painter.setOpacity(1.0)
+        step = max(1, most // 12)
+        for number in range(1, len(self._points) + 1, step):
+            painter.drawText(QPointF(at(number, 0).x() - 4.0, self.height() - 4.0), str(number))
+        for colour, style, values in (
+            (theme.GOOD, Qt.PenStyle.SolidLine, [p.best for p in self._points]),
+            (theme.WARNING, Qt.PenStyle.DashLine, [p.median for p in self._points]),
+        ):
+            painter.setPen(QPen(QColor(theme.now(colour)), 2.0, style))
+            painter.drawPolyline([at(number, total) for number, total in enumerate(values, 1)])
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(theme.now(theme.TEXT)))
+        for number, point in enumerate(self._points, 1):
+            painter.drawEllipse(at(number, point.total), 4.0, 4.0)
+        painter.end()
+
+
+def curve_dialog(title: str, points: Sequence[CurvePoint], parent: QWidget) -> QDialog:
+    """Return a dialog with a student's curve in one exercise."""
+    dialog = QDialog(parent)
+    dialog.setWindowTitle(title)
+    dialog.resize(720, 420)
+    words = tr(
+        "{n} attempts that may be compared · ● points · solid: personal best · dashed: median of "
+        "the last five",
+        n=len(points),
+    )
+    column = QVBoxLayout(dialog)
+    column.addWidget(CurvePlot(points, dialog), 1)
+    column.addWidget(label(words if points else tr("No attempt that counts yet."), "dim"))
+    return dialog
+
+
+def text_dialog(title: str, words: str, text: str, parent: QWidget) -> QDialog:
+    """Return a dialog with text to copy or write down: a recovery key, PINs, errors."""
+    dialog = QDialog(parent)
+    dialog.setWindowTitle(title)
+    dialog.resize(560, 360)
+    shown = QPlainTextEdit(text)
+    shown.setReadOnly(True)
+    buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+    buttons.rejected.connect(dialog.reject)
+    column = QVBoxLayout(dialog)
+    column.addWidget(label(words))
+    column.addWidget(shown, 1)
+    column.addWidget(buttons)
+    return dialog

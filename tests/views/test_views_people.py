@@ -1,0 +1,214 @@
+"""Signing in, what students do not reach, and the page of students, courses and progress."""
+
+import json
+from datetime import UTC, datetime
+from types import MappingProxyType
+
+import pytest
+from PySide6.QtWidgets import QLineEdit, QPlainTextEdit
+
+from app.session.course import courses
+from app.session.people import People
+from app.session.roster import RosterLine
+from app.session.sidecar import write_summary
+from app.session.summary import Summary
+from app.views.author.feature import AuthorFeature
+from app.views.debrief.feature import DebriefFeature
+from app.views.debrief.sessions import SIGNED, STUDENT, cell_text
+from app.views.kit.access import ACCESS
+from app.views.people.feature import PeopleFeature
+from app.views.people.pages import CourseDialog, EntryDialog
+
+
+@pytest.fixture
+def feature(window):
+    yield window.feature(PeopleFeature)
+    window.feature(PeopleFeature).close()
+
+
+def record(folder, name, student, total=80.0):
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{name}.mcap"
+    path.write_bytes(b"not opened: the sidecar is enough")
+    score = {"total": total, "passed": True, "void_reason": "", "rows": []}
+    now = datetime.now(UTC).isoformat()
+    write_summary(path, Summary(name, now, student, "first-insertion", state="ended",
+                                score=MappingProxyType(score)))  # fmt: skip
+
+
+def fill(dialog, *texts):
+    for line, text in zip(dialog.lines, texts, strict=True):
+        line.setText(text)
+    dialog.save()
+
+
+def shown(window, settle):
+    sessions = window.feature(DebriefFeature).sessions
+    sessions.refresh()
+    settle(lambda: sessions.model.rowCount() > 0)
+    return sessions
+
+
+def test_without_a_password_everything_is_open_as_before(window, feature):
+    assert ACCESS.may_manage
+    assert not window.feature(DebriefFeature).sessions.delete_button.isHidden()
+    feature.show()
+    assert feature.page.tabs.isTabVisible(1)
+
+
+def test_a_student_signs_in_and_the_record_will_name_a_key(window, feature, settle):
+    person, pin = People().add(RosterLine("Ada"))
+    panel = feature.context.conductor.views.panel
+    panel.set_student("typed")
+    feature.sign_in_student()
+    dialog = feature.dialog
+    fill(dialog, "Ada", "000000")
+    assert dialog.isVisible()
+    assert "pseudonym or PIN is wrong" in dialog.note.text()
+    assert dialog.lines[1].text() == ""
+    fill(dialog, "ada", pin)
+    assert ACCESS.student == person
+    assert (panel.student.text(), panel.student.isEnabled()) == ("Ada", False)
+    begun = []
+    panel.start_requested.connect(begun.append)
+    panel.buttons.start_requested.emit()
+    assert begun == [person.key]
+    ACCESS.sign_in(None)
+    assert (panel.student.text(), panel.student.isEnabled()) == ("typed", True)
+
+
+def test_the_first_password_shows_a_recovery_key_and_closes_what_students_must_not_reach(
+    window, feature, settle
+):
+    folder = feature.context.services.sessions()
+    person, _ = People().add(RosterLine("Ada"))
+    for name, student in (("a", person.key), ("b", "typed")):
+        record(folder, name, student)
+    feature.sign_in_instructor()
+    fill(feature.dialog, "correct horse", "another horse")
+    assert "not the same" in feature.dialog.note.text()
+    fill(feature.dialog, "correct horse", "correct horse")
+    key = feature.dialog.findChild(QPlainTextEdit).toPlainText()
+    assert len(key) == 39
+    feature.dialog.close()
+    settle(lambda: ACCESS.guarded)
+    sessions = shown(window, settle)
+    settle(lambda: sessions.model.rowCount() == 2)
+    assert not sessions.delete_button.isHidden()
+    ACCESS.sign_in(None)
+    assert not ACCESS.may_manage
+    assert sessions.delete_button.isHidden()
+    assert sessions.export.isHidden()
+    assert not window.feature(AuthorFeature).button.isEnabled()
+    assert [cell_text(s, STUDENT) for s in sessions._read if ACCESS.may_see(s.student)] == ["typed"]
+    assert sessions.model.rowCount() == 1
+    sessions.table.selectAll()
+    sessions.delete_selected()
+    assert (folder / "b.mcap").exists()
+    feature.show()
+    assert not feature.page.isVisible()
+    ACCESS.sign_in(person)
+    assert [cell_text(s, STUDENT) for s in sessions._read if ACCESS.may_see(s.student)] == ["Ada"]
+    feature.show()
+    assert feature.page.isVisible()
+    assert [feature.page.tabs.isTabVisible(k) for k in range(3)] == [True, False, False]
+    feature.sign_in_instructor()
+    fill(feature.dialog, "wrong")
+    assert "password is wrong" in feature.dialog.note.text()
+    fill(feature.dialog, "correct horse")
+    assert ACCESS.may_manage
+
+
+def test_the_list_says_what_the_signature_says(window, feature, settle):
+    record(feature.context.services.sessions(), "a", "typed")
+    sessions = shown(window, settle)
+    assert sessions.model.index(0, SIGNED).data() == "• unsigned"
+
+
+def test_students_come_by_hand_and_by_roster(window, feature, settle, tmp_path):
+    feature.show()
+    feature.page.students.add.click()
+    assert isinstance(feature.dialog, EntryDialog)
+    fill(feature.dialog, "../x", "", "", "")
+    assert "cannot be a pseudonym" in feature.dialog.note.text()
+    fill(feature.dialog, "Ada", "Lovelace", "1843", "A, B")
+    settle(lambda: feature.page.students.table.rowCount() == 1)
+    assert feature.page.students.table.item(0, 2).text() == "Lovelace"
+    (tmp_path / "r.csv").write_text("pseudonym,group\nBob,A\nBob,A\n")
+    feature.take_roster(tmp_path / "r.csv")
+    settle(lambda: feature.dialog is not None and feature.dialog.windowTitle() == "Roster")
+    assert "line 3" in feature.dialog.findChild(QPlainTextEdit).toPlainText()
+    feature.dialog.close()
+    (tmp_path / "r.csv").write_text("pseudonym,group\nBob,A\nCy,B\n")
+    feature.take_roster(tmp_path / "r.csv")
+    settle(lambda: feature.page.students.table.rowCount() == 3)
+    settle(lambda: feature.dialog is not None and feature.dialog.windowTitle() == "PINs")
+    pins = feature.dialog.findChild(QPlainTextEdit).toPlainText().split()
+    assert People().sign_in("Bob", pins[1]).groups == ("A",)
+
+
+def test_a_course_is_made_in_a_form_that_says_what_is_wrong(window, feature, settle):
+    feature.show()
+    feature.page.courses.new.click()
+    dialog = feature.dialog
+    assert isinstance(dialog, CourseDialog)
+    dialog.title.setText("Autumn")
+    dialog.save()
+    assert "id" in dialog.note.text()
+    dialog.id.setText("autumn")
+    dialog.groups.setText("A, B")
+    dialog.add.click()
+    day = dialog.items.cellWidget(0, 4)
+    assert isinstance(day, QLineEdit)
+    day.setText("soon")
+    dialog.save()
+    assert "opens" in dialog.note.text()
+    day.setText("2099-01-01")
+    dialog.save()
+    course = courses()[0][0]
+    assert (course.title, course.groups, len(course.items)) == ("Autumn", ("A", "B"), 1)
+    settle(lambda: feature.page.courses.list.count() == 1)
+    feature.page.courses.list.setCurrentRow(0)
+    feature.page.courses.edit.click()
+    assert feature.dialog.course() == course
+
+
+def test_a_student_may_not_begin_before_an_exercise_opens(window, feature, settle):
+    _, pin = People().add(RosterLine("Ada"))
+    known = next(iter(feature._exercises))
+    text = {"id": "c", "title": "C", "items": [{"exercise": known, "opens": "2099-01-01"}]}
+    from app.session.course import course_of
+
+    course_of(text, "test").save()
+    feature.sign_in_student()
+    fill(feature.dialog, "Ada", pin)
+    settle(lambda: bool(ACCESS.refusal(known)))
+    assert ACCESS.refusal(known) == "it opens on 2099-01-01"
+    ACCESS.sign_in(None)
+    assert ACCESS.refusal(known) == ""
+
+
+def test_the_board_shows_the_curve_and_is_exported(window, feature, settle, tmp_path):
+    person, _ = People().add(RosterLine("Ada"))
+    record(feature.context.services.sessions(), "a", person.key, 72.0)
+    feature.show()
+    board = feature.page.board
+    settle(lambda: board.board is not None and bool(board.board.items))
+    assert board.table.item(0, 0).text() == "Ada"
+    board.table.cellDoubleClicked.emit(0, 1)
+    assert "Ada" in feature.dialog.windowTitle()
+    feature.dialog.close()
+    feature.export("json", tmp_path / "r.json")
+    settle(lambda: (tmp_path / "r.json").exists())
+    document = json.loads((tmp_path / "r.json").read_text())
+    assert document["students"][0]["pseudonym"] == "Ada"
+
+
+def test_who_was_erased_is_shown_as_erased(window, feature, settle):
+    person, _ = People().add(RosterLine("Ada"))
+    People().add(RosterLine("Bob"))
+    feature.look()
+    settle(lambda: ACCESS.shown(person.key) == "Ada")
+    feature._erase("Ada", with_records=False)
+    settle(lambda: ACCESS.shown(person.key) != "Ada")
+    assert ACCESS.shown(person.key) == "(erased)"
