@@ -217,13 +217,12 @@ def parse(document: Any, model: type[M], origin: str, text: str = "") -> M:
         raise ConfigurationError(f"{origin}: {'; '.join(said)}") from error
 
 
-def field_problems(document: Any, model: type[Strict]) -> tuple[FieldProblem, ...]:
-    """Say what is wrong with a document, field by field; nothing where all is right."""
+def checked(document: Any, model: type[M]) -> tuple[M | None, tuple[FieldProblem, ...]]:
+    """Read a document, or say what is wrong with it, field by field."""
     try:
-        model.model_validate(document)
+        return model.model_validate(document), ()
     except ValidationError as error:
-        return _problems(error, model)
-    return ()
+        return None, _problems(error, model)
 
 
 def line_of(text: str, field: Sequence[str | int]) -> int | None:

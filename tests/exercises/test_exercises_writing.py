@@ -10,7 +10,7 @@ import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from app.core.configuration import field_problems, parse_text
+from app.core.configuration import checked, parse_text
 from app.core.errors import ConfigurationError
 from app.exercises.errors import ExerciseError, UnknownExerciseError
 from app.exercises.guidance import FadingPart, starting_dial
@@ -231,7 +231,7 @@ def test_a_mistake_names_field_and_line(text: str, told: str, tmp_path: Path) ->
 
 
 def test_a_problem_names_its_field_for_a_form() -> None:
-    found = field_problems({"id": "x", "level": 0, "needle": {"gauge": 19}}, Exercise)
+    _, found = checked({"id": "x", "level": 0, "needle": {"gauge": 19}}, Exercise)
     assert {(one.field, one.missing) for one in found} == {
         (("level",), False), (("title",), True), (("needle", "gauge"), False)
     }  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Callable, Mapping
 from copy import deepcopy
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any, Final
 from PySide6.QtCore import QObject, Signal
 
 from app.core import paths
-from app.core.configuration import FieldProblem, field_problems
+from app.core.configuration import FieldProblem, checked
 from app.core.errors import AcusError
 from app.exercises.schema import Exercise
 from app.exercises.writing import exercise_document, free_id, save, taken_ids
@@ -20,6 +21,7 @@ from app.imaging.volume import Volume
 from app.planning.draft import Edit
 from app.planning.history import UndoHistory
 from app.planning.patient import Patient
+from app.views.kit.text import tr
 
 Document = dict[str, Any]
 Where = tuple[str, ...]
@@ -166,10 +168,9 @@ class ExerciseEditor(QObject):
 
     # --- inside ---------------------------------------------------------------------------------
     def _judge(self) -> None:
-        self.exercise, self.why = None, {}
-        self.problems = field_problems(self.document, Exercise)
-        if not self.problems:
-            self.exercise = Exercise.model_validate(self.document)
+        self.why = {}
+        self.exercise, self.problems = checked(self.document, Exercise)
+        if self.exercise is not None:
             self.why, wrong = self._deep(self.exercise)
             drawn = self.get("structures", default=[])
             self.problems = tuple(
@@ -198,6 +199,14 @@ def _set(document: Document, where: Where, value: Any) -> None:
         document.pop(where[-1], None)
     else:
         document[where[-1]] = value
+
+
+def plain_words(problem: FieldProblem) -> str:
+    """Say what is wrong with a field, for people."""
+    text = problem.text.removeprefix("Value error, ")
+    if text.startswith("String should have at least 1 character"):
+        return tr("is empty: type something")
+    return re.sub(r", got a (mapping|list) of \d+$", "", text)
 
 
 # --- from the window ----------------------------------------------------------------------------

@@ -33,6 +33,7 @@ from app.views.author.editing import (
     finished,
     is_own,
     opened_document,
+    plain_words,
     plan_document,
 )
 from app.views.author.pages import (
@@ -183,7 +184,7 @@ class ExerciseDialog(Wizard):
 
 def first_problem(problems: tuple[FieldProblem, ...]) -> str:
     """Return the first thing that is wrong, with its field."""
-    return "" if not problems else f"{problems[0].name}: {problems[0].text}"
+    return "" if not problems else f"{problems[0].name}: {plain_words(problems[0])}"
 
 
 class AuthorFeature(Feature):
@@ -573,7 +574,9 @@ class AuthorFeature(Feature):
     def _draw(self, exercise: Exercise | None) -> None:
         if exercise is not None:
             radii = tuple(radius / MILLIMETRE for radius in rings(exercise.tolerances))
-            self.context.views.viewing.set_tolerances(radii)
+            viewing = self.context.views.viewing
+            if viewing.tolerances_mm != radii:  # every pane is drawn anew
+                viewing.set_tolerances(radii)
 
     def _measure(self) -> None:
         exercise, dialog = self.editor.exercise, self.dialog

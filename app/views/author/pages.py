@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -36,7 +35,7 @@ from app.scoring import metrics
 from app.scoring.defaults import DEFAULT_TOLERANCES
 from app.simulation import effects
 from app.simulation.needles import OUTER_DIAMETER
-from app.views.author.editing import DRAWN, ExerciseEditor, Where
+from app.views.author.editing import DRAWN, ExerciseEditor, Where, plain_words
 from app.views.kit import theme
 from app.views.kit.coordinates import lps_words
 from app.views.kit.parts import button, column, label, table
@@ -237,10 +236,7 @@ def _show_line(line: QLineEdit, text: object) -> None:
 def _sentence(problem: FieldProblem, where: Where) -> str:
     """Say what is wrong, and where within the field if it is a part of it."""
     inner = ".".join(str(part) for part in problem.field[len(where) :])
-    text = problem.text.removeprefix("Value error, ")
-    text = re.sub(r", got a (mapping|list) of \d+$", "", text)
-    if text.startswith("String should have at least 1 character"):
-        text = tr("is empty: type something")
+    text = plain_words(problem)
     return f"✖ {inner}: {text}" if inner else f"✖ {text}"
 
 
@@ -919,10 +915,7 @@ class ReviewPage(Form):
     def load(self) -> None:
         """Say what is wrong, or that nothing is; show the file."""
         super().load()
-        said = [
-            f"✖ {one.name}: {one.text.removeprefix('Value error, ')}"
-            for one in self.editor.problems
-        ]
+        said = [f"✖ {one.name}: {plain_words(one)}" for one in self.editor.problems]
         self.verdict.setText("\n".join(said) or tr("✔ The exercise can be used."))
         self.verdict.setStyleSheet(f"color: {theme.BAD if said else theme.GOOD};")
         self.file.setPlainText(self._text())
