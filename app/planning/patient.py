@@ -47,6 +47,10 @@ class Patient:
     phantom_seed: int | None = None
 
 
+LOADING: Final = "loading the program (the first start compiles, for a minute or two)"
+"""What a patient waits for last: on a first start for all that compiles beside it."""
+
+
 def load_phantom(seed: int, progress: Progress) -> Patient:
     """Make (once) and read the procedural patient.
 
@@ -64,7 +68,8 @@ def load_phantom(seed: int, progress: Progress) -> Patient:
     volume = load_ct(folder, progress=progress.part(0.6, 0.9))
     known = anatomy(seed)
     plan = Plan(frozen(known.entry_mm), frozen(known.lesion_mm), f"phantom-{seed}")
-    body = find_body(volume, progress.part(0.9, 1.0))
+    body = find_body(volume, progress.part(0.9, 0.97))
+    progress.report(0.97, LOADING)
     _load_verdict()
     return Patient(volume, body, f"Phantom {seed}", plan, phantom_seed=seed)
 
@@ -83,7 +88,8 @@ def read_patient(
         from app.imaging.resampling import read_with
 
     volume = read_with(series, remedy, progress.part(0.0, 0.85))
-    body = find_body(volume, progress.part(0.85, 1.0))
+    body = find_body(volume, progress.part(0.85, 0.97))
+    progress.report(0.97, LOADING)
     _load_verdict()
     return Patient(volume, body, label_of(volume), folder=folder)
 
