@@ -1,11 +1,20 @@
-"""Lengths of sampled paths, raw and without the jitter of the measurement."""
+"""Sampled paths: their length, with and without jitter, and how far two of them are apart."""
 
 import numpy as np
 
 from app.core.arrays import FloatArray
+from app.core.units import MILLIMETRE
+from app.scoring.errors import MetricUnavailableError
+from app.scoring.trajectory import Trajectory
 
 WINDOW = 0.5
 """Positions are averaged over blocks of this duration [s] before a path is measured."""
+
+SPACING = 0.5 * MILLIMETRE
+"""Paths are compared on points that lie this far apart [m]."""
+
+LONGEST = 1.0
+"""Longer paths are not compared [m]: the work grows with the square."""
 
 
 def raw_length(points: FloatArray) -> float:
@@ -25,10 +34,76 @@ def smooth_length(time: FloatArray, points: FloatArray, window: float = WINDOW) 
         points: shape (n, 3) [m].
         window: duration of a block [s].
     """
+    return raw_length(smoothed(time, points, window))
+
+
+def smoothed(time: FloatArray, points: FloatArray, window: float = WINDOW) -> FloatArray:
+    """Return the polyline whose length `smooth_length` is, shape (m, 3) [m]."""
     if len(points) < 3:
-        return raw_length(points)
+        return points
     blocks = np.floor((time - time[0]) / window)
     starts = np.flatnonzero(np.diff(blocks, prepend=-1.0))
     counts = np.diff(starts, append=len(points))
     means = np.add.reduceat(points, starts, axis=0) / counts[:, None]
-    return raw_length(np.vstack([points[:1], means, points[-1:]]))
+    return np.vstack([points[:1], means, points[-1:]])
+
+
+def resampled(points: FloatArray, spacing: float = SPACING) -> FloatArray:
+    """Points along a polyline at most `spacing` apart, evenly, both ends included, shape (m, 3)."""
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    at = np.linspace(0.0, along[-1], max(1, int(np.ceil(along[-1] / spacing - 1e-9))) + 1)
+    return np.column_stack([np.interp(at, along, one) for one in points.T])
+
+
+def insertion_and_plan(trajectory: Trajectory) -> tuple[FloatArray, FloatArray]:
+    """Resample the tip's path in the last insertion and the planned path, shapes (n, 3), (m, 3).
+
+    Raises:
+        MetricUnavailableError: if the depth was not measured, or the path is too long.
+    """
+    last = trajectory.measured_stays()[-1]
+    path = smoothed(trajectory.time[last], trajectory.tip[last])
+    if (length := raw_length(path)) > LONGEST:
+        raise MetricUnavailableError(
+            f"the tip's path is {length:.2f} m long; paths up to {LONGEST:g} m are compared"
+        )
+    placed = trajectory.placed
+    return resampled(path), resampled(np.vstack([placed.p_entry, placed.p_target]))
+
+
+def frechet(a: FloatArray, b: FloatArray) -> float:
+    """Discrete Fréchet distance [m] of two polylines, shapes (n, 3) and (m, 3).
+
+    Eiter and Mannila, "Computing discrete Fréchet distance", TU Wien (1994).
+    """
+    return _coupled(a, b, longest=True)
+
+
+def time_warping(a: FloatArray, b: FloatArray) -> float:
+    """Mean distance [m] of two polylines, shapes (n, 3) and (m, 3), under their best warping.
+
+    Sakoe and Chiba, IEEE Trans. ASSP 26:43 (1978), symmetric form: a step along both counts twice,
+    and the sum is divided by n + m.
+    """
+    return _coupled(a, b, longest=False) / (len(a) + len(b))
+
+
+def _coupled(a: FloatArray, b: FloatArray, *, longest: bool) -> float:
+    """Cheapest way from the first to the last pair: its longest distance, or their weighted sum.
+
+    Diagonal by diagonal, as the pairs of one do not depend on each other.
+    """
+    n, m = len(a), len(b)
+    cost = np.full((n + 1, m + 1), np.inf)
+    cost[0, 0] = 0.0
+    for k in range(n + m - 1):
+        i = np.arange(max(0, k - m + 1), min(k, n - 1) + 1)
+        j = k - i
+        distance = np.linalg.norm(a[i] - b[j], axis=1)
+        along = np.minimum(cost[i, j + 1], cost[i + 1, j])
+        if longest:
+            cost[i + 1, j + 1] = np.maximum(distance, np.minimum(along, cost[i, j]))
+        else:
+            cost[i + 1, j + 1] = np.minimum(along + distance, cost[i, j] + 2.0 * distance)
+    return float(cost[n, m])

@@ -224,6 +224,8 @@ def _changes(written: Score | None, now: Score | None, unscored: str) -> list[Ch
     after = {row.name: row for row in now.rows}
     for name in dict.fromkeys((*before, *after)):
         a, b = before.get(name), after.get(name)
+        if a is None and b is not None and b.tolerance is None:
+            continue  # a metric that came later and counts nothing
         pairs.append((name, a.value if a else "no such metric", b.value if b else "no such metric"))
         if a and b and a.tolerance != b.tolerance:
             pairs.append((f"limits of {name}", _limits(a.tolerance), _limits(b.tolerance)))

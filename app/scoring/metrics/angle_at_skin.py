@@ -1,0 +1,20 @@
+"""Angle between the needle and the path to the target, where the last insertion began."""
+
+from typing import Any, Final
+
+from app.core.arrays import angle_between
+from app.core.units import DEGREE
+from app.scoring.trajectory import Trajectory
+
+DECLARATION: Final[dict[str, Any]] = {
+    "title": "Angle error at the skin",
+    "unit": "°",
+    "higher_is_better": False,
+    "reads": (),
+}
+
+
+def compute(trajectory: Trajectory) -> float:
+    """Return the angle [°], 0 ... 180."""
+    i = trajectory.insertions()[-1].start
+    return angle_between(trajectory.axis[i], trajectory.offset(i).path) / DEGREE
